@@ -1,0 +1,171 @@
+//! A branch of equilibria along the path: the boundary-value problem with the path parameter as one more unknown and one
+//! more, linear, condition. The condition is what makes it a solve at a pose, a step of pseudo-arclength or the location of
+//! an event.
+
+use crate::configuration::{Configuration, Held, Holding, Unknowns};
+use crate::path::ClampPath;
+use crate::world::World;
+use rod_core::{
+    MultiPoint, NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, System, newton_step, prepare, report, solve,
+};
+
+/// The condition that picks a point of the branch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Condition<'a> {
+    /// One unknown has a given value: the pose, a vanishing force, a contact at the tip or at the border of its stretch.
+    Fixed { index: usize, value: f64 },
+    /// The plane across a tangent at a distance from a point.
+    Plane { tangent: &'a Tangent, from: &'a [f64], distance: f64 },
+}
+
+/// Direction of a branch, of length 1 in the metric `weights`.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tangent {
+    pub direction: Unknowns,
+    pub weights: Unknowns,
+}
+
+impl Tangent {
+    fn row(&self, i: usize) -> f64 {
+        self.direction[i] * self.weights[i] * self.weights[i]
+    }
+
+    /// Component of z - from along the tangent.
+    pub fn along(&self, z: &[f64], from: &[f64]) -> f64 {
+        z.iter().zip(from).enumerate().map(|(i, (z, f))| self.row(i) * (z - f)).sum()
+    }
+
+    /// Change of the path parameter by arclength.
+    pub fn by_tau(&self) -> f64 {
+        self.direction.last().copied().unwrap_or(1.0)
+    }
+
+    /// Cosine of the angle to another tangent of the same contact set.
+    pub fn cosine(&self, other: &Self) -> f64 {
+        let dot: f64 = (0..self.direction.len()).map(|i| self.row(i) * other.direction[i]).sum();
+        let norm: f64 = (0..self.direction.len()).map(|i| (other.direction[i] * self.weights[i]).powi(2)).sum();
+        dot / norm.sqrt()
+    }
+}
+
+struct Bordered<'a> {
+    holding: Holding<'a>,
+    path: &'a ClampPath,
+    condition: Condition<'a>,
+}
+
+impl Bordered<'_> {
+    fn condition_row(&self, column: usize) -> f64 {
+        match self.condition {
+            Condition::Fixed { index, .. } => f64::from(u8::from(index == column)),
+            Condition::Plane { tangent, .. } => tangent.row(column),
+        }
+    }
+}
+
+impl System for Bordered<'_> {
+    fn dimension(&self) -> usize {
+        3 * self.holding.contacts.len() + 1
+    }
+
+    fn evaluate(&self, z: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+        let (last, size) = (z.len() - 1, z.len());
+        let problem = MultiPoint { clamp: self.path.at(z[last]), supports: &self.holding };
+        residual[last] = match self.condition {
+            Condition::Fixed { index, value } => z[index] - value,
+            Condition::Plane { tangent, from, distance } => tangent.along(z, from) - distance,
+        };
+        match jacobian {
+            None => problem.evaluate_into(&z[..last], residual, None),
+            Some(matrix) => {
+                problem.evaluate_into(&z[..last], residual, Some((&mut *matrix, size)));
+                for column in 0..size {
+                    matrix[column * size + last] = self.condition_row(column);
+                }
+                // the clamp moves: only the first segment ends there
+                let rate = self.path.rate();
+                let by_tau = &mut matrix[last * size..][..last];
+                by_tau.fill(0.0);
+                for (entry, rate) in by_tau.iter_mut().zip([rate.x, rate.y, rate.phi]) {
+                    *entry = -rate;
+                }
+            }
+        }
+    }
+
+    fn weights(&self, z: &[f64], weights: &mut [f64]) {
+        let last = z.len() - 1;
+        let problem = MultiPoint { clamp: self.path.at(z[last]), supports: &self.holding };
+        problem.weights(&z[..last], &mut weights[..last]);
+        weights[last] = 1.0;
+    }
+}
+
+/// Solves for points of branches, with the memory to do so.
+#[derive(Debug)]
+pub(crate) struct Corrector<'a> {
+    pub world: World<'a>,
+    pub path: ClampPath,
+    pub options: NewtonOptions,
+    workspace: NewtonWorkspace,
+}
+
+impl<'a> Corrector<'a> {
+    pub fn new(world: World<'a>, path: ClampPath) -> Self {
+        // A warm start that needs more steps than this has left its branch.
+        let options = NewtonOptions { max_iterations: 12, longest_step: 0.5, ..NewtonOptions::default() };
+        Self { world, path, options, workspace: NewtonWorkspace::new() }
+    }
+
+    /// Moves `configuration` onto the branch where `condition` holds.
+    pub fn correct(&mut self, configuration: &mut Configuration, condition: Condition<'_>) -> SolveReport {
+        let Configuration { contacts, z } = configuration;
+        let system = bordered(&self.world, &self.path, contacts, condition);
+        solve(&system, z, &self.options, &mut self.workspace)
+    }
+
+    /// Solves at the pose `tau`.
+    pub fn at_pose(&mut self, configuration: &mut Configuration, tau: f64) -> SolveReport {
+        let index = 3 * configuration.count();
+        self.correct(configuration, Condition::Fixed { index, value: tau })
+    }
+
+    /// The tangent of the branch at `configuration`, in the direction in which the condition's row grows (with the pose fixed
+    /// towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its equations.
+    pub fn inspect(&mut self, configuration: &Configuration, condition: Condition<'_>) -> (Tangent, SolveReport) {
+        let system = bordered(&self.world, &self.path, &configuration.contacts, condition);
+        let mut z = configuration.z.clone();
+        prepare(&system, &z, &mut self.workspace);
+        newton_step(&system, &mut z, &self.options, &mut self.workspace);
+        let status = SolveStatus::Converged;
+        let report = report(&system, &configuration.z, status, 0, 0.0, &mut self.workspace);
+        (self.last_tangent(configuration), report)
+    }
+
+    /// [`inspect`](Self::inspect) with the pose fixed.
+    pub fn inspect_at_pose(&mut self, configuration: &Configuration) -> (Tangent, SolveReport) {
+        let index = 3 * configuration.count();
+        self.inspect(configuration, Condition::Fixed { index, value: configuration.tau() })
+    }
+
+    /// The tangent by the Jacobian of the last solve, which was taken at most one small correction away.
+    pub fn last_tangent(&self, configuration: &Configuration) -> Tangent {
+        let size = configuration.z.len();
+        let column = &self.workspace.inverse()[size * (size - 1)..][..size];
+        let mut weights = Unknowns::from_elem(1.0, size);
+        let holding = configuration.supports(&self.world);
+        let clamp = self.path.at(configuration.tau());
+        MultiPoint { clamp, supports: &holding }.weights(&configuration.z, &mut weights[..size - 1]);
+        let length = column.iter().zip(&weights).map(|(d, w)| (d * w).powi(2)).sum::<f64>().sqrt();
+        Tangent { direction: column.iter().map(|d| d / length).collect(), weights }
+    }
+}
+
+fn bordered<'a>(
+    world: &'a World<'a>,
+    path: &'a ClampPath,
+    contacts: &'a [Held],
+    condition: Condition<'a>,
+) -> Bordered<'a> {
+    Bordered { holding: Holding { world, contacts }, path, condition }
+}

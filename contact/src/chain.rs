@@ -1,0 +1,241 @@
+//! Where a rod comes to rest: overdamped descent of the bending energy under unilateral contact.
+//!
+//! The rod is a chain of rigid links with a spring in each joint (inextensible by construction). Each step is implicit: it
+//! minimises the energy after the step plus the distance gone, in the metric of the springs (a rod with internal,
+//! Kelvin-Voigt damping), under the linearised gaps of all nodes, which is a small quadratic programme. The result is good to
+//! the square of a link's length: enough to see which contacts there are.
+
+use crate::configuration::{Configuration, Held};
+use crate::path::ClampPath;
+use crate::world::{Foot, World};
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT};
+use rod_contours::StretchKind;
+use rod_core::{Hold, Pose, Section, advance};
+use smallvec::SmallVec;
+use std::f64::consts::PI;
+
+/// Number of links.
+const LINKS: usize = 64;
+/// Length of a link.
+const LINK: f64 = 1.0 / LINKS as f64;
+/// Longest way of a node in one step: gaps are taken to be linear over it.
+const LONGEST_MOVE: f64 = 0.04;
+/// A step that moves no node further than this has arrived.
+const ARRIVED: f64 = 2e-5;
+/// Most steps.
+const MOST_STEPS: usize = 400;
+/// Time step over the damping time: the unconstrained shape loses half of its bend in a step of 1.
+const TIME_STEP: f64 = 1.0;
+/// Deepest penetration taken back in one step.
+const DEEPEST_PUSH: f64 = 0.03;
+
+/// A chain of links in the contour's world.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    clamp: Pose,
+    /// Turning angle of each joint; the first is between clamp and first link.
+    joints: [f64; LINKS],
+}
+
+/// A node near the contour.
+struct Near {
+    node: usize,
+    stretch: usize,
+    foot: Foot,
+}
+
+impl Chain {
+    /// A straight chain.
+    pub fn straight(clamp: Pose) -> Self {
+        Self { clamp, joints: [0.0; LINKS] }
+    }
+
+    /// The shape of the rod in `configuration`, on another clamp.
+    pub fn of(world: &World<'_>, path: &ClampPath, configuration: &Configuration, clamp: Pose) -> Self {
+        let mut spans: SmallVec<[(f64, Section, f64, f64); 9]> = SmallVec::new();
+        configuration.segments(world, path, |s, start, a, b| spans.push((s, start, a, b)));
+        let phi = |s: f64| {
+            let (from, start, a, b) = spans[spans.partition_point(|span| span.0 <= s).saturating_sub(1)];
+            advance(&start, a, b, s - from).phi
+        };
+        let mut before = path.at(configuration.tau()).phi;
+        let joints = std::array::from_fn(|i| {
+            let here = phi((i as f64 + 0.5) * LINK);
+            let joint = here - before;
+            before = here;
+            joint
+        });
+        Self { clamp, joints }
+    }
+
+    /// Stiffness of a joint: a full link between two links, half a link between clamp and first one.
+    fn stiffness(i: usize) -> f64 {
+        if i == 0 { 2.0 / LINK } else { 1.0 / LINK }
+    }
+
+    /// Ends of the links, the clamp first, and the angle of each link.
+    fn nodes(&self) -> ([[f64; 2]; LINKS + 1], [f64; LINKS]) {
+        let (mut nodes, mut angles) = ([[self.clamp.x, self.clamp.y]; LINKS + 1], [0.0; LINKS]);
+        let mut phi = self.clamp.phi;
+        for i in 0..LINKS {
+            phi += self.joints[i];
+            angles[i] = phi;
+            let (sin, cos) = phi.sin_cos();
+            nodes[i + 1] = [nodes[i][0] + LINK * cos, nodes[i][1] + LINK * sin];
+        }
+        (nodes, angles)
+    }
+
+    /// Nodes that could meet the contour within a step.
+    fn near(world: &World<'_>, nodes: &[[f64; 2]; LINKS + 1], reach: f64) -> Vec<Near> {
+        let mut near = Vec::new();
+        for stretch in 0..world.stretches().len() {
+            // The tip may rest in a notch, which its two pieces already say
+            if matches!(world.stretches()[stretch].kind, StretchKind::Notch { .. }) {
+                continue;
+            }
+            for (node, [x, y]) in nodes.iter().enumerate().skip(1) {
+                let foot = world.foot(stretch, *x, *y);
+                if foot.interior && foot.gap < reach {
+                    near.push(Near { node, stretch, foot });
+                }
+            }
+        }
+        near
+    }
+
+    /// One implicit step: how far it moved the chain, and the force at each near node. None where the programme failed.
+    fn step(&mut self, world: &World<'_>, time_step: f64) -> Option<(f64, Vec<(Near, f64)>)> {
+        let (nodes, _) = self.nodes();
+        let near = Self::near(world, &nodes, 2.0 * LONGEST_MOVE);
+        let mut time_step = time_step;
+        loop {
+            let (change, forces) = programme(self, &nodes, &near, time_step)?;
+            let mut moved = self.clone();
+            for (joint, change) in moved.joints.iter_mut().zip(&change) {
+                *joint += change;
+            }
+            let (after, _) = moved.nodes();
+            let way = nodes.iter().zip(&after).map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1])).fold(0.0, f64::max);
+            if way <= 1.5 * LONGEST_MOVE || time_step < 1e-4 {
+                *self = moved;
+                return Some((way, near.into_iter().zip(forces).collect()));
+            }
+            time_step *= (LONGEST_MOVE / way).min(0.5);
+        }
+    }
+
+    /// Lets the chain come to rest, and gives the contacts it then has as a guess for the boundary-value problem at `tau`.
+    pub fn settle(&mut self, world: &World<'_>, tau: f64) -> Option<Configuration> {
+        let mut time_step = TIME_STEP;
+        for _ in 0..MOST_STEPS {
+            let (way, forces) = self.step(world, time_step)?;
+            let inside = forces.iter().any(|(near, _)| near.foot.gap < -0.5 * LINK);
+            if way < ARRIVED && !inside {
+                return Some(self.contacts(world, forces, tau));
+            }
+            // slow motion is far from everything that could be missed
+            if way < 0.25 * LONGEST_MOVE {
+                time_step = (2.0 * time_step).min(1e3);
+            }
+        }
+        None
+    }
+
+    /// Clusters of loaded neighbouring nodes as contacts.
+    fn contacts(&self, world: &World<'_>, mut forces: Vec<(Near, f64)>, tau: f64) -> Configuration {
+        let most = forces.iter().map(|(_, force)| *force).fold(0.0, f64::max);
+        forces.retain(|(_, force)| *force > 1e-5 * most.max(1e-6));
+        forces.sort_by_key(|(near, _)| (near.node, near.stretch));
+        let (nodes, angles) = self.nodes();
+        let mut configuration = Configuration::free(tau);
+        // (stretch, force, sum of force x node, last node)
+        let mut clusters: Vec<(usize, f64, f64, usize)> = Vec::new();
+        for (near, force) in forces {
+            let moment = force * near.node as f64;
+            match clusters.iter_mut().rev().find(|c| c.0 == near.stretch && near.node - c.3 <= 1) {
+                Some(cluster) => {
+                    cluster.1 += force;
+                    cluster.2 += moment;
+                    cluster.3 = near.node;
+                }
+                None => clusters.push((near.stretch, force, moment, near.node)),
+            }
+        }
+        for (stretch, force, moment, _) in clusters {
+            let middle = moment / force;
+            let node = (middle.round() as usize).clamp(1, LINKS);
+            let foot = world.foot(stretch, nodes[node][0], nodes[node][1]);
+            let tip = middle > LINKS as f64 - 0.75;
+            let phi = if node < LINKS { 0.5 * (angles[node - 1] + angles[node]) } else { angles[LINKS - 1] };
+            let (hold, third) = if tip {
+                (Hold::Tip, phi)
+            } else {
+                (Hold::Tangent { offset: PI * ((phi - foot.alpha) / PI).round() }, middle * LINK)
+            };
+            let j = configuration.count();
+            if j > 0 && configuration.is_tip(j - 1) {
+                // two stretches hold the tip: it rests in the notch between them
+                continue;
+            }
+            configuration.insert(j, Held { stretch, hold }, [foot.t, force, third]);
+        }
+        configuration
+    }
+}
+
+/// The quadratic programme of one step: change of the joints, force at each near node.
+fn programme(
+    chain: &Chain,
+    nodes: &[[f64; 2]; LINKS + 1],
+    near: &[Near],
+    time_step: f64,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let elastic: Vec<f64> = (0..LINKS).map(|i| Chain::stiffness(i) * chain.joints[i]).collect();
+    let damped = 1.0 + 1.0 / time_step;
+    if near.is_empty() {
+        return Some((chain.joints.iter().map(|joint| -joint / damped).collect(), Vec::new()));
+    }
+    // minimise 1/2 d' P d + q' d subject to A d + slack = b, slack >= 0: gap + gradient d >= what it may be
+    let p = CscMatrix::new(
+        LINKS,
+        LINKS,
+        (0..=LINKS).collect(),
+        (0..LINKS).collect(),
+        (0..LINKS).map(|i| Chain::stiffness(i) * damped).collect(),
+    );
+    let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    for i in 0..LINKS {
+        for (row, Near { node, foot, .. }) in near.iter().enumerate() {
+            if *node > i {
+                // node turns about joint i: (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
+                let (dx, dy) = (nodes[*node][0] - nodes[i][0], nodes[*node][1] - nodes[i][1]);
+                let (sin, cos) = foot.alpha.sin_cos();
+                rows.push(row);
+                values.push(dy * sin + dx * cos);
+            }
+        }
+        columns.push(rows.len());
+    }
+    let a = CscMatrix::new(near.len(), LINKS, columns, rows, values);
+    let b: Vec<f64> = near.iter().map(|n| n.foot.gap.max(-DEEPEST_PUSH)).collect();
+    let settings = DefaultSettingsBuilder::default()
+        .verbose(false)
+        .equilibrate_enable(false)
+        .presolve_enable(false)
+        .max_iter(60)
+        .tol_gap_abs(1e-9)
+        .tol_gap_rel(1e-9)
+        .tol_feas(1e-9)
+        .build()
+        .ok()?;
+    let mut solver = DefaultSolver::new(&p, &elastic, &a, &b, &[NonnegativeConeT(near.len())], settings).ok()?;
+    solver.solve();
+    let solution = &solver.solution;
+    let usable = matches!(
+        solution.status,
+        clarabel::solver::SolverStatus::Solved | clarabel::solver::SolverStatus::AlmostSolved
+    );
+    usable.then(|| (solution.x.clone(), solution.z.clone()))
+}

@@ -1,0 +1,77 @@
+//! What can be wrong with a sweep, and how one can end before its path does.
+
+use rod_core::Pose;
+
+/// Errors in what a sweep is asked to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContactError {
+    /// A quantity that must be finite is not.
+    #[error("{what} is {value}, expected a finite number")]
+    NotFinite {
+        /// Which quantity.
+        what: &'static str,
+        /// Its value as given.
+        value: f64,
+    },
+    /// The path leads nowhere.
+    #[error("the path ends where it starts, at ({}, {}) m and {} rad, expected two different poses", pose.x, pose.y, pose.phi)]
+    NoPath {
+        /// The pose given twice.
+        pose: Pose,
+    },
+    /// The distance between reported states is no distance.
+    #[error("step is {value}, expected a positive, finite length")]
+    Step {
+        /// Its value as given.
+        value: f64,
+    },
+}
+
+/// Why a sweep could not go on. Everything before it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// Where the clamp was.
+    pub pose: Pose,
+    /// Way along the path so far (m, or radians for a path that only turns).
+    pub tau: f64,
+    /// Why.
+    pub reason: StopReason,
+}
+
+/// Why a sweep could not go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum StopReason {
+    /// No equilibrium was found for the first pose of the path.
+    NoStart,
+    /// The equilibrium could not be followed: the step fell below its smallest size without convergence.
+    StepTooSmall,
+    /// The rod snaps, and no stable equilibrium was found for it to land in.
+    NoLanding,
+    /// A contact ran off the end of an open contour.
+    EndOfContour,
+    /// The clamp itself runs into the object.
+    ClampInside,
+    /// More events at one pose than a rod can have.
+    Chatter,
+}
+
+impl std::fmt::Display for Stop {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (why, advice) = match self.reason {
+            StopReason::NoStart => ("no equilibrium found for the first pose", "start where the rod is free"),
+            StopReason::StepTooSmall => {
+                ("the equilibrium could not be followed", "look at the last states, or start beyond")
+            }
+            StopReason::NoLanding => ("the rod snaps and no stable equilibrium was found", "start a new sweep beyond"),
+            StopReason::EndOfContour => ("a contact ran off the end of the contour", "make the contour longer"),
+            StopReason::ClampInside => ("the clamp itself runs into the object", "end the path before it"),
+            StopReason::Chatter => ("contacts come and go at one pose without end", "start a new sweep beyond"),
+        };
+        let Pose { x, y, phi } = self.pose;
+        write!(f, "the sweep stopped at clamp ({x:.9}, {y:.9}) m, {phi:.9} rad: {why}; {advice}")
+    }
+}
+
+impl std::error::Error for Stop {}

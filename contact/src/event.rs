@@ -1,0 +1,71 @@
+//! What happens along a sweep between two phases.
+
+use crate::phase::Phase;
+use crate::state::State;
+use rod_core::Pose;
+use std::fmt;
+
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EventKind {
+    /// The free rod meets the contour.
+    FirstContact,
+    /// A rod in contact meets the contour at one more place.
+    Touch,
+    /// A contact lets go.
+    Release,
+    /// The tip lies down on the contour: A -> B.
+    TipToTangent,
+    /// A tangential contact reaches the tip: B -> A.
+    TangentToTip,
+    /// A contact runs over the border of a piece: onto the next one, a corner or a notch.
+    Piece,
+    /// The equilibrium ends and the rod jumps to another one.
+    Snap,
+    /// The equilibrium ends and the rod jumps free.
+    SnapOff,
+}
+
+impl fmt::Display for EventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::FirstContact => "first-contact",
+            Self::Touch => "touch",
+            Self::Release => "release",
+            Self::TipToTangent => "tip-to-tangent",
+            Self::TangentToTip => "tangent-to-tip",
+            Self::Piece => "piece",
+            Self::Snap => "snap",
+            Self::SnapOff => "snap-off",
+        })
+    }
+}
+
+/// A transition, located on the path to 1e-10 of the rod's length or better.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// What happened.
+    pub kind: EventKind,
+    /// The last state before. At a snap it is the one at the fold; otherwise it equals `after` up to the contact of zero
+    /// force that comes or goes.
+    pub before: State,
+    /// The first state after, at the same pose of the clamp.
+    pub after: State,
+}
+
+impl Event {
+    /// Where the clamp was.
+    pub fn pose(&self) -> Pose {
+        self.before.pose
+    }
+
+    /// Phase before.
+    pub fn from(&self) -> Phase {
+        self.before.phase()
+    }
+
+    /// Phase after.
+    pub fn to(&self) -> Phase {
+        self.after.phase()
+    }
+}

@@ -1,0 +1,91 @@
+//! From a guess of the contacts to a verified equilibrium at one pose: solve, look what is broken, mend the contact set,
+//! solve again.
+
+use crate::branch::Corrector;
+use crate::configuration::Configuration;
+use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
+use crate::stability::is_stable;
+use crate::transition::{Break, as_tip, breaks, with_contact};
+use rod_core::Hold;
+use std::f64::consts::PI;
+
+/// Most repairs of one guess.
+const MOST_REPAIRS: usize = 12;
+
+/// An equilibrium that holds: nothing is broken and it is stable.
+#[derive(Clone, Debug)]
+pub(crate) struct Settled {
+    pub configuration: Configuration,
+    pub scan: Scan,
+}
+
+/// Mends `guess` at its own pose until it is an equilibrium that holds; none where that does not come about.
+pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess: Configuration) -> Option<Settled> {
+    let mut configuration = guess;
+    let tau = configuration.tau();
+    let patient = corrector.options;
+    corrector.options.max_iterations = 60;
+    let mut settled = None;
+    for _ in 0..MOST_REPAIRS {
+        let report = (configuration.count() > 0).then(|| corrector.at_pose(&mut configuration, tau));
+        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&configuration) {
+            break;
+        }
+        let scan = scanner.scan(&corrector.world, &corrector.path, &configuration);
+        let mut worst = None;
+        breaks(corrector, &configuration, &scan, |b| {
+            let weight = badness(&b, &configuration);
+            if worst.is_none_or(|(w, _)| weight > w) {
+                worst = Some((weight, b));
+            }
+        });
+        match worst {
+            Some((_, b)) => configuration = mend(configuration, b, corrector),
+            None => {
+                let stable = is_stable(&corrector.world, &corrector.path, &configuration);
+                let holds = scan.min_gap >= -1e3 * GAP_TOLERANCE && !scan.clamp_inside && stable;
+                settled = holds.then_some(Settled { configuration, scan });
+                break;
+            }
+        }
+    }
+    corrector.options = patient;
+    settled
+}
+
+/// Whether the contacts follow each other along the rod.
+pub(crate) fn ordered(configuration: &Configuration) -> bool {
+    let n = configuration.count();
+    (0..n).all(|j| configuration.s(j) > if j == 0 { 0.0 } else { configuration.s(j - 1) })
+}
+
+/// What to mend first: a force that pulls before all, then what is furthest off.
+fn badness(b: &Break, configuration: &Configuration) -> f64 {
+    match b {
+        Break::Release(j) => 1e3 - configuration.force(*j),
+        Break::TangentToTip | Break::TipToTangent(_) | Break::Border(..) => 1e2,
+        Break::Touch(crossing) => -crossing.foot.gap,
+    }
+}
+
+fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -> Configuration {
+    let last = configuration.count().saturating_sub(1);
+    match b {
+        Break::Release(j) => configuration.remove(j),
+        Break::Border(j, upwards) => {
+            let stretch = &mut configuration.contacts[j].stretch;
+            let next = if upwards { Some(*stretch + 1) } else { stretch.checked_sub(1) };
+            match next.filter(|k| *k < corrector.world.stretches().len()) {
+                Some(next) => *stretch = next,
+                None => configuration.remove(j),
+            }
+        }
+        Break::TipToTangent(angle) => {
+            configuration.contacts[last].hold = Hold::Tangent { offset: PI * (angle / PI).round() };
+            configuration.z[3 * last + 2] = 1.0;
+        }
+        Break::TangentToTip => configuration = as_tip(configuration, corrector),
+        Break::Touch(crossing) => configuration = with_contact(&configuration, &crossing).0,
+    }
+    configuration
+}

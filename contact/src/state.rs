@@ -1,0 +1,89 @@
+//! One equilibrium of the rod, with its certificate.
+
+use crate::phase::Phase;
+use rod_core::{Elastica, Load, Pose, Reactions, Rod, RodError};
+
+/// How a contact holds the rod.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ContactKind {
+    /// The rod lies tangentially on a smooth stretch of the contour.
+    Tangent,
+    /// The tip of the rod rests on the contour.
+    Tip,
+    /// The rod lies on a convex corner; the direction of the force is free inside the cone of the two normals.
+    Corner,
+    /// The tip rests in a concave corner, held by two forces, given as one.
+    Notch,
+}
+
+/// One contact, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Number of the contour's piece, from 0 (for a corner or notch: the piece before it).
+    pub piece: usize,
+    /// How it holds.
+    pub kind: ContactKind,
+    /// Arc length along the rod, m.
+    pub s: f64,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Tangent angle of the contour, radians: the force on the rod is force (sin alpha, -cos alpha).
+    pub alpha: f64,
+    /// Contact force, N, >= 0.
+    pub force: f64,
+}
+
+/// How well a state fulfils what defines it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate {
+    /// Largest residual of the boundary-value problem, dimensionless.
+    pub residual: f64,
+    /// Smallest gap over the whole rod, m; negative: penetration. About zero wherever there is a contact.
+    pub min_gap: f64,
+    /// Smallest contact force, N; infinite where there is none.
+    pub min_force: f64,
+    /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi) along a segment plus its jump, dimensionless.
+    pub first_integral: f64,
+    /// Whether the equilibrium is stable: positive second variation of the energy under the contacts.
+    pub stable: bool,
+    /// Condition number (1-norm) of the Jacobian; 1 for a free rod.
+    pub condition: f64,
+    /// Newton iterations spent on this state.
+    pub iterations: u32,
+}
+
+/// One equilibrium, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// The clamp.
+    pub pose: Pose,
+    /// Contacts from the clamp to the tip.
+    pub contacts: Vec<Contact>,
+    /// What the clamp feels.
+    pub reactions: Reactions,
+    /// Bending energy, J.
+    pub energy: f64,
+    /// Largest bending stress, Pa; none where the rod's diameter is not known.
+    pub max_stress: Option<f64>,
+    /// How well it holds.
+    pub certificate: Certificate,
+}
+
+impl State {
+    /// The phase: which contacts there are.
+    pub fn phase(&self) -> Phase {
+        let tip = self.contacts.last().is_some_and(|c| matches!(c.kind, ContactKind::Tip | ContactKind::Notch));
+        Phase { contacts: self.contacts.len(), tip }
+    }
+
+    /// The shape of the rod in this state, SI units.
+    ///
+    /// # Errors
+    /// [`RodError`] where the state's numbers are not those of a rod as long as `rod`.
+    pub fn elastica(&self, rod: &Rod) -> Result<Elastica, RodError> {
+        let loads: Vec<_> = self.contacts.iter().map(|c| Load { s: c.s, force: c.force, alpha: c.alpha }).collect();
+        Elastica::from_clamp(rod.units(), self.pose, self.reactions.m0z, &loads)
+    }
+}

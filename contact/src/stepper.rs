@@ -1,0 +1,252 @@
+//! One step along a branch: predict, correct, look for what broke, locate the first transition.
+
+use crate::branch::{Condition, Corrector, Tangent};
+use crate::certify::Quality;
+use crate::configuration::Configuration;
+use crate::error::StopReason;
+use crate::fold::locate_fold;
+use crate::landing::ordered;
+use crate::scan::{Scan, Scanner};
+use crate::stability::is_stable;
+use crate::transition::{Break, NoTransition, Transition, breaks};
+use rod_core::SolveReport;
+use smallvec::SmallVec;
+
+/// Longest step in arclength of the branch (lengths, angles, relative forces), and in the path parameter of a rod in contact.
+const LONGEST_STEP: f64 = 0.3;
+const LONGEST_WAY: f64 = 0.05;
+/// First step on a new branch.
+pub(crate) const FIRST_STEP: f64 = 0.02;
+/// A branch that cannot be followed with this step is not followed.
+const SHORTEST_STEP: f64 = 1e-9;
+/// Largest angle between the tangents at both ends of a step, as its cosine.
+const LEAST_COSINE: f64 = 0.9;
+/// Largest distance of the corrected from the predicted point, in steps.
+const LARGEST_CORRECTION: f64 = 0.3;
+/// Slowest d tau / d arclength at which a pose is aimed at directly.
+const STEEPEST: f64 = 1e-3;
+/// Path parameter by which a new contact set is tried.
+const PROBE: f64 = 1e-6;
+
+/// A point of the sweep: an equilibrium, what the scan saw, and where the branch goes from there.
+#[derive(Clone, Debug)]
+pub(crate) struct Point {
+    pub configuration: Configuration,
+    pub scan: Scan,
+    pub quality: Quality,
+    pub tangent: Tangent,
+}
+
+/// What a step came to.
+#[derive(Debug)]
+pub(crate) enum Step {
+    /// A new point of the branch.
+    Moved(Box<Point>),
+    /// A transition before that.
+    Changed(Box<Transition>),
+    /// The branch ends here, in a fold, or loses its stability.
+    Ended(Box<Configuration>),
+}
+
+/// Follows branches.
+#[derive(Debug)]
+pub(crate) struct Stepper<'a> {
+    pub corrector: Corrector<'a>,
+    pub scanner: Scanner,
+    /// Length of the next step.
+    pub h: f64,
+}
+
+impl Stepper<'_> {
+    /// A point with everything known of it.
+    pub fn point(&mut self, configuration: Configuration) -> Point {
+        let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
+        let scan = self.scan(&configuration);
+        let stable = self.is_stable(&configuration);
+        Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
+    }
+
+    pub fn scan(&mut self, configuration: &Configuration) -> Scan {
+        self.scanner.scan(&self.corrector.world, &self.corrector.path, configuration)
+    }
+
+    pub fn is_stable(&self, configuration: &Configuration) -> bool {
+        is_stable(&self.corrector.world, &self.corrector.path, configuration)
+    }
+
+    /// One step from `from` towards the pose `target`, at most there.
+    pub fn step(&mut self, from: &Point, target: f64) -> Result<Step, StopReason> {
+        let mut aim = false;
+        while self.h >= SHORTEST_STEP {
+            let Some((next, report, length)) = self.predict_and_correct(from, target, &mut aim) else {
+                continue;
+            };
+            let tangent = self.corrector.last_tangent(&next);
+            if tangent.cosine(&from.tangent) < LEAST_COSINE {
+                self.shorten(&mut aim);
+                continue;
+            }
+            let scan = self.scan(&next);
+            if scan.clamp_inside {
+                return Err(StopReason::ClampInside);
+            }
+            match self.first_transition(from, &next, &scan, &tangent, length) {
+                Ok(None) => {}
+                Ok(Some(step)) => return Ok(step),
+                Err(NoTransition::EndOfContour) if length < 1e-3 => return Err(StopReason::EndOfContour),
+                Err(_) => {
+                    self.shorten(&mut aim);
+                    continue;
+                }
+            }
+            let stable = self.is_stable(&next);
+            if !stable && from.quality.stable {
+                if length > PROBE {
+                    self.shorten(&mut aim);
+                    continue;
+                }
+                return Ok(Step::Ended(Box::new(from.configuration.clone())));
+            }
+            if report.iterations <= 2 {
+                self.h = (2.0 * self.h).min(LONGEST_STEP);
+            }
+            let quality = Quality::new(&report, stable);
+            return Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })));
+        }
+        Err(StopReason::StepTooSmall)
+    }
+
+    fn shorten(&mut self, aim: &mut bool) {
+        *aim = false;
+        self.h *= 0.5;
+    }
+
+    /// The next point of the branch, by the tangent and Newton's method: at `target` where it is near enough, else a step of
+    /// pseudo-arclength. None: the step was too long.
+    fn predict_and_correct(
+        &mut self,
+        from: &Point,
+        target: f64,
+        aim: &mut bool,
+    ) -> Option<(Configuration, SolveReport, f64)> {
+        let Point { configuration, tangent, scan, .. } = from;
+        let tau = configuration.tau();
+        let slope = tangent.by_tau();
+        let to_go = if slope > STEEPEST { (target - tau) / slope } else { f64::INFINITY };
+        // a free rod is safe as far as its gap reaches
+        let free = if configuration.count() == 0 { scan.min_gap.min(1.0) / self.fastest() } else { 0.0 };
+        let reach = self.h.min(LONGEST_WAY / slope.abs()).max(free);
+        let land = to_go <= reach || (*aim && to_go.is_finite());
+        let length = if land { to_go } else { reach };
+        let mut next = configuration.clone();
+        for (z, d) in next.z.iter_mut().zip(&tangent.direction) {
+            *z += length * d;
+        }
+        let predicted = next.z.clone();
+        let condition = if land {
+            Condition::Fixed { index: 3 * next.count(), value: target }
+        } else {
+            Condition::Plane { tangent, from: &configuration.z, distance: length }
+        };
+        let report = self.corrector.correct(&mut next, condition);
+        let off: f64 = next
+            .z
+            .iter()
+            .zip(&predicted)
+            .zip(&tangent.weights)
+            .map(|((z, p), w)| ((z - p) * w).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        if !report.status.is_solved() || !ordered(&next) || off > LARGEST_CORRECTION * length + 1e-9 {
+            self.shorten(aim);
+            return None;
+        }
+        if !land && next.tau() > target {
+            // ran past it: the pose is near enough to be aimed at
+            *aim = true;
+            self.h *= 0.75;
+            return None;
+        }
+        if land {
+            // to the last bit, so that the sweep knows it has arrived
+            let last = next.z.len() - 1;
+            next.z[last] = target;
+        }
+        let length = tangent.along(&next.z, &configuration.z);
+        Some((next, report, length))
+    }
+
+    /// Fastest way of any point of a straight rod by the path parameter.
+    fn fastest(&self) -> f64 {
+        let rate = self.corrector.path.rate();
+        rate.x.hypot(rate.y) + rate.phi.abs()
+    }
+
+    /// The first transition between `from` and `next`, where there is one.
+    fn first_transition(
+        &mut self,
+        from: &Point,
+        next: &Configuration,
+        scan: &Scan,
+        tangent: &Tangent,
+        length: f64,
+    ) -> Result<Option<Step>, NoTransition> {
+        let mut broken: SmallVec<[Break; 4]> = SmallVec::new();
+        breaks(&self.corrector, next, scan, |b| broken.push(b));
+        let slack = 1e-9 + 1e-6 * length;
+        let mut first: Option<(f64, Step)> = None;
+        for b in broken {
+            let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;
+            let along = transition.along;
+            if !(-slack..=length + slack).contains(&along) {
+                return Err(NoTransition::NotLocated);
+            }
+            if first.as_ref().is_none_or(|(least, _)| along < *least) {
+                first = Some((along, Step::Changed(Box::new(transition))));
+            }
+        }
+        if tangent.by_tau() < 0.0 {
+            let fold = locate_fold(&mut self.corrector, &from.configuration, &from.tangent, next, tangent.by_tau())
+                .ok_or(NoTransition::NotLocated)?;
+            let along = from.tangent.along(&fold.z, &from.configuration.z);
+            if first.as_ref().is_none_or(|(least, _)| along < *least) {
+                first = Some((along, Step::Ended(Box::new(fold))));
+            }
+        }
+        // Nothing else may be broken there: a shorter step would have met it first.
+        let reached = match &first {
+            None => return Ok(None),
+            Some((_, Step::Changed(transition))) => &transition.after,
+            Some((_, Step::Ended(fold))) => fold,
+            Some((_, Step::Moved(point))) => &point.configuration,
+        };
+        let seen = self.scanner.scan(&self.corrector.world, &self.corrector.path, reached);
+        if ordered_or_new(reached) && seen.crossings.iter().all(|crossing| crossing.foot.gap > -1e-9) {
+            Ok(first.map(|(_, step)| step))
+        } else {
+            Err(NoTransition::NotLocated)
+        }
+    }
+
+    /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
+    pub fn goes_on(&mut self, point: &Point) -> bool {
+        let mut probe = point.configuration.clone();
+        let slope = point.tangent.by_tau();
+        for (z, d) in probe.z.iter_mut().zip(&point.tangent.direction) {
+            *z += PROBE / slope * d;
+        }
+        let tau = point.configuration.tau() + PROBE;
+        if !self.corrector.at_pose(&mut probe, tau).status.is_solved() {
+            return false;
+        }
+        let scan = self.scan(&probe);
+        let mut holds = true;
+        breaks(&self.corrector, &probe, &scan, |_| holds = false);
+        holds && self.is_stable(&probe)
+    }
+}
+
+fn ordered_or_new(configuration: &Configuration) -> bool {
+    let n = configuration.count();
+    (1..n).all(|j| configuration.s(j) >= configuration.s(j - 1))
+}

@@ -1,0 +1,278 @@
+//! The sweep: the clamp goes along its path, and every phase and transition is found.
+
+use crate::branch::Corrector;
+use crate::certify::{Quality, state};
+use crate::chain::Chain;
+use crate::configuration::Configuration;
+use crate::error::{ContactError, Stop, StopReason};
+use crate::event::{Event, EventKind};
+use crate::landing::{Settled, settle};
+use crate::path::ClampPath;
+use crate::scan::Scanner;
+use crate::state::State;
+use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
+use crate::world::World;
+use rod_contours::Composite;
+use rod_core::{Pose, Rod};
+use std::collections::VecDeque;
+use std::f64::consts::PI;
+
+/// What a sweep comes to next.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// The equilibrium at a pose that is reported.
+    State(State),
+    /// A transition.
+    Event(Event),
+}
+
+/// All of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// States at start, start + step, ...
+    pub states: Vec<State>,
+    /// Transitions in order.
+    pub events: Vec<Event>,
+    /// Why it stopped before the end of the path, if it did.
+    pub stop: Option<Stop>,
+}
+
+/// A sweep of a rod past a contour: an iterator of states and events in the order in which they come. After an `Err` it is
+/// over; all items before stand.
+#[derive(Debug)]
+pub struct Sweep<'a> {
+    rod: Rod,
+    stepper: Stepper<'a>,
+    /// Distance of reported states, dimensionless.
+    step: f64,
+    /// Number of states to report, and how many have been.
+    reports: usize,
+    reported: usize,
+    at: Option<Point>,
+    pending: VecDeque<Item>,
+    over: bool,
+    /// Where the last transition was, and how many there were at that pose.
+    crowd: (f64, usize),
+}
+
+/// More transitions than this at one pose are no physics.
+const MOST_AT_ONE_POSE: usize = 12;
+/// How far beyond a fold the descent starts, so that the chain, whose own fold is not quite there, sees it too. Lengthened
+/// where that was not enough.
+const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
+/// How far back a free pose is searched from a start in contact, and how densely: rod lengths, or the angle of a path that
+/// only turns.
+const BACK: (f64, f64) = (4.0, 0.05);
+
+impl<'a> Sweep<'a> {
+    /// A sweep of `rod` along `path` past `contour` (m), with states reported at 0, `step`, 2 `step`, ... of the path's
+    /// parameter (m, or radians where the clamp only turns).
+    ///
+    /// A start in contact has the shape that a sweep from further back along the same line would have brought there; only
+    /// where no pose on that line is free, the straight rod is let go into contact.
+    ///
+    /// # Errors
+    /// [`ContactError::Step`].
+    pub fn new(rod: &Rod, contour: &'a Composite, path: ClampPath, step: f64) -> Result<Self, ContactError> {
+        if !(step.is_finite() && step > 0.0) {
+            return Err(ContactError::Step { value: step });
+        }
+        let units = rod.units();
+        let step = if path.turns_only() { step } else { step / units.length };
+        let path = path.dimensionless(units);
+        let corrector = Corrector::new(World::new(contour, units.length), path);
+        Ok(Self {
+            rod: *rod,
+            stepper: Stepper { corrector, scanner: Scanner::default(), h: FIRST_STEP },
+            step,
+            // a path that is a whole number of steps long but for rounding reports its end
+            reports: (path.length() / step * (1.0 + 1e-12)).floor() as usize + 1,
+            reported: 0,
+            at: None,
+            pending: VecDeque::new(),
+            over: false,
+            crowd: (f64::NAN, 0),
+        })
+    }
+
+    /// Runs to the end and keeps everything.
+    pub fn run(self) -> Outcome {
+        let mut outcome = Outcome { states: Vec::new(), events: Vec::new(), stop: None };
+        for item in self {
+            match item {
+                Ok(Item::State(state)) => outcome.states.push(state),
+                Ok(Item::Event(event)) => outcome.events.push(event),
+                Err(stop) => outcome.stop = Some(stop),
+            }
+        }
+        outcome
+    }
+
+    /// Goes on until there is something to hand out.
+    fn advance(&mut self) -> Result<(), StopReason> {
+        let Some(point) = self.at.take() else {
+            let start = self.start()?;
+            self.report(&start);
+            self.at = Some(start);
+            return Ok(());
+        };
+        let target = self.step * self.reported as f64;
+        let next = self.follow(&point, target);
+        // where it stopped is kept for the message
+        let next = match next {
+            Ok(next) => next,
+            Err(reason) => {
+                self.at = Some(point);
+                return Err(reason);
+            }
+        };
+        if next.configuration.tau() >= target {
+            self.report(&next);
+        }
+        self.at = Some(next);
+        Ok(())
+    }
+
+    /// One step, with the transition that ends it.
+    fn follow(&mut self, point: &Point, target: f64) -> Result<Point, StopReason> {
+        match self.stepper.step(point, target)? {
+            Step::Moved(next) => Ok(*next),
+            Step::Changed(transition) => {
+                self.count_crowd(transition.after.tau())?;
+                let after = self.stepper.point(transition.after);
+                self.stepper.h = FIRST_STEP;
+                if after.tangent.by_tau() > 0.0 && self.stepper.goes_on(&after) {
+                    let before = self.stepper.point(transition.before);
+                    self.announce(transition.kind, &before, &after);
+                    Ok(after)
+                } else {
+                    self.snap(transition.before)
+                }
+            }
+            Step::Ended(last) => {
+                self.count_crowd(last.tau())?;
+                self.snap(*last)
+            }
+        }
+    }
+
+    fn count_crowd(&mut self, tau: f64) -> Result<(), StopReason> {
+        self.crowd = if (tau - self.crowd.0).abs() < 1e-9 { (tau, self.crowd.1 + 1) } else { (tau, 0) };
+        if self.crowd.1 > MOST_AT_ONE_POSE { Err(StopReason::Chatter) } else { Ok(()) }
+    }
+
+    /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
+    fn snap(&mut self, last: Configuration) -> Result<Point, StopReason> {
+        let tau = last.tau();
+        for kick in KICK {
+            let Some(Settled { configuration, scan }) = self.land(&last, tau, kick) else { continue };
+            if same(&configuration, &last) {
+                continue;
+            }
+            let kind = if configuration.count() == 0 { EventKind::SnapOff } else { EventKind::Snap };
+            let mut after = self.stepper.point(configuration);
+            after.scan = scan;
+            let before = self.stepper.point(last);
+            self.announce(kind, &before, &after);
+            self.stepper.h = FIRST_STEP;
+            return Ok(after);
+        }
+        Err(StopReason::NoLanding)
+    }
+
+    fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Option<Settled> {
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        let clamp = corrector.path.at(tau + kick);
+        let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
+        let guess = chain.settle(&corrector.world, tau)?;
+        settle(corrector, scanner, guess)
+    }
+
+    /// The first point: free, or brought into contact along the path.
+    fn start(&mut self) -> Result<Point, StopReason> {
+        if let Some(start) = self.free(0.0) {
+            return Ok(self.stepper.point(start));
+        }
+        let farthest = if self.stepper.corrector.path.turns_only() { PI } else { BACK.0 };
+        let tries = (farthest / BACK.1) as usize;
+        let back = (1..=tries).find_map(|k| self.free(-BACK.1 * k as f64));
+        back.and_then(|start| self.approach(start)).or_else(|| self.let_go()).ok_or(StopReason::NoStart)
+    }
+
+    /// The straight rod at a pose, if it touches nothing there.
+    fn free(&mut self, tau: f64) -> Option<Configuration> {
+        let configuration = Configuration::free(tau);
+        let scan = self.stepper.scan(&configuration);
+        (scan.crossings.is_empty() && !scan.clamp_inside).then_some(configuration)
+    }
+
+    /// The sweep from a free pose back on the line up to the start, in silence.
+    fn approach(&mut self, start: Configuration) -> Option<Point> {
+        let mut point = self.stepper.point(start);
+        while point.configuration.tau() < 0.0 {
+            point = self.follow(&point, 0.0).ok()?;
+        }
+        self.pending.clear();
+        Some(point)
+    }
+
+    /// The straight rod let go in the first pose.
+    fn let_go(&mut self) -> Option<Point> {
+        self.pending.clear();
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        let mut chain = Chain::straight(corrector.path.at(0.0));
+        let guess = chain.settle(&corrector.world, 0.0)?;
+        let settled = settle(corrector, scanner, guess)?;
+        Some(self.stepper.point(settled.configuration))
+    }
+
+    fn report(&mut self, point: &Point) {
+        self.pending.push_back(Item::State(self.state(point)));
+        self.reported += 1;
+    }
+
+    fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
+        let event = Event { kind, before: self.state(before), after: self.state(after) };
+        self.pending.push_back(Item::Event(event));
+    }
+
+    fn state(&self, point: &Point) -> State {
+        let Stepper { corrector, .. } = &self.stepper;
+        let free = point.configuration.count() == 0;
+        let quality = if free { Quality::FREE } else { point.quality };
+        state(&self.rod, &corrector.world, &corrector.path, &point.configuration, &point.scan, quality)
+    }
+
+    fn stop(&self, reason: StopReason) -> Stop {
+        let Stepper { corrector, .. } = &self.stepper;
+        let tau = self.at.as_ref().map_or(0.0, |point| point.configuration.tau());
+        let length = self.rod.length();
+        let Pose { x, y, phi } = corrector.path.at(tau);
+        let unit = if corrector.path.turns_only() { 1.0 } else { length };
+        Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: tau * unit, reason }
+    }
+}
+
+/// Whether two configurations at one pose are the same equilibrium.
+fn same(a: &Configuration, b: &Configuration) -> bool {
+    a.contacts == b.contacts && a.z.iter().zip(&b.z).all(|(u, v)| (u - v).abs() < 1e-4 * (1.0 + v.abs()))
+}
+
+impl Iterator for Sweep<'_> {
+    type Item = Result<Item, Stop>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some(item) = self.pending.pop_front() {
+                return Some(Ok(item));
+            }
+            if self.over || self.reported == self.reports {
+                return None;
+            }
+            if let Err(reason) = self.advance() {
+                self.over = true;
+                return Some(Err(self.stop(reason)));
+            }
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Transitions: which condition of a contact set is broken, and where on the branch it broke.
+
+use crate::branch::{Condition, Corrector, Tangent};
+use crate::configuration::{Configuration, Held};
+use crate::event::EventKind;
+use crate::scan::{Crossing, Scan};
+use rod_contours::StretchKind;
+use rod_core::Hold;
+use std::f64::consts::PI;
+
+/// A condition of the contact set that no longer holds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Break {
+    /// Contact j would have to pull.
+    Release(usize),
+    /// The slope angle at the tip has come down to the contour's (or round to its opposite): here phi - alpha.
+    TipToTangent(f64),
+    /// The last tangential contact has run off the rod.
+    TangentToTip,
+    /// Contact j has left its stretch, upwards or downwards.
+    Border(usize, bool),
+    /// The rod goes through the contour.
+    Touch(Crossing),
+}
+
+/// Forces down to minus this count as zero.
+pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
+/// Arc lengths and angles beyond their limits by this are on them.
+const LIMIT_TOLERANCE: f64 = 1e-13;
+
+/// Visits everything that is broken in `configuration`, whose rod `scan` has looked at.
+pub(crate) fn breaks(
+    corrector: &Corrector<'_>,
+    configuration: &Configuration,
+    scan: &Scan,
+    mut visit: impl FnMut(Break),
+) {
+    let n = configuration.count();
+    for j in 0..n {
+        if configuration.force(j) < -FORCE_TOLERANCE {
+            visit(Break::Release(j));
+        }
+        let range = corrector.world.stretches()[configuration.contacts[j].stretch].range;
+        let t = configuration.t(j);
+        let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
+        if t > range.to + slack {
+            visit(Break::Border(j, true));
+        } else if t < range.from - slack {
+            visit(Break::Border(j, false));
+        }
+    }
+    let mut lying_down = None;
+    if let Some(last) = n.checked_sub(1) {
+        if configuration.is_tip(last) {
+            let angle = tip_angle(corrector, configuration);
+            let stretch = configuration.contacts[last].stretch;
+            if angle.sin() < -LIMIT_TOLERANCE && !is_notch(corrector, stretch) {
+                visit(Break::TipToTangent(angle));
+                lying_down = Some(stretch);
+            }
+        } else if configuration.s(last) > 1.0 + LIMIT_TOLERANCE {
+            visit(Break::TangentToTip);
+        }
+    }
+    // a tip that has gone over goes through the contour just before it: not a touch of its own
+    for crossing in scan.crossings.iter().filter(|crossing| Some(crossing.stretch) != lying_down) {
+        visit(Break::Touch(*crossing));
+    }
+}
+
+fn is_notch(corrector: &Corrector<'_>, stretch: usize) -> bool {
+    matches!(corrector.world.stretches()[stretch].kind, StretchKind::Notch { .. })
+}
+
+/// phi(1) - alpha of a tip contact.
+fn tip_angle(corrector: &Corrector<'_>, configuration: &Configuration) -> f64 {
+    let last = configuration.count() - 1;
+    let stretch = configuration.contacts[last].stretch;
+    configuration.z[3 * last + 2] - corrector.world.support(stretch, configuration.t(last)).alpha
+}
+
+/// A transition, located.
+#[derive(Clone, Debug)]
+pub(crate) struct Transition {
+    pub kind: EventKind,
+    /// The contact set before, at the transition.
+    pub before: Configuration,
+    /// The contact set after, at the same pose.
+    pub after: Configuration,
+    /// How far along the tangent of the step it is.
+    pub along: f64,
+}
+
+/// Why a transition could not be had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoTransition {
+    /// Newton's method did not come to it: try a shorter step.
+    NotLocated,
+    /// The contour ends there.
+    EndOfContour,
+}
+
+impl Break {
+    /// Finds where on the branch the condition broke, starting from `broken`, a point of the branch where it has.
+    pub fn locate(
+        self,
+        corrector: &mut Corrector<'_>,
+        broken: &Configuration,
+        from: &Configuration,
+        tangent: &Tangent,
+    ) -> Result<Transition, NoTransition> {
+        let last = broken.count().wrapping_sub(1);
+        let (kind, before, after) = match self {
+            Self::Release(j) => {
+                let before = on(corrector, broken.clone(), 3 * j + 1, 0.0)?;
+                let mut after = before.clone();
+                after.remove(j);
+                (EventKind::Release, before, after)
+            }
+            Self::Border(j, upwards) => {
+                let stretches = corrector.world.stretches();
+                let here = broken.contacts[j].stretch;
+                let border = if upwards { stretches[here].range.to } else { stretches[here].range.from };
+                let next = if upwards { Some(here + 1) } else { here.checked_sub(1) };
+                let next = next.filter(|k| *k < stretches.len()).ok_or(NoTransition::EndOfContour)?;
+                let before = on(corrector, broken.clone(), 3 * j, border)?;
+                let mut after = before.clone();
+                after.contacts[j].stretch = next;
+                (EventKind::Piece, before, after)
+            }
+            Self::TangentToTip => {
+                let before = on(corrector, broken.clone(), 3 * last + 2, 1.0)?;
+                (EventKind::TangentToTip, before.clone(), as_tip(before, corrector))
+            }
+            Self::TipToTangent(angle) => {
+                let offset = PI * (angle / PI).round();
+                let mut start = broken.clone();
+                start.contacts[last].hold = Hold::Tangent { offset };
+                start.z[3 * last + 2] = 1.0;
+                let after = on(corrector, start, 3 * last + 2, 1.0)?;
+                (EventKind::TipToTangent, as_tip(after.clone(), corrector), after)
+            }
+            Self::Touch(crossing) if is_notch(corrector, crossing.stretch) => return Err(NoTransition::NotLocated),
+            Self::Touch(crossing) => {
+                let (start, j) = with_contact(broken, &crossing);
+                let after = on(corrector, start, 3 * j + 1, 0.0)?;
+                let mut before = after.clone();
+                before.remove(j);
+                let kind = if before.count() == 0 { EventKind::FirstContact } else { EventKind::Touch };
+                (kind, before, after)
+            }
+        };
+        // The tip-to-tangent point is compared as the tip contact it was.
+        let along = tangent.along(&before.z, &from.z);
+        Ok(Transition { kind, before, after, along })
+    }
+}
+
+/// The point of the branch near `start` where one unknown has a given value.
+fn on(
+    corrector: &mut Corrector<'_>,
+    mut start: Configuration,
+    index: usize,
+    value: f64,
+) -> Result<Configuration, NoTransition> {
+    let report = corrector.correct(&mut start, Condition::Fixed { index, value });
+    if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
+}
+
+/// The last contact, tangential at s = 1, as a contact of the tip.
+pub(crate) fn as_tip(mut configuration: Configuration, corrector: &Corrector<'_>) -> Configuration {
+    let last = configuration.count() - 1;
+    let Held { stretch, hold } = configuration.contacts[last];
+    if let Hold::Tangent { offset } = hold {
+        configuration.z[3 * last + 2] = corrector.world.support(stretch, configuration.t(last)).alpha + offset;
+        configuration.contacts[last].hold = Hold::Tip;
+    }
+    configuration
+}
+
+/// `configuration` with one more contact, without force, where the rod crosses the contour; and its number.
+pub(crate) fn with_contact(configuration: &Configuration, crossing: &Crossing) -> (Configuration, usize) {
+    let mut more = configuration.clone();
+    let n = configuration.count();
+    let j = (0..n).find(|&j| configuration.s(j) > crossing.s).unwrap_or(n);
+    let (hold, third) = if crossing.tip {
+        (Hold::Tip, crossing.phi)
+    } else {
+        (Hold::Tangent { offset: PI * ((crossing.phi - crossing.foot.alpha) / PI).round() }, crossing.s)
+    };
+    more.insert(j, Held { stretch: crossing.stretch, hold }, [crossing.foot.t, 0.0, third]);
+    (more, j)
+}

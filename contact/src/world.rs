@@ -1,0 +1,69 @@
+//! The contour as the rod sees it: in lengths of the rod.
+
+use rod_contours::{Composite, Stretch, StretchKind};
+use rod_core::Support;
+
+/// A contour in dimensionless lengths. Its parameter stays the contour's own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct World<'a> {
+    contour: &'a Composite,
+    /// Length of the rod in the contour's unit.
+    length: f64,
+}
+
+/// The point of one stretch that is closest to a given point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    pub t: f64,
+    pub gap: f64,
+    pub alpha: f64,
+    /// Signed curvature of the contour there; infinite at a corner.
+    pub curvature: f64,
+    pub x: f64,
+    pub y: f64,
+    /// Whether the foot is a perpendicular one, not an end of the stretch.
+    pub interior: bool,
+}
+
+impl<'a> World<'a> {
+    pub fn new(contour: &'a Composite, length: f64) -> Self {
+        Self { contour, length }
+    }
+
+    pub fn stretches(&self) -> &'a [Stretch] {
+        self.contour.stretches()
+    }
+
+    pub fn support(&self, stretch: usize, t: f64) -> Support {
+        let frame = self.contour.frame_on(stretch, t);
+        Support {
+            x: frame.x / self.length,
+            y: frame.y / self.length,
+            alpha: frame.alpha,
+            speed: frame.speed / self.length,
+            turning: frame.turning,
+        }
+    }
+
+    pub fn foot(&self, stretch: usize, x: f64, y: f64) -> Foot {
+        let closest = self.contour.closest_on(stretch, x * self.length, y * self.length);
+        let frame = closest.frame;
+        Foot {
+            t: closest.t,
+            gap: closest.gap / self.length,
+            alpha: frame.alpha,
+            curvature: frame.turning / frame.speed * self.length,
+            x: frame.x / self.length,
+            y: frame.y / self.length,
+            interior: closest.interior,
+        }
+    }
+
+    /// Number of the piece a stretch belongs to: for a joint the piece before it.
+    pub fn piece(&self, stretch: usize) -> usize {
+        match self.stretches()[stretch].kind {
+            StretchKind::Piece(piece) => piece,
+            StretchKind::Corner { before } | StretchKind::Notch { before } => before,
+        }
+    }
+}

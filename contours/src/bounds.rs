@@ -1,0 +1,77 @@
+//! A box around a contour.
+
+/// A box with sides along the axes that contains a contour; its sides may be infinitely far.
+///
+/// ```
+/// use rod_contours::Bounds;
+///
+/// let bounds = Bounds::EMPTY.with(0.0, 1.0).with(2.0, 0.0);
+/// assert_eq!(bounds, Bounds { min: [0.0, 0.0], max: [2.0, 1.0] });
+/// assert!(bounds.contains(1.0, 0.5));
+/// assert_eq!(bounds.distance(5.0, 5.0), 5.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Smallest x and y, lengths.
+    pub min: [f64; 2],
+    /// Largest x and y, lengths.
+    pub max: [f64; 2],
+}
+
+impl Bounds {
+    /// The box that contains nothing.
+    pub const EMPTY: Self = Self { min: [f64::INFINITY; 2], max: [f64::NEG_INFINITY; 2] };
+
+    /// The whole plane.
+    pub const ALL: Self = Self { min: [f64::NEG_INFINITY; 2], max: [f64::INFINITY; 2] };
+
+    /// The smallest box that also contains the point `(x, y)`.
+    pub fn with(&self, x: f64, y: f64) -> Self {
+        self.union(Self { min: [x, y], max: [x, y] })
+    }
+
+    /// The smallest box that contains both.
+    pub fn union(&self, other: Self) -> Self {
+        Self {
+            min: [self.min[0].min(other.min[0]), self.min[1].min(other.min[1])],
+            max: [self.max[0].max(other.max[0]), self.max[1].max(other.max[1])],
+        }
+    }
+
+    /// The box with every side moved out by `margin`, a length.
+    pub fn grown(&self, margin: f64) -> Self {
+        Self { min: self.min.map(|side| side - margin), max: self.max.map(|side| side + margin) }
+    }
+
+    /// Whether the point `(x, y)` lies in the box, sides included.
+    pub fn contains(&self, x: f64, y: f64) -> bool {
+        (self.min[0]..=self.max[0]).contains(&x) && (self.min[1]..=self.max[1]).contains(&y)
+    }
+
+    /// Distance of the point `(x, y)` from the box, a length; 0 inside.
+    pub fn distance(&self, x: f64, y: f64) -> f64 {
+        let dx = (self.min[0] - x).max(x - self.max[0]).max(0.0);
+        let dy = (self.min[1] - y).max(y - self.max[1]).max(0.0);
+        // One of the two is 0 for most points: no root then.
+        if dx == 0.0 || dy == 0.0 { dx + dy } else { (dx * dx + dy * dy).sqrt() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_infinitely_far_and_everything_is_here() {
+        assert_eq!(Bounds::EMPTY.distance(0.0, 0.0), f64::INFINITY);
+        assert_eq!(Bounds::ALL.distance(1e300, -1e300), 0.0);
+        assert!(!Bounds::EMPTY.contains(0.0, 0.0));
+    }
+
+    #[test]
+    fn distance_from_a_half_plane() {
+        let above = Bounds { min: [f64::NEG_INFINITY, 1.0], max: [f64::INFINITY; 2] };
+        assert_eq!(above.distance(100.0, -1.0), 2.0);
+        assert_eq!(above.grown(0.5).distance(100.0, -1.0), 1.5);
+    }
+}

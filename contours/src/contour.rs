@@ -1,0 +1,123 @@
+//! The trait every shape implements.
+
+use std::fmt::Debug;
+
+use crate::{Bounds, Closest, Frame, Range, search};
+
+/// The border of a solid in the plane, travelled with the solid on its left.
+///
+/// # For users
+///
+/// Ask for [`closest`](Self::closest) (one point, everything about it) or [`gap`](Self::gap) (one number). A contour
+/// need not close: beyond an end of its range it says nothing, and `interior` tells that the end was nearest.
+///
+/// # For shape authors
+///
+/// Write [`frame`](Self::frame), and [`range`](Self::range) unless it is 0 to 1. Let `frame` continue smoothly a little
+/// beyond the range, since iterations step there. Override [`closest_in`](Self::closest_in) and
+/// [`bounds_in`](Self::bounds_in) where the shape has a closed form; the other methods call these two. Then put the
+/// shape through [`contract::check`](crate::contract::check), which tests these lines under the same numbers:
+///
+/// 1. The frame is finite everywhere on the range.
+/// 2. `dr/dt = speed (cos alpha, sin alpha)`.
+/// 3. `d alpha/dt = turning`, and alpha is continuous: no jumps, by whole turns neither.
+/// 4. `speed >= 0` and `speed + |turning| > 0`.
+/// 5. The closest point's `t` lies in the range, its `frame` is `frame(t)`, and `|gap|` is the distance to it.
+/// 6. No point of the contour is nearer than the closest point.
+/// 7. A small step from the contour against its normal leads outside (gap > 0), along its normal inside (gap < 0).
+/// 8. The gap changes no faster than the point moves: always in absolute value, and in sign too along a way on which
+///    every closest point is interior.
+/// 9. The bounds contain the contour.
+///
+/// ```
+/// use rod_contours::{Contour, Frame, contract};
+///
+/// /// A disc of radius 1 about the origin, three quarters of it, counterclockwise: the solid is inside.
+/// #[derive(Debug)]
+/// struct Disc;
+///
+/// impl Contour for Disc {
+///     fn frame(&self, t: f64) -> Frame {
+///         let turn = 1.5 * std::f64::consts::PI;
+///         let (sin, cos) = (turn * t).sin_cos();
+///         let alpha = turn * t + std::f64::consts::FRAC_PI_2;
+///         Frame { x: cos, y: sin, alpha, speed: turn, turning: turn }
+///     }
+/// }
+///
+/// assert!((Disc.gap(0.0, 3.0) - 2.0).abs() < 1e-14);
+/// contract::check(&Disc, &[0.0, 0.3, 0.77, 1.0])?;
+/// # Ok::<(), String>(())
+/// ```
+pub trait Contour: Send + Sync + Debug {
+    /// Point, tangent angle and their rates at the parameter `t`, continued smoothly a little beyond the range.
+    fn frame(&self, t: f64) -> Frame;
+
+    /// The values of the parameter that belong to the contour; by default 0 to 1.
+    fn range(&self) -> Range {
+        Range::UNIT
+    }
+
+    /// The point of the contour nearest to `(x, y)`; of several, one.
+    fn closest(&self, x: f64, y: f64) -> Closest {
+        self.closest_in(self.range(), x, y)
+    }
+
+    /// The nearest point of the part of the contour in `range`, whose ends count as the ends of the contour.
+    ///
+    /// By default the range is cut into 96 equal cells (an infinite one into 512 unequal ones, see [`Range::at`]) and
+    /// in each cell where the distance turns from falling to rising the minimum is refined to rounding by a safeguarded
+    /// Newton iteration on `(r - p) . tangent = 0`. What this misses are two nearest points within one cell: cut such a
+    /// shape into pieces, or override the method. A point that is not finite gives a gap that is not finite.
+    fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+        search::closest(self, range, x, y)
+    }
+
+    /// Signed distance of the point `(x, y)` from the contour, a length: positive outside the solid.
+    fn gap(&self, x: f64, y: f64) -> f64 {
+        self.closest(x, y).gap
+    }
+
+    /// A box that contains the contour.
+    fn bounds(&self) -> Bounds {
+        self.bounds_in(self.range())
+    }
+
+    /// A box that contains the part of the contour in `range`.
+    ///
+    /// By default the box of 97 samples, widened cell by cell by what the change of `dr/dt` across the cell allows the
+    /// curve to leave its chord, times two; the whole plane for an infinite range.
+    fn bounds_in(&self, range: Range) -> Bounds {
+        search::bounds(self, range)
+    }
+}
+
+impl<C: Contour + ?Sized> Contour for Box<C> {
+    fn frame(&self, t: f64) -> Frame {
+        (**self).frame(t)
+    }
+
+    fn range(&self) -> Range {
+        (**self).range()
+    }
+
+    fn closest(&self, x: f64, y: f64) -> Closest {
+        (**self).closest(x, y)
+    }
+
+    fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+        (**self).closest_in(range, x, y)
+    }
+
+    fn gap(&self, x: f64, y: f64) -> f64 {
+        (**self).gap(x, y)
+    }
+
+    fn bounds(&self) -> Bounds {
+        (**self).bounds()
+    }
+
+    fn bounds_in(&self, range: Range) -> Bounds {
+        (**self).bounds_in(range)
+    }
+}

@@ -1,0 +1,170 @@
+//! What can be wrong with a contour.
+
+/// Why a contour could not be made. Pieces are counted from 1 in the messages and in the fields.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContourError {
+    /// A composite without pieces.
+    #[error("a composite contour needs at least one piece, got none")]
+    Empty,
+
+    /// A number that must be finite is not.
+    #[error("{what} is {value}, expected a finite number")]
+    NotFinite {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
+    /// A range without length, upside down, or with an end that is not a number.
+    #[error("{what} runs from {from} to {to}, expected the start to be less than the end")]
+    EmptyRange {
+        /// Which range.
+        what: &'static str,
+        /// Its start.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+
+    /// A piece of a composite whose own range or ends are unusable.
+    #[error("piece {piece}: parameter runs from {from} to {to}, expected the start to be less than the end")]
+    PieceRange {
+        /// Number of the piece, from 1.
+        piece: usize,
+        /// Start of its range.
+        from: f64,
+        /// End of its range.
+        to: f64,
+    },
+
+    /// A piece goes on for ever, or to a point that is not finite, where it should meet its neighbour.
+    #[error("piece {piece} has no finite end where it should meet piece {neighbour}; trim it, or use `joined`")]
+    NoEnd {
+        /// Number of the piece without an end, from 1.
+        piece: usize,
+        /// Number of the neighbour it should meet, from 1.
+        neighbour: usize,
+    },
+
+    /// Two consecutive pieces do not meet.
+    #[error(
+        "piece {piece} ends at ({x}, {y}), {distance:e} away from the start of piece {next}, expected at most {tolerance:e}"
+    )]
+    Apart {
+        /// Number of the first of the two pieces, from 1.
+        piece: usize,
+        /// Number of the second, from 1.
+        next: usize,
+        /// Where the first one ends.
+        x: f64,
+        /// Where the first one ends.
+        y: f64,
+        /// Distance from there to the start of the second one, a length.
+        distance: f64,
+        /// The largest distance accepted, a length.
+        tolerance: f64,
+    },
+
+    /// Two consecutive pieces do not cross.
+    #[error(
+        "piece {piece} does not enter the solid of piece {next} between t = {from} and t = {to}, expected a crossing from outside to inside"
+    )]
+    NoCrossing {
+        /// Number of the first of the two pieces, from 1.
+        piece: usize,
+        /// Number of the second, from 1.
+        next: usize,
+        /// Where the search began, parameter of the first piece.
+        from: f64,
+        /// Where the search ended, parameter of the first piece.
+        to: f64,
+    },
+
+    /// A piece leaves the composite before it has entered it: its neighbours hide it.
+    #[error(
+        "piece {piece} is met by the piece before it at t = {enters} but enters piece {next} already at t = {leaves}, expected a later crossing; the piece is hidden by its neighbours, leave it out"
+    )]
+    Hidden {
+        /// Number of the hidden piece, from 1.
+        piece: usize,
+        /// Number of the piece after it, from 1.
+        next: usize,
+        /// Where the composite would come onto the piece, parameter of the piece.
+        enters: f64,
+        /// Where the composite would leave the piece, parameter of the piece.
+        leaves: f64,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Composite, Contour, Parabola, Range};
+
+    fn bump(x: f64, y: f64) -> Box<dyn Contour> {
+        Box::new(Parabola::new([x, y], 5.0).unwrap())
+    }
+
+    fn part(from: f64, to: f64) -> Box<dyn Contour> {
+        Box::new(Parabola::new([0.0, 0.0], 1.0).unwrap().between(from, to).unwrap())
+    }
+
+    fn message<T: std::fmt::Debug>(result: Result<T, super::ContourError>) -> String {
+        result.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn numbers() {
+        assert_eq!(
+            message(Parabola::new([0.0, f64::NAN], 1.0)),
+            "y of the parabola's vertex is NaN, expected a finite number"
+        );
+        let shape = Parabola::new([0.0, 0.0], 1.0).unwrap();
+        assert_eq!(
+            message(shape.between(2.0, 1.0)),
+            "x of the trimmed parabola runs from 2 to 1, expected the start to be less than the end"
+        );
+        assert!(shape.between(1.0, 1.0).is_err() && shape.between(f64::NAN, 1.0).is_err());
+    }
+
+    #[test]
+    fn pieces_that_do_not_meet() {
+        assert_eq!(message(Composite::new(Vec::new())), "a composite contour needs at least one piece, got none");
+        assert!(Composite::joined(Vec::new()).is_err());
+        assert_eq!(
+            message(Composite::new(vec![part(0.0, 1.0), part(1.5, 2.0)])),
+            "piece 1 ends at (1, 1), 1.346291201783626e0 away from the start of piece 2, expected at most 4e-9"
+        );
+        assert_eq!(
+            message(Composite::new(vec![part(0.0, 1.0), bump(0.0, 0.0)])),
+            "piece 2 has no finite end where it should meet piece 1; trim it, or use `joined`"
+        );
+    }
+
+    #[test]
+    fn pieces_that_do_not_cross() {
+        let error = message(Composite::joined(vec![bump(0.0, 0.0), bump(0.0, 1.0)]));
+        assert!(error.starts_with("piece 1 does not enter the solid of piece 2"), "{error}");
+        let error = message(Composite::joined(vec![bump(0.0, 0.0), bump(0.1, 1.0), bump(0.2, 0.0)]));
+        assert!(error.starts_with("piece 2 is met by the piece before it at t = "), "{error}");
+        assert!(error.contains("enters piece 3 already"), "{error}");
+    }
+
+    #[test]
+    fn shapes_without_a_range() {
+        #[derive(Debug)]
+        struct Nothing;
+        impl Contour for Nothing {
+            fn frame(&self, t: f64) -> crate::Frame {
+                crate::Frame { x: t, y: 0.0, alpha: 0.0, speed: 1.0, turning: 0.0 }
+            }
+            fn range(&self) -> Range {
+                Range { from: 1.0, to: 1.0 }
+            }
+        }
+        let expected = "piece 1: parameter runs from 1 to 1, expected the start to be less than the end";
+        assert_eq!(message(Composite::new(vec![Box::new(Nothing)])), expected);
+        assert_eq!(message(Composite::joined(vec![Box::new(Nothing), bump(0.0, 0.0)])), expected);
+    }
+}

@@ -1,0 +1,96 @@
+//! The point where two pieces meet at an angle.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::{Closest, Frame, Range};
+
+/// A vertex: the point stands still while alpha runs from one tangent to the other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Joint {
+    /// The frame at the start, with speed 0 and turning +1 (convex corner) or -1 (notch).
+    start: Frame,
+    /// Its part of the composite's parameter.
+    range: Range,
+}
+
+impl Joint {
+    /// The joint that begins at parameter `from` in the point and direction of `before` and turns by `turn`, rad.
+    pub fn new(before: Frame, from: f64, turn: f64) -> Self {
+        Self {
+            start: Frame { speed: 0.0, turning: turn.signum(), ..before },
+            range: Range { from, to: from + turn.abs() },
+        }
+    }
+
+    pub fn range(&self) -> Range {
+        self.range
+    }
+
+    pub fn frame(&self, t: f64) -> Frame {
+        Frame { alpha: self.start.alpha + self.start.turning * (t - self.range.from), ..self.start }
+    }
+
+    /// The vertex as seen from `(x, y)`, with the tangent, of those in `range`, whose normal points at `(x, y)` best.
+    pub fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+        let convex = self.start.turning > 0.0;
+        let (dx, dy) = (x - self.start.x, y - self.start.y);
+        let middle = 0.5 * (range.from + range.to);
+        // Seen from a corner the point lies against the normal, seen from a notch along it.
+        let alpha = if convex { dx.atan2(-dy) } else { (-dx).atan2(dy) };
+        let distance = dx.hypot(dy);
+        let off = if distance > 0.0 { wrapped(alpha - self.frame(middle).alpha) } else { 0.0 };
+        let t = middle + self.start.turning * off;
+        // The solid at a corner is what lies left of both tangents, at a notch what lies left of either.
+        let left = |t: f64| self.frame(t).local(x, y).1 < 0.0;
+        let (first, second) = (left(self.range.from), left(self.range.to));
+        let inside = if convex { first && second } else { first || second };
+        let on = range.clamp(t);
+        Closest {
+            t: on,
+            gap: if inside { -distance } else { distance },
+            frame: self.frame(on),
+            interior: range.contains(t),
+        }
+    }
+}
+
+/// The same angle between -pi and pi, rad.
+pub(crate) fn wrapped(angle: f64) -> f64 {
+    if angle.abs() <= PI { angle } else { angle - TAU * (angle / TAU).round() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vertex(turn: f64) -> Joint {
+        let before = Frame { x: 1.0, y: 2.0, alpha: -0.5 * turn, speed: 3.0, turning: 4.0 };
+        Joint::new(before, 10.0, turn)
+    }
+
+    #[test]
+    fn below_a_corner_the_normal_points_up() {
+        let corner = vertex(1.0);
+        let closest = corner.closest_in(corner.range(), 1.0, 1.5);
+        assert!((closest.t - 10.5).abs() < 1e-15 && closest.frame.alpha.abs() < 1e-15);
+        assert_eq!((closest.gap, closest.interior), (0.5, true));
+        let aside = corner.closest_in(corner.range(), 2.0, 2.0);
+        assert_eq!((aside.gap, aside.interior, aside.t), (1.0, false, 11.0));
+        assert_eq!(corner.closest_in(corner.range(), 1.0, 2.5).gap, -0.5);
+    }
+
+    #[test]
+    fn above_a_notch_lies_the_solid() {
+        let notch = vertex(-1.0);
+        let closest = notch.closest_in(notch.range(), 1.0, 2.5);
+        assert!((closest.t - 10.5).abs() < 1e-15);
+        assert_eq!((closest.gap, closest.interior), (-0.5, true));
+        assert_eq!(notch.closest_in(notch.range(), 1.0, 1.5).gap, 0.5);
+    }
+
+    #[test]
+    fn the_vertex_itself_is_on_the_contour() {
+        let closest = vertex(1.0).closest_in(vertex(1.0).range(), 1.0, 2.0);
+        assert_eq!((closest.gap, closest.interior, closest.t), (0.0, true, 10.5));
+    }
+}

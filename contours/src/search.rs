@@ -1,0 +1,108 @@
+//! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
+
+use crate::{Bounds, Closest, Contour, Frame, Range};
+
+/// Cells of a finite range: 96 cells of a full circle turn by less than 4 degrees each.
+const CELLS: usize = 96;
+
+/// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
+const CELLS_INFINITE: usize = 512;
+
+/// Largest number of steps of one refinement; bisection alone reaches rounding in about 60.
+const STEPS: usize = 80;
+
+/// A sample of the contour, seen from the point whose closest point is wanted.
+#[derive(Clone, Copy)]
+struct Probe {
+    t: f64,
+    frame: Frame,
+    distance: f64,
+    /// (r - p) . tangent: the distance falls with t where this is negative.
+    slope: f64,
+    /// d slope / dt.
+    rate: f64,
+}
+
+impl Probe {
+    fn new<C: Contour + ?Sized>(shape: &C, t: f64, x: f64, y: f64) -> Self {
+        let frame = shape.frame(t);
+        let (ahead, outside) = frame.local(x, y);
+        Self { t, frame, distance: ahead.hypot(outside), slope: -ahead, rate: frame.speed + frame.turning * outside }
+    }
+}
+
+/// The closest point, see [`Contour::closest_in`].
+pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f64) -> Closest {
+    let cells = if range.is_finite() { CELLS } else { CELLS_INFINITE };
+    let first = Probe::new(shape, range.at(0.0), x, y);
+    // An end is a candidate where the distance grows away from it. The first sample stands in when there is no candidate
+    // at all, which only numbers that are not finite and infinite ranges can bring about.
+    let (mut best, mut interior) = (first, false);
+    let mut left = first;
+    for cell in 1..=cells {
+        let right = Probe::new(shape, range.at(cell as f64 / cells as f64), x, y);
+        if left.slope < 0.0 && right.slope >= 0.0 {
+            let foot = refine(shape, left, right, x, y);
+            if foot.distance < best.distance {
+                (best, interior) = (foot, foot.t < range.to);
+            }
+        }
+        left = right;
+    }
+    if left.distance < best.distance {
+        (best, interior) = (left, false);
+    }
+    Closest::new(best.t, best.frame, interior, x, y)
+}
+
+/// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
+fn refine<C: Contour + ?Sized>(shape: &C, low: Probe, high: Probe, x: f64, y: f64) -> Probe {
+    let (mut low, mut high) = (low, high);
+    let resolution = f64::EPSILON * low.t.abs().max(high.t.abs());
+    let mut probe = if -low.slope < high.slope { low } else { high };
+    let mut step_before = high.t - low.t;
+    for _ in 0..STEPS {
+        let mut step = -probe.slope / probe.rate;
+        let mut t = probe.t + step;
+        // Newton only while it stays inside and converges faster than halving would.
+        if !(t > low.t && t < high.t && step.abs() <= 0.5 * step_before.abs()) {
+            t = 0.5 * (low.t + high.t);
+            step = t - probe.t;
+        }
+        if t == probe.t {
+            break;
+        }
+        probe = Probe::new(shape, t, x, y);
+        if probe.slope < 0.0 {
+            low = probe;
+        } else {
+            high = probe;
+        }
+        if probe.slope == 0.0 || step.abs() <= resolution || high.t - low.t <= resolution {
+            break;
+        }
+        step_before = step;
+    }
+    probe
+}
+
+/// The bounds, see [`Contour::bounds_in`].
+pub(crate) fn bounds<C: Contour + ?Sized>(shape: &C, range: Range) -> Bounds {
+    if !range.is_finite() {
+        return Bounds::ALL;
+    }
+    let step = range.length() / CELLS as f64;
+    let mut left = shape.frame(range.from);
+    let mut bounds = Bounds::EMPTY;
+    for cell in 1..=CELLS {
+        let right = shape.frame(range.at(cell as f64 / CELLS as f64));
+        let (sin, cos) = left.alpha.sin_cos();
+        let (sin_right, cos_right) = right.alpha.sin_cos();
+        let change = (right.speed * cos_right - left.speed * cos).hypot(right.speed * sin_right - left.speed * sin);
+        // An even change of dr/dt takes the curve |change| step / 8 off its chord, a sudden one (a kink) step / 4.
+        let cell_box = Bounds::EMPTY.with(left.x, left.y).with(right.x, right.y).grown(0.5 * change * step);
+        bounds = bounds.union(cell_box);
+        left = right;
+    }
+    bounds
+}

@@ -1,0 +1,45 @@
+//! The parts of a composite's parameter: pieces and the joints between them.
+
+use crate::Range;
+
+/// What a stretch of a composite is. Pieces are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StretchKind {
+    /// The piece with this index.
+    Piece(usize),
+    /// A convex corner: the point stands still and alpha grows by 1 per unit of the parameter.
+    Corner {
+        /// Index of the piece before the corner.
+        before: usize,
+    },
+    /// A concave corner: the point stands still and alpha falls by 1 per unit of the parameter.
+    Notch {
+        /// Index of the piece before the notch.
+        before: usize,
+    },
+}
+
+/// A part of a composite's parameter on which the contour is smooth.
+///
+/// ```
+/// use rod_contours::{Composite, Parabola, StretchKind};
+///
+/// let line = Composite::single(Parabola::new([0.0, 0.0], 0.0)?);
+/// assert_eq!(line.stretches().len(), 1);
+/// assert_eq!(line.stretches()[0].kind, StretchKind::Piece(0));
+/// # Ok::<(), rod_contours::ContourError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Piece, corner or notch.
+    pub kind: StretchKind,
+    /// Its part of the composite's parameter.
+    pub range: Range,
+}
+
+impl Stretch {
+    /// Whether the stretch is a corner or a notch.
+    pub fn is_joint(&self) -> bool {
+        !matches!(self.kind, StretchKind::Piece(_))
+    }
+}

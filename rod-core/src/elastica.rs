@@ -1,0 +1,277 @@
+//! The shape of a rod under any number of point forces.
+
+use crate::error::{RodError, finite};
+use crate::loads::{clamp_cut, forces_ahead, march};
+use crate::pose::{Pose, Reactions};
+use crate::propagator::{ClosedForm, Cut};
+use crate::segment::{Section, advance, axial};
+use crate::units::Units;
+use std::f64::consts::{PI, TAU};
+
+/// A point force on the rod: `force` pushes along (sin alpha, -cos alpha), away from a solid whose tangent angle is alpha.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Arc length where it acts.
+    pub s: f64,
+    /// Magnitude, positive when it pushes.
+    pub force: f64,
+    /// Tangent angle of the contact, radians.
+    pub alpha: f64,
+}
+
+/// The elastica of a clamped uniform rod under n point forces, by the closed form, segment by segment.
+///
+/// All lengths, forces and moments that go in and come out share the [`Units`] given (SI for `rod.units()`, or
+/// dimensionless for [`Units::ONE`]). Accuracy: that of [`advance`](crate::advance), segment by
+/// segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elastica {
+    units: Units,
+    /// Dimensionless: arc length and section where each segment starts, and the force (A, B) along it. The last one is free.
+    pub(crate) segments: Vec<Segment>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Segment {
+    pub s: f64,
+    pub start: Section,
+    pub a: f64,
+    pub b: f64,
+}
+
+impl Elastica {
+    /// The elastica that leaves the clamp `pose` with the curvature that the clamp's moment m0z asks for
+    /// (kappa(0) = -m0z / E I) and carries `loads`, ordered from clamp to tip: an initial-value problem, so
+    /// that the free end is without moment only if m0z belongs to the loads.
+    ///
+    /// # Errors
+    /// [`RodError::LoadOrder`] where the loads are not ordered within the rod, [`RodError::NotFinite`].
+    pub fn from_clamp(units: Units, pose: Pose, m0z: f64, loads: &[Load]) -> Result<Self, RodError> {
+        let forces = forces_ahead(units, loads)?;
+        finite("m0z", m0z)?;
+        let clamp = clamp_cut(units, pose, -m0z / units.moment);
+        clamp.check()?;
+        let mut segments = Vec::with_capacity(loads.len() + 1);
+        march(&ClosedForm, clamp, &forces, |s, Cut { x, y, phi, moment }, a, b| {
+            segments.push(Segment { s, start: Section { x, y, phi, kappa: moment }, a, b });
+        })?;
+        Ok(Self { units, segments })
+    }
+
+    /// Length of the rod.
+    pub fn length(&self) -> f64 {
+        self.units.length
+    }
+
+    fn section(&self, s: f64) -> Section {
+        let s = s / self.units.length;
+        let i = self.segments.partition_point(|segment| segment.s <= s).saturating_sub(1);
+        let segment = &self.segments[i];
+        advance(&segment.start, segment.a, segment.b, s - segment.s)
+    }
+
+    /// Position, slope angle and curvature at arc length `s` (0 at the clamp).
+    pub fn at(&self, s: f64) -> Section {
+        let d = self.section(s);
+        Section {
+            x: d.x * self.units.length,
+            y: d.y * self.units.length,
+            phi: d.phi,
+            kappa: d.kappa * self.units.curvature,
+        }
+    }
+
+    /// Bending moment E I kappa at arc length `s`.
+    pub fn moment(&self, s: f64) -> f64 {
+        self.section(s).kappa * self.units.moment
+    }
+
+    /// `n` >= 2 sections at equal distances from clamp to tip.
+    pub fn sample(&self, n: usize) -> impl Iterator<Item = Section> + '_ {
+        let last = n.max(2) - 1;
+        (0..=last).map(move |i| self.at(self.units.length * i as f64 / last as f64))
+    }
+
+    /// What the clamp feels.
+    pub fn reactions(&self) -> Reactions {
+        let first = &self.segments[0];
+        Reactions {
+            f0x: -first.b * self.units.force,
+            f0y: first.a * self.units.force,
+            m0z: -first.start.kappa * self.units.moment,
+        }
+    }
+
+    /// Every segment but the free end, with the section and arc length where it ends: the start of the next.
+    fn loaded(&self) -> impl Iterator<Item = (&Segment, &Segment)> {
+        self.segments.iter().zip(&self.segments[1..])
+    }
+
+    /// Bending energy 1/2 int E I kappa^2 ds, in J for SI units. kappa^2 / 2 = A sin phi - B cos phi + constant along a segment,
+    /// and the integrals of sin phi and cos phi are the differences of position: no segment is evaluated again. Exact but
+    /// for rounding, about 1e-15 of the sum of |A|, |B| and kappa^2.
+    pub fn bending_energy(&self) -> f64 {
+        let loaded: f64 = self
+            .loaded()
+            .map(|(&Segment { s, start, a, b }, next)| {
+                let (sin, cos) = start.phi.sin_cos();
+                let constant = 0.5 * start.kappa * start.kappa - a * sin + b * cos;
+                a * (next.start.y - start.y) - b * (next.start.x - start.x) + constant * (next.s - s)
+            })
+            .sum();
+        // the free end is a circle, straight where m0z belongs to the loads
+        let free = self.free_end();
+        (loaded + 0.5 * free.start.kappa * free.start.kappa * (1.0 - free.s)) * self.units.energy
+    }
+
+    /// Largest |kappa| along the rod, in 1/m for SI units: what bends a wire past its yield stress
+    /// ([`Rod::bending_stress`](crate::Rod::bending_stress)). Exact but for rounding, and no segment is evaluated again.
+    ///
+    /// It is at the end of a segment or where the rod runs along the stable direction of the pendulum, phi = atan2(B, A) + pi / 2:
+    /// there kappa^2 / 4 = M.
+    pub fn largest_curvature(&self) -> f64 {
+        let inside = self.loaded().map(|(segment, next)| segment.largest_curvature_inside(next).unwrap_or(0.0));
+        let ends = self.segments.iter().map(|segment| segment.start.kappa.abs());
+        ends.chain(inside).fold(0.0, f64::max) * self.units.curvature
+    }
+
+    fn free_end(&self) -> &Segment {
+        // there always is one: it is pushed after the loads
+        &self.segments[self.segments.len() - 1]
+    }
+}
+
+impl Segment {
+    /// |kappa| where the rod passes the stable direction between the start of this segment and of the `next`, if it does.
+    ///
+    /// A pendulum that does not go over the top passes it once every half period: surely in that time, and in less exactly
+    /// if it ends on the other side. One that goes over the top turns one way only, so that the ends tell.
+    fn largest_curvature_inside(&self, next: &Self) -> Option<f64> {
+        let Self { s, start, a, b } = *self;
+        let (sin, cos) = start.phi.sin_cos();
+        let (c, d) = (a * sin - b * cos, a * cos + b * sin);
+        let p = c.hypot(d);
+        if p == 0.0 {
+            return None;
+        }
+        let excess = 0.25 * start.kappa * start.kappa - axial(c, d, p);
+        // turning angles from the stable direction to both ends: is there a multiple of 2 pi between them?
+        let from = d.atan2(-c) - PI;
+        let to = from + next.start.phi - start.phi;
+        let passes = (from.min(to) / TAU).ceil() <= (from.max(to) / TAU).floor();
+        let length = next.s - s;
+        let swings_back = length * p.sqrt() >= PI && excess < 0.0 && length >= PI / agm(p.sqrt(), (-excess).sqrt());
+        (passes || swings_back).then(|| 2.0 * (p + excess).max(0.0).sqrt())
+    }
+}
+
+/// Arithmetic-geometric mean: half the period of the pendulum is pi / agm(sqrt P, sqrt (P - M)).
+fn agm(mut a: f64, mut g: f64) -> f64 {
+    // converges quadratically: from any ratio above 1e-8 this many steps exhaust the digits
+    for _ in 0..8 {
+        (a, g) = (0.5 * (a + g), (a * g).sqrt());
+    }
+    a
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rod::Rod;
+    use proptest::prelude::*;
+
+    fn scene() -> (Units, Pose, Vec<Load>) {
+        let units = Rod::new(0.1, 6.3e-4).unwrap().units();
+        let load = |s: f64, force: f64, alpha| Load { s: s * units.length, force: force * units.force, alpha };
+        (
+            units,
+            Pose { x: 0.01, y: 0.02, phi: 1.4 },
+            vec![load(0.3, 3.0, 0.2), load(0.55, -1.0, -1.0), load(0.9, 1.5, 0.7)],
+        )
+    }
+
+    #[test]
+    fn moments_balance_along_the_rod() {
+        let (units, pose, loads) = scene();
+        let shape = Elastica::from_clamp(units, pose, 1e-3, &loads).unwrap();
+        assert_eq!(shape.length(), 0.1);
+        assert!((shape.at(0.0).x - pose.x).abs() < 1e-17 && (shape.moment(0.0) + 1e-3).abs() < 1e-18);
+        let reactions = shape.reactions();
+        let (fx, fy) =
+            loads.iter().fold((0.0, 0.0), |(x, y), l| (x + l.force * l.alpha.sin(), y - l.force * l.alpha.cos()));
+        assert!((reactions.f0x + fx).abs() < 1e-15 && (reactions.f0y + fy).abs() < 1e-15);
+        // beyond the first load, the moment at s is that of the clamp and of the load before it
+        let (at, first) = (shape.at(0.05), shape.at(0.03));
+        let moment = 1e-3 - reactions.f0y * (at.x - pose.x)
+            + reactions.f0x * (at.y - pose.y)
+            + loads[0].force * (loads[0].alpha.cos() * (at.x - first.x) + loads[0].alpha.sin() * (at.y - first.y));
+        assert!((shape.moment(0.05) + moment).abs() < 1e-17, "{} {moment}", shape.moment(0.05));
+        assert_eq!(shape.sample(5).count(), 5);
+    }
+
+    #[test]
+    fn refuses_loads_out_of_order() {
+        let (units, pose, mut loads) = scene();
+        loads.swap(0, 1);
+        let error = Elastica::from_clamp(units, pose, 0.0, &loads).unwrap_err();
+        assert!(matches!(error, RodError::LoadOrder { index: 1, .. }), "{error}");
+        let nan = Elastica::from_clamp(units, pose, f64::NAN, &[]);
+        assert!(matches!(nan, Err(RodError::NotFinite { what: "m0z", .. })));
+    }
+
+    /// Largest |kappa| and energy by sampling: maximum of parabolas through, and Simpson's rule over, `n` intervals.
+    fn sampled(shape: &Elastica, n: usize) -> (f64, f64) {
+        let (mut most, mut energy): (f64, f64) = (0.0, 0.0);
+        let ends = shape.segments.iter().skip(1).map(|next| next.s).chain([1.0]);
+        for (segment, end) in shape.segments.iter().zip(ends) {
+            let h = (end - segment.s) / n as f64;
+            let kappa = |i: usize| advance(&segment.start, segment.a, segment.b, h * i as f64).kappa;
+            for i in (0..n).step_by(2) {
+                let (u, v, w) = (kappa(i), kappa(i + 1), kappa(i + 2));
+                most = most.max(u.abs()).max(v.abs()).max(w.abs());
+                energy += h / 6.0 * (u * u + 4.0 * v * v + w * w);
+            }
+        }
+        (most, energy)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+        #[test]
+        fn largest_curvature_and_energy_are_those_of_samples(
+            loads in prop::collection::vec((0.0..1.0, -30.0..30.0, -3.2..3.2), 0..4),
+            phi in -3.2..3.2, m0z in -12.0..12.0, strength in prop_oneof![Just(1.0), Just(10.0), Just(0.01)],
+        ) {
+            let mut loads: Vec<Load> =
+                loads.into_iter().map(|(s, force, alpha)| Load { s, force: strength * force, alpha }).collect();
+            loads.sort_by(|u, v| u.s.total_cmp(&v.s));
+            let shape = Elastica::from_clamp(Units::ONE, Pose { x: 0.1, y: 0.2, phi }, m0z, &loads).unwrap();
+            let (most, energy) = sampled(&shape, 2000);
+            let exact = shape.largest_curvature();
+            // the maximum between two samples 1/2000 apart is missed by at most |kappa''| h^2 / 8
+            let scale = 1.0 + strength * 90.0 * (1.0 + most);
+            prop_assert!(exact >= most - 1e-12 * scale && exact - most < 1e-7 * scale, "{exact} {most}");
+            prop_assert!((shape.bending_energy() - energy).abs() < 1e-9 * (1.0 + energy) * scale, "{} {energy}", shape.bending_energy());
+        }
+    }
+
+    #[test]
+    fn largest_curvature_at_turning_points_and_over_the_top() {
+        // a pendulum swung for many periods; one that ends where it began; circles; nothing
+        for (kappa, force, s) in [
+            (0.1, 900.0, 1.0),
+            (0.0, 400.0, 0.9),
+            (41.0, 400.0, 1.0),
+            (39.99, 400.0, 1.0),
+            (3.0, 0.0, 0.5),
+            (0.0, 0.0, 0.0),
+        ] {
+            for phi in [0.1, 1.6, -3.0] {
+                let loads = [Load { s, force, alpha: 0.0 }];
+                let shape = Elastica::from_clamp(Units::ONE, Pose { x: 0.0, y: 0.0, phi }, -kappa, &loads).unwrap();
+                let (most, exact) = (sampled(&shape, 20_000).0, shape.largest_curvature());
+                assert!(exact >= most - 1e-11 && exact - most < 1e-3, "{kappa} {force} {phi}: {exact} {most}");
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Inverse of a small dense matrix, on the stack up to the dimension of eight contacts.
+
+use nalgebra::{DMatrix, SMatrix};
+
+/// Writes the inverse of the column-major `dimension` x `dimension` matrix `a` to `inverse`; false where it has none.
+///
+/// An explicit inverse, not a factorisation: at these sizes it costs about as much, several right-hand sides follow, and it
+/// gives the condition number exactly. Newton's method corrects its rounding.
+pub(crate) fn invert(dimension: usize, a: &[f64], inverse: &mut [f64]) -> bool {
+    macro_rules! on_the_stack {
+        ($($n:literal)*) => {
+            match dimension {
+                0 => true,
+                $($n => {
+                    let found = SMatrix::<f64, $n, $n>::from_column_slice(a).try_inverse();
+                    found.is_some_and(|m| { inverse.copy_from_slice(m.as_slice()); true })
+                })*
+                n => {
+                    let found = DMatrix::from_column_slice(n, n, a).try_inverse();
+                    found.is_some_and(|m| { inverse.copy_from_slice(m.as_slice()); true })
+                }
+            }
+        };
+    }
+    // 3 n of a boundary-value problem and 3 n + 1 of its continuation along a path, n <= 8
+    on_the_stack!(1 2 3 4 6 7 9 10 12 13 15 16 18 19 21 22 24 25) && inverse.iter().all(|v| v.is_finite())
+}
+
+/// Largest column sum of the column-major square matrix `a`.
+pub(crate) fn norm_1(dimension: usize, a: &[f64]) -> f64 {
+    a.chunks_exact(dimension.max(1)).map(|column| column.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max)
+}
+
+/// `out` = `scale` * `a` `x` for a column-major square matrix.
+pub(crate) fn multiply(a: &[f64], x: &[f64], scale: f64, out: &mut [f64]) {
+    out.fill(0.0);
+    for (column, &xj) in a.chunks_exact(x.len().max(1)).zip(x) {
+        for (o, v) in out.iter_mut().zip(column) {
+            *o += scale * xj * v;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inverts_on_the_stack_and_beyond() {
+        for n in [1, 3, 4, 7, 24, 25, 26, 40] {
+            let a: Vec<f64> = (0..n * n)
+                .map(|k| if k % (n + 1) == 0 { 3.0 + k as f64 } else { ((7 * k) % 11) as f64 / 11.0 })
+                .collect();
+            let mut inverse = vec![0.0; n * n];
+            assert!(invert(n, &a, &mut inverse));
+            let x: Vec<f64> = (0..n).map(|i| i as f64 - 1.5).collect();
+            let (mut ax, mut back) = (vec![0.0; n], vec![0.0; n]);
+            multiply(&a, &x, 1.0, &mut ax);
+            multiply(&inverse, &ax, 1.0, &mut back);
+            assert!(x.iter().zip(&back).all(|(u, v)| (u - v).abs() < 1e-12), "{n}");
+        }
+        assert!(!invert(2, &[1.0, 2.0, 2.0, 4.0], &mut [0.0; 4]));
+    }
+}

@@ -1,0 +1,322 @@
+//! The multi-point boundary-value problem: a clamped rod held by n supports, for any n.
+//!
+//! Support j touches the rod at arc length s_j with the force f_j across its tangent angle alpha_j. Each is tangential
+//! (the rod lies along it) or, the last one only, at the tip. Unknown are, support by support from the clamp to the tip,
+//!
+//! ```text
+//! t_j  parameter of the support's curve,   f_j  force,   s_j  arc length   (at the tip: the slope angle phi(1) instead)
+//! ```
+//!
+//! Segment j runs backwards from support j to support j - 1 (or the clamp). Its start is known from the unknowns alone: the
+//! position and angle of the support, the force (A, B) as the sum over all supports ahead, and the curvature by moment
+//! balance, kappa_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
+//! kappa(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3 equations
+//! a support (Merker et al. 2021, eq. 14 to 17 are n = 1 and 2). The segments are independent given the unknowns: no error
+//! grows from one to the next.
+
+use crate::newton::System;
+use crate::pose::Pose;
+use crate::segment::{Section, advance, advance_with_sensitivities};
+use smallvec::SmallVec;
+
+/// A point of a support's curve and its rates by the parameter t: dr/dt = speed (cos alpha, sin alpha),
+/// d alpha/dt = turning. The solid is to the left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Position.
+    pub x: f64,
+    /// Position.
+    pub y: f64,
+    /// Tangent angle, radians.
+    pub alpha: f64,
+    /// |dr/dt|
+    pub speed: f64,
+    /// d alpha / dt
+    pub turning: f64,
+}
+
+/// How a support holds the rod.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hold {
+    /// Tangentially: slope angle = alpha + `offset`, a whole multiple of pi (odd where the rod runs against the sense of the
+    /// curve, 2 pi and more where it has coiled).
+    Tangent {
+        /// Slope angle minus tangent angle, radians.
+        offset: f64,
+    },
+    /// At the tip, s = 1. The last support only.
+    Tip,
+}
+
+/// The supports of a rod, from the clamp to the tip.
+pub trait Supports {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// How number `j` holds the rod.
+    fn hold(&self, j: usize) -> Hold;
+    /// Number `j` at parameter `t`. Smooth also a little beyond where it ends.
+    fn support(&self, j: usize, t: f64) -> Support;
+}
+
+/// The boundary-value problem of a clamped rod on given supports, dimensionless.
+///
+/// ```
+/// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, solve};
+/// // the tip on a frictionless wall x = 0.5 that is travelled upwards, the solid to its left: it pushes the tip to +x
+/// struct Wall;
+/// impl Supports for Wall {
+///     fn count(&self) -> usize { 1 }
+///     fn hold(&self, _: usize) -> Hold { Hold::Tip }
+///     fn support(&self, _: usize, t: f64) -> Support {
+///         Support { x: 0.5, y: t, alpha: std::f64::consts::FRAC_PI_2, speed: 1.0, turning: 0.0 }
+///     }
+/// }
+/// let problem = MultiPoint { clamp: Pose { x: 0.45, y: 0.0, phi: std::f64::consts::FRAC_PI_2 }, supports: &Wall };
+/// let mut u = [1.0, 0.1, 1.5]; // t, f, phi(1)
+/// let report = solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
+/// assert!(report.status.is_solved() && report.residual < 1e-14);
+/// assert!((u[1] - 3.0 * 0.05).abs() < 1e-3); // a cantilever's 3 EI w / L^3
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct MultiPoint<'a, S: ?Sized> {
+    /// The clamp, dimensionless.
+    pub clamp: Pose,
+    /// What holds the rod.
+    pub supports: &'a S,
+}
+
+/// One support and what is ahead of it.
+#[derive(Clone, Copy)]
+struct Node {
+    at: Support,
+    sin: f64,
+    cos: f64,
+    force: f64,
+    /// Slope angle of the rod there.
+    phi: f64,
+    /// Arc length.
+    s: f64,
+    /// Force on the segment before: sums over this support and all ahead.
+    a: f64,
+    b: f64,
+    kappa: f64,
+}
+
+impl Node {
+    fn section(&self) -> Section {
+        Section { x: self.at.x, y: self.at.y, phi: self.phi, kappa: self.kappa }
+    }
+}
+
+type Nodes = SmallVec<[Node; 8]>;
+
+impl<S: Supports + ?Sized> MultiPoint<'_, S> {
+    fn nodes(&self, u: &[f64]) -> Nodes {
+        let n = self.supports.count();
+        let mut nodes: Nodes = (0..n)
+            .map(|j| {
+                let (t, force, third) = (u[3 * j], u[3 * j + 1], u[3 * j + 2]);
+                let at = self.supports.support(j, t);
+                let (sin, cos) = at.alpha.sin_cos();
+                let (phi, s) = match self.supports.hold(j) {
+                    Hold::Tangent { offset } => (at.alpha + offset, third),
+                    Hold::Tip => (third, 1.0),
+                };
+                Node { at, sin, cos, force, phi, s, a: force * cos, b: force * sin, kappa: 0.0 }
+            })
+            .collect();
+        for j in (1..n).rev() {
+            let ahead = nodes[j];
+            let node = &mut nodes[j - 1];
+            node.kappa = ahead.kappa + ahead.a * (node.at.x - ahead.at.x) + ahead.b * (node.at.y - ahead.at.y);
+            node.a += ahead.a;
+            node.b += ahead.b;
+        }
+        nodes
+    }
+
+    /// Writes the residual (3 a support) and, where asked for, the Jacobian into the leading 3n x 3n block of a column-major
+    /// matrix with `stride` rows.
+    pub fn evaluate_into(&self, u: &[f64], residual: &mut [f64], jacobian: Option<(&mut [f64], usize)>) {
+        let nodes = self.nodes(u);
+        match jacobian {
+            None => {
+                for j in 0..nodes.len() {
+                    let (node, s) = (&nodes[j], self.s_before(&nodes, j));
+                    let end = advance(&node.section(), node.a, node.b, s - node.s);
+                    self.residual_of(&nodes, j, &end, residual);
+                }
+            }
+            Some((matrix, stride)) => {
+                for j in 0..nodes.len() {
+                    self.segment(&nodes, j, residual, matrix, stride);
+                }
+            }
+        }
+    }
+
+    fn s_before(&self, nodes: &Nodes, j: usize) -> f64 {
+        if j == 0 { 0.0 } else { nodes[j - 1].s }
+    }
+
+    fn residual_of(&self, nodes: &Nodes, j: usize, end: &Section, residual: &mut [f64]) {
+        let (x, y, phi) = match j {
+            0 => (self.clamp.x, self.clamp.y, self.clamp.phi),
+            _ => (nodes[j - 1].at.x, nodes[j - 1].at.y, nodes[j - 1].phi),
+        };
+        residual[3 * j..3 * j + 3].copy_from_slice(&[end.x - x, end.y - y, end.phi - phi]);
+    }
+
+    /// The three equations of segment j with their derivatives by all unknowns.
+    fn segment(&self, nodes: &Nodes, j: usize, residual: &mut [f64], matrix: &mut [f64], stride: usize) {
+        let node = &nodes[j];
+        let (end, d) = advance_with_sensitivities(&node.section(), node.a, node.b, self.s_before(nodes, j) - node.s);
+        self.residual_of(nodes, j, &end, residual);
+        let mut put = |column: usize, v: [f64; 3]| matrix[column * stride + 3 * j..][..3].copy_from_slice(&v);
+        let three = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
+
+        // Supports behind: only the one where the segment ends, and its arc length.
+        for k in 0..j {
+            for column in 3 * k..3 * k + 3 {
+                put(column, [0.0; 3]);
+            }
+        }
+        if j > 0 {
+            let Node { at, sin, cos, .. } = &nodes[j - 1];
+            put(3 * (j - 1), [-at.speed * cos, -at.speed * sin, -at.turning]);
+            put(3 * (j - 1) + 2, [d.by_s[0], d.by_s[1], d.by_s[2]]);
+        }
+
+        // This support: its point moves the start, its angle turns start and force.
+        let Support { speed, turning, .. } = node.at;
+        let (sin, cos, f) = (node.sin, node.cos, node.force);
+        let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
+        let kappa_by_t = speed * (ahead_a * cos + ahead_b * sin);
+        let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
+        let phi_by_t = if tangent { turning } else { 0.0 };
+        let shift = [speed * cos, speed * sin, 0.0];
+        let force_by_t = |i: usize| turning * f * (cos * d.by_b[i] - sin * d.by_a[i]);
+        put(3 * j, three(&|i| shift[i] + phi_by_t * d.by_phi[i] + kappa_by_t * d.by_kappa[i] + force_by_t(i)));
+        put(3 * j + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i]));
+        put(3 * j + 2, three(&|i| if tangent { -d.by_s[i] } else { d.by_phi[i] }));
+
+        // Supports ahead: through the force and the moment they leave here.
+        for (k, other) in nodes.iter().enumerate().skip(j + 1) {
+            let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
+            let (sin, cos, f) = (other.sin, other.cos, other.force);
+            let Support { speed, turning, .. } = other.at;
+            let kappa_by_f = -(dx * cos + dy * sin);
+            let kappa_by_t = -f * (speed + turning * (dy * cos - dx * sin));
+            let force_by_t = |i: usize| turning * f * (cos * d.by_b[i] - sin * d.by_a[i]);
+            put(3 * k, three(&|i| kappa_by_t * d.by_kappa[i] + force_by_t(i)));
+            put(3 * k + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i] + kappa_by_f * d.by_kappa[i]));
+            put(3 * k + 2, [0.0; 3]);
+        }
+    }
+
+    /// Curvature at the clamp: -m0z, by moment balance over all supports.
+    pub fn clamp_curvature(&self, u: &[f64]) -> f64 {
+        let nodes = self.nodes(u);
+        nodes.first().map_or(0.0, |first| {
+            first.kappa + first.a * (self.clamp.x - first.at.x) + first.b * (self.clamp.y - first.at.y)
+        })
+    }
+
+    /// The segments from the clamp to the last support: for each the section where it starts (at its end nearer to the
+    /// clamp), its arc length there, and its force (A, B). The rod is straight and free beyond the last support, whose
+    /// section ends the list with zero force.
+    pub fn segments(&self, u: &[f64], mut visit: impl FnMut(f64, Section, f64, f64)) {
+        let nodes = self.nodes(u);
+        let kappa =
+            nodes.first().map_or(0.0, |n| n.kappa + n.a * (self.clamp.x - n.at.x) + n.b * (self.clamp.y - n.at.y));
+        let (mut s, mut start) = (0.0, Section { x: self.clamp.x, y: self.clamp.y, phi: self.clamp.phi, kappa });
+        for node in &nodes {
+            visit(s, start, node.a, node.b);
+            (s, start) = (node.s, node.section());
+        }
+        visit(s, start, 0.0, 0.0);
+    }
+}
+
+impl<S: Supports + ?Sized> System for MultiPoint<'_, S> {
+    fn dimension(&self) -> usize {
+        3 * self.supports.count()
+    }
+
+    fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+        let stride = self.dimension();
+        self.evaluate_into(u, residual, jacobian.map(|j| (j, stride)));
+    }
+
+    fn weights(&self, u: &[f64], weights: &mut [f64]) {
+        for (j, w) in weights.chunks_exact_mut(3).enumerate() {
+            let at = self.supports.support(j, u[3 * j]);
+            // t by the way it moves and turns the contact, f (the stiffest of them) relative, s and phi as they are
+            w.copy_from_slice(&[at.speed + at.turning.abs(), 0.25 / (1.0 + u[3 * j + 1].abs()), 1.0]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Circles: r = centre + radius (sin t, -cos t), travelled counter-clockwise, tangent angle t.
+    struct Circles(Vec<(Hold, [f64; 3])>);
+
+    impl Supports for Circles {
+        fn count(&self) -> usize {
+            self.0.len()
+        }
+        fn hold(&self, j: usize) -> Hold {
+            self.0[j].0
+        }
+        fn support(&self, j: usize, t: f64) -> Support {
+            let [x, y, radius] = self.0[j].1;
+            Support { x: x + radius * t.sin(), y: y - radius * t.cos(), alpha: t, speed: radius, turning: 1.0 }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn jacobian_is_the_derivative(
+            unknowns in prop::collection::vec((-1.0..1.0_f64, -4.0..4.0_f64, 0.1..0.4_f64, 0.05..2.0_f64), 1..5),
+            tip: bool,
+            phi in 0.0..3.0_f64,
+        ) {
+            let n = unknowns.len();
+            let mut s = 0.0;
+            let (mut u, mut circles) = (Vec::new(), Vec::new());
+            for (j, (t, f, ds, radius)) in unknowns.into_iter().enumerate() {
+                s += ds;
+                let at_tip = tip && j + 1 == n;
+                u.extend([t, f, if at_tip { phi } else { s }]);
+                let offset = if j % 2 == 0 { 0.0 } else { std::f64::consts::PI };
+                circles.push((if at_tip { Hold::Tip } else { Hold::Tangent { offset } }, [0.3 * j as f64, 0.2, radius]));
+            }
+            let supports = Circles(circles);
+            let problem = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 1.5 }, supports: &supports };
+            let size = 3 * n;
+            let (mut residual, mut jacobian) = (vec![0.0; size], vec![f64::NAN; size * size]);
+            problem.evaluate(&u, &mut residual, Some(&mut jacobian));
+            let mut plain = vec![0.0; size];
+            problem.evaluate(&u, &mut plain, None);
+            prop_assert_eq!(&plain, &residual);
+            for column in 0..size {
+                let h = 1e-5;
+                let (mut up, mut down) = (vec![0.0; size], vec![0.0; size]);
+                let mut moved = u.clone();
+                moved[column] = u[column] + h;
+                problem.evaluate(&moved, &mut up, None);
+                moved[column] = u[column] - h;
+                problem.evaluate(&moved, &mut down, None);
+                for row in 0..size {
+                    let difference = (up[row] - down[row]) / (2.0 * h);
+                    let ours = jacobian[column * size + row];
+                    prop_assert!((difference - ours).abs() < 2e-7 * (1.0 + ours.abs()), "{row} {column}: {ours} {difference}");
+                }
+            }
+        }
+    }
+}

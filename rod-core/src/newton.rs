@@ -1,0 +1,297 @@
+//! Damped Newton's method for square systems: one step, and the plain loop around it.
+//!
+//! The step is Deuflhard's error-oriented one (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3): a
+//! trial is accepted by the natural monotonicity test, that is, if the simplified correction, made with the old Jacobian at
+//! the trial point, is shorter than the correction itself. Where it is much shorter, the old Jacobian serves on.
+//! [`argmin`](crate::NewtonSolver) drives the same step.
+
+use crate::linear::{invert, multiply, norm_1};
+
+/// A square system of nonlinear equations F(u) = 0 with its exact Jacobian.
+pub trait System {
+    /// Number of equations and unknowns.
+    fn dimension(&self) -> usize;
+
+    /// Writes F(u) and, where asked for, its Jacobian (column-major: dF_i/du_j at `i + j * dimension`). Both come zeroed or
+    /// with old content: every entry must be written.
+    fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>);
+
+    /// Writes the weight of each unknown in the norm that judges corrections (1 / its natural size). All 1 by default.
+    fn weights(&self, _u: &[f64], weights: &mut [f64]) {
+        weights.fill(1.0);
+    }
+}
+
+/// When to stop, and when to give up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonOptions {
+    /// Largest error of the solution that is left, in the weighted maximum norm. The default, 1e-13, is what rounding leaves
+    /// of a well-conditioned problem; an ill-conditioned one ends as [`SolveStatus::Stalled`] at what rounding allows.
+    pub tolerance: f64,
+    /// Largest number of steps (Jacobians).
+    pub max_iterations: u32,
+    /// Smallest damping factor.
+    pub least_damping: f64,
+    /// Longest step, in the weighted maximum norm: the linear model is not trusted beyond.
+    pub longest_step: f64,
+}
+
+impl Default for NewtonOptions {
+    fn default() -> Self {
+        Self { tolerance: 1e-13, max_iterations: 30, least_damping: 1e-3, longest_step: 1.0 }
+    }
+}
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SolveStatus {
+    /// The error left is below the tolerance.
+    Converged,
+    /// Corrections no longer shrink, but are at the level of rounding for this condition number: as good as it gets.
+    Stalled,
+    /// The iterations ran out.
+    TooManyIterations,
+    /// No damped step passed the monotonicity test.
+    NoDescent,
+    /// The Jacobian has no inverse, or something was not finite.
+    Singular,
+}
+
+impl SolveStatus {
+    /// Whether the solution can be used.
+    pub fn is_solved(self) -> bool {
+        matches!(self, Self::Converged | Self::Stalled)
+    }
+}
+
+/// How well a solve went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolveReport {
+    /// How it ended.
+    pub status: SolveStatus,
+    /// Number of steps.
+    pub iterations: u32,
+    /// Largest |F_i| at the solution.
+    pub residual: f64,
+    /// Condition number of the last Jacobian in the 1-norm.
+    pub condition: f64,
+    /// Length of the last correction in the weighted maximum norm: an estimate of the error.
+    pub correction: f64,
+}
+
+/// Memory of a solve. Keep one and no solve allocates once it has seen the largest dimension.
+#[derive(Clone, Debug, Default)]
+pub struct NewtonWorkspace {
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+    inverse: Vec<f64>,
+    step: Vec<f64>,
+    bar: Vec<f64>,
+    trial: Vec<f64>,
+    weights: Vec<f64>,
+    damping: f64,
+}
+
+/// What one step came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepOutcome {
+    /// Go on: the correction was this long.
+    Continue(f64),
+    /// Done: the error left is about this.
+    Done(SolveStatus, f64),
+}
+
+impl NewtonWorkspace {
+    /// An empty workspace.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    fn reset(&mut self, system: &impl System, u: &[f64]) {
+        let n = system.dimension();
+        for v in [&mut self.residual, &mut self.step, &mut self.bar, &mut self.trial, &mut self.weights] {
+            v.resize(n, 0.0);
+        }
+        self.jacobian.resize(n * n, 0.0);
+        self.inverse.resize(n * n, 0.0);
+        system.weights(u, &mut self.weights);
+        self.damping = 1.0;
+    }
+
+    /// The inverse of the Jacobian that the last step used, column-major.
+    pub fn inverse(&self) -> &[f64] {
+        &self.inverse
+    }
+
+    /// The Jacobian that the last step used, column-major.
+    pub fn jacobian(&self) -> &[f64] {
+        &self.jacobian
+    }
+
+    fn norm(&self, v: &[f64]) -> f64 {
+        largest_of(v.iter().zip(&self.weights).map(|(v, w)| v * w))
+    }
+
+    fn condition(&self, n: usize) -> f64 {
+        if n == 0 { 1.0 } else { norm_1(n, &self.jacobian) * norm_1(n, &self.inverse) }
+    }
+}
+
+/// Corrections that shrink less than this per simplified step are not worth the old Jacobian.
+const WORTH_A_CHORD: f64 = 0.05;
+/// Most simplified steps with one Jacobian.
+const MOST_CHORDS: usize = 4;
+/// Corrections that no longer shrink are rounding, not error, if they are below this and the residual below the next.
+const ROUNDING_STEP: f64 = 1e-9;
+/// What rounding leaves of a residual of order 1 to 10.
+const ROUNDING_RESIDUAL: f64 = 1e-13;
+
+/// One damped Newton step from `u`, in place. `workspace` must have been prepared for this system by [`prepare`].
+pub fn newton_step(
+    system: &impl System,
+    u: &mut [f64],
+    options: &NewtonOptions,
+    workspace: &mut NewtonWorkspace,
+) -> StepOutcome {
+    let n = system.dimension();
+    let w = workspace;
+    system.evaluate(u, &mut w.residual, Some(&mut w.jacobian));
+    if !invert(n, &w.jacobian, &mut w.inverse) {
+        return StepOutcome::Done(SolveStatus::Singular, f64::INFINITY);
+    }
+    multiply(&w.inverse, &w.residual, -1.0, &mut w.step);
+    let length = w.norm(&w.step);
+    if !length.is_finite() {
+        return StepOutcome::Done(SolveStatus::Singular, f64::INFINITY);
+    }
+    if length <= options.tolerance {
+        add(u, 1.0, &w.step);
+        return StepOutcome::Done(SolveStatus::Converged, length);
+    }
+    let mut damping = (2.0 * w.damping).min(1.0).min(options.longest_step / length);
+    loop {
+        w.trial.copy_from_slice(u);
+        add(&mut w.trial, damping, &w.step);
+        system.evaluate(&w.trial, &mut w.residual, None);
+        multiply(&w.inverse, &w.residual, -1.0, &mut w.bar);
+        let simplified = w.norm(&w.bar);
+        if simplified <= (1.0 - 0.25 * damping) * length {
+            u.copy_from_slice(&w.trial);
+            w.damping = damping;
+            if damping < 1.0 {
+                return StepOutcome::Continue(length);
+            }
+            return chords(system, u, options, w, length, simplified);
+        }
+        if simplified <= ROUNDING_STEP && largest(&w.residual) <= ROUNDING_RESIDUAL {
+            return StepOutcome::Done(SolveStatus::Stalled, simplified);
+        }
+        damping *= 0.5;
+        if damping < options.least_damping {
+            return StepOutcome::Done(SolveStatus::NoDescent, length);
+        }
+    }
+}
+
+/// Simplified steps with the Jacobian at hand, as long as they pay. The first of them, `w.bar`, is known.
+fn chords(
+    system: &impl System,
+    u: &mut [f64],
+    options: &NewtonOptions,
+    w: &mut NewtonWorkspace,
+    mut length: f64,
+    mut simplified: f64,
+) -> StepOutcome {
+    for _ in 0..MOST_CHORDS {
+        let contraction = simplified / length;
+        if contraction > WORTH_A_CHORD && simplified > options.tolerance {
+            return StepOutcome::Continue(length);
+        }
+        add(u, 1.0, &w.bar);
+        // The next simplified correction would be shorter by the contraction: that is the error left.
+        if 2.0 * contraction * simplified <= options.tolerance {
+            return StepOutcome::Done(SolveStatus::Converged, simplified);
+        }
+        system.evaluate(u, &mut w.residual, None);
+        multiply(&w.inverse, &w.residual, -1.0, &mut w.bar);
+        (length, simplified) = (simplified, w.norm(&w.bar));
+    }
+    StepOutcome::Continue(length)
+}
+
+fn largest(v: &[f64]) -> f64 {
+    largest_of(v.iter().copied())
+}
+
+/// Largest absolute value; NaN comes through, which f64::max would swallow.
+fn largest_of(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
+}
+
+fn add(u: &mut [f64], scale: f64, v: &[f64]) {
+    for (u, v) in u.iter_mut().zip(v) {
+        *u += scale * v;
+    }
+}
+
+/// Prepares `workspace` for a solve of `system` from `u`.
+pub fn prepare(system: &impl System, u: &[f64], workspace: &mut NewtonWorkspace) {
+    workspace.reset(system, u);
+}
+
+/// Report on the solution `u`, with its true residual.
+pub fn report(
+    system: &impl System,
+    u: &[f64],
+    status: SolveStatus,
+    iterations: u32,
+    correction: f64,
+    workspace: &mut NewtonWorkspace,
+) -> SolveReport {
+    system.evaluate(u, &mut workspace.residual, None);
+    let residual = largest(&workspace.residual);
+    let condition = workspace.condition(system.dimension());
+    SolveReport { status, iterations, residual, condition, correction }
+}
+
+/// Solves F(u) = 0 from the guess `u`, in place, by the plain loop of the hot path. Allocates nothing once `workspace` has
+/// seen a system of this dimension.
+///
+/// ```
+/// use rod_core::{NewtonOptions, NewtonWorkspace, System, solve};
+/// struct Circle; // x^2 + y^2 = 1 and x = y
+/// impl System for Circle {
+///     fn dimension(&self) -> usize { 2 }
+///     fn evaluate(&self, u: &[f64], r: &mut [f64], j: Option<&mut [f64]>) {
+///         r.copy_from_slice(&[u[0] * u[0] + u[1] * u[1] - 1.0, u[0] - u[1]]);
+///         if let Some(j) = j {
+///             j.copy_from_slice(&[2.0 * u[0], 1.0, 2.0 * u[1], -1.0]);
+///         }
+///     }
+/// }
+/// let mut u = [1.0, 0.2];
+/// let report = solve(&Circle, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
+/// assert!(report.status.is_solved());
+/// assert!((u[0] - 0.5_f64.sqrt()).abs() < 1e-15);
+/// ```
+pub fn solve(
+    system: &impl System,
+    u: &mut [f64],
+    options: &NewtonOptions,
+    workspace: &mut NewtonWorkspace,
+) -> SolveReport {
+    prepare(system, u, workspace);
+    let (mut status, mut iterations, mut correction) = (SolveStatus::TooManyIterations, 0, f64::INFINITY);
+    while iterations < options.max_iterations {
+        iterations += 1;
+        match newton_step(system, u, options, workspace) {
+            StepOutcome::Continue(length) => correction = length,
+            StepOutcome::Done(how, length) => {
+                (status, correction) = (how, length);
+                break;
+            }
+        }
+    }
+    report(system, u, status, iterations, correction, workspace)
+}

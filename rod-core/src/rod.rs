@@ -1,0 +1,117 @@
+//! The rod: length, bending stiffness and, where it is known, the wire behind it.
+
+use crate::error::RodError;
+use crate::units::Units;
+use std::f64::consts::PI;
+
+/// A straight, uniform, inextensible rod (Euler-Bernoulli). SI units, checked on construction.
+///
+/// ```
+/// use rod_core::Rod;
+/// // the spring steel wire of Merker et al. (2021): 100 mm long, 0.5 mm thick
+/// let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9)?;
+/// assert!((rod.bending_stiffness() - 6.32e-4).abs() < 1e-6); // N m^2
+/// assert!(Rod::new(-0.1, 1e-3).is_err());
+/// # Ok::<(), rod_core::RodError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rod {
+    length: f64,
+    bending_stiffness: f64,
+    wire: Option<Wire>,
+    yield_stress: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Wire {
+    diameter: f64,
+    youngs_modulus: f64,
+}
+
+impl Rod {
+    /// A rod of `length` (m) and `bending_stiffness` E I (N m^2).
+    ///
+    /// # Errors
+    /// [`RodError::NotPositive`] where one of them is not a positive, finite number.
+    pub fn new(length: f64, bending_stiffness: f64) -> Result<Self, RodError> {
+        positive("length", length)?;
+        positive("bending_stiffness", bending_stiffness)?;
+        Ok(Self { length, bending_stiffness, wire: None, yield_stress: None })
+    }
+
+    /// A round wire of `length` (m), `diameter` (m) and `youngs_modulus` (Pa): E I = E pi d^4 / 64.
+    ///
+    /// # Errors
+    /// [`RodError::NotPositive`] where one of them is not a positive, finite number.
+    pub fn from_diameter(length: f64, diameter: f64, youngs_modulus: f64) -> Result<Self, RodError> {
+        positive("diameter", diameter)?;
+        positive("youngs_modulus", youngs_modulus)?;
+        let rod = Self::new(length, youngs_modulus * PI * diameter.powi(4) / 64.0)?;
+        Ok(Self { wire: Some(Wire { diameter, youngs_modulus }), ..rod })
+    }
+
+    /// The same rod with a yield stress (Pa), to compare the bending stress with.
+    ///
+    /// # Errors
+    /// [`RodError::NotPositive`] where it is not a positive, finite number.
+    pub fn with_yield_stress(self, yield_stress: f64) -> Result<Self, RodError> {
+        positive("yield_stress", yield_stress)?;
+        Ok(Self { yield_stress: Some(yield_stress), ..self })
+    }
+
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Bending stiffness E I, N m^2.
+    pub fn bending_stiffness(&self) -> f64 {
+        self.bending_stiffness
+    }
+
+    /// Yield stress, Pa, where it was given.
+    pub fn yield_stress(&self) -> Option<f64> {
+        self.yield_stress
+    }
+
+    /// Bending stress E d |kappa| / 2 (Pa) at the surface where the curvature is `kappa` (1/m); none for a rod given by its
+    /// bending stiffness alone, whose thickness is not known.
+    pub fn bending_stress(&self, kappa: f64) -> Option<f64> {
+        self.wire.map(|w| 0.5 * w.youngs_modulus * w.diameter * kappa.abs())
+    }
+
+    /// What the dimensionless units of this rod are in SI.
+    pub fn units(&self) -> Units {
+        Units::new(self.length, self.bending_stiffness)
+    }
+}
+
+fn positive(what: &'static str, value: f64) -> Result<(), RodError> {
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(RodError::NotPositive { what, value }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_what_is_no_rod_and_says_what() {
+        for (result, what) in [
+            (Rod::new(0.0, 1.0), "length"),
+            (Rod::new(1.0, f64::NAN), "bending_stiffness"),
+            (Rod::from_diameter(1.0, -1.0, 1.0), "diameter"),
+            (Rod::from_diameter(1.0, 1.0, f64::INFINITY), "youngs_modulus"),
+            (Rod::new(1.0, 1.0).unwrap().with_yield_stress(0.0), "yield_stress"),
+        ] {
+            let message = result.unwrap_err().to_string();
+            assert!(message.contains(what) && message.contains("positive"), "{message}");
+        }
+    }
+
+    #[test]
+    fn stress_needs_a_diameter() {
+        let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9).unwrap();
+        assert_eq!(rod.bending_stress(-10.0), Some(0.5 * 206e9 * 0.5e-3 * 10.0));
+        assert_eq!(Rod::new(0.1, 1e-3).unwrap().bending_stress(1.0), None);
+    }
+}
