@@ -9,7 +9,7 @@ use crate::configuration::{Configuration, Held};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT};
+use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use rod_contours::StretchKind;
 use rod_core::{Hold, Pose, Section, advance};
 use smallvec::SmallVec;
@@ -185,57 +185,61 @@ impl Chain {
     }
 }
 
-/// The quadratic programme of one step: change of the joints, force at each near node.
+/// The quadratic programme of one step: change d of the joints, force at each near node.
+///
+/// It is minimise 1/2 d' D d + q' d subject to A d <= b with a diagonal D, solved by its dual in the forces, which are few:
+/// minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f over f >= 0, then d = -D^-1 (q + A' f).
 fn programme(
     chain: &Chain,
     nodes: &[[f64; 2]; LINKS + 1],
     near: &[Near],
     time_step: f64,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
-    let elastic: Vec<f64> = (0..LINKS).map(|i| Chain::stiffness(i) * chain.joints[i]).collect();
     let damped = 1.0 + 1.0 / time_step;
+    let softness = |i: usize| 1.0 / (Chain::stiffness(i) * damped);
+    // D^-1 q: every joint gives way by the same share
+    let mut change: Vec<f64> = chain.joints.iter().map(|joint| -joint / damped).collect();
     if near.is_empty() {
-        return Some((chain.joints.iter().map(|joint| -joint / damped).collect(), Vec::new()));
+        return Some((change, Vec::new()));
     }
-    // minimise 1/2 d' P d + q' d subject to A d + slack = b, slack >= 0: gap + gradient d >= what it may be
-    let p = CscMatrix::new(
-        LINKS,
-        LINKS,
-        (0..=LINKS).collect(),
-        (0..LINKS).collect(),
-        (0..LINKS).map(|i| Chain::stiffness(i) * damped).collect(),
-    );
-    let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-    for i in 0..LINKS {
-        for (row, Near { node, foot, .. }) in near.iter().enumerate() {
-            if *node > i {
-                // node turns about joint i: (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
-                let (dx, dy) = (nodes[*node][0] - nodes[i][0], nodes[*node][1] - nodes[i][1]);
-                let (sin, cos) = foot.alpha.sin_cos();
-                rows.push(row);
-                values.push(dy * sin + dx * cos);
-            }
+    // by joint i node turns as (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
+    let gradient = |Near { node, foot, .. }: &Near| -> [f64; LINKS] {
+        let (sin, cos) = foot.alpha.sin_cos();
+        let ([x, y], node) = (nodes[*node], *node);
+        std::array::from_fn(|i| if i < node { (y - nodes[i][1]) * sin + (x - nodes[i][0]) * cos } else { 0.0 })
+    };
+    let rows: Vec<[f64; LINKS]> = near.iter().map(gradient).collect();
+    let m = near.len();
+    let (mut columns, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+    for (j, right) in rows.iter().enumerate() {
+        for (i, left) in rows.iter().enumerate().take(j + 1) {
+            indices.push(i);
+            values.push((0..LINKS).map(|k| left[k] * right[k] * softness(k)).sum());
         }
-        columns.push(rows.len());
+        columns.push(indices.len());
     }
-    let a = CscMatrix::new(near.len(), LINKS, columns, rows, values);
-    let b: Vec<f64> = near.iter().map(|n| n.foot.gap.max(-DEEPEST_PUSH)).collect();
-    let settings = DefaultSettingsBuilder::default()
-        .verbose(false)
-        .equilibrate_enable(false)
-        .presolve_enable(false)
-        .max_iter(60)
-        .tol_gap_abs(1e-9)
-        .tol_gap_rel(1e-9)
-        .tol_feas(1e-9)
-        .build()
-        .ok()?;
-    let mut solver = DefaultSolver::new(&p, &elastic, &a, &b, &[NonnegativeConeT(near.len())], settings).ok()?;
+    let quadratic = CscMatrix::new(m, m, columns, indices, values);
+    let linear: Vec<f64> = near
+        .iter()
+        .zip(&rows)
+        .map(|(near, row)| {
+            let unforced: f64 = row.iter().zip(&change).map(|(a, d)| a * d).sum();
+            near.foot.gap.max(-DEEPEST_PUSH) - unforced
+        })
+        .collect();
+    let pushing = CscMatrix::new(m, m, (0..=m).collect(), (0..m).collect(), vec![-1.0; m]);
+    let settings = DefaultSettingsBuilder::default().verbose(false).presolve_enable(false).max_iter(60).build().ok()?;
+    let cones = [NonnegativeConeT(m)];
+    let mut solver = DefaultSolver::new(&quadratic, &linear, &pushing, &vec![0.0; m], &cones, settings).ok()?;
     solver.solve();
-    let solution = &solver.solution;
-    let usable = matches!(
-        solution.status,
-        clarabel::solver::SolverStatus::Solved | clarabel::solver::SolverStatus::AlmostSolved
-    );
-    usable.then(|| (solution.x.clone(), solution.z.clone()))
+    if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
+        return None;
+    }
+    let forces = solver.solution.x.clone();
+    for (row, force) in rows.iter().zip(&forces) {
+        for (i, d) in change.iter_mut().enumerate() {
+            *d -= softness(i) * row[i] * force;
+        }
+    }
+    Some((change, forces))
 }

@@ -22,89 +22,125 @@ use std::f64::consts::PI;
 
 /// Modes beyond those that the contacts fix. Mode m has energy about (m pi)^2 / 2, so that only loads P of hundreds of
 /// EI / L^2 could destabilise one that is left out.
-const MODES: usize = 10;
-/// Quadrature points a unit of length: several a wave of the highest mode, by Simpson's rule.
-const POINTS: f64 = 48.0;
+const MODES: usize = 8;
+/// Quadrature intervals a unit of length: several a wave of the highest mode, by Simpson's rule.
+const INTERVALS: f64 = 40.0;
 /// Stiffness of the penalty against that of the modes.
 const PENALTY: f64 = 1e9;
 
+/// One number a mode.
+type Modes = SmallVec<[f64; 24]>;
+
+/// A symmetric matrix, of which the lower triangle is kept, row by row.
+struct Quadratic {
+    size: usize,
+    lower: SmallVec<[f64; 256]>,
+}
+
+impl Quadratic {
+    fn diagonal(diagonal: impl ExactSizeIterator<Item = f64>) -> Self {
+        let size = diagonal.len();
+        let mut lower = SmallVec::from_elem(0.0, size * (size + 1) / 2);
+        for (i, d) in diagonal.enumerate() {
+            lower[i * (i + 3) / 2] = d;
+        }
+        Self { size, lower }
+    }
+
+    /// Adds weight (u v' + v u') / 2.
+    fn add(&mut self, weight: f64, u: &[f64], v: &[f64]) {
+        let mut entries = self.lower.iter_mut();
+        for i in 0..self.size {
+            let (ui, vi) = (0.5 * weight * u[i], 0.5 * weight * v[i]);
+            for ((entry, u), v) in entries.by_ref().take(i + 1).zip(u).zip(v) {
+                *entry += ui * v + vi * u;
+            }
+        }
+    }
+
+    fn is_positive(&self) -> bool {
+        let mut matrix = DMatrix::zeros(self.size, self.size);
+        let mut entries = self.lower.iter();
+        for i in 0..self.size {
+            for (j, entry) in entries.by_ref().take(i + 1).enumerate() {
+                matrix[(i, j)] = *entry;
+            }
+        }
+        // reads the lower triangle alone
+        matrix.cholesky().is_some()
+    }
+}
+
+/// The modes sin((m + 1/2) x), by the recurrence of Chebyshev.
+fn modes_at(x: f64, modes: &mut [f64]) {
+    let (sin, cos) = (0.5 * x).sin_cos();
+    let twice = 2.0 * (cos * cos - sin * sin);
+    let (mut before, mut here) = (-sin, sin);
+    for mode in modes {
+        *mode = here;
+        (before, here) = (here, twice * here - before);
+    }
+}
+
 /// Whether the second variation is positive definite.
 pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> bool {
-    if configuration.count() == 0 {
+    let n = configuration.count();
+    if n == 0 {
         return true;
     }
-    let n = configuration.count();
-    let modes = MODES + 2 * n;
+    let size = MODES + 2 * n;
     let end = configuration.s(n - 1);
-    let wave = |m: usize| (m as f64 + 0.5) * PI / end;
-    let mode = |s: f64| -> SmallVec<[f64; 32]> { (0..modes).map(|m| (wave(m) * s).sin()).collect() };
-
-    let mut q = DMatrix::from_fn(modes, modes, |i, j| if i == j { 0.5 * end * wave(i).powi(2) } else { 0.0 });
+    let scale = PI / end;
+    let mut q = Quadratic::diagonal((0..size).map(|m| 0.5 * end * ((m as f64 + 0.5) * scale).powi(2)));
     let mut spans: SmallVec<[(f64, Section, f64, f64); 9]> = SmallVec::new();
     configuration.segments(world, path, |s, start, a, b| spans.push((s, start, a, b)));
 
+    let zero = Modes::from_elem(0.0, size);
     // Positions change by int (-sin phi, cos phi) eta: accumulated from contact to contact.
-    let mut shift_x: SmallVec<[f64; 32]> = SmallVec::from_elem(0.0, modes);
-    let mut shift_y = shift_x.clone();
-    let mut rank_one: Vec<(f64, SmallVec<[f64; 32]>)> = Vec::new();
+    let (mut shift_x, mut shift_y, mut eta) = (zero.clone(), zero.clone(), zero.clone());
     let supports = configuration.supports(world);
     for j in 0..n {
         let (from, start, a, b) = spans[j];
         let length = configuration.s(j) - from;
         if length > 0.0 {
-            let steps = 2 * ((length * POINTS / 2.0).ceil() as usize).max(2);
+            let steps = 2 * ((length * INTERVALS / 2.0).ceil() as usize).max(2);
             let h = length / steps as f64;
             let sections = std::iter::once(start).chain(walk(&start, a, b, length, steps));
             for (k, at) in sections.enumerate() {
                 let simpson = if k == 0 || k == steps { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 } * h / 3.0;
-                let eta = mode(from + h * k as f64);
+                modes_at((from + h * k as f64) * scale, &mut eta);
                 let (sin, cos) = at.phi.sin_cos();
-                let load = simpson * (a * sin - b * cos);
-                for i in 0..modes {
-                    shift_x[i] -= simpson * sin * eta[i];
-                    shift_y[i] += simpson * cos * eta[i];
-                    for l in 0..=i {
-                        q[(i, l)] -= load * eta[i] * eta[l];
-                    }
+                for ((x, y), eta) in shift_x.iter_mut().zip(&mut shift_y).zip(&eta) {
+                    *x -= simpson * sin * eta;
+                    *y += simpson * cos * eta;
                 }
+                q.add(-simpson * (a * sin - b * cos), &eta, &eta);
             }
         }
         let support = supports.support(j, configuration.t(j));
         let (sin, cos) = support.alpha.sin_cos();
-        let along: SmallVec<[f64; 32]> = (0..modes).map(|i| cos * shift_x[i] + sin * shift_y[i]).collect();
-        let across = (0..modes).map(|i| cos * shift_y[i] - sin * shift_x[i]).collect();
-        rank_one.push((PENALTY, across));
+        let along: Modes = shift_x.iter().zip(&shift_y).map(|(x, y)| cos * x + sin * y).collect();
+        let across: Modes = shift_x.iter().zip(&shift_y).map(|(x, y)| cos * y - sin * x).collect();
+        q.add(PENALTY, &across, &across);
         let (v, w, f) = (support.speed, support.turning, configuration.force(j));
         match configuration.contacts[j].hold {
             // held in a notch from both sides; on a convex vertex the tip slips
-            Hold::Tip if v == 0.0 && w < 0.0 => rank_one.push((PENALTY, along)),
+            Hold::Tip if v == 0.0 && w < 0.0 => q.add(PENALTY, &along, &along),
             Hold::Tip if v == 0.0 => return false,
-            Hold::Tip => rank_one.push((-f * w / v, along)),
+            Hold::Tip => q.add(-f * w / v, &along, &along),
             Hold::Tangent { offset } => {
-                let eta = mode(configuration.s(j));
+                modes_at(configuration.s(j) * scale, &mut eta);
                 let kappa = offset.cos() * spans[j + 1].1.kappa;
                 let divisor = w - v * kappa;
                 if divisor <= 0.0 {
                     return false;
                 }
                 let scale = f / divisor;
-                for i in 0..modes {
-                    for l in 0..=i {
-                        let cross = w * (eta[i] * along[l] + eta[l] * along[i]);
-                        let g = cross - w * kappa * along[i] * along[l] - v * eta[i] * eta[l];
-                        q[(i, l)] -= scale * g;
-                    }
-                }
+                q.add(-2.0 * scale * w, &eta, &along);
+                q.add(scale * w * kappa, &along, &along);
+                q.add(scale * v, &eta, &eta);
             }
         }
     }
-    for (weight, vector) in rank_one {
-        for i in 0..modes {
-            for l in 0..=i {
-                q[(i, l)] += weight * vector[i] * vector[l];
-            }
-        }
-    }
-    // Cholesky reads the lower triangle alone
-    q.cholesky().is_some()
+    q.is_positive()
 }

@@ -105,7 +105,9 @@ impl Stepper<'_> {
                     self.shorten(&mut aim);
                     continue;
                 }
-                return Ok(Step::Ended(Box::new(from.configuration.clone())));
+                // Mostly the fold is just ahead, and known better than the loss of stability is.
+                let fold = self.fold_ahead(from);
+                return Ok(Step::Ended(Box::new(fold.unwrap_or_else(|| from.configuration.clone()))));
             }
             if report.iterations <= 2 {
                 self.h = (2.0 * self.h).min(LONGEST_STEP);
@@ -174,6 +176,26 @@ impl Stepper<'_> {
         }
         let length = tangent.along(&next.z, &configuration.z);
         Some((next, report, length))
+    }
+
+    /// The fold that follows `from` closely, if one does.
+    fn fold_ahead(&mut self, from: &Point) -> Option<Configuration> {
+        let Point { configuration, tangent, .. } = from;
+        for distance in [1e-4, 1e-3, 1e-2] {
+            let mut next = configuration.clone();
+            for (z, d) in next.z.iter_mut().zip(&tangent.direction) {
+                *z += distance * d;
+            }
+            let plane = Condition::Plane { tangent, from: &configuration.z, distance };
+            if !self.corrector.correct(&mut next, plane).status.is_solved() {
+                return None;
+            }
+            let slope = self.corrector.inspect(&next, plane).0.by_tau();
+            if slope < 0.0 {
+                return locate_fold(&mut self.corrector, configuration, tangent, &next, slope);
+            }
+        }
+        None
     }
 
     /// Fastest way of any point of a straight rod by the path parameter.

@@ -8,7 +8,7 @@ use ode_solvers::{Dop853, Dopri5, OutputType, System, Vector5};
 /// Runge-Kutta method, both with automatic step size after Dormand and Prince (Hairer, Norsett, Wanner 1993).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Order 5(4): for tolerances above 1e-7.
+    /// Order 5(4): for tolerances of 1e-4 and above.
     Dopri5,
     /// Order 8(5,3): for anything tighter.
     #[default]
@@ -19,9 +19,10 @@ pub enum Method {
 /// clamp, 1 at the tip) under the bending moment `m` (in E I / L of the reference stiffness). A tapered rod is
 /// m / stiffness(s), a rod bent at rest is natural(s) + m.
 ///
-/// Accuracy: the tolerance is that of each step, relative and absolute alike; over a rod of length 1 the errors add up to
-/// 10 to 1000 times as much. A law with jumps is better split there: `advance` up to the jump, then on.
-/// About 10 us per segment at 1e-12, some 60 times the closed form.
+/// The tolerance is that of each step, relative and absolute alike. Measured on 2000 random segments (|A|, |B| <= 20,
+/// |kappa| <= 6, |length| <= 1) the error at the end is 0.5 to 2 tolerances in the median and below 100 at worst, from 1e-4 to
+/// 1e-14; at 1e-12 Dop853 takes some 50 times as long as the closed form. A law with jumps is better split there:
+/// `advance` up to the jump, then on.
 ///
 /// ```
 /// use rod_core::{Cut, Method, Ode, Propagator};

@@ -204,6 +204,8 @@ impl<T: Scalar> Arc<T> {
     ///
     /// With a = sin(delta / 2), b = cos(delta / 2) the flow's addition theorem gives a, b, q at the end; products are grouped
     /// so that a and b appear only with a factor P, which keeps every term bounded and smooth where P vanishes.
+    /// In the half angle, C + V w stands for 1 - V P sin^2(delta / 2): close to the separatrix all of it is small, and
+    /// the sum does not cancel.
     #[inline(always)]
     pub fn end(&self, at: &Basis<T>) -> End<T> {
         let (two, half) = (T::from_f64(2.0), T::from_f64(0.5));

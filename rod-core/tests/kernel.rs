@@ -1,5 +1,9 @@
 //! The closed form against independent solutions: how large its error is, measured.
-#![allow(clippy::unwrap_used, reason = "a test may")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test may, and the errors are there to be read: --nocapture"
+)]
 
 mod reference;
 

@@ -1,0 +1,23 @@
+//! Why a command fails.
+
+use crate::{FigureError, OutputError, SceneError};
+use vibrissa::ContactError;
+
+/// Why a command fails.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[non_exhaustive]
+pub enum Error {
+    /// The scene.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// The sweep it asks for.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// A figure.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The files.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}

@@ -1,0 +1,44 @@
+//! The phase criterion along several scans (Merker et al. 2021, fig. 7).
+
+use super::canvas::{FigureError, TITLE, svg, write};
+use super::palette::INK;
+use super::trace::{self, Trace};
+use crate::Scan;
+use plotters::style::text_anchor::HPos;
+use vibrissa::State;
+
+const WIDTH: u32 = 1400;
+const PLOT: u32 = 300;
+const HEAD: u32 = 110;
+/// Height of a scan's name above its plot.
+const NAME: u32 = 50;
+
+/// Draws K = m0z^2 - 2 E I (f0y sin phi0 + f0x cos phi0) along each scan, in (N mm)^2.
+pub(crate) fn criterion(scans: &[&Scan]) -> Result<String, FigureError> {
+    let last = scans.len().saturating_sub(1);
+    let rows = |index: usize| NAME + PLOT + trace::trimmings(true, index == last);
+    let height = HEAD + (0..scans.len()).map(rows).sum::<u32>();
+    svg((WIDTH, height), |root| {
+        let (head, mut rest) = root.split_vertically(HEAD);
+        let line = "Phase criterion K = m0z² − 2 EI (f0y sin φ0 + f0x cos φ0):";
+        write(&head, line, (24, 36), HPos::Left, TITLE, INK)?;
+        let line = "zero where the last contact is tangential (B, BB), not where the tip is in contact (A, BA)";
+        write(&head, line, (24, 80), HPos::Left, TITLE, INK)?;
+        for (index, scan) in scans.iter().enumerate() {
+            let (part, below) = rest.split_vertically(rows(index));
+            let (name, plot) = part.split_vertically(NAME);
+            write(&name, &scan.scene.name, (24, 26), HPos::Left, TITLE, INK)?;
+            let stiffness = scan.scene.rod.bending_stiffness();
+            let quantity = |state: &State| 1e6 * state.reactions.phase_criterion(state.pose.phi, stiffness);
+            let across = trace::across(scan);
+            let foot = index == last;
+            trace::draw(
+                root,
+                &plot,
+                &Trace { scan, quantity: &quantity, name: "K in (N mm)²", across, phases: true, foot },
+            )?;
+            rest = below;
+        }
+        Ok(())
+    })
+}

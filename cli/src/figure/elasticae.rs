@@ -1,0 +1,152 @@
+//! The contour and the shapes of the rod along a scan.
+
+use super::canvas::{Area, BODY, Chart, FigureError, span, tick, width, write};
+use super::labels::Labels;
+use super::outline;
+use super::palette::{INK, MUTED, colour};
+use crate::{Interval, Scan};
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
+use vibrissa::{Bounds, EventKind, Frame, Phase, Rod, RodError, State};
+
+/// Most shapes drawn, besides those at transitions.
+const MOST: usize = 60;
+/// Points on a shape.
+const POINTS: usize = 60;
+/// Room for the numbers and names of the axes, pixels: left, below.
+const LEFT: u32 = 120;
+const BELOW: u32 = 80;
+const MARGIN: u32 = 16;
+
+type Curve = Vec<(f64, f64)>;
+
+/// Draws the left half of a sweep's figure into a part of `root`.
+pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
+    let (rod, intervals) = (&scan.scene.rod, scan.intervals());
+    let every = scan.outcome.states.len().div_ceil(MOST).max(1);
+    let mut shapes = Vec::new();
+    for state in scan.outcome.states.iter().step_by(every) {
+        shapes.push((curve(state, rod)?, colour(state.phase()).stroke_width(2)));
+    }
+    let (mut transitions, mut landings) = (Vec::new(), Vec::new());
+    for event in &scan.outcome.events {
+        if event.kind != EventKind::Piece {
+            transitions.push(curve(&event.before, rod)?);
+        }
+        if event.kind == EventKind::Snap {
+            landings.push(curve(&event.after, rod)?);
+        }
+    }
+    let clamps = [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way));
+    let seen = shapes.iter().map(|(curve, _)| curve).chain(&transitions).flatten().copied();
+    let seen: Curve = seen.chain(clamps.map(|pose| (1e3 * pose.x, 1e3 * pose.y))).collect();
+    let (x, y) = window(area, &seen);
+    let mut chart = ChartBuilder::on(area)
+        .margin(MARGIN)
+        .set_label_area_size(LabelAreaPosition::Left, LEFT)
+        .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
+        .build_cartesian_2d(x.clone(), y.clone())?;
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .x_labels(12)
+        .y_labels(12)
+        .x_label_formatter(&tick)
+        .y_label_formatter(&tick)
+        .label_style(("sans-serif", BODY))
+        .axis_desc_style(("sans-serif", BODY))
+        .x_desc("x in mm")
+        .y_desc("y in mm")
+        .draw()?;
+    chart.draw_series(shapes.into_iter().map(|(curve, style)| PathElement::new(curve, style)))?;
+    chart.draw_series(transitions.into_iter().map(|curve| PathElement::new(curve, INK.stroke_width(3))))?;
+    for curve in landings {
+        chart.draw_series(DashedLineSeries::new(curve, 14, 10, INK.stroke_width(3)))?;
+    }
+    draw_contour(&mut chart, scan, (x, y))?;
+    name_phases(root, &chart, scan, &intervals)
+}
+
+/// The shape of the rod in mm.
+fn curve(state: &State, rod: &Rod) -> Result<Curve, RodError> {
+    Ok(state.elastica(rod)?.sample(POINTS).map(|section| (1e3 * section.x, 1e3 * section.y)).collect())
+}
+
+/// Ranges of x and y (mm) that show all points, a millimetre as long on both axes.
+fn window(area: &Area<'_>, points: &[(f64, f64)]) -> (Range<f64>, Range<f64>) {
+    let (width, height) = area.dim_in_pixel();
+    let width = f64::from(width.saturating_sub(LEFT + 2 * MARGIN).max(1));
+    let height = f64::from(height.saturating_sub(BELOW + 2 * MARGIN).max(1));
+    let x = span(points.iter().map(|point| point.0), 0.06);
+    let y = span(points.iter().map(|point| point.1), 0.12);
+    let scale = ((x.end - x.start) / width).max((y.end - y.start) / height);
+    let about = |range: &Range<f64>, length: f64| {
+        let middle = 0.5 * (range.start + range.end);
+        middle - 0.5 * length..middle + 0.5 * length
+    };
+    (about(&x, scale * width), about(&y, scale * height))
+}
+
+/// The contour with short strokes into the solid.
+fn draw_contour(chart: &mut Chart<'_, '_>, scan: &Scan, (x, y): (Range<f64>, Range<f64>)) -> Result<(), FigureError> {
+    let window = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
+    let distance = 0.016 * (x.end - x.start);
+    for part in outline::visible(&scan.scene.contour, window) {
+        let mut since = distance;
+        for (frame, next) in part.iter().zip(&part[1..]) {
+            since += 1e3 * (next.x - frame.x).hypot(next.y - frame.y);
+            let hatch = hatch(frame, distance);
+            if since >= distance && window.contains(1e-3 * hatch[1].0, 1e-3 * hatch[1].1) {
+                chart.draw_series([PathElement::new(hatch, MUTED.stroke_width(2))])?;
+                since = 0.0;
+            }
+        }
+        let points = part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y));
+        chart.draw_series(LineSeries::new(points, INK.stroke_width(5)))?;
+    }
+    Ok(())
+}
+
+/// A stroke (mm) from the contour into the solid, slanted backwards.
+fn hatch(frame: &Frame, length: f64) -> Curve {
+    let (sin, cos) = (frame.alpha + 0.75 * PI).sin_cos();
+    let (x, y) = (1e3 * frame.x, 1e3 * frame.y);
+    vec![(x, y), (x + length * cos, y + length * sin)]
+}
+
+/// Writes each phase behind the clamp, in the middle of its interval; where the clamp only turns, off the tip and the
+/// solid.
+fn name_phases(
+    root: &Area<'_>,
+    chart: &Chart<'_, '_>,
+    scan: &Scan,
+    intervals: &[Interval<'_>],
+) -> Result<(), FigureError> {
+    let mut labels = Labels::default();
+    for interval in intervals.iter().filter(|interval| interval.phase != Phase::FREE) {
+        let (from, to) = (interval.from, interval.to);
+        let middle = (500.0 * (from.x + to.x), 500.0 * (from.y + to.y));
+        let ((x, y), away) = match interval.middle() {
+            Some(state) if scan.scene.path.turns_only() => {
+                let elastica = state.elastica(&scan.scene.rod)?;
+                let tip = elastica.at(elastica.length());
+                let away = state.contacts.last().map_or(tip.phi, |contact| contact.alpha - FRAC_PI_2);
+                (chart.backend_coord(&(1e3 * tip.x, 1e3 * tip.y)), away)
+            }
+            _ => (chart.backend_coord(&middle), 0.5 * (from.phi + to.phi) + PI),
+        };
+        let (sin, cos) = away.sin_cos();
+        let places = [22.0, 48.0, 74.0].map(|d| (x + (d * cos) as i32, y - (d * sin) as i32));
+        let name = interval.phase.to_string();
+        let size = (width(&name, BODY) + 4, BODY as i32 + 2);
+        if let Some(place) = labels.place(places, size) {
+            // Shapes may pass behind it.
+            let corners = [-1, 1].map(|side| (place.0 + side * size.0 / 2, place.1 + side * size.1 / 2));
+            root.draw(&Rectangle::new(corners, WHITE.mix(0.8).filled()))?;
+            write(root, &name, place, HPos::Center, BODY, INK)?;
+        }
+    }
+    Ok(())
+}

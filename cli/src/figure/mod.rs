@@ -1,0 +1,19 @@
+//! Figures, as SVG.
+//!
+//! Colours are those of Okabe and Ito, told apart by colour-blind readers; every phase is labelled too.
+
+mod abscissa;
+mod canvas;
+mod criterion;
+mod cycles;
+mod elasticae;
+mod labels;
+mod outline;
+mod palette;
+mod sweep;
+mod trace;
+
+pub use canvas::FigureError;
+pub(crate) use criterion::criterion;
+pub(crate) use cycles::cycles;
+pub(crate) use sweep::sweep;

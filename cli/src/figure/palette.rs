@@ -1,0 +1,27 @@
+//! Colours by phase: those of Okabe and Ito (2008), near the ones of Merker et al. (2021), fig. 4.
+
+use plotters::style::RGBColor;
+use vibrissa::Phase;
+
+pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
+pub(super) const MUTED: RGBColor = RGBColor(90, 90, 90);
+pub(super) const FAINT: RGBColor = RGBColor(205, 205, 205);
+
+/// The colour of a phase. Phases of more than three contacts share colours; their labels tell them apart.
+pub(super) fn colour(phase: Phase) -> RGBColor {
+    match (phase.contacts, phase.tip) {
+        (0, _) => RGBColor(150, 150, 150),
+        (1, true) => RGBColor(0, 158, 115),
+        (1, false) => RGBColor(0, 114, 178),
+        (2, true) => RGBColor(230, 159, 0),
+        (2, false) => RGBColor(213, 94, 0),
+        (_, true) => RGBColor(204, 121, 167),
+        (_, false) => RGBColor(86, 180, 233),
+    }
+}
+
+/// Black or white, whichever is read more easily on a colour (relative luminance, sRGB).
+pub(super) fn ink_on(RGBColor(red, green, blue): RGBColor) -> RGBColor {
+    let light = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
+    if light > 115.0 { INK } else { RGBColor(255, 255, 255) }
+}

@@ -1,0 +1,25 @@
+//! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep, the nine scans of
+//! the paper and the reports on them.
+#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
+
+mod cycle;
+mod error;
+mod figure;
+mod interval;
+mod output;
+mod paper;
+mod report;
+#[cfg(test)]
+mod sample;
+mod scan;
+mod scene;
+mod table;
+
+pub use cycle::Cycle;
+pub use error::Error;
+pub use figure::FigureError;
+pub use interval::Interval;
+pub use output::{OutputError, Staged};
+pub use paper::{Paper, PaperScan};
+pub use scan::Scan;
+pub use scene::{Invalid, Scene, SceneError};

@@ -1,0 +1,83 @@
+//! The command `vibrissa`.
+
+mod arguments;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use indicatif::ProgressBar;
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use vibrissa_cli::{Error, Paper, Scan, Scene, Staged};
+
+/// A sweep stopped early, or is not what the paper found.
+const UNFINISHED: u8 = 2;
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Sweep { scene, out } => sweep(&scene, out),
+        Command::Paper { out } => paper(&out),
+    };
+    result.unwrap_or_else(|error| {
+        complain(error);
+        ExitCode::FAILURE
+    })
+}
+
+fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+    let scene = Scene::read(file)?;
+    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let staged = Staged::new(&out)?;
+    let scan = Scan::run(scene)?;
+    scan.write(&staged, Path::new(""))?;
+    staged.publish()?;
+    say(&scan.report());
+    say(&format!("written to {}\n", out.display()));
+    Ok(verdict([&scan]))
+}
+
+fn paper(out: &Path) -> Result<ExitCode, Error> {
+    let staged = Staged::new(out)?;
+    // Hidden by itself where stderr is no terminal.
+    let bar = ProgressBar::new(Paper::SCANS as u64).with_message("scans");
+    bar.tick();
+    let paper = Paper::run(|| bar.inc(1))?;
+    bar.finish_and_clear();
+    paper.write(&staged)?;
+    staged.publish()?;
+    say(&paper.report());
+    say(&format!("written to {}\n", out.display()));
+    let finished = verdict(paper.scans.iter().map(|scan| &scan.scan));
+    let agrees = paper.scans.iter().all(|scan| scan.matches());
+    Ok(if agrees { finished } else { ExitCode::from(UNFINISHED) })
+}
+
+/// Tells of the sweeps that stopped early.
+fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
+    let mut code = ExitCode::SUCCESS;
+    for scan in scans {
+        if let Some(stop) = &scan.outcome.stop {
+            warn(&format!("warning: {}: {stop}; everything before that is written\n", scan.scene.name));
+            code = ExitCode::from(UNFINISHED);
+        }
+    }
+    code
+}
+
+/// Shows an error: with the place in the scene for people, on one line for everything else.
+fn complain(error: Error) {
+    if io::stderr().is_terminal() {
+        warn(&format!("{:?}\n", miette::Report::new(error)));
+    } else {
+        warn(&format!("error: {error}\n"));
+    }
+}
+
+/// To standard output; a reader that has gone away is no reason to fail, for the files are written.
+fn say(text: &str) {
+    let _ = io::stdout().write_all(text.as_bytes());
+}
+
+fn warn(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
+}

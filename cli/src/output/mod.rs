@@ -1,0 +1,60 @@
+//! The files of a sweep.
+
+mod records;
+mod staged;
+
+pub use staged::{OutputError, Staged};
+
+use crate::{Error, Scan, figure};
+use records::{CSV_COLUMNS, EventRecord, StateRecord, csv_row};
+use std::io::{self, Write};
+use std::path::Path;
+
+impl Scan {
+    /// Writes states.jsonl, states.csv, events.jsonl and sweep.svg into `folder` of the staged directory.
+    ///
+    /// # Errors
+    /// [`Error::Output`], [`Error::Figure`].
+    pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), Error> {
+        let figure = figure::sweep(self)?;
+        staged.write(&folder.join("states.jsonl"), |file| self.write_states(file))?;
+        staged.write(&folder.join("states.csv"), |file| self.write_table(file))?;
+        staged.write(&folder.join("events.jsonl"), |file| self.write_events(file))?;
+        staged.write(&folder.join("sweep.svg"), |file| file.write_all(figure.as_bytes()))?;
+        Ok(())
+    }
+
+    /// One state a line, as JSON.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_states(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.outcome.states.iter().try_for_each(|state| json_line(out, &StateRecord::from(state)))
+    }
+
+    /// One transition a line, as JSON.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_events(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.outcome.events.iter().try_for_each(|event| json_line(out, &EventRecord::from(event)))
+    }
+
+    /// The states without their contacts, as CSV.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(out);
+        table.write_record(CSV_COLUMNS)?;
+        for state in &self.outcome.states {
+            table.serialize(csv_row(state))?;
+        }
+        table.flush()
+    }
+}
+
+fn json_line(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, record)?;
+    out.write_all(b"\n")
+}

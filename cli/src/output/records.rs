@@ -1,0 +1,108 @@
+//! States and events as they are written: SI units, pieces counted from 1, numbers that survive a round trip.
+
+use serde::Serialize;
+use vibrissa::{Contact, ContactKind, Event, State};
+
+/// A line of states.jsonl.
+#[derive(Serialize)]
+pub(super) struct StateRecord {
+    x0: f64,
+    y0: f64,
+    phi0: f64,
+    phase: String,
+    f0x: f64,
+    f0y: f64,
+    m0z: f64,
+    contacts: Vec<ContactRecord>,
+    residual: f64,
+    min_gap: f64,
+    stable: bool,
+    energy: f64,
+    max_stress: Option<f64>,
+}
+
+impl From<&State> for StateRecord {
+    fn from(state: &State) -> Self {
+        Self {
+            x0: state.pose.x,
+            y0: state.pose.y,
+            phi0: state.pose.phi,
+            phase: state.phase().to_string(),
+            f0x: state.reactions.f0x,
+            f0y: state.reactions.f0y,
+            m0z: state.reactions.m0z,
+            contacts: state.contacts.iter().map(ContactRecord::from).collect(),
+            residual: state.certificate.residual,
+            min_gap: state.certificate.min_gap,
+            stable: state.certificate.stable,
+            energy: state.energy,
+            max_stress: state.max_stress,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct ContactRecord {
+    piece: usize,
+    kind: &'static str,
+    s: f64,
+    x: f64,
+    y: f64,
+    alpha: f64,
+    force: f64,
+}
+
+impl From<&Contact> for ContactRecord {
+    fn from(contact: &Contact) -> Self {
+        let kind = match contact.kind {
+            ContactKind::Tangent => "tangent",
+            ContactKind::Tip => "tip",
+            ContactKind::Corner => "corner",
+            ContactKind::Notch => "notch",
+        };
+        let Contact { piece, s, x, y, alpha, force, .. } = *contact;
+        Self { piece: piece + 1, kind, s, x, y, alpha, force }
+    }
+}
+
+/// A line of events.jsonl, with the reactions before the event.
+#[derive(Serialize)]
+pub(super) struct EventRecord {
+    x0: f64,
+    y0: f64,
+    phi0: f64,
+    from: String,
+    to: String,
+    kind: String,
+    f0x: f64,
+    f0y: f64,
+    m0z: f64,
+}
+
+impl From<&Event> for EventRecord {
+    fn from(event: &Event) -> Self {
+        let (pose, reactions) = (event.pose(), event.before.reactions);
+        Self {
+            x0: pose.x,
+            y0: pose.y,
+            phi0: pose.phi,
+            from: event.from().to_string(),
+            to: event.to().to_string(),
+            kind: event.kind.to_string(),
+            f0x: reactions.f0x,
+            f0y: reactions.f0y,
+            m0z: reactions.m0z,
+        }
+    }
+}
+
+/// The columns of states.csv.
+pub(super) const CSV_COLUMNS: [&str; 12] =
+    ["x0", "y0", "phi0", "phase", "f0x", "f0y", "m0z", "residual", "min_gap", "stable", "energy", "max_stress"];
+
+/// A row of states.csv.
+pub(super) fn csv_row(state: &State) -> impl Serialize {
+    let StateRecord { x0, y0, phi0, phase, f0x, f0y, m0z, contacts: _, residual, min_gap, stable, energy, max_stress } =
+        state.into();
+    (x0, y0, phi0, phase, f0x, f0y, m0z, residual, min_gap, stable, energy, max_stress)
+}

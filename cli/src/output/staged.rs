@@ -1,0 +1,123 @@
+//! A directory of results that appears as a whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// Why results cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The directory cannot be made or written to.
+    #[error("cannot write into the directory {}: {source}; name another one with --out", directory.display())]
+    Directory {
+        /// Which directory.
+        directory: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", file.display())]
+    File {
+        /// Which file.
+        file: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// Files written beside where they belong, and moved there by [`publish`](Self::publish) once all of them are complete.
+/// Dropped before, it leaves what was there untouched.
+#[derive(Debug)]
+pub struct Staged {
+    target: PathBuf,
+    stage: TempDir,
+}
+
+impl Staged {
+    /// Files for the directory `target`, which is made if it is missing.
+    ///
+    /// # Errors
+    /// [`OutputError::Directory`].
+    pub fn new(target: &Path) -> Result<Self, OutputError> {
+        let stage = || {
+            fs::create_dir_all(target)?;
+            // Within the target: a rename never crosses from one file system to another.
+            tempfile::Builder::new().prefix(".vibrissa-").tempdir_in(target)
+        };
+        let stage = stage().map_err(|source| OutputError::Directory { directory: target.to_path_buf(), source })?;
+        Ok(Self { target: target.to_path_buf(), stage })
+    }
+
+    /// Writes one file; `name` may lead through folders.
+    ///
+    /// # Errors
+    /// [`OutputError::File`].
+    pub fn write(
+        &self,
+        name: &Path,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        let file = self.stage.path().join(name);
+        let write = || {
+            if let Some(folder) = file.parent() {
+                fs::create_dir_all(folder)?;
+            }
+            let mut out = BufWriter::new(File::create(&file)?);
+            content(&mut out)?;
+            out.flush()
+        };
+        write().map_err(|source| OutputError::File { file: self.target.join(name), source })
+    }
+
+    /// Moves all files to where they belong, each in one stroke over the one that was there.
+    ///
+    /// # Errors
+    /// [`OutputError::File`]; those moved before it stay.
+    pub fn publish(self) -> Result<(), OutputError> {
+        publish(self.stage.path(), &self.target).map_err(|(file, source)| OutputError::File { file, source })
+    }
+}
+
+fn publish(stage: &Path, target: &Path) -> Result<(), (PathBuf, io::Error)> {
+    let at_target = |source| (target.to_path_buf(), source);
+    fs::create_dir_all(target).map_err(at_target)?;
+    for entry in fs::read_dir(stage).map_err(at_target)? {
+        let entry = entry.map_err(at_target)?;
+        let (from, to) = (entry.path(), target.join(entry.file_name()));
+        if from.is_dir() {
+            publish(&from, &to)?;
+        } else {
+            fs::rename(&from, &to).map_err(|source| (to, source))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fails_half_way_leaves_the_good_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let good = dir.path().join("folder/file");
+        let staged = Staged::new(dir.path()).unwrap();
+        staged.write("folder/file".as_ref(), |out| out.write_all(b"good")).unwrap();
+        assert!(!good.exists());
+        staged.publish().unwrap();
+        assert_eq!(fs::read(&good).unwrap(), b"good");
+
+        let staged = Staged::new(dir.path()).unwrap();
+        let failure = staged.write("folder/file".as_ref(), |out| {
+            out.write_all(b"half")?;
+            Err(io::Error::other("disk full"))
+        });
+        let message = failure.unwrap_err().to_string();
+        assert!(message.contains("file: disk full"), "{message}");
+        drop(staged);
+        assert_eq!(fs::read(&good).unwrap(), b"good");
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "the stage is gone");
+    }
+}

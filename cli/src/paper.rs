@@ -1,0 +1,102 @@
+//! The nine scans of Merker et al. (2021): three objects at three distances.
+
+use crate::{Error, Scan, Scene, Staged, figure};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// The objects.
+pub(crate) const OBJECTS: [&str; 3] = ["O1", "O2", "O3"];
+/// Distances of the clamp from the lowest vertex of the object, mm.
+pub(crate) const DISTANCES: [u32; 3] = [20, 40, 60];
+
+/// Object, distance (mm), name of the cycle in fig. 8a, file and text of the scene.
+type Entry = (&'static str, u32, &'static str, &'static str, &'static str);
+
+macro_rules! scene {
+    ($object:literal, $distance:literal, $cycle:literal) => {
+        (
+            $object,
+            $distance,
+            $cycle,
+            concat!("scenes/", $object, "_q", $distance, ".toml"),
+            include_str!(concat!("../../scenes/", $object, "_q", $distance, ".toml")),
+        )
+    };
+}
+
+const SCANS: [Entry; 9] = [
+    scene!("O1", 20, "C1"),
+    scene!("O1", 40, "C2"),
+    scene!("O1", 60, "C3"),
+    scene!("O2", 20, "C1"),
+    scene!("O2", 40, "C1"),
+    scene!("O2", 60, "C3"),
+    scene!("O3", 20, "C2"),
+    scene!("O3", 40, "C3"),
+    scene!("O3", 60, "C3"),
+];
+
+/// One of the nine scans.
+#[derive(Debug)]
+pub struct PaperScan {
+    /// O1, O2 or O3.
+    pub object: &'static str,
+    /// Distance q of the clamp from the lowest vertex, mm.
+    pub distance: u32,
+    /// Name of the paper's cycle.
+    pub expected: &'static str,
+    /// The scan.
+    pub scan: Scan,
+}
+
+impl PaperScan {
+    /// Whether the phases are those of the paper.
+    pub fn matches(&self) -> bool {
+        self.scan.cycle().name() == Some(self.expected)
+    }
+}
+
+/// The nine scans.
+#[derive(Debug)]
+pub struct Paper {
+    /// By object, then by distance.
+    pub scans: Vec<PaperScan>,
+}
+
+impl Paper {
+    /// How many scans there are.
+    pub const SCANS: usize = SCANS.len();
+
+    /// Runs all scans at once; `done` is called after each.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] and [`Error::Contact`], were a scene of this crate no scene.
+    pub fn run(done: impl Fn() + Sync) -> Result<Self, Error> {
+        let scan = |(object, distance, expected, file, text): Entry| {
+            let scan = Scan::run(Scene::parse(Path::new(file), text)?)?;
+            done();
+            Ok(PaperScan { object, distance, expected, scan })
+        };
+        Ok(Self { scans: SCANS.into_par_iter().map(scan).collect::<Result<_, Error>>()? })
+    }
+
+    /// The scan of an object at a distance (mm).
+    pub fn find(&self, object: &str, distance: u32) -> Option<&PaperScan> {
+        self.scans.iter().find(|scan| scan.object == object && scan.distance == distance)
+    }
+
+    /// Writes the files of each scan into a folder of its own, phase_cycles.svg and criterion.svg beside them.
+    ///
+    /// # Errors
+    /// [`Error::Output`], [`Error::Figure`].
+    pub fn write(&self, staged: &Staged) -> Result<(), Error> {
+        self.scans.par_iter().try_for_each(|scan| scan.scan.write(staged, Path::new(&scan.scan.scene.name)))?;
+        let middle: Vec<&Scan> = self.scans.iter().filter(|scan| scan.distance == 40).map(|scan| &scan.scan).collect();
+        for (name, figure) in
+            [("phase_cycles.svg", figure::cycles(self)?), ("criterion.svg", figure::criterion(&middle)?)]
+        {
+            staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
+        }
+        Ok(())
+    }
+}

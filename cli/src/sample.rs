@@ -1,0 +1,51 @@
+//! Made-up outcomes for tests: what happened and where, without mechanics.
+
+use vibrissa::{Certificate, ClampPath, Contact, ContactKind, Event, EventKind, Outcome, Pose, Reactions, State};
+
+fn pose(x: f64) -> Pose {
+    Pose { x, y: 0.0, phi: 0.0 }
+}
+
+/// The path on which all of it happens: from x = 0 to 10.
+pub(crate) fn path() -> ClampPath {
+    ClampPath::new(pose(0.0), pose(10.0)).unwrap()
+}
+
+/// A state at x in a phase given by its name.
+pub(crate) fn state(x: f64, phase: &str) -> State {
+    let contact = |letter| Contact {
+        piece: 0,
+        kind: if letter == 'A' { ContactKind::Tip } else { ContactKind::Tangent },
+        s: 0.0,
+        x: 0.0,
+        y: 0.0,
+        alpha: 0.0,
+        force: 0.0,
+    };
+    State {
+        pose: pose(x),
+        contacts: phase.chars().filter(|_| phase != "free").map(contact).collect(),
+        reactions: Reactions::default(),
+        energy: 0.0,
+        max_stress: None,
+        certificate: Certificate {
+            residual: 0.0,
+            min_gap: 0.0,
+            min_force: 0.0,
+            first_integral: 0.0,
+            stable: true,
+            condition: 1.0,
+            iterations: 0,
+        },
+    }
+}
+
+/// A transition at x.
+pub(crate) fn event(x: f64, from: &str, to: &str, kind: EventKind) -> Event {
+    Event { kind, before: state(x, from), after: state(x, to) }
+}
+
+/// A sweep that was not stopped.
+pub(crate) fn outcome(states: &[(f64, &str)], events: Vec<Event>) -> Outcome {
+    Outcome { states: states.iter().map(|&(x, phase)| state(x, phase)).collect(), events, stop: None }
+}

@@ -1,0 +1,138 @@
+//! From a document to a scene: every number checked where it stands.
+
+use super::document::{ContourTable, Document, Point, RodTable, SweepTable};
+use super::{Fault, Scene};
+use std::ops::Range;
+use toml::Spanned;
+use vibrissa::{ClampPath, Composite, ContactError, ContourError, Pose, Rod, RodError};
+
+/// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
+const MOST_STATES: f64 = 1e6;
+
+pub(super) fn scene(name: String, document: Document) -> Result<Scene, Fault> {
+    let rod = rod(&document.rod)?;
+    let contour = contour(&document.contour)?;
+    let path = path(document.sweep.get_ref())?;
+    let step = step(&document.sweep, &path)?;
+    Ok(Scene { name, rod, contour, path, step })
+}
+
+fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
+    let RodTable { length, diameter, youngs_modulus, bending_stiffness, yield_stress } = table.get_ref();
+    let fields = [
+        ("length", Some(length)),
+        ("diameter", diameter.as_ref()),
+        ("youngs_modulus", youngs_modulus.as_ref()),
+        ("bending_stiffness", bending_stiffness.as_ref()),
+        ("yield_stress", yield_stress.as_ref()),
+    ];
+    let at = |error: RodError| {
+        let field = match &error {
+            RodError::NotPositive { what, .. } => {
+                fields.iter().find(|(name, _)| name == what).and_then(|(_, field)| *field)
+            }
+            _ => None,
+        };
+        Fault::new(field.map_or(table.span(), Spanned::span), error.to_string())
+    };
+    let missing = |what: &str| {
+        Fault::new(
+            table.span(),
+            format!("missing field `{what}`, expected diameter and youngs_modulus, or bending_stiffness"),
+        )
+    };
+    let rod = match (bending_stiffness, diameter, youngs_modulus) {
+        (Some(stiffness), None, None) => Rod::new(*length.get_ref(), *stiffness.get_ref()).map_err(at)?,
+        (None, Some(diameter), Some(modulus)) => {
+            Rod::from_diameter(*length.get_ref(), *diameter.get_ref(), *modulus.get_ref()).map_err(at)?
+        }
+        (Some(stiffness), ..) => {
+            let message = "given beside diameter or youngs_modulus, expected either it or those two";
+            return Err(Fault::new(stiffness.span(), message));
+        }
+        (None, Some(_), None) => return Err(missing("youngs_modulus")),
+        (None, None, Some(_)) => return Err(missing("diameter")),
+        (None, None, None) => return Err(missing("bending_stiffness")),
+    };
+    match yield_stress {
+        Some(stress) => rod.with_yield_stress(*stress.get_ref()).map_err(at),
+        None => Ok(rod),
+    }
+}
+
+fn contour(table: &Spanned<ContourTable>) -> Result<Composite, Fault> {
+    let pieces = &table.get_ref().piece;
+    let shapes = pieces.iter().map(|piece| piece.get_ref().contour()).collect::<Result<_, _>>()?;
+    Composite::joined(shapes).map_err(|error| {
+        // The library counts pieces from 1. Of two that do not fit it is the second one that was put in the wrong place.
+        let blamed = match error {
+            ContourError::NoCrossing { next, .. } | ContourError::Apart { next, .. } => Some(next),
+            ContourError::Hidden { piece, .. }
+            | ContourError::NoEnd { piece, .. }
+            | ContourError::PieceRange { piece, .. } => Some(piece),
+            _ => None,
+        };
+        let piece = blamed.and_then(|number| pieces.get(number.checked_sub(1)?));
+        Fault::new(piece.map_or(table.span(), Spanned::span), error.to_string())
+    })
+}
+
+fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {
+    let SweepTable { from, to, angle, angle_to, .. } = sweep;
+    let angle_to = angle_to.as_ref().unwrap_or(angle);
+    let pose = |point: &Spanned<Point>, angle: &Spanned<f64>| {
+        let [x, y] = point.get_ref().0;
+        Pose { x, y, phi: angle.get_ref().to_radians() }
+    };
+    ClampPath::new(pose(from, angle), pose(to, angle_to)).map_err(|error| {
+        let (span, message) = match &error {
+            ContactError::NotFinite { what: "from.phi", .. } => (angle.span(), not("angle", *angle.get_ref())),
+            ContactError::NotFinite { what: "to.phi", .. } => (angle_to.span(), not("angle", *angle_to.get_ref())),
+            ContactError::NotFinite { what, .. } if what.starts_with("from") => (from.span(), error.to_string()),
+            ContactError::NoPath { .. } => {
+                let message = "the path ends where it starts, expected two different positions, or angle_to for a clamp that turns";
+                (to.span(), message.to_owned())
+            }
+            _ => (to.span(), error.to_string()),
+        };
+        Fault::new(span, message)
+    })
+}
+
+fn not(what: &str, value: f64) -> String {
+    format!("{what} is {value}, expected a finite number of degrees")
+}
+
+/// The step in the unit of the path's parameter.
+fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
+    let SweepTable { step, step_angle, .. } = table.get_ref();
+    let missing =
+        |what: &str| Fault::new(table.span(), format!("missing field {what}, the distance between reported states"));
+    match (path.turns_only(), step, step_angle) {
+        (false, Some(step), None) => counted(step.span(), "step", *step.get_ref(), path.length()),
+        (true, None, Some(step)) => {
+            let angle = *step.get_ref();
+            counted(step.span(), "step_angle", angle, path.length().to_degrees()).map(f64::to_radians)
+        }
+        (true, Some(step), _) => {
+            Err(Fault::new(step.span(), "the clamp turns without moving, expected step_angle in degrees instead"))
+        }
+        (false, _, Some(step)) => Err(Fault::new(step.span(), "the clamp moves, expected only step in m")),
+        (false, None, None) => Err(missing("`step` (m)")),
+        (true, None, None) => Err(missing("`step_angle` (degrees)")),
+    }
+}
+
+/// A step that is one, and of which `length` has not too many.
+fn counted(span: Range<usize>, what: &str, step: f64, length: f64) -> Result<f64, Fault> {
+    if !(step.is_finite() && step > 0.0) {
+        return Err(Fault::new(span, format!("{what} is {step}, expected a positive, finite number")));
+    }
+    let states = length / step;
+    if states > MOST_STATES {
+        let message =
+            format!("{what} is {step:e}, which asks for {states:.1e} states, expected at most {MOST_STATES:e}");
+        return Err(Fault::new(span, message));
+    }
+    Ok(step)
+}

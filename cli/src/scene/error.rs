@@ -1,0 +1,124 @@
+//! What can be wrong with a scene, and where in its file.
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Why a file is no scene.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be read as text.
+    #[error("cannot read the scene {}: {source}", file.display())]
+    Unreadable {
+        /// Which file.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The file is no scene.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Invalid(Box<Invalid>),
+}
+
+/// A place in a scene file and what is wrong there. It displays as `file:line:column: field: what is wrong`.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("{file}:{line}:{column}: {}", self.complaint())]
+pub struct Invalid {
+    /// Name of the file.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1, in characters.
+    pub column: usize,
+    /// The field, as in `rod.length` or `contour.piece[2].vertex`; none where the text is no TOML, or for the whole file.
+    pub field: Option<String>,
+    /// What is wrong, and what was expected.
+    pub message: String,
+    #[source_code]
+    text: NamedSource<String>,
+    #[label]
+    span: SourceSpan,
+}
+
+impl Invalid {
+    fn complaint(&self) -> String {
+        match &self.field {
+            Some(field) => format!("{field}: {}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}
+
+/// Something wrong at a place of a text that is not known here.
+pub(super) struct Fault {
+    span: Range<usize>,
+    message: String,
+}
+
+impl Fault {
+    pub fn new(span: Range<usize>, message: impl Into<String>) -> Self {
+        Self { span, message: message.into() }
+    }
+
+    /// The error for the user: `table` is the text's tree, where it has one.
+    pub fn in_text(self, file: &Path, text: &str, table: Option<&DeTable<'_>>) -> SceneError {
+        let file = file.display().to_string();
+        let before = text.get(..self.span.start).unwrap_or(text);
+        let start_of_line = before.rfind('\n').map_or(0, |newline| newline + 1);
+        SceneError::Invalid(Box::new(Invalid {
+            line: before.matches('\n').count() + 1,
+            column: before[start_of_line..].chars().count() + 1,
+            field: table.and_then(|table| field_at(table, &self.span)),
+            message: self.message,
+            text: NamedSource::new(&file, text.to_owned()).with_language("TOML"),
+            span: self.span.into(),
+            file,
+        }))
+    }
+}
+
+impl From<toml::de::Error> for Fault {
+    fn from(error: toml::de::Error) -> Self {
+        let message = error.message().trim().replace('\n', ", ").replace("expected f64", "expected a number");
+        // An error without a place concerns the file as a whole.
+        Self::new(error.span().unwrap_or(0..0), message)
+    }
+}
+
+/// Path of the smallest field whose key or value holds the span.
+fn field_at(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
+    let mut best: Option<(usize, String)> = None;
+    visit(table, "", &mut |place, path| {
+        let holds = place.start <= span.start && span.end <= place.end && !span.is_empty();
+        if holds && best.as_ref().is_none_or(|(length, _)| place.len() <= *length) {
+            best = Some((place.len(), path.to_owned()));
+        }
+    });
+    best.map(|(_, path)| path)
+}
+
+/// Calls `seen` with the span and path of every key and every value.
+fn visit(table: &DeTable<'_>, path: &str, seen: &mut impl FnMut(Range<usize>, &str)) {
+    for (key, value) in table {
+        let path = if path.is_empty() { key.get_ref().to_string() } else { format!("{path}.{}", key.get_ref()) };
+        seen(key.span(), &path);
+        visit_value(value, &path, seen);
+    }
+}
+
+fn visit_value(value: &Spanned<DeValue<'_>>, path: &str, seen: &mut impl FnMut(Range<usize>, &str)) {
+    seen(value.span(), path);
+    match value.get_ref() {
+        DeValue::Table(table) => visit(table, path, seen),
+        DeValue::Array(values) => {
+            for (index, value) in values.iter().enumerate() {
+                visit_value(value, &format!("{path}[{}]", index + 1), seen);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,85 @@
+//! Scenes: a rod, a contour and the way the clamp goes, read from a TOML file.
+//!
+//! Three steps, one file each: `document` is the file as written, `shape` its pieces of contour, and `check` turns
+//! both into what the library takes. Whatever is wrong becomes a [`SceneError`] that points into the file.
+
+mod check;
+mod document;
+mod error;
+mod shape;
+
+pub use error::{Invalid, SceneError};
+
+use error::Fault;
+use std::path::Path;
+use vibrissa::{ClampPath, Composite, ContactError, Rod, Sweep};
+
+/// A rod swept along a contour.
+#[derive(Debug)]
+pub struct Scene {
+    /// What to call it: the file's name without its extension.
+    pub name: String,
+    /// The rod.
+    pub rod: Rod,
+    /// The object, coordinates in m.
+    pub contour: Composite,
+    /// The way of the clamp.
+    pub path: ClampPath,
+    /// Distance between reported states: m, or radians where the clamp only turns.
+    pub step: f64,
+}
+
+impl Scene {
+    /// The scene in a file.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the file cannot be read, or is no scene.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        let text = std::fs::read_to_string(file)
+            .map_err(|source| SceneError::Unreadable { file: file.to_path_buf(), source })?;
+        Self::parse(file, &text)
+    }
+
+    /// The scene in a text. `file` names it, in messages and as a whole; it is not opened.
+    ///
+    /// ```
+    /// use vibrissa_cli::Scene;
+    /// let scene = Scene::parse("line.toml".as_ref(), r#"
+    ///     [rod]
+    ///     length = 0.1
+    ///     bending_stiffness = 1e-3
+    ///     [[contour.piece]]
+    ///     shape = "parabola"
+    ///     vertex = [0.0, 0.05]
+    ///     coefficient = 0.0
+    ///     [sweep]
+    ///     from = [0.0, 0.0]
+    ///     to = [0.1, 0.0]
+    ///     angle = 45.0
+    ///     step = 1e-3
+    /// "#)?;
+    /// assert_eq!((scene.name.as_str(), scene.contour.pieces()), ("line", 1));
+    /// # Ok::<(), vibrissa_cli::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with the place in the text.
+    pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
+        let table = document::table(text).map_err(|fault| fault.in_text(file, text, None))?;
+        document::document(table.clone())
+            .and_then(|document| check::scene(stem(file), document))
+            .map_err(|fault| fault.in_text(file, text, Some(table.get_ref())))
+    }
+
+    /// The sweep this scene asks for.
+    ///
+    /// # Errors
+    /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
+    pub fn sweep(&self) -> Result<Sweep<'_>, ContactError> {
+        Sweep::new(&self.rod, &self.contour, self.path, self.step)
+    }
+}
+
+fn stem(file: &Path) -> String {
+    file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
+}

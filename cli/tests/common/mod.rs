@@ -1,0 +1,55 @@
+//! The command, run as a user runs it.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A rod swept a little way into contact with two parabolas.
+pub const SCENE: &str = "\
+[rod]
+length = 0.1
+diameter = 0.5e-3
+youngs_modulus = 206e9
+
+[[contour.piece]]
+shape = \"parabola\"
+vertex = [0.0, 0.0]
+coefficient = 50.0
+
+[[contour.piece]]
+shape = \"parabola\"
+vertex = [0.03, 0.0]
+coefficient = 50.0
+
+[sweep]
+from = [0.07, -0.04]
+to = [0.03, -0.04]
+angle = 90.0
+step = 1e-3
+";
+
+/// The scene with one part replaced by another.
+pub fn edited(from: &str, to: &str) -> String {
+    assert!(SCENE.contains(from), "{from} is not in the scene");
+    SCENE.replacen(from, to, 1)
+}
+
+/// Runs `vibrissa ARGUMENTS` in a directory.
+pub fn vibrissa(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_vibrissa")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+/// What a command said on standard error.
+pub fn complaint(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// What a sweep of this scene says on standard error, where it fails.
+pub fn refused(scene: &str) -> String {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("scene.toml"), scene).unwrap();
+    let output = vibrissa(directory.path(), &["sweep", "scene.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(1), "{}", complaint(&output));
+    assert!(!directory.path().join("out").exists(), "nothing is written for a scene that is none");
+    complaint(&output)
+}

@@ -1,0 +1,188 @@
+//! What a sweep writes, and what it leaves alone.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{SCENE, complaint, edited, vibrissa};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+fn lines(file: &Path) -> Vec<Value> {
+    fs::read_to_string(file).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+/// A directory with the scene in it, swept into `out/scene`.
+fn swept(scene: &str) -> tempfile::TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("scene.toml"), scene).unwrap();
+    let output = vibrissa(directory.path(), &["sweep", "scene.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.starts_with("scene: ") && said.contains("first-contact"), "{said}");
+    directory
+}
+
+#[test]
+fn a_sweep_writes_states_events_and_a_figure() {
+    let directory = swept(SCENE);
+    let out = directory.path().join("out/scene");
+    let mut names: Vec<_> = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["events.jsonl", "states.csv", "states.jsonl", "sweep.svg"]);
+
+    let states = lines(&out.join("states.jsonl"));
+    assert_eq!(states.len(), 41);
+    let state = states.last().unwrap();
+    let mut expected = vec![
+        "x0",
+        "y0",
+        "phi0",
+        "phase",
+        "f0x",
+        "f0y",
+        "m0z",
+        "contacts",
+        "residual",
+        "min_gap",
+        "stable",
+        "energy",
+        "max_stress",
+    ];
+    expected.sort_unstable();
+    assert_eq!(keys(state), expected);
+    assert_eq!((&state["phase"], &state["stable"]), (&"B".into(), &true.into()));
+    assert!(state["max_stress"].as_f64().unwrap() > 1e6);
+    let contact = &state["contacts"][0];
+    assert_eq!(keys(contact), ["alpha", "force", "kind", "piece", "s", "x", "y"]);
+    assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &2.into()));
+
+    let events = lines(&out.join("events.jsonl"));
+    let mut expected = vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z"];
+    expected.sort_unstable();
+    assert_eq!(keys(&events[0]), expected);
+    assert_eq!(
+        (&events[0]["kind"], &events[0]["from"], &events[0]["to"]),
+        (&"first-contact".into(), &"free".into(), &"A".into())
+    );
+    // Reach of the tip: 0.03 + sqrt((0.1 - 0.04) / 50).
+    let reach = 0.03 + (0.06_f64 / 50.0).sqrt();
+    assert!((events[0]["x0"].as_f64().unwrap() - reach).abs() < 1e-11);
+    assert_eq!(events[1]["kind"], "tip-to-tangent");
+
+    let figure = fs::read_to_string(out.join("sweep.svg")).unwrap();
+    assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
+    for text in ["x in mm", "y in mm", "f0x in N", "f0y in N", "m0z in N mm", "phase A", "phase B", "free"] {
+        assert!(figure.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn the_table_holds_the_same_numbers_to_the_last_bit() {
+    let directory = swept(SCENE);
+    let out = directory.path().join("out/scene");
+    let mut table = csv::Reader::from_path(out.join("states.csv")).unwrap();
+    let header = "x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress";
+    assert_eq!(table.headers().unwrap().iter().collect::<Vec<_>>().join(","), header);
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let states = lines(&out.join("states.jsonl"));
+    assert_eq!(rows.len(), states.len());
+    for (row, state) in rows.iter().zip(&states) {
+        for (cell, column) in row.iter().zip(header.split(',')) {
+            match &state[column] {
+                Value::Number(number) => assert_eq!(cell.parse::<f64>().unwrap(), number.as_f64().unwrap(), "{column}"),
+                Value::String(text) => assert_eq!(cell, text),
+                other => assert_eq!(cell, other.to_string()),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rod_without_thickness_has_no_stress() {
+    let directory = swept(&edited("diameter = 0.5e-3\nyoungs_modulus = 206e9", "bending_stiffness = 6.32e-4"));
+    let states = lines(&directory.path().join("out/scene/states.jsonl"));
+    assert!(states.iter().all(|state| state["max_stress"].is_null()));
+    let table = fs::read_to_string(directory.path().join("out/scene/states.csv")).unwrap();
+    assert!(table.lines().skip(1).all(|line| line.ends_with(',')));
+}
+
+#[test]
+fn a_clamp_that_turns_is_plotted_against_its_angle() {
+    let turning = "from = [0.05, -0.04]\nto = [0.05, -0.04]\nangle = 60.0\nangle_to = 120.0\nstep_angle = 2.0\n";
+    let directory = swept(&(SCENE[..SCENE.find("from").unwrap()].to_owned() + turning));
+    let states = lines(&directory.path().join("out/scene/states.jsonl"));
+    assert_eq!(states.len(), 31);
+    assert!((states[30]["phi0"].as_f64().unwrap().to_degrees() - 120.0).abs() < 1e-12);
+    let figure = fs::read_to_string(directory.path().join("out/scene/sweep.svg")).unwrap();
+    assert!(figure.contains("in degrees"));
+}
+
+#[test]
+fn a_rod_that_yields_is_told_of() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("scene.toml"), edited("206e9", "206e9\nyield_stress = 1e6")).unwrap();
+    let output = vibrissa(directory.path(), &["sweep", "scene.toml", "--out", "here"]);
+    assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("the rod yields") && said.contains("1.0000e6 Pa"), "{said}");
+    assert!(directory.path().join("here/states.csv").exists());
+}
+
+#[test]
+fn an_unreadable_scene() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = vibrissa(directory.path(), &["sweep", "nowhere.toml"]);
+    assert_eq!(output.status.code(), Some(1));
+    let message = complaint(&output);
+    assert!(message.contains("cannot read the scene nowhere.toml"), "{message}");
+    fs::write(directory.path().join("image.toml"), b"\xff\xfe").unwrap();
+    let message = complaint(&vibrissa(directory.path(), &["sweep", "image.toml"]));
+    assert!(message.contains("cannot read the scene image.toml") && message.contains("UTF-8"), "{message}");
+}
+
+#[test]
+fn an_unwritable_directory() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
+    fs::write(directory.path().join("taken"), "a file").unwrap();
+    for (command, out) in [(vec!["sweep", "scene.toml"], "taken"), (vec!["paper"], "taken/below")] {
+        let output = vibrissa(directory.path(), &[&command[..], &["--out", out]].concat());
+        assert_eq!(output.status.code(), Some(1));
+        let message = complaint(&output);
+        assert!(message.contains(&format!("cannot write into the directory {out}")), "{message}");
+        assert!(message.contains("--out"), "{message}");
+    }
+    assert_eq!(fs::read_to_string(directory.path().join("taken")).unwrap(), "a file");
+}
+
+#[test]
+fn a_failure_leaves_the_earlier_results_alone() {
+    let directory = swept(SCENE);
+    let file = directory.path().join("out/scene/states.jsonl");
+    let good = fs::read(&file).unwrap();
+    fs::write(directory.path().join("scene.toml"), edited("length = 0.1", "length = -0.1")).unwrap();
+    let output = vibrissa(directory.path(), &["sweep", "scene.toml"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(fs::read(&file).unwrap(), good);
+    assert_eq!(fs::read_dir(directory.path().join("out/scene")).unwrap().count(), 4, "no stage is left behind");
+}
+
+#[test]
+fn a_sweep_that_stops_early_keeps_what_it_has() {
+    let directory = tempfile::tempdir().unwrap();
+    // The clamp itself is driven into the solid.
+    let into = "from = [0.0, -0.15]\nto = [0.0, 0.05]\nangle = 60.0\nstep = 1e-3\n";
+    fs::write(directory.path().join("scene.toml"), SCENE[..SCENE.find("from").unwrap()].to_owned() + into).unwrap();
+    let output = vibrissa(directory.path(), &["sweep", "scene.toml"]);
+    let message = complaint(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("scene: the sweep stopped at clamp (0.000000000, "), "{message}");
+    let states = lines(&directory.path().join("out/scene/states.jsonl"));
+    assert!((50..200).contains(&states.len()), "{}", states.len());
+    assert!(fs::read_to_string(directory.path().join("out/scene/sweep.svg")).unwrap().contains("stopped early"));
+}
