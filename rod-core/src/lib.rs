@@ -1,6 +1,7 @@
 //! Mechanics of one thin elastic rod.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod argmin_newton;
 mod basis;
 mod brent;
 mod dual;
@@ -20,6 +21,7 @@ mod segment;
 mod units;
 mod walk;
 
+pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 pub use brent::{Root, find_root};
 pub use dual::Dual;
 pub use elastica::{Elastica, Load};
