@@ -20,6 +20,14 @@ pub enum ContactError {
         /// The pose given twice.
         pose: Pose,
     },
+    /// A guess of a contact that cannot be.
+    #[error("contact {index} of the guess: {reason}")]
+    Guess {
+        /// Number of the contact, from 0 at the clamp.
+        index: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// The distance between reported states is no distance.
     #[error("step is {value}, expected a positive, finite length")]
     Step {

@@ -67,6 +67,11 @@ impl ClampPath {
         }
     }
 
+    /// A path that stays where it is.
+    pub(crate) fn standing(pose: Pose) -> Self {
+        Self { from: pose, to: pose, length: 1.0 }
+    }
+
     /// The same path in dimensionless lengths.
     pub(crate) fn dimensionless(&self, units: Units) -> Self {
         let scale = |p: Pose| Pose { x: p.x / units.length, y: p.y / units.length, phi: p.phi };

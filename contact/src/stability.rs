@@ -144,3 +144,47 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
     }
     q.is_positive()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::Held;
+    use rod_contours::{Composite, Parabola};
+    use rod_core::Pose;
+
+    /// A straight rod standing under a ceiling y = 1 + c x^2, pressed with force f: the tip slides, the clamp holds.
+    fn stands(c: f64, f: f64) -> bool {
+        let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap());
+        let world = World::new(&contour, 1.0);
+        let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
+        let mut column = Configuration::free(0.0);
+        column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
+        is_stable(&world, &path, &column)
+    }
+
+    #[test]
+    fn a_column_buckles_at_eulers_load() {
+        let euler = PI * PI / 4.0;
+        assert!(stands(0.0, 0.999 * euler));
+        assert!(!stands(0.0, 1.001 * euler));
+    }
+
+    #[test]
+    fn a_ceiling_that_gives_way_buckles_it_earlier_and_a_hollow_one_later() {
+        // On a ceiling of curvature k: eta'' + p^2 eta = -k p^2 int eta with p^2 = f, eta(0) = eta'(1) = 0, which has a
+        // solution first where (1 + k) cos p = k sin p / p.
+        let critical = |k: f64| {
+            let (mut low, mut high): (f64, f64) = (1e-3, PI);
+            for _ in 0..100 {
+                let p = 0.5 * (low + high);
+                if (1.0 + k) * p.cos() > k * p.sin() / p { low = p } else { high = p }
+            }
+            low * low
+        };
+        for k in [-0.5, 0.5] {
+            let f = critical(k);
+            assert!(if k > 0.0 { f < PI * PI / 4.0 } else { f > PI * PI / 4.0 });
+            assert!(stands(0.5 * k, 0.995 * f) && !stands(0.5 * k, 1.005 * f), "{k}: {f}");
+        }
+    }
+}
