@@ -90,11 +90,7 @@ impl Scanner {
     fn scan_notch(&self, world: &World<'_>, configuration: &Configuration, stretch: usize, found: &mut Scan) {
         let Some(tip) = self.nodes.last().filter(|_| !configuration.ends_at_tip()) else { return };
         let foot = world.foot(stretch, tip.at.x, tip.at.y);
-        if !foot.interior || foot.gap > -GAP_TOLERANCE {
-            return;
-        }
-        let nearer = |piece: usize| world.foot(piece, tip.at.x, tip.at.y).gap.abs() < -foot.gap * (1.0 - 1e-9);
-        if !nearer(stretch - 1) && !nearer(stretch + 1) {
+        if foot.interior && foot.gap < -GAP_TOLERANCE && world.goes_through(&foot, tip.at.x, tip.at.y) {
             found.min_gap = found.min_gap.min(foot.gap);
             found.crossings.push(Crossing { stretch, s: 1.0, phi: tip.at.phi, foot, tip: true });
         }
@@ -137,7 +133,10 @@ impl Scanner {
         let mut i = 0;
         while let Some(node) = nodes.get(i) {
             let foot = world.foot(stretch, node.at.x, node.at.y);
-            let sight = see(node, &foot, configuration, stretch);
+            let mut sight = see(node, &foot, configuration, stretch);
+            if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
+                sight = Sight { gap: -sight.gap, left: f64::NAN, right: f64::NAN, interior: false };
+            }
             if sight.interior {
                 found.min_gap = found.min_gap.min(sight.gap);
                 found.clamp_inside |= i == 0 && sight.gap < -GAP_TOLERANCE;
@@ -200,7 +199,7 @@ impl Scanner {
             best = look(s);
         }
         let (_, at, foot) = best;
-        if foot.interior {
+        if foot.interior && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
             found.min_gap = found.min_gap.min(foot.gap);
             if foot.gap < -GAP_TOLERANCE {
                 found.crossings.push(Crossing { stretch, s, phi: at.phi, foot, tip: false });

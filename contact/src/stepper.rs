@@ -25,6 +25,8 @@ const LEAST_COSINE: f64 = 0.9;
 const LARGEST_CORRECTION: f64 = 0.3;
 /// Slowest d tau / d arclength at which a pose is aimed at directly.
 const STEEPEST: f64 = 1e-3;
+/// Penetration that a transition may leave elsewhere: a shorter step would have met it first.
+const DEEPEST: f64 = 1e-9;
 /// Path parameter by which a new contact set is tried.
 const PROBE: f64 = 1e-6;
 
@@ -91,7 +93,11 @@ impl Stepper<'_> {
                 return Err(StopReason::ClampInside);
             }
             match self.first_transition(from, &next, &scan, &tangent, length) {
-                Ok(None) => {}
+                Ok(None) if scan.min_gap > -DEEPEST => {}
+                Ok(None) => {
+                    self.shorten(&mut aim);
+                    continue;
+                }
                 Ok(Some(step)) => return Ok(step),
                 Err(NoTransition::EndOfContour) if length < 1e-3 => return Err(StopReason::EndOfContour),
                 Err(_) => {
@@ -243,7 +249,7 @@ impl Stepper<'_> {
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         let seen = self.scanner.scan(&self.corrector.world, &self.corrector.path, reached);
-        if ordered_or_new(reached) && seen.crossings.iter().all(|crossing| crossing.foot.gap > -1e-9) {
+        if ordered_or_new(reached) && seen.crossings.iter().all(|crossing| crossing.foot.gap > -DEEPEST) {
             Ok(first.map(|(_, step)| step))
         } else {
             Err(NoTransition::NotLocated)

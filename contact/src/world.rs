@@ -1,6 +1,6 @@
 //! The contour as the rod sees it: in lengths of the rod.
 
-use rod_contours::{Composite, Stretch, StretchKind};
+use rod_contours::{Composite, Contour, Stretch, StretchKind};
 use rod_core::Support;
 
 /// A contour in dimensionless lengths. Its parameter stays the contour's own.
@@ -57,6 +57,13 @@ impl<'a> World<'a> {
             y: frame.y / self.length,
             interior: closest.interior,
         }
+    }
+
+    /// Whether a point with a negative gap to `foot`'s stretch is inside the solid, and there nearest to that stretch: what
+    /// lies behind one stretch may be outside of the object or nearer to another stretch, whose gap it then is.
+    pub fn goes_through(&self, foot: &Foot, x: f64, y: f64) -> bool {
+        let gap = self.contour.gap(x * self.length, y * self.length) / self.length;
+        foot.gap < 0.0 && foot.gap >= gap * (1.0 + 1e-6) - 1e-14
     }
 
     /// Number of the piece a stretch belongs to: for a joint the piece before it.

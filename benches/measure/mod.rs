@@ -1,0 +1,64 @@
+//! Times that can be compared: everything that enters a ratio is measured in turns, in one run.
+#![allow(dead_code, reason = "each bench takes what it needs")]
+
+pub mod objects;
+
+use std::time::Instant;
+
+/// Seconds a unit of work.
+#[derive(Clone, Copy, Debug)]
+pub struct Time {
+    /// The best round: what the work costs when nothing disturbs it.
+    pub least: f64,
+    /// The middle round: what it costs here and now.
+    pub median: f64,
+}
+
+impl Time {
+    /// "0.21 us (median 0.23)", in the unit `factor` (1e6 for us) called `name`.
+    pub fn show(&self, factor: f64, name: &str) -> String {
+        format!("{:9.3} {name} (median {:.3})", self.least * factor, self.median * factor)
+    }
+
+    /// How many times as long as `other` this takes: by the best rounds, and by the middle ones.
+    pub fn over(&self, other: &Self) -> String {
+        format!("{:.1} (medians {:.1})", self.least / other.least, self.median / other.median)
+    }
+}
+
+/// Times each of `works` `rounds` times, one after the other in every round, so that a busy machine is unfair to all
+/// alike. A work returns how many units of it were done.
+pub fn interleaved<const N: usize>(rounds: usize, mut works: [&mut dyn FnMut() -> usize; N]) -> [Time; N] {
+    let mut times = [const { Vec::new() }; N];
+    for round in 0..=rounds {
+        for (work, times) in works.iter_mut().zip(&mut times) {
+            let start = Instant::now();
+            let units = work();
+            let time = start.elapsed().as_secs_f64() / units as f64;
+            // the first round warms up
+            if round > 0 {
+                times.push(time);
+            }
+        }
+    }
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        Time { least: times[0], median: times[times.len() / 2] }
+    })
+}
+
+/// Whether the bench was started to be timed, not listed or tried once.
+pub fn is_timed() -> bool {
+    !std::env::args().any(|argument| argument == "--test" || argument == "--list")
+}
+
+/// Numbers that are the same in every run.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Uniform between -`most` and `most`.
+    pub fn within(&mut self, most: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        most * ((self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+    }
+}
