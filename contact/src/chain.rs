@@ -27,6 +27,8 @@ const ARRIVED: f64 = 2e-5;
 const MOST_STEPS: usize = 400;
 /// Time step over the damping time: the unconstrained shape loses half of its bend in a step of 1.
 const TIME_STEP: f64 = 1.0;
+/// Forces below this are what a chain that has all but arrived leaves.
+const LEAST_FORCE: f64 = 1e-4;
 /// Deepest penetration taken back in one step.
 const DEEPEST_PUSH: f64 = 0.03;
 
@@ -90,16 +92,23 @@ impl Chain {
     /// Nodes that could meet the contour within a step.
     fn near(world: &World<'_>, nodes: &[[f64; 2]; LINKS + 1], reach: f64) -> Vec<Near> {
         let mut near = Vec::new();
-        for stretch in 0..world.stretches().len() {
-            // The tip may rest in a notch, which its two pieces already say
-            if matches!(world.stretches()[stretch].kind, StretchKind::Notch { .. }) {
+        for (stretch, at) in world.stretches().iter().enumerate() {
+            // what holds the tip in a notch are the two pieces that end there
+            if matches!(at.kind, StretchKind::Notch { .. }) {
                 continue;
             }
-            for (node, [x, y]) in nodes.iter().enumerate().skip(1) {
-                let foot = world.foot(stretch, *x, *y);
-                if foot.interior && foot.gap < reach {
-                    near.push(Near { node, stretch, foot });
+            for (node, &[x, y]) in nodes.iter().enumerate().skip(1) {
+                let mut foot = world.foot(stretch, x, y);
+                if foot.gap.abs() > reach {
+                    continue;
                 }
+                if world.ends_in_notch(stretch, &foot) {
+                    // beyond its end a piece goes on as its tangent
+                    foot.gap = (x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos();
+                } else if !foot.interior || (foot.gap < -1e-9 && !world.goes_through(&foot, x, y)) {
+                    continue;
+                }
+                near.push(Near { node, stretch, foot });
             }
         }
         near
@@ -145,8 +154,7 @@ impl Chain {
 
     /// Clusters of loaded neighbouring nodes as contacts.
     fn contacts(&self, world: &World<'_>, mut forces: Vec<(Near, f64)>, tau: f64) -> Configuration {
-        let most = forces.iter().map(|(_, force)| *force).fold(0.0, f64::max);
-        forces.retain(|(_, force)| *force > 1e-5 * most.max(1e-6));
+        forces.retain(|(_, force)| *force > LEAST_FORCE);
         forces.sort_by_key(|(near, _)| (near.node, near.stretch));
         let (nodes, angles) = self.nodes();
         let mut configuration = Configuration::free(tau);
@@ -175,14 +183,33 @@ impl Chain {
                 (Hold::Tangent { offset: PI * ((phi - foot.alpha) / PI).round() }, middle * LINK)
             };
             let j = configuration.count();
-            if j > 0 && configuration.is_tip(j - 1) {
-                // two stretches hold the tip: it rests in the notch between them
+            if j > 0 && configuration.ends_at_tip() {
+                into_notch(world, &mut configuration, stretch, foot.alpha, force);
                 continue;
             }
             configuration.insert(j, Held { stretch, hold }, [foot.t, force, third]);
         }
         configuration
     }
+}
+
+/// The tip, held by the last contact already, is held by `stretch` too: it rests in the notch between the two.
+fn into_notch(world: &World<'_>, configuration: &mut Configuration, stretch: usize, alpha: f64, force: f64) {
+    let last = configuration.count() - 1;
+    let (held, f) = (configuration.contacts[last].stretch, configuration.force(last));
+    let notch = held.min(stretch) + 1;
+    if held.abs_diff(stretch) != 2 || !matches!(world.stretches()[notch].kind, StretchKind::Notch { .. }) {
+        return;
+    }
+    let (sin, cos) = world.support(held, configuration.t(last)).alpha.sin_cos();
+    let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
+    let range = world.stretches()[notch].range;
+    // along a notch alpha falls by 1 per unit of its parameter
+    let before = world.support(notch, range.from).alpha;
+    let t = range.from + (before - b.atan2(a));
+    configuration.contacts[last].stretch = notch;
+    configuration.z[3 * last] = t.clamp(range.from, range.to);
+    configuration.z[3 * last + 1] = a.hypot(b);
 }
 
 /// The quadratic programme of one step: change d of the joints, force at each near node.

@@ -78,14 +78,13 @@ impl Stepper<'_> {
 
     /// One step from `from` towards the pose `target`, at most there.
     pub fn step(&mut self, from: &Point, target: f64) -> Result<Step, StopReason> {
-        let mut aim = false;
         while self.h >= SHORTEST_STEP {
-            let Some((next, report, length)) = self.predict_and_correct(from, target, &mut aim) else {
+            let Some((next, report, length)) = self.predict_and_correct(from, target) else {
                 continue;
             };
             let tangent = self.corrector.last_tangent(&next);
             if tangent.cosine(&from.tangent) < LEAST_COSINE {
-                self.shorten(&mut aim);
+                self.shorten();
                 continue;
             }
             let scan = self.scan(&next);
@@ -95,20 +94,20 @@ impl Stepper<'_> {
             match self.first_transition(from, &next, &scan, &tangent, length) {
                 Ok(None) if scan.min_gap > -DEEPEST => {}
                 Ok(None) => {
-                    self.shorten(&mut aim);
+                    self.shorten();
                     continue;
                 }
                 Ok(Some(step)) => return Ok(step),
                 Err(NoTransition::EndOfContour) if length < 1e-3 => return Err(StopReason::EndOfContour),
                 Err(_) => {
-                    self.shorten(&mut aim);
+                    self.shorten();
                     continue;
                 }
             }
             let stable = self.is_stable(&next);
             if !stable && from.quality.stable {
                 if length > PROBE {
-                    self.shorten(&mut aim);
+                    self.shorten();
                     continue;
                 }
                 // Mostly the fold is just ahead, and known better than the loss of stability is.
@@ -124,8 +123,7 @@ impl Stepper<'_> {
         Err(StopReason::StepTooSmall)
     }
 
-    fn shorten(&mut self, aim: &mut bool) {
-        *aim = false;
+    fn shorten(&mut self) {
         self.h *= 0.5;
     }
 
@@ -135,7 +133,6 @@ impl Stepper<'_> {
         &mut self,
         from: &Point,
         target: f64,
-        aim: &mut bool,
     ) -> Option<(Configuration, SolveReport, f64)> {
         let Point { configuration, tangent, scan, .. } = from;
         let tau = configuration.tau();
@@ -144,7 +141,7 @@ impl Stepper<'_> {
         // a free rod is safe as far as its gap reaches
         let free = if configuration.count() == 0 { scan.min_gap.min(1.0) / self.fastest() } else { 0.0 };
         let reach = self.h.min(LONGEST_WAY / slope.abs()).max(free);
-        let land = to_go <= reach || (*aim && to_go.is_finite());
+        let mut land = to_go <= reach;
         let length = if land { to_go } else { reach };
         let mut next = configuration.clone();
         for (z, d) in next.z.iter_mut().zip(&tangent.direction) {
@@ -156,7 +153,7 @@ impl Stepper<'_> {
         } else {
             Condition::Plane { tangent, from: &configuration.z, distance: length }
         };
-        let report = self.corrector.correct(&mut next, condition);
+        let mut report = self.corrector.correct(&mut next, condition);
         let off: f64 = next
             .z
             .iter()
@@ -166,14 +163,22 @@ impl Stepper<'_> {
             .sum::<f64>()
             .sqrt();
         if !report.status.is_solved() || !ordered(&next) || off > LARGEST_CORRECTION * length + 1e-9 {
-            self.shorten(aim);
+            self.shorten();
             return None;
         }
         if !land && next.tau() > target {
-            // ran past it: the pose is near enough to be aimed at
-            *aim = true;
-            self.h *= 0.75;
-            return None;
+            // ran past it: the pose is between the two
+            let part = (target - tau) / (next.tau() - tau);
+            for (z, start) in next.z.iter_mut().zip(&configuration.z) {
+                *z = start + part * (*z - start);
+            }
+            report = self.corrector.at_pose(&mut next, target);
+            let length = tangent.along(&next.z, &configuration.z);
+            if !report.status.is_solved() || !ordered(&next) || !(0.0..=reach).contains(&length) {
+                self.shorten();
+                return None;
+            }
+            land = true;
         }
         if land {
             // to the last bit, so that the sweep knows it has arrived

@@ -66,6 +66,21 @@ impl<'a> World<'a> {
         foot.gap < 0.0 && foot.gap >= gap * (1.0 + 1e-6) - 1e-14
     }
 
+    /// Whether `foot` is the end of its stretch at a notch.
+    pub fn ends_in_notch(&self, stretch: usize, foot: &Foot) -> bool {
+        let stretches = self.stretches();
+        let range = stretches[stretch].range;
+        let neighbour = if foot.t >= range.to {
+            Some(stretch + 1)
+        } else if foot.t <= range.from {
+            stretch.checked_sub(1)
+        } else {
+            None
+        };
+        let kind = neighbour.and_then(|k| stretches.get(k)).map(|s| s.kind);
+        !foot.interior && matches!(kind, Some(StretchKind::Notch { .. }))
+    }
+
     /// Number of the piece a stretch belongs to: for a joint the piece before it.
     pub fn piece(&self, stretch: usize) -> usize {
         match self.stretches()[stretch].kind {

@@ -1,0 +1,164 @@
+//! What a change of units, a mirror, or another way to the same pose must and must not change.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::bumps::Bumps;
+use common::{OBJECTS, Scene, UP, difference};
+use std::f64::consts::PI;
+use vibrissa::{Event, Outcome, Pose, State};
+
+fn paper_scenes() -> impl Iterator<Item = Scene> {
+    OBJECTS.into_iter().flat_map(|(_, y1, y2)| [0.2, 0.4, 0.6].into_iter().map(move |q| Scene::paper(y1, y2, q)))
+}
+
+/// Turning and moving at once past three unequal bumps.
+fn turning_scene() -> Scene {
+    let bumps = Bumps::new(&[(-0.3, 0.05, 4.0), (0.0, 0.0, 8.0), (0.4, 0.1, 3.0)]).unwrap();
+    let (from, to) = (Pose { x: 0.9, y: -0.4, phi: 1.2 }, Pose { x: -0.9, y: -0.3, phi: 2.2 });
+    Scene { length: 1.0, stiffness: 1.0, bumps, from, to, step: 0.02 }
+}
+
+fn assert_same(what: &str, a: &State, b: &State) {
+    if let Some(difference) = difference(a, b, 1e-9) {
+        panic!("{what} at {:?}: {difference}", b.pose);
+    }
+}
+
+fn assert_same_outcome(what: &str, a: &Outcome, b: &Outcome) {
+    assert_eq!(a.states.len(), b.states.len());
+    for (a, b) in a.states.iter().zip(&b.states) {
+        assert_same(what, a, b);
+    }
+    let kinds = |o: &Outcome| o.events.iter().map(|e| (e.kind, e.from(), e.to())).collect::<Vec<_>>();
+    assert_eq!(kinds(a), kinds(b), "{what}");
+    assert!(!a.events.is_empty());
+    for (a, b) in a.events.iter().zip(&b.events) {
+        assert_same(what, &a.before, &b.before);
+        assert_same(what, &a.after, &b.after);
+    }
+}
+
+/// Every number of a state through a change of units or a mirror, then compared.
+fn mapped(outcome: Outcome, map: impl Fn(State) -> State) -> Outcome {
+    let event = |e: Event| Event { kind: e.kind, before: map(e.before), after: map(e.after) };
+    Outcome {
+        states: outcome.states.into_iter().map(&map).collect(),
+        events: outcome.events.into_iter().map(event).collect(),
+        stop: outcome.stop,
+    }
+}
+
+#[test]
+fn units_of_length_and_stiffness_are_only_units() {
+    for scene in paper_scenes().chain([turning_scene()]) {
+        let plain = scene.run_through();
+        for (length, stiffness) in [(0.1, 6.32e-4), (1e3, 1.0), (2.5e-6, 4e9)] {
+            let si = scene.scaled(length, stiffness);
+            let units = si.rod().units();
+            let back = mapped(si.run_through(), |mut s| {
+                s.pose = Pose { x: s.pose.x / length, y: s.pose.y / length, ..s.pose };
+                s.reactions.f0x /= stiffness / length / length;
+                s.reactions.f0y /= stiffness / length / length;
+                s.reactions.m0z /= stiffness / length;
+                s.energy /= stiffness / length;
+                for c in &mut s.contacts {
+                    (c.s, c.x, c.y) = (c.s / length, c.x / length, c.y / length);
+                    c.force /= units.force;
+                }
+                s
+            });
+            assert_same_outcome(&format!("in lengths of {length}"), &back, &plain);
+        }
+    }
+}
+
+#[test]
+fn a_mirrored_sweep_is_the_mirror_image() {
+    for scene in paper_scenes().chain([turning_scene()]) {
+        let last = scene.bumps.pieces.len() - 1;
+        let image = mapped(scene.mirrored().run_through(), |mut s| {
+            s.pose = Pose { x: -s.pose.x, y: s.pose.y, phi: PI - s.pose.phi };
+            s.reactions.f0x = -s.reactions.f0x;
+            s.reactions.m0z = -s.reactions.m0z;
+            for c in &mut s.contacts {
+                (c.x, c.alpha, c.piece) = (-c.x, -c.alpha, last - c.piece);
+            }
+            s
+        });
+        assert_same_outcome("in the mirror", &image, &scene.run_through());
+    }
+}
+
+/// A rod lying under a row of bumps, pressed against them by a clamp that rises.
+fn pressed(phi: f64) -> Scene {
+    let bumps = Bumps::new(&[(0.0, 0.0, 5.0), (0.3, 0.0, 5.0)]).unwrap();
+    let (from, to) = (Pose { x: -0.2, y: -0.45, phi }, Pose { x: -0.2, y: 0.05, phi });
+    Scene { length: 1.0, stiffness: 1.0, bumps, from, to, step: 0.01 }
+}
+
+#[test]
+fn there_and_back_gives_the_same_states() {
+    for phi in [0.0, 0.1, 0.2, 0.3] {
+        let scene = pressed(phi);
+        let there = scene.run_through();
+        let back = scene.backwards().run_through();
+        assert!(there.states.iter().filter(|s| !s.contacts.is_empty()).count() > 10);
+        assert!(there.events.iter().all(|e| !e.kind.to_string().starts_with("snap")));
+        for (a, b) in there.states.iter().zip(back.states.iter().rev()) {
+            assert_same("there and back", b, a);
+        }
+        assert_eq!(there.events.len(), back.events.len());
+        for (a, b) in there.events.iter().zip(back.events.iter().rev()) {
+            assert!((a.pose().y - b.pose().y).abs() < 1e-9, "{} and {}", a.kind, b.kind);
+            assert_eq!((a.from(), a.to()), (b.to(), b.from()));
+        }
+    }
+}
+
+#[test]
+fn across_a_snap_the_way_back_is_another() {
+    for scene in paper_scenes() {
+        let (there, back) = (scene.run_through(), scene.backwards().run_through());
+        let off = there.events.last().unwrap();
+        assert_eq!(off.kind.to_string(), "snap-off");
+        // where the rod got free it stays free on the way back, for a long while
+        let on = &back.events[0];
+        assert_eq!(on.kind.to_string(), "first-contact");
+        assert!(on.pose().x - off.pose().x > 0.1, "off at {}, on again at {}", off.pose().x, on.pose().x);
+        // and between, the rod is dragged the other way
+        let mut bent = 0;
+        for (a, b) in there.states.iter().zip(back.states.iter().rev()) {
+            assert!((a.pose.x - b.pose.x).abs() < 1e-12);
+            if !a.contacts.is_empty() && !b.contacts.is_empty() {
+                assert!(difference(a, b, 1e-3).is_some(), "the same state at {:?}", a.pose);
+                bent += 1;
+            }
+        }
+        assert!(bent > 10);
+    }
+}
+
+#[test]
+fn a_turn_there_and_back_across_a_snap_is_hysteretic() {
+    let bumps = Bumps::new(&[(0.0, 0.0, 5.0), (0.3, 0.0, 5.0)]).unwrap();
+    let pose = |phi| Pose { x: 0.2, y: -0.5, phi };
+    let scene = Scene { length: 1.0, stiffness: 1.0, bumps, from: pose(-0.5), to: pose(PI + 0.5), step: 0.02 };
+    let (there, back) = (scene.run_through(), scene.backwards().run_through());
+    let (off, on) = (there.events.last().unwrap(), &back.events[0]);
+    assert_eq!((off.kind.to_string(), on.kind.to_string()), ("snap-off".into(), "first-contact".into()));
+    assert!(off.pose().phi - on.pose().phi > 0.1 && off.pose().phi > UP, "{} {}", off.pose().phi, on.pose().phi);
+}
+
+#[test]
+fn a_start_in_contact_is_what_a_sweep_from_further_back_brings() {
+    for scene in paper_scenes() {
+        let whole = scene.run_through();
+        let every = 7;
+        for state in whole.states.iter().step_by(every) {
+            let short = Scene { from: state.pose, to: Pose { x: state.pose.x - 0.004, ..state.pose }, ..scene.clone() };
+            let start = short.run_through().states.remove(0);
+            assert_same("started here", &start, state);
+        }
+    }
+}
