@@ -1,7 +1,11 @@
-//! A flexible rod that touches things.
-pub use rod_contact as contact;
+#![doc = include_str!("../README.md")]
+
+// Not as `core`: that would hide Rust's own from whoever imports everything.
+pub use {rod_contact, rod_contours, rod_core};
+
+#[doc(inline)]
 pub use rod_contact::*;
-pub use rod_contours as contours;
+#[doc(inline)]
 pub use rod_contours::*;
-pub use rod_core as core;
+#[doc(inline)]
 pub use rod_core::*;

@@ -6,6 +6,7 @@
 //! the square of a link's length: enough to see which contacts there are.
 
 use crate::configuration::{Configuration, Held};
+use crate::notch::into_notch;
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use clarabel::algebra::CscMatrix;
@@ -191,25 +192,6 @@ impl Chain {
         }
         configuration
     }
-}
-
-/// The tip, held by the last contact already, is held by `stretch` too: it rests in the notch between the two.
-fn into_notch(world: &World<'_>, configuration: &mut Configuration, stretch: usize, alpha: f64, force: f64) {
-    let last = configuration.count() - 1;
-    let (held, f) = (configuration.contacts[last].stretch, configuration.force(last));
-    let notch = held.min(stretch) + 1;
-    if held.abs_diff(stretch) != 2 || !matches!(world.stretches()[notch].kind, StretchKind::Notch { .. }) {
-        return;
-    }
-    let (sin, cos) = world.support(held, configuration.t(last)).alpha.sin_cos();
-    let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
-    let range = world.stretches()[notch].range;
-    // along a notch alpha falls by 1 per unit of its parameter
-    let before = world.support(notch, range.from).alpha;
-    let t = range.from + (before - b.atan2(a));
-    configuration.contacts[last].stretch = notch;
-    configuration.z[3 * last] = t.clamp(range.from, range.to);
-    configuration.z[3 * last + 1] = a.hypot(b);
 }
 
 /// The quadratic programme of one step: change d of the joints, force at each near node.

@@ -3,9 +3,11 @@
 
 use crate::branch::Corrector;
 use crate::configuration::Configuration;
+use crate::notch::{parted, straddles};
 use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
 use crate::stability::is_stable;
 use crate::transition::{Break, as_tip, breaks, with_contact};
+use crate::world::World;
 use rod_core::Hold;
 use std::f64::consts::PI;
 
@@ -28,7 +30,7 @@ pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess
     let mut settled = None;
     for _ in 0..MOST_REPAIRS {
         let report = (configuration.count() > 0).then(|| corrector.at_pose(&mut configuration, tau));
-        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&configuration) {
+        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&corrector.world, &configuration) {
             break;
         }
         let scan = scanner.scan(&corrector.world, &corrector.path, &configuration);
@@ -53,9 +55,10 @@ pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess
     settled
 }
 
-/// Whether the contacts follow each other along the rod.
-pub(crate) fn ordered(configuration: &Configuration) -> bool {
-    let n = configuration.count();
+/// Whether the contacts follow each other along the rod. Two that straddle a notch may run past each other: their meeting
+/// is a transition of its own.
+pub(crate) fn ordered(world: &World<'_>, configuration: &Configuration) -> bool {
+    let n = configuration.count() - usize::from(straddles(world, configuration));
     (0..n).all(|j| configuration.s(j) > if j == 0 { 0.0 } else { configuration.s(j - 1) })
 }
 
@@ -63,7 +66,7 @@ pub(crate) fn ordered(configuration: &Configuration) -> bool {
 fn badness(b: &Break, configuration: &Configuration) -> f64 {
     match b {
         Break::Release(j) => 1e3 - configuration.force(*j),
-        Break::TangentToTip | Break::TipToTangent(_) | Break::Border(..) => 1e2,
+        Break::TangentToTip | Break::TipToTangent(_) | Break::OntoWall(..) | Break::Border(..) => 1e2,
         Break::Touch(crossing) => -crossing.foot.gap,
     }
 }
@@ -84,6 +87,7 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
             configuration.contacts[last].hold = Hold::Tangent { offset: PI * (angle / PI).round() };
             configuration.z[3 * last + 2] = 1.0;
         }
+        Break::OntoWall(wall, _) => configuration = parted(&corrector.world, &configuration, wall),
         Break::TangentToTip => configuration = as_tip(configuration, corrector),
         Break::Touch(crossing) => configuration = with_contact(&configuration, &crossing).0,
     }

@@ -36,6 +36,7 @@ mod error;
 mod event;
 mod fold;
 mod landing;
+mod notch;
 mod path;
 mod phase;
 mod scan;

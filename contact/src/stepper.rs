@@ -129,11 +129,7 @@ impl Stepper<'_> {
 
     /// The next point of the branch, by the tangent and Newton's method: at `target` where it is near enough, else a step of
     /// pseudo-arclength. None: the step was too long.
-    fn predict_and_correct(
-        &mut self,
-        from: &Point,
-        target: f64,
-    ) -> Option<(Configuration, SolveReport, f64)> {
+    fn predict_and_correct(&mut self, from: &Point, target: f64) -> Option<(Configuration, SolveReport, f64)> {
         let Point { configuration, tangent, scan, .. } = from;
         let tau = configuration.tau();
         let slope = tangent.by_tau();
@@ -162,7 +158,10 @@ impl Stepper<'_> {
             .map(|((z, p), w)| ((z - p) * w).powi(2))
             .sum::<f64>()
             .sqrt();
-        if !report.status.is_solved() || !ordered(&next) || off > LARGEST_CORRECTION * length + 1e-9 {
+        if !report.status.is_solved()
+            || !ordered(&self.corrector.world, &next)
+            || off > LARGEST_CORRECTION * length + 1e-9
+        {
             self.shorten();
             return None;
         }
@@ -174,7 +173,8 @@ impl Stepper<'_> {
             }
             report = self.corrector.at_pose(&mut next, target);
             let length = tangent.along(&next.z, &configuration.z);
-            if !report.status.is_solved() || !ordered(&next) || !(0.0..=reach).contains(&length) {
+            if !report.status.is_solved() || !ordered(&self.corrector.world, &next) || !(0.0..=reach).contains(&length)
+            {
                 self.shorten();
                 return None;
             }

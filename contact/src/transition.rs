@@ -3,8 +3,8 @@
 use crate::branch::{Condition, Corrector, Tangent};
 use crate::configuration::{Configuration, Held};
 use crate::event::EventKind;
+use crate::notch::{is_notch, lying_angle, merged, parted, straddles, wall_run_into};
 use crate::scan::{Crossing, Scan};
-use rod_contours::StretchKind;
 use rod_core::Hold;
 use std::f64::consts::PI;
 
@@ -19,6 +19,8 @@ pub(crate) enum Break {
     TangentToTip,
     /// Contact j has left its stretch, upwards or downwards.
     Border(usize, bool),
+    /// The rod, its tip in a notch, lies down on one of the walls: the wall, and phi(1) minus its angle.
+    OntoWall(usize, f64),
     /// The rod goes through the contour.
     Touch(Crossing),
 }
@@ -27,6 +29,9 @@ pub(crate) enum Break {
 pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 /// Arc lengths and angles beyond their limits by this are on them.
 const LIMIT_TOLERANCE: f64 = 1e-13;
+
+/// Two contacts this near to each other in a notch have met there.
+const MEETING: f64 = 1e-7;
 
 /// Visits everything that is broken in `configuration`, whose rod `scan` has looked at.
 pub(crate) fn breaks(
@@ -54,9 +59,12 @@ pub(crate) fn breaks(
         if configuration.is_tip(last) {
             let angle = tip_angle(corrector, configuration);
             let stretch = configuration.contacts[last].stretch;
-            if angle.sin() < -LIMIT_TOLERANCE && !is_notch(corrector, stretch) {
+            if angle.sin() < -LIMIT_TOLERANCE && !is_notch(&corrector.world, stretch) {
                 visit(Break::TipToTangent(angle));
                 lying_down = Some(stretch);
+            } else if let Some((wall, angle)) = wall_run_into(&corrector.world, configuration, LIMIT_TOLERANCE) {
+                visit(Break::OntoWall(wall, angle));
+                lying_down = Some(wall);
             }
         } else if configuration.s(last) > 1.0 + LIMIT_TOLERANCE {
             visit(Break::TangentToTip);
@@ -66,10 +74,6 @@ pub(crate) fn breaks(
     for crossing in scan.crossings.iter().filter(|crossing| Some(crossing.stretch) != lying_down) {
         visit(Break::Touch(*crossing));
     }
-}
-
-fn is_notch(corrector: &Corrector<'_>, stretch: usize) -> bool {
-    matches!(corrector.world.stretches()[stretch].kind, StretchKind::Notch { .. })
 }
 
 /// phi(1) - alpha of a tip contact.
@@ -124,9 +128,23 @@ impl Break {
                 let next = if upwards { Some(here + 1) } else { here.checked_sub(1) };
                 let next = next.filter(|k| *k < stretches.len()).ok_or(NoTransition::EndOfContour)?;
                 let before = on(corrector, broken.clone(), 3 * j, border)?;
-                let mut after = before.clone();
-                after.contacts[j].stretch = next;
-                (EventKind::Piece, before, after)
+                if is_notch(&corrector.world, next)
+                    && straddles(&corrector.world, &before)
+                    && (1.0 - before.s(before.count() - 2)).abs() < MEETING
+                {
+                    let after = merged(&corrector.world, &before);
+                    (EventKind::Release, before, after)
+                } else {
+                    let mut after = before.clone();
+                    after.contacts[j].stretch = next;
+                    (EventKind::Piece, before, after)
+                }
+            }
+            Self::OntoWall(wall, angle) => {
+                let phi = lying_angle(&corrector.world, broken, wall, angle);
+                let before = on(corrector, broken.clone(), 3 * last + 2, phi)?;
+                let after = parted(&corrector.world, &before, wall);
+                (EventKind::Touch, before, after)
             }
             Self::TangentToTip => {
                 let before = on(corrector, broken.clone(), 3 * last + 2, 1.0)?;
@@ -140,7 +158,9 @@ impl Break {
                 let after = on(corrector, start, 3 * last + 2, 1.0)?;
                 (EventKind::TipToTangent, as_tip(after.clone(), corrector), after)
             }
-            Self::Touch(crossing) if is_notch(corrector, crossing.stretch) => return Err(NoTransition::NotLocated),
+            Self::Touch(crossing) if is_notch(&corrector.world, crossing.stretch) => {
+                return Err(NoTransition::NotLocated);
+            }
             Self::Touch(crossing) => {
                 let (start, j) = with_contact(broken, &crossing);
                 let after = on(corrector, start, 3 * j + 1, 0.0)?;

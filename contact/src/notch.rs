@@ -1,0 +1,98 @@
+//! The tip in a notch: two walls hold it, given as one force whose direction is free between their normals.
+//!
+//! It gets there over the end of a wall (the contour's parameter simply runs on), and leaves so too. And it gets there and
+//! leaves sideways: where the rod lies down on one wall at the tip, the force parts into a tangential contact on that wall,
+//! which then moves up the rod, and the tip on the other one.
+
+use crate::configuration::{Configuration, Held};
+use crate::world::World;
+use rod_contours::StretchKind;
+use rod_core::Hold;
+use std::f64::consts::PI;
+
+pub(crate) fn is_notch(world: &World<'_>, stretch: usize) -> bool {
+    world.stretches().get(stretch).is_some_and(|s| matches!(s.kind, StretchKind::Notch { .. }))
+}
+
+/// Where a wall of `notch` meets it: the wall's parameter and tangent angle there.
+fn edge(world: &World<'_>, notch: usize, wall: usize) -> (f64, f64) {
+    let range = world.stretches()[notch].range;
+    let t = if wall < notch { range.from } else { range.to };
+    (t, world.support(notch, t).alpha)
+}
+
+/// The wall of its notch that the rod, resting there with the tip, goes through, and phi(1) minus the wall's angle.
+pub(crate) fn wall_run_into(world: &World<'_>, configuration: &Configuration, tolerance: f64) -> Option<(usize, f64)> {
+    let last = configuration.count().checked_sub(1)?;
+    let notch = configuration.contacts[last].stretch;
+    if !configuration.is_tip(last) || !is_notch(world, notch) {
+        return None;
+    }
+    let phi = configuration.z[3 * last + 2];
+    [notch - 1, notch + 1]
+        .into_iter()
+        .map(|wall| (wall, phi - edge(world, notch, wall).1))
+        .find(|(_, angle)| angle.sin() < -tolerance)
+}
+
+/// The slope angle at the tip with which the rod lies on `wall`, `angle` being about its distance to the wall's.
+pub(crate) fn lying_angle(world: &World<'_>, configuration: &Configuration, wall: usize, angle: f64) -> f64 {
+    let notch = configuration.contacts[configuration.count() - 1].stretch;
+    edge(world, notch, wall).1 + PI * (angle / PI).round()
+}
+
+/// The tip in a notch, lying on `wall`, as two contacts: tangential on `wall`, still at s = 1, and the tip on the other wall.
+pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usize) -> Configuration {
+    let mut parted = configuration.clone();
+    let last = configuration.count() - 1;
+    let notch = configuration.contacts[last].stretch;
+    let other = 2 * notch - wall;
+    let ((t, alpha_wall), (t_other, alpha_other)) = (edge(world, notch, wall), edge(world, notch, other));
+    let (f, alpha) = (configuration.force(last), world.support(notch, configuration.t(last)).alpha);
+    let whole = (alpha_other - alpha_wall).sin();
+    let offset = PI * ((configuration.z[3 * last + 2] - alpha_wall) / PI).round();
+    parted.contacts[last].stretch = other;
+    parted.z[3 * last] = t_other;
+    parted.z[3 * last + 1] = f * (alpha - alpha_wall).sin() / whole;
+    let force = f * (alpha_other - alpha).sin() / whole;
+    parted.insert(last, Held { stretch: wall, hold: Hold::Tangent { offset } }, [t, force, 1.0]);
+    parted
+}
+
+/// Adds to the tip contact, which is on one wall of a notch, a force of `stretch`, the other wall: the tip rests in the
+/// notch. Nothing where the two do not meet in a notch.
+pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, stretch: usize, alpha: f64, force: f64) {
+    let last = configuration.count() - 1;
+    let (held, f) = (configuration.contacts[last].stretch, configuration.force(last));
+    let notch = held.min(stretch) + 1;
+    if held.abs_diff(stretch) != 2 || !is_notch(world, notch) {
+        return;
+    }
+    let (sin, cos) = world.support(held, configuration.t(last)).alpha.sin_cos();
+    let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
+    let range = world.stretches()[notch].range;
+    // along a notch alpha falls by 1 per unit of its parameter
+    let before = world.support(notch, range.from).alpha;
+    let t = range.from + (before - b.atan2(a));
+    configuration.contacts[last].stretch = notch;
+    configuration.z[3 * last] = t.clamp(range.from, range.to);
+    configuration.z[3 * last + 1] = a.hypot(b);
+}
+
+/// Whether the last two contacts are the two walls of one notch, the tip on one and the rod lying on the other.
+pub(crate) fn straddles(world: &World<'_>, configuration: &Configuration) -> bool {
+    let Some([lying, tip]) = configuration.contacts.last_chunk::<2>() else { return false };
+    let notch = lying.stretch.min(tip.stretch) + 1;
+    tip.hold == Hold::Tip && lying.stretch.abs_diff(tip.stretch) == 2 && is_notch(world, notch)
+}
+
+/// Two contacts that have met in the notch between their walls as the one that they are there.
+pub(crate) fn merged(world: &World<'_>, configuration: &Configuration) -> Configuration {
+    let mut merged = configuration.clone();
+    let lying = configuration.count() - 2;
+    let (stretch, force) = (configuration.contacts[lying].stretch, configuration.force(lying));
+    let alpha = world.support(stretch, configuration.t(lying)).alpha;
+    merged.remove(lying);
+    into_notch(world, &mut merged, stretch, alpha, force);
+    merged
+}
