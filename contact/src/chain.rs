@@ -36,7 +36,7 @@ const DEEPEST_PUSH: f64 = 0.03;
 /// A chain of links in the contour's world.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
-    clamp: Pose,
+    pub clamp: Pose,
     /// Turning angle of each joint; the first is between clamp and first link.
     joints: [f64; LINKS],
 }

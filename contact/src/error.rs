@@ -59,6 +59,8 @@ pub enum StopReason {
     NoLanding,
     /// A contact ran off the end of an open contour.
     EndOfContour,
+    /// The rod is bent around the contour so tightly that it touches along a line, not at a point.
+    LineContact,
     /// The clamp itself runs into the object.
     ClampInside,
     /// More events at one pose than a rod can have.
@@ -74,6 +76,9 @@ impl std::fmt::Display for Stop {
             }
             StopReason::NoLanding => ("the rod snaps and no stable equilibrium was found", "start a new sweep beyond"),
             StopReason::EndOfContour => ("a contact ran off the end of the contour", "make the contour longer"),
+            StopReason::LineContact => {
+                ("the rod wraps around the contour and would touch it along a line", "end the path before it")
+            }
             StopReason::ClampInside => ("the clamp itself runs into the object", "end the path before it"),
             StopReason::Chatter => ("contacts come and go at one pose without end", "start a new sweep beyond"),
         };

@@ -82,6 +82,24 @@ fn modes_at(x: f64, modes: &mut [f64]) {
     }
 }
 
+/// Whether the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
+pub(crate) fn wraps(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> bool {
+    let supports = configuration.supports(world);
+    let mut contact = 0;
+    let mut found = false;
+    configuration.segments(world, path, |s, start, _, _| {
+        if s == 0.0 {
+            return;
+        }
+        if let Some(Hold::Tangent { offset }) = configuration.contacts.get(contact).map(|c| c.hold) {
+            let support = supports.support(contact, configuration.t(contact));
+            found |= support.turning <= support.speed * offset.cos() * start.kappa;
+        }
+        contact += 1;
+    });
+    found
+}
+
 /// Whether the second variation is positive definite.
 pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> bool {
     let n = configuration.count();

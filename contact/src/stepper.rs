@@ -7,7 +7,7 @@ use crate::error::StopReason;
 use crate::fold::locate_fold;
 use crate::landing::ordered;
 use crate::scan::{Scan, Scanner};
-use crate::stability::is_stable;
+use crate::stability::{is_stable, wraps};
 use crate::transition::{Break, NoTransition, Transition, breaks};
 use rod_core::SolveReport;
 use smallvec::SmallVec;
@@ -29,6 +29,7 @@ const STEEPEST: f64 = 1e-3;
 const DEEPEST: f64 = 1e-9;
 /// Path parameter by which a new contact set is tried.
 const PROBE: f64 = 1e-6;
+const FARTHEST_PROBE: f64 = 1e-3;
 
 /// A point of the sweep: an equilibrium, what the scan saw, and where the branch goes from there.
 #[derive(Clone, Debug)]
@@ -109,6 +110,9 @@ impl Stepper<'_> {
                 if length > PROBE {
                     self.shorten();
                     continue;
+                }
+                if wraps(&self.corrector.world, &self.corrector.path, &next) {
+                    return Err(StopReason::LineContact);
                 }
                 // Mostly the fold is just ahead, and known better than the loss of stability is.
                 let fold = self.fold_ahead(from);
@@ -263,13 +267,15 @@ impl Stepper<'_> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        let mut probe = point.configuration.clone();
-        let slope = point.tangent.by_tau();
-        for (z, d) in probe.z.iter_mut().zip(&point.tangent.direction) {
-            *z += PROBE / slope * d;
+        let Point { configuration, tangent, .. } = point;
+        let mut probe = configuration.clone();
+        // where the pose hardly moves, a small step of the branch is small enough
+        let distance = (PROBE / tangent.by_tau()).min(FARTHEST_PROBE);
+        for (z, d) in probe.z.iter_mut().zip(&tangent.direction) {
+            *z += distance * d;
         }
-        let tau = point.configuration.tau() + PROBE;
-        if !self.corrector.at_pose(&mut probe, tau).status.is_solved() {
+        let plane = Condition::Plane { tangent, from: &configuration.z, distance };
+        if !self.corrector.correct(&mut probe, plane).status.is_solved() {
             return false;
         }
         let scan = self.scan(&probe);

@@ -184,6 +184,9 @@ impl<'a> Sweep<'a> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let clamp = corrector.path.at(tau + kick);
         let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
+        chain.settle(&corrector.world, tau)?;
+        // back from the kick: where it has landed it stays
+        chain.clamp = corrector.path.at(tau);
         let guess = chain.settle(&corrector.world, tau)?;
         settle(corrector, scanner, guess)
     }
