@@ -38,6 +38,11 @@ impl Configuration {
         self.z[3 * self.count()]
     }
 
+    pub fn set_tau(&mut self, tau: f64) {
+        let last = 3 * self.count();
+        self.z[last] = tau;
+    }
+
     pub fn t(&self, j: usize) -> f64 {
         self.z[3 * j]
     }

@@ -4,7 +4,7 @@
 use crate::branch::Corrector;
 use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
-use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
+use crate::scan::{GAP_TOLERANCE, Scanner};
 use crate::stability::is_stable;
 use crate::transition::{Break, as_tip, breaks, with_contact};
 use crate::world::World;
@@ -14,15 +14,13 @@ use std::f64::consts::PI;
 /// Most repairs of one guess.
 const MOST_REPAIRS: usize = 12;
 
-/// An equilibrium that holds: nothing is broken and it is stable.
-#[derive(Clone, Debug)]
-pub(crate) struct Settled {
-    pub configuration: Configuration,
-    pub scan: Scan,
-}
-
-/// Mends `guess` at its own pose until it is an equilibrium that holds; none where that does not come about.
-pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess: Configuration) -> Option<Settled> {
+/// Mends `guess` at its own pose until it is an equilibrium that holds (nothing is broken, and it is stable); none where that
+/// does not come about.
+pub(crate) fn settle(
+    corrector: &mut Corrector<'_>,
+    scanner: &mut Scanner,
+    guess: Configuration,
+) -> Option<Configuration> {
     let mut configuration = guess;
     let tau = configuration.tau();
     let patient = corrector.options;
@@ -46,7 +44,7 @@ pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess
             None => {
                 let stable = is_stable(&corrector.world, &corrector.path, &configuration);
                 let holds = scan.min_gap >= -1e3 * GAP_TOLERANCE && !scan.clamp_inside && stable;
-                settled = holds.then_some(Settled { configuration, scan });
+                settled = holds.then_some(configuration);
                 break;
             }
         }

@@ -6,7 +6,7 @@ use crate::chain::Chain;
 use crate::configuration::Configuration;
 use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
-use crate::landing::{Settled, settle};
+use crate::landing::settle;
 use crate::path::ClampPath;
 use crate::scan::Scanner;
 use crate::state::State;
@@ -116,6 +116,13 @@ impl<'a> Sweep<'a> {
             self.at = Some(start);
             return Ok(());
         };
+        // a snap may have jumped over a pose: there is no equilibrium to report there
+        while self.step * (self.reported as f64) < point.configuration.tau() && self.reported < self.reports {
+            self.reported += 1;
+        }
+        if self.reported == self.reports {
+            return Ok(());
+        }
         let target = self.step * self.reported as f64;
         let next = self.follow(&point, target);
         // where it stopped is kept for the message
@@ -164,31 +171,45 @@ impl<'a> Sweep<'a> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
     fn snap(&mut self, last: Configuration) -> Result<Point, StopReason> {
         let tau = last.tau();
+        let mut beyond = None;
         for kick in KICK {
-            let Some(Settled { configuration, scan }) = self.land(&last, tau, kick) else { continue };
-            if same(&configuration, &last) {
-                continue;
+            match self.land(&last, tau, kick) {
+                Some(landed) if landed.tau() == tau => return Ok(self.landed(last, landed)),
+                Some(landed) => beyond = beyond.or(Some(landed)),
+                None => {}
             }
-            let kind = if configuration.count() == 0 { EventKind::SnapOff } else { EventKind::Snap };
-            let mut after = self.stepper.point(configuration);
-            after.scan = scan;
-            let before = self.stepper.point(last);
-            self.announce(kind, &before, &after);
-            self.stepper.h = FIRST_STEP;
-            return Ok(after);
         }
-        Err(StopReason::NoLanding)
+        // Where the new branch starts only just beyond the fold, it is entered there.
+        beyond.map(|landed| self.landed(last, landed)).ok_or(StopReason::NoLanding)
     }
 
-    fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Option<Settled> {
+    fn landed(&mut self, last: Configuration, landed: Configuration) -> Point {
+        let kind = if landed.count() == 0 { EventKind::SnapOff } else { EventKind::Snap };
+        let (before, after) = (self.stepper.point(last), self.stepper.point(landed));
+        self.announce(kind, &before, &after);
+        self.stepper.h = FIRST_STEP;
+        after
+    }
+
+    /// Where the rod lands from `last`, whose clamp is at `tau`: found `kick` beyond, and brought back to `tau` if it can be.
+    fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let clamp = corrector.path.at(tau + kick);
         let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
-        chain.settle(&corrector.world, tau)?;
-        // back from the kick: where it has landed it stays
-        chain.clamp = corrector.path.at(tau);
-        let guess = chain.settle(&corrector.world, tau)?;
-        settle(corrector, scanner, guess)
+        let guess = chain.settle(&corrector.world, tau + kick)?;
+        let beyond = settle(corrector, scanner, guess);
+        let elsewhere = |found: Configuration| Some(found).filter(|found| !same(found, last));
+        let back = beyond.as_ref().and_then(|beyond| {
+            let mut back = beyond.clone();
+            back.set_tau(tau);
+            settle(corrector, scanner, back).and_then(elsewhere)
+        });
+        let back = back.or_else(|| {
+            chain.clamp = corrector.path.at(tau);
+            let guess = chain.settle(&corrector.world, tau)?;
+            settle(corrector, scanner, guess).and_then(elsewhere)
+        });
+        back.or(beyond)
     }
 
     /// The first point: free, or brought into contact along the path.
@@ -226,7 +247,7 @@ impl<'a> Sweep<'a> {
         let mut chain = Chain::straight(corrector.path.at(0.0));
         let guess = chain.settle(&corrector.world, 0.0)?;
         let settled = settle(corrector, scanner, guess)?;
-        Some(self.stepper.point(settled.configuration))
+        Some(self.stepper.point(settled))
     }
 
     fn report(&mut self, point: &Point) {
