@@ -207,7 +207,7 @@ impl Stepper<'_> {
             }
             let slope = self.corrector.inspect(&next, plane).0.by_tau();
             if slope < 0.0 {
-                return locate_fold(&mut self.corrector, configuration, tangent, &next, slope);
+                return locate_fold(&mut self.corrector, configuration, tangent, &next);
             }
         }
         None
@@ -243,7 +243,7 @@ impl Stepper<'_> {
             }
         }
         if tangent.by_tau() < 0.0 {
-            let fold = locate_fold(&mut self.corrector, &from.configuration, &from.tangent, next, tangent.by_tau())
+            let fold = locate_fold(&mut self.corrector, &from.configuration, &from.tangent, next)
                 .ok_or(NoTransition::NotLocated)?;
             let along = from.tangent.along(&fold.z, &from.configuration.z);
             if first.as_ref().is_none_or(|(least, _)| along < *least) {
