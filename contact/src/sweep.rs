@@ -120,20 +120,28 @@ impl<'a> Sweep<'a> {
         while self.step * (self.reported as f64) < point.configuration.tau() && self.reported < self.reports {
             self.reported += 1;
         }
-        if self.reported == self.reports {
+        let length = self.stepper.corrector.path.length();
+        let reports = self.reported < self.reports;
+        // beyond the last pose to report the path goes on to its end
+        let target = if reports { self.step * self.reported as f64 } else { length };
+        if point.configuration.tau() >= target {
+            if reports {
+                self.report(&point);
+                self.at = Some(point);
+            } else {
+                self.over = true;
+            }
             return Ok(());
         }
-        let target = self.step * self.reported as f64;
-        let next = self.follow(&point, target);
-        // where it stopped is kept for the message
-        let next = match next {
+        let next = match self.follow(&point, target) {
             Ok(next) => next,
             Err(reason) => {
+                // kept for the message
                 self.at = Some(point);
                 return Err(reason);
             }
         };
-        if next.configuration.tau() >= target {
+        if reports && next.configuration.tau() >= target {
             self.report(&next);
         }
         self.at = Some(next);
@@ -290,7 +298,7 @@ impl Iterator for Sweep<'_> {
             if let Some(item) = self.pending.pop_front() {
                 return Some(Ok(item));
             }
-            if self.over || self.reported == self.reports {
+            if self.over {
                 return None;
             }
             if let Err(reason) = self.advance() {
