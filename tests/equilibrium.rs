@@ -5,12 +5,12 @@ mod common;
 
 use common::Scene;
 use common::bumps::Bumps;
-use common::judge::judge;
+use common::judge::{judge, judge_certified_gap};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use vibrissa::Pose;
+use vibrissa::{EventKind, Outcome, Pose};
 
 const CASES: u32 = 150;
 
@@ -32,7 +32,7 @@ fn bumps() -> impl Strategy<Value = Bumps> {
 
 /// How the clamp goes past the middle of its way: direction, half length, half turn.
 fn way() -> impl Strategy<Value = (f64, f64, f64)> {
-    let direction = prop_oneof![Just(0.0), Just(std::f64::consts::PI), -3.14..3.14];
+    let direction = prop_oneof![Just(0.0), Just(std::f64::consts::PI), -3.1..3.1];
     let turn = prop_oneof![Just(0.0), -0.8..0.8];
     prop_oneof![
         4 => (direction, 0.5..1.2, turn),
@@ -40,64 +40,158 @@ fn way() -> impl Strategy<Value = (f64, f64, f64)> {
     ]
 }
 
-fn scene() -> impl Strategy<Value = Scene> {
+/// Where a sweep starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Start {
+    /// The straight rod goes nowhere near the object.
+    Free,
+    /// The straight rod goes through it.
+    InContact,
+}
+
+impl Start {
+    fn is_that_of(self, bumps: &Bumps, at: Pose) -> bool {
+        let (sin, cos) = at.phi.sin_cos();
+        let gaps = (0..=100).map(|i| 0.01 * f64::from(i)).map(|s| bumps.gap(at.x + s * cos, at.y + s * sin));
+        let least = gaps.fold(f64::INFINITY, f64::min);
+        if self == Self::Free { least > 0.02 } else { least < 0.0 }
+    }
+}
+
+fn scene(start: Start) -> impl Strategy<Value = Scene> {
     let clamp = (-0.5..0.9, 0.1..0.8, 0.7..2.4);
     let rod = (-3.0..2.0, -6.0..3.0);
-    (bumps(), clamp, way(), rod).prop_filter_map("the clamp runs into the object", |(bumps, clamp, way, rod)| {
-        let ((x, q, phi), (direction, half, turn), (length, stiffness)) = (clamp, way, rod);
-        let y: f64 = bumps.lowest() - q;
-        let pose = |k: f64| Pose { x: x + k * half * direction.cos(), y: y + k * half * direction.sin(), phi: phi + k * turn };
-        let clear = |k: i32| {
-            let at = pose(0.05 * f64::from(k));
-            bumps.gap(at.x, at.y) > 0.05
-        };
-        let step = if half > 0.0 { half } else { turn.abs() } / 25.0;
-        let (from, to) = (pose(-1.0), pose(1.0));
-        (-20..=20).all(clear).then(|| {
-            Scene { length: 1.0, stiffness: 1.0, bumps: bumps.clone(), from, to, step }
-                .scaled(10_f64.powf(length), 10_f64.powf(stiffness))
-        })
-    })
+    (bumps(), clamp, way(), rod).prop_filter_map(
+        "the clamp runs into the object or starts otherwise",
+        move |(bumps, clamp, way, rod)| {
+            let ((x, q, phi), (direction, half, turn), (length, stiffness)) = (clamp, way, rod);
+            let y: f64 = bumps.lowest() - q;
+            let pose = |k: f64| Pose {
+                x: x + k * half * direction.cos(),
+                y: y + k * half * direction.sin(),
+                phi: phi + k * turn,
+            };
+            let clear = |k: i32| {
+                let at = pose(0.05 * f64::from(k));
+                bumps.gap(at.x, at.y) > 0.05
+            };
+            let step = if half > 0.0 { half } else { turn.abs() } / 25.0;
+            let (from, to) = (pose(-1.0), pose(1.0));
+            ((-20..=20).all(clear) && start.is_that_of(&bumps, from)).then(|| {
+                Scene { length: 1.0, stiffness: 1.0, bumps: bumps.clone(), from, to, step }
+                    .scaled(10_f64.powf(length), 10_f64.powf(stiffness))
+            })
+        },
+    )
 }
 
-#[derive(Default)]
-struct Tally {
-    sweeps: usize,
-    phases: BTreeMap<String, usize>,
-    kinds: BTreeMap<String, usize>,
-    stops: Vec<String>,
-}
-
-#[test]
-fn every_reported_state_is_an_equilibrium() {
+/// Runs `check` on the sweeps of random scenes, the same in every run.
+fn for_scenes(start: Start, check: impl Fn(&Scene, &Outcome) -> Result<(), String>) {
     let config = Config { cases: CASES, failure_persistence: None, ..Config::default() };
     let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
-    let tally = RefCell::new(Tally::default());
-    let outcome = runner.run(&scene(), |scene| {
-        let ours = scene.bumps.contour();
-        prop_assume!(ours.is_ok());
-        let outcome = scene.run();
-        let mut tally = tally.borrow_mut();
-        tally.sweeps += 1;
-        for state in &outcome.states {
-            judge(&scene, state).map_err(TestCaseError::fail)?;
-            *tally.phases.entry(state.phase().to_string()).or_default() += 1;
-        }
-        for event in &outcome.events {
-            *tally.kinds.entry(event.kind.to_string()).or_default() += 1;
-        }
-        tally.stops.extend(outcome.stop.map(|stop| format!("{:?}: {stop}\n{}", stop.reason, scene.code())));
-        Ok(())
+    let outcome = runner.run(&scene(start), |scene| {
+        prop_assume!(scene.bumps.contour().is_ok());
+        check(&scene, &scene.run()).map_err(TestCaseError::fail)
     });
     if let Err(error) = outcome {
         panic!("{error}");
     }
-    let Tally { sweeps, phases, kinds, stops } = tally.into_inner();
-    assert!(50 * stops.len() <= sweeps, "{} of {sweeps} sweeps stopped:\n\n{}", stops.len(), stops.join("\n\n"));
+}
+
+fn assert_equilibria(start: Start) {
+    let seen = RefCell::new(BTreeMap::new());
+    for_scenes(start, |scene, outcome| {
+        for state in &outcome.states {
+            judge(scene, state)?;
+            *seen.borrow_mut().entry(state.phase().to_string()).or_insert(0) += 1;
+        }
+        Ok(())
+    });
+    let seen = seen.into_inner();
     for phase in ["free", "A", "B", "BA", "BB"] {
-        assert!(phases.contains_key(phase), "{phases:?}");
+        assert!(seen.get(phase).is_some_and(|n| *n > 5), "{seen:?}");
     }
+}
+
+#[test]
+fn every_reported_state_is_an_equilibrium() {
+    assert_equilibria(Start::Free);
+}
+
+#[test]
+fn so_is_every_one_after_a_start_in_contact() {
+    assert_equilibria(Start::InContact);
+}
+
+#[test]
+fn the_certificate_knows_the_smallest_gap() {
+    for start in [Start::Free, Start::InContact] {
+        for_scenes(start, |scene, outcome| {
+            outcome.states.iter().try_for_each(|state| judge_certified_gap(scene, state))
+        });
+    }
+}
+
+#[test]
+fn events_change_the_contacts_and_only_snaps_the_shape() {
+    let seen = RefCell::new(BTreeMap::new());
+    for_scenes(Start::Free, |scene, outcome| {
+        for event in &outcome.events {
+            let (before, after) = (&event.before, &event.after);
+            let wrong = |what: String| Err(format!("{} {what}\n{}", event.kind, scene.code()));
+            if matches!(event.kind, EventKind::Snap | EventKind::SnapOff) {
+                if after.energy > before.energy * (1.0 + 1e-9) {
+                    return wrong(format!("up from {} to {}", before.energy, after.energy));
+                }
+                if (event.kind == EventKind::SnapOff) != after.contacts.is_empty() {
+                    return wrong(format!("to {}", event.to()));
+                }
+            } else {
+                let unit = scene.rod().units().moment;
+                let jump = (before.reactions.m0z - after.reactions.m0z).abs() / (unit + before.reactions.m0z.abs());
+                if jump > 1e-9 || before.pose != after.pose {
+                    return wrong(format!("from {:?} to {:?} with a jump of {jump:e}", before.pose, after.pose));
+                }
+            }
+            *seen.borrow_mut().entry(event.kind.to_string()).or_insert(0) += 1;
+        }
+        Ok(())
+    });
+    let seen = seen.into_inner();
     for kind in ["first-contact", "touch", "release", "tip-to-tangent", "tangent-to-tip", "snap", "snap-off"] {
-        assert!(kinds.contains_key(kind), "{kinds:?}");
+        assert!(seen.contains_key(kind), "{seen:?}");
     }
+}
+
+#[test]
+fn snaps_are_at_one_pose() {
+    for_scenes(Start::Free, |scene, outcome| {
+        let moved = outcome.events.iter().find(|e| e.before.pose != e.after.pose);
+        moved.map_or(Ok(()), |e| {
+            Err(format!("{} from {:?} to {:?}\n{}", e.kind, e.before.pose, e.after.pose, scene.code()))
+        })
+    });
+}
+
+fn assert_few_stops(start: Start) {
+    let sweeps = RefCell::new(0);
+    let stops = RefCell::new(Vec::new());
+    for_scenes(start, |scene, outcome| {
+        *sweeps.borrow_mut() += 1;
+        let stop = outcome.stop.as_ref();
+        stops.borrow_mut().extend(stop.map(|stop| format!("{:?}: {stop}\n{}", stop.reason, scene.code())));
+        Ok(())
+    });
+    let (sweeps, stops) = (sweeps.into_inner(), stops.into_inner());
+    assert!(50 * stops.len() <= sweeps, "{} of {sweeps} sweeps stopped:\n\n{}", stops.len(), stops.join("\n\n"));
+}
+
+#[test]
+fn sweeps_come_to_their_end() {
+    assert_few_stops(Start::Free);
+}
+
+#[test]
+fn so_do_sweeps_that_start_in_contact() {
+    assert_few_stops(Start::InContact);
 }

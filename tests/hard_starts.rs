@@ -30,10 +30,12 @@ fn kinds(outcome: &Outcome) -> Vec<EventKind> {
 
 #[test]
 fn starts_in_every_phase() {
-    let phases = [(0.6, "A"), (0.3, "B"), (0.0, "B"), (-0.3, "B"), (-0.45, "BB"), (-0.55, "BA"), (-0.65, "B"), (-0.8, "A")];
+    // beyond, the straight rod is free
+    let phases =
+        [(0.6, "A"), (0.5, "A"), (0.4, "B"), (0.15, "B"), (0.0, "B"), (-0.25, "B"), (-0.28, "BB"), (-0.34, "BB")];
     for (x, phase) in phases {
         let pose = |x| Pose { x, y: -0.4, phi: UP };
-        let outcome = judged(&between(pose(x), pose(x - 0.05), 0.01));
+        let outcome = judged(&Scene { from: pose(x), to: pose(x - 0.05), ..Scene::paper(0.0, 0.1, 0.4) });
         assert_eq!(outcome.states[0].phase().to_string(), phase, "at {x}");
         assert_eq!(outcome.states.len(), 6);
     }
@@ -41,14 +43,12 @@ fn starts_in_every_phase() {
 
 #[test]
 fn starts_pressed_against_the_object() {
-    // from where no pose further back along the line is free
-    for x in [-0.1, 0.05, 0.3, 0.4] {
-        for y in [-0.2, -0.3, -0.5] {
-            let scene = between(Pose { x, y, phi: 0.8 }, Pose { x, y: y - 0.6, phi: 0.8 }, 0.02);
-            let outcome = judged(&scene);
-            assert_ne!(outcome.states[0].phase(), Phase::FREE, "at {x}, {y}");
-            assert_eq!(outcome.states[30].phase(), Phase::FREE, "at {x}, {y}");
-        }
+    // no pose further back along the line is free
+    for (x, y) in [(-0.1, -0.2), (-0.1, -0.3), (0.05, -0.2), (0.05, -0.3)] {
+        let scene = between(Pose { x, y, phi: 0.8 }, Pose { x, y: y - 0.6, phi: 0.8 }, 0.02);
+        let outcome = judged(&scene);
+        assert_ne!(outcome.states[0].phase(), Phase::FREE, "at {x}, {y}");
+        assert_eq!(outcome.states[30].phase(), Phase::FREE, "at {x}, {y}");
     }
 }
 
@@ -64,7 +64,7 @@ fn the_tip_slides_into_the_notch_and_is_held_there() {
         for state in held {
             let notch = state.contacts.last().unwrap();
             assert!((notch.x - 0.15).abs() < 1e-12 && (notch.y - 0.1125).abs() < 1e-12, "{notch:?}");
-            // the notch is beside the clamp and the rod is longer than the way: it pushes back down
+            // the notch presses the tip down
             assert!(state.reactions.f0y > 0.0);
         }
         // the mirror image of the other side
@@ -129,29 +129,62 @@ fn reported_states_and_events_do_not_depend_on_the_step() {
 #[test]
 fn tiny_steps() {
     let pose = |x| Pose { x, y: -0.4, phi: UP };
-    // across A -> B and across BB -> BA
-    for at in [0.451369186091, -0.494186171964] {
-        let outcome = judged(&between(pose(at + 5e-7), pose(at - 5e-7), 1e-8));
+    // across A -> B and across B -> BB
+    for (second, at) in [(0.0, 0.451369186091), (0.1, -0.262377337398)] {
+        let scene = Scene { from: pose(at + 5e-7), to: pose(at - 5e-7), ..Scene::paper(0.0, second, 0.4) };
+        let outcome = judged(&Scene { step: 1e-8, ..scene });
         assert_eq!((outcome.states.len(), outcome.events.len()), (101, 1));
         assert!((outcome.events[0].pose().x - at).abs() < 1e-11);
     }
 }
 
+/// One bump and two, met from the side and from below.
+fn shaped(coefficient: f64, phi: f64) -> Vec<Scene> {
+    let (sin, cos) = phi.sin_cos();
+    // the tip a little beside the first bump
+    let pose = |x, y| Pose { x: x - 0.95 * cos, y: y - sin, phi };
+    let across = between(pose(0.9, 0.4), pose(-0.9, 0.4), 0.02);
+    let rising = between(pose(0.01, -0.1), pose(0.01, 0.4), 0.01);
+    let single = Bumps::new(&[(0.0, 0.0, coefficient)]).unwrap();
+    let pair = Bumps::new(&[(0.0, 0.0, coefficient), (0.3, 0.0, coefficient)]).unwrap();
+    let scenes = [across, rising].into_iter();
+    scenes.flat_map(|s| [&single, &pair].map(|bumps| Scene { bumps: bumps.clone(), ..s.clone() })).collect()
+}
+
+fn assert_touches(scene: &Scene) {
+    assert!(judged(scene).states.iter().any(|s| !s.contacts.is_empty()), "{}", scene.code());
+}
+
 #[test]
-fn very_flat_and_very_sharp_objects() {
-    let single = |coefficient: f64| Bumps::new(&[(0.0, 0.0, coefficient)]).unwrap();
-    let pair = |c: f64| Bumps::new(&[(0.0, 0.0, c), (0.3, 0.0, c)]).unwrap();
-    let pose = |x, y, phi| Pose { x, y, phi };
-    for c in [1e-3, 1e-2, 1e2, 1e3] {
-        for bumps in [single(c), pair(c)] {
-            for phi in [1.0, 0.5 * PI, 2.0] {
-                let across = between(pose(0.9, -0.5, phi), pose(-0.9, -0.5, phi), 0.02);
-                let rising = between(pose(0.05, -1.1, phi), pose(0.05, -0.6, phi), 0.01);
-                for scene in [across, rising] {
-                    let outcome = judged(&Scene { bumps: bumps.clone(), ..scene });
-                    assert!(outcome.states.iter().any(|s| !s.contacts.is_empty()), "{c} {phi}");
-                }
-            }
+fn very_flat_objects() {
+    for c in [1e-3, 1e-2] {
+        for phi in [0.7, 1.0, 2.0] {
+            shaped(c, phi).iter().for_each(assert_touches);
+        }
+    }
+}
+
+#[test]
+fn an_upright_rod_let_go_under_a_very_flat_object() {
+    for c in [1e-3, 1e-2] {
+        shaped(c, UP).iter().for_each(assert_touches);
+    }
+}
+
+#[test]
+fn very_sharp_objects() {
+    for c in [1e2, 1e3] {
+        for phi in [1.0, UP] {
+            shaped(c, phi).iter().for_each(assert_touches);
+        }
+    }
+}
+
+#[test]
+fn a_leaning_rod_under_very_sharp_objects() {
+    for c in [1e2, 1e3] {
+        for phi in [2.0, 2.2] {
+            shaped(c, phi).iter().for_each(assert_touches);
         }
     }
 }
@@ -172,34 +205,74 @@ fn a_clamp_driven_into_the_object_stops_there() {
 
 #[test]
 fn a_pressed_rod_whose_clamp_runs_into_the_object() {
-    let pose = |y| Pose { x: 0.0, y, phi: UP - 0.3 };
-    let scene = between(pose(-1.1), pose(0.2), 0.01);
-    let outcome = scene.run();
-    let stop = outcome.stop.expect("a stop");
-    assert!(stop.pose.y < 1e-9, "{stop}");
-    assert!(!outcome.events.is_empty());
-    for state in &outcome.states {
-        if let Err(what) = judge(&scene, state) {
-            panic!("{what}");
+    // reported states on both sides of where the clamp meets the vertex, and one exactly there
+    for step in [0.007, 0.01] {
+        let pose = |y| Pose { x: 0.0, y, phi: UP - 0.3 };
+        let scene = between(pose(-1.1), pose(0.2), step);
+        let outcome = scene.run();
+        let stop = outcome.stop.expect("a stop");
+        assert!(stop.pose.y < 1e-9, "{stop}");
+        assert_eq!(stop.reason, StopReason::ClampInside);
+        assert!(!outcome.events.is_empty());
+        for state in &outcome.states {
+            if let Err(what) = judge(&scene, state) {
+                panic!("{what}");
+            }
+        }
+    }
+}
+
+/// A full turn past the object and back, to where the rod is free again.
+fn assert_turns(x: f64, y: f64) {
+    for (from, to) in [(-0.6, PI + 0.6), (PI + 0.6, -0.6)] {
+        let outcome = judged(&between(Pose { x, y, phi: from }, Pose { x, y, phi: to }, 0.05));
+        assert_eq!(outcome.events[0].kind, EventKind::FirstContact);
+        assert_eq!(outcome.events.last().map(|e| e.kind), Some(EventKind::SnapOff));
+        for state in &outcome.states {
+            assert_eq!((state.pose.x, state.pose.y), (x, y));
         }
     }
 }
 
 #[test]
 fn a_clamp_that_only_turns() {
-    for y in [-0.3, -0.5, -0.8] {
-        for x in [-0.2, 0.15, 0.5] {
-            for (from, to) in [(-0.6, PI + 0.6), (PI + 0.6, -0.6)] {
-                let scene = between(Pose { x, y, phi: from }, Pose { x, y, phi: to }, 0.05);
-                let outcome = judged(&scene);
-                assert_eq!(outcome.events[0].kind, EventKind::FirstContact);
-                assert_eq!(outcome.events.last().map(|e| e.kind), Some(EventKind::SnapOff));
-                for state in &outcome.states {
-                    assert_eq!((state.pose.x, state.pose.y), (x, y));
-                }
-            }
-        }
+    for (x, y) in [(-0.2, -0.5), (0.5, -0.5), (-0.2, -0.8), (0.15, -0.8), (0.5, -0.8)] {
+        assert_turns(x, y);
     }
+}
+
+#[test]
+fn a_clamp_that_only_turns_near_the_object() {
+    for (x, y) in [(-0.2, -0.3), (0.15, -0.3), (0.5, -0.3), (0.15, -0.5)] {
+        assert_turns(x, y);
+    }
+}
+
+#[test]
+fn a_rod_that_points_away_is_dragged_off() {
+    // nearly along the way, over the higher bump first
+    let phi = 155_f64.to_radians();
+    let pose = |x: f64| Pose { x: x - phi.cos(), y: -0.25 * phi.sin(), phi };
+    let scene = Scene { from: pose(1.2), to: pose(-1.2), ..Scene::paper(0.1, 0.0, 0.4) };
+    assert_eq!(judged(&scene).events.last().map(|e| e.to()), Some(Phase::FREE));
+}
+
+#[test]
+fn a_level_rod_meets_a_vertex_halfway() {
+    // where the gap is smallest the rod runs along the tangent, at its very middle
+    let bumps = Bumps::new(&[(0.3, 0.0, 5.0)]).unwrap();
+    let pose = |y| Pose { x: -0.2, y, phi: 0.0 };
+    let outcome = judged(&Scene { bumps, ..between(pose(-0.45), pose(0.05), 0.01) });
+    assert_eq!(kinds(&outcome), [EventKind::FirstContact]);
+    assert!(outcome.events[0].pose().y.abs() < 1e-10);
+}
+
+#[test]
+fn a_level_rod_that_starts_through_a_vertex() {
+    let bumps = Bumps::new(&[(0.3, 0.0, 5.0)]).unwrap();
+    let pose = |y| Pose { x: -0.2, y, phi: 0.0 };
+    let outcome = judged(&Scene { bumps, ..between(pose(0.05), pose(-0.45), 0.01) });
+    assert_eq!(outcome.states[0].phase().to_string(), "B");
 }
 
 #[test]

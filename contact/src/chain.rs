@@ -49,9 +49,9 @@ struct Near {
 }
 
 impl Chain {
-    /// A straight chain.
-    pub fn straight(clamp: Pose) -> Self {
-        Self { clamp, joints: [0.0; LINKS] }
+    /// A straight chain, but for the slight bend (radians over its length) without which it could not buckle.
+    pub fn straight(clamp: Pose, bend: f64) -> Self {
+        Self { clamp, joints: [bend * LINK; LINKS] }
     }
 
     /// The shape of the rod in `configuration`, on another clamp.
@@ -119,9 +119,9 @@ impl Chain {
     fn step(&mut self, world: &World<'_>, time_step: f64) -> Option<(f64, Vec<(Near, f64)>)> {
         let (nodes, _) = self.nodes();
         let near = Self::near(world, &nodes, 2.0 * LONGEST_MOVE);
-        let mut time_step = time_step;
+        let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
-            let (change, forces) = programme(self, &nodes, &near, time_step)?;
+            let (change, forces) = programme(self, &nodes, &near, time_step, push)?;
             let mut moved = self.clone();
             for (joint, change) in moved.joints.iter_mut().zip(&change) {
                 *joint += change;
@@ -133,6 +133,7 @@ impl Chain {
                 return Some((way, near.into_iter().zip(forces).collect()));
             }
             time_step *= (LONGEST_MOVE / way).min(0.5);
+            push *= 0.5;
         }
     }
 
@@ -203,6 +204,7 @@ fn programme(
     nodes: &[[f64; 2]; LINKS + 1],
     near: &[Near],
     time_step: f64,
+    push: f64,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let damped = 1.0 + 1.0 / time_step;
     let softness = |i: usize| 1.0 / (Chain::stiffness(i) * damped);
@@ -233,7 +235,7 @@ fn programme(
         .zip(&rows)
         .map(|(near, row)| {
             let unforced: f64 = row.iter().zip(&change).map(|(a, d)| a * d).sum();
-            near.foot.gap.max(-DEEPEST_PUSH) - unforced
+            near.foot.gap.max(-push) - unforced
         })
         .collect();
     let pushing = CscMatrix::new(m, m, (0..=m).collect(), (0..m).collect(), vec![-1.0; m]);

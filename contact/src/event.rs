@@ -49,7 +49,9 @@ pub struct Event {
     /// The last state before. At a snap it is the one at the fold; otherwise it equals `after` up to the contact of zero
     /// force that comes or goes.
     pub before: State,
-    /// The first state after, at the same pose of the clamp.
+    /// The first state after, at the same pose of the clamp; after a snap whose new branch starts only beyond the fold, where
+    /// it starts, at most 0.05 lengths of the rod further along the path. Poses to report in between have no equilibrium that
+    /// the rod could be in, and no state.
     pub after: State,
 }
 

@@ -73,14 +73,13 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
     let last = configuration.count().saturating_sub(1);
     match b {
         Break::Release(j) => configuration.remove(j),
-        Break::Border(j, upwards) => {
-            let stretch = &mut configuration.contacts[j].stretch;
-            let next = if upwards { Some(*stretch + 1) } else { stretch.checked_sub(1) };
-            match next.filter(|k| *k < corrector.world.stretches().len()) {
-                Some(next) => *stretch = next,
-                None => configuration.remove(j),
+        Break::Border(j, upwards) => match corrector.world.neighbour(configuration.contacts[j].stretch, upwards) {
+            Some(next) => {
+                configuration.contacts[j].stretch = next;
+                configuration.z[3 * j] = corrector.world.border(next, !upwards);
             }
-        }
+            None => configuration.remove(j),
+        },
         Break::TipToTangent(angle) => {
             configuration.contacts[last].hold = Hold::Tangent { offset: PI * (angle / PI).round() };
             configuration.z[3 * last + 2] = 1.0;

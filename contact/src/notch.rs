@@ -16,9 +16,9 @@ pub(crate) fn is_notch(world: &World<'_>, stretch: usize) -> bool {
 
 /// Where a wall of `notch` meets it: the wall's parameter and tangent angle there.
 fn edge(world: &World<'_>, notch: usize, wall: usize) -> (f64, f64) {
-    let range = world.stretches()[notch].range;
-    let t = if wall < notch { range.from } else { range.to };
-    (t, world.support(notch, t).alpha)
+    let range = world.range(wall);
+    let t = if wall < notch { range.to } else { range.from };
+    (t, world.support(wall, t).alpha)
 }
 
 /// The wall of its notch that the rod, resting there with the tip, goes through, and phi(1) minus the wall's angle.
@@ -70,7 +70,7 @@ pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, s
     }
     let (sin, cos) = world.support(held, configuration.t(last)).alpha.sin_cos();
     let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
-    let range = world.stretches()[notch].range;
+    let range = world.range(notch);
     // along a notch alpha falls by 1 per unit of its parameter
     let before = world.support(notch, range.from).alpha;
     let t = range.from + (before - b.atan2(a));

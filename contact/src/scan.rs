@@ -75,7 +75,9 @@ impl Scanner {
         let mut spans: SmallVec<[Span; 9]> = SmallVec::new();
         configuration.segments(world, path, |s, start, a, b| spans.push(Span { s, start, a, b }));
         self.place_nodes(&spans);
-        let mut found = Scan { min_gap: f64::INFINITY, crossings: SmallVec::new(), clamp_inside: false };
+        // where there is a contact, there the gap is zero
+        let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
+        let mut found = Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false };
         for (stretch, Stretch { kind, .. }) in world.stretches().iter().enumerate() {
             if matches!(kind, StretchKind::Notch { .. }) {
                 self.scan_notch(world, configuration, stretch, &mut found);
@@ -145,7 +147,7 @@ impl Scanner {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
-                if last.right < 0.0 && sight.left > 0.0 && matters {
+                if last.right < 0.0 && sight.left >= 0.0 && matters {
                     self.search(world, spans, stretch, (last_node, node), (last.right, sight.left), found);
                 }
             }
@@ -155,8 +157,8 @@ impl Scanner {
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: node.at.phi, foot, tip: true });
             }
             before = Some((i, sight));
-            // nothing within the gap's own distance can be touched
-            let safe = node.s + sight.gap.abs();
+            // within the distance by which the gap exceeds the smallest one there is nothing smaller
+            let safe = node.s + (sight.gap - found.min_gap.max(0.0)).max(0.0);
             i += 1;
             while i + 1 < nodes.len() && nodes[i].s < safe && nodes[i + 1].s < safe {
                 i += 1;

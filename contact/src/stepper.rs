@@ -27,6 +27,10 @@ const LARGEST_CORRECTION: f64 = 0.3;
 const STEEPEST: f64 = 1e-3;
 /// Penetration that a transition may leave elsewhere: a shorter step would have met it first.
 const DEEPEST: f64 = 1e-9;
+/// Residual beyond which nothing is a solution, whatever the forces.
+const LARGEST_RESIDUAL: f64 = 1e-9;
+/// A contact this near to the clamp is at the clamp.
+const AT_CLAMP: f64 = 1e-3;
 /// Path parameter by which a new contact set is tried.
 const PROBE: f64 = 1e-6;
 const FARTHEST_PROBE: f64 = 1e-3;
@@ -89,7 +93,7 @@ impl Stepper<'_> {
                 continue;
             }
             let scan = self.scan(&next);
-            if scan.clamp_inside {
+            if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
                 return Err(StopReason::ClampInside);
             }
             match self.first_transition(from, &next, &scan, &tangent, length) {
@@ -163,6 +167,7 @@ impl Stepper<'_> {
             .sum::<f64>()
             .sqrt();
         if !report.status.is_solved()
+            || report.residual > LARGEST_RESIDUAL
             || !ordered(&self.corrector.world, &next)
             || off > LARGEST_CORRECTION * length + 1e-9
         {

@@ -8,7 +8,7 @@ use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::landing::settle;
 use crate::path::ClampPath;
-use crate::scan::Scanner;
+use crate::scan::{GAP_TOLERANCE, Scanner};
 use crate::state::State;
 use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
 use crate::world::World;
@@ -60,6 +60,8 @@ const MOST_AT_ONE_POSE: usize = 12;
 /// How far beyond a fold the descent starts, so that the chain, whose own fold is not quite there, sees it too. Lengthened
 /// where that was not enough.
 const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
+/// Bends of the straight rod that is let go into contact, radians: which way it gives is a matter of chance.
+const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
 /// How far back a free pose is searched from a start in contact, and how densely: rod lengths, or the angle of a path that
 /// only turns.
 const BACK: (f64, f64) = (4.0, 0.05);
@@ -187,8 +189,10 @@ impl<'a> Sweep<'a> {
                 None => {}
             }
         }
-        // Where the new branch starts only just beyond the fold, it is entered there.
-        beyond.map(|landed| self.landed(last, landed)).ok_or(StopReason::NoLanding)
+        // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to rest in
+        // the descent, but could be free, will be.
+        let landed = beyond.or_else(|| self.free(tau)).ok_or(StopReason::NoLanding)?;
+        Ok(self.landed(last, landed))
     }
 
     fn landed(&mut self, last: Configuration, landed: Configuration) -> Point {
@@ -235,7 +239,7 @@ impl<'a> Sweep<'a> {
     fn free(&mut self, tau: f64) -> Option<Configuration> {
         let configuration = Configuration::free(tau);
         let scan = self.stepper.scan(&configuration);
-        (scan.crossings.is_empty() && !scan.clamp_inside).then_some(configuration)
+        (scan.min_gap >= -GAP_TOLERANCE && !scan.clamp_inside).then_some(configuration)
     }
 
     /// The sweep from a free pose back on the line up to the start, in silence.
@@ -251,10 +255,13 @@ impl<'a> Sweep<'a> {
     /// The straight rod let go in the first pose.
     fn let_go(&mut self) -> Option<Point> {
         self.pending.clear();
+        (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let mut chain = Chain::straight(corrector.path.at(0.0));
-        let guess = chain.settle(&corrector.world, 0.0)?;
-        let settled = settle(corrector, scanner, guess)?;
+        let settled = BENDS.into_iter().find_map(|bend| {
+            let mut chain = Chain::straight(corrector.path.at(0.0), bend);
+            let guess = chain.settle(&corrector.world, 0.0)?;
+            settle(corrector, scanner, guess)
+        })?;
         Some(self.stepper.point(settled))
     }
 

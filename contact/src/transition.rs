@@ -45,7 +45,7 @@ pub(crate) fn breaks(
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
         }
-        let range = corrector.world.stretches()[configuration.contacts[j].stretch].range;
+        let range = corrector.world.range(configuration.contacts[j].stretch);
         let t = configuration.t(j);
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
         if t > range.to + slack {
@@ -122,11 +122,9 @@ impl Break {
                 (EventKind::Release, before, after)
             }
             Self::Border(j, upwards) => {
-                let stretches = corrector.world.stretches();
                 let here = broken.contacts[j].stretch;
-                let border = if upwards { stretches[here].range.to } else { stretches[here].range.from };
-                let next = if upwards { Some(here + 1) } else { here.checked_sub(1) };
-                let next = next.filter(|k| *k < stretches.len()).ok_or(NoTransition::EndOfContour)?;
+                let border = corrector.world.border(here, upwards);
+                let next = corrector.world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
                 let before = on(corrector, broken.clone(), 3 * j, border)?;
                 if is_notch(&corrector.world, next)
                     && straddles(&corrector.world, &before)
@@ -137,6 +135,7 @@ impl Break {
                 } else {
                     let mut after = before.clone();
                     after.contacts[j].stretch = next;
+                    after.z[3 * j] = corrector.world.border(next, !upwards);
                     (EventKind::Piece, before, after)
                 }
             }

@@ -1,9 +1,10 @@
 //! The contour as the rod sees it: in lengths of the rod.
 
-use rod_contours::{Composite, Contour, Stretch, StretchKind};
+use rod_contours::{Composite, Contour, Range, Stretch, StretchKind};
 use rod_core::Support;
 
-/// A contour in dimensionless lengths. Its parameter stays the contour's own.
+/// A contour in dimensionless lengths. Each stretch keeps a parameter of its own (that of its shape over the rod's length, or
+/// the angle turned at a joint), so that nothing is lost to an offset, however small the rod is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct World<'a> {
     contour: &'a Composite,
@@ -34,22 +35,47 @@ impl<'a> World<'a> {
         self.contour.stretches()
     }
 
+    /// Length of the contour's parameter that counts as 1 here: of pieces the rod's length, of joints, which are measured by
+    /// angle, 1.
+    fn unit(&self, stretch: usize) -> f64 {
+        if self.stretches()[stretch].is_joint() { 1.0 } else { self.length }
+    }
+
+    /// Range of a stretch in its own parameter.
+    pub fn range(&self, stretch: usize) -> Range {
+        let (own, unit) = (self.contour.own_range(stretch), self.unit(stretch));
+        Range { from: own.from / unit, to: own.to / unit }
+    }
+
+    /// The upper or lower end of a stretch's range.
+    pub fn border(&self, stretch: usize, upper: bool) -> f64 {
+        let range = self.range(stretch);
+        if upper { range.to } else { range.from }
+    }
+
+    /// The stretch after or before.
+    pub fn neighbour(&self, stretch: usize, after: bool) -> Option<usize> {
+        let neighbour = if after { Some(stretch + 1) } else { stretch.checked_sub(1) };
+        neighbour.filter(|k| *k < self.stretches().len())
+    }
+
     pub fn support(&self, stretch: usize, t: f64) -> Support {
-        let frame = self.contour.frame_on(stretch, t);
+        let unit = self.unit(stretch);
+        let frame = self.contour.own_frame(stretch, t * unit);
         Support {
             x: frame.x / self.length,
             y: frame.y / self.length,
             alpha: frame.alpha,
-            speed: frame.speed / self.length,
-            turning: frame.turning,
+            speed: frame.speed / self.length * unit,
+            turning: frame.turning * unit,
         }
     }
 
     pub fn foot(&self, stretch: usize, x: f64, y: f64) -> Foot {
-        let closest = self.contour.closest_on(stretch, x * self.length, y * self.length);
+        let closest = self.contour.own_closest(stretch, x * self.length, y * self.length);
         let frame = closest.frame;
         Foot {
-            t: closest.t,
+            t: closest.t / self.unit(stretch),
             gap: closest.gap / self.length,
             alpha: frame.alpha,
             curvature: frame.turning / frame.speed * self.length,
@@ -68,17 +94,9 @@ impl<'a> World<'a> {
 
     /// Whether `foot` is the end of its stretch at a notch.
     pub fn ends_in_notch(&self, stretch: usize, foot: &Foot) -> bool {
-        let stretches = self.stretches();
-        let range = stretches[stretch].range;
-        let neighbour = if foot.t >= range.to {
-            Some(stretch + 1)
-        } else if foot.t <= range.from {
-            stretch.checked_sub(1)
-        } else {
-            None
-        };
-        let kind = neighbour.and_then(|k| stretches.get(k)).map(|s| s.kind);
-        !foot.interior && matches!(kind, Some(StretchKind::Notch { .. }))
+        let after = foot.t >= self.range(stretch).to;
+        let neighbour = self.neighbour(stretch, after).map(|k| self.stretches()[k].kind);
+        !foot.interior && matches!(neighbour, Some(StretchKind::Notch { .. }))
     }
 
     /// Number of the piece a stretch belongs to: for a joint the piece before it.

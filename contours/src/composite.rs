@@ -58,7 +58,7 @@ impl Composite {
     /// the union. Pieces may go on for ever.
     ///
     /// The crossing is exact to rounding. Unseen are crossings closer together than 1/16 of a cell, of which there are
-    /// 128 spread over the piece by [`Range::at`], and crossings more than 1e4 along a piece that goes on for ever.
+    /// 256 spread over the piece by [`Range::at`], and crossings more than 1e4 along a piece that goes on for ever.
     ///
     /// # Errors
     ///
@@ -109,6 +109,34 @@ impl Composite {
         match self.stretches.get(stretch)?.kind {
             StretchKind::Piece(piece) => Some((piece, t - self.pieces[piece].offset)),
             StretchKind::Corner { .. } | StretchKind::Notch { .. } => None,
+        }
+    }
+
+    /// The range of one stretch in its own parameter, free of the rounding that an offset brings: that of the piece's shape,
+    /// or the angle turned at a joint, from 0.
+    pub fn own_range(&self, stretch: usize) -> Range {
+        match self.part(stretch) {
+            Part::Piece(piece) => piece.range,
+            Part::Joint(joint) => Range { from: 0.0, to: joint.range().length() },
+        }
+    }
+
+    /// [`frame_on`](Self::frame_on) by the stretch's own parameter.
+    pub fn own_frame(&self, stretch: usize, u: f64) -> Frame {
+        match self.part(stretch) {
+            Part::Piece(piece) => piece.own_frame(u),
+            Part::Joint(joint) => joint.frame(joint.range().from + u),
+        }
+    }
+
+    /// [`closest_on`](Self::closest_on) by the stretch's own parameter.
+    pub fn own_closest(&self, stretch: usize, x: f64, y: f64) -> Closest {
+        match self.part(stretch) {
+            Part::Piece(piece) => piece.own_closest(x, y),
+            Part::Joint(joint) => {
+                let closest = joint.closest_in(joint.range(), x, y);
+                Closest { t: closest.t - joint.range().from, ..closest }
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::Contour;
 
 /// Cells in which the search begins.
-const CELLS: usize = 128;
+const CELLS: usize = 256;
 
 /// How often a cell is halved before a pair of crossings within it is given up.
 const HALVINGS: u32 = 4;
@@ -31,7 +31,7 @@ pub(crate) struct Crossing {
 ///
 /// The gap to `next` changes no faster than the point moves, so a cell whose gaps at both ends add up to more than its
 /// length holds no crossing; the other cells are halved, 4 times at most. Two crossings closer than 1/16 of a cell
-/// (of 128, see `Range::at`) can be missed, as can any that are more than 1e4 along an infinite range.
+/// (of 256, see `Range::at`) can be missed, as can any that are more than 1e4 along an infinite range.
 pub(crate) fn entry(shape: &dyn Contour, next: &dyn Contour, start: f64) -> Option<Crossing> {
     let range = shape.range();
     let walk = Walk { shape, next };

@@ -22,17 +22,28 @@ impl Piece {
 
     /// The frame at the composite's parameter `t`.
     pub fn frame(&self, t: f64) -> Frame {
-        self.wound(self.shape.frame(t - self.offset))
+        self.own_frame(t - self.offset)
+    }
+
+    /// The frame at the shape's own parameter `u`.
+    pub fn own_frame(&self, u: f64) -> Frame {
+        self.wound(self.shape.frame(u))
+    }
+
+    /// The closest point of the piece, by the shape's own parameter.
+    pub fn own_closest(&self, x: f64, y: f64) -> Closest {
+        let closest = self.shape.closest_in(self.range, x, y);
+        Closest { frame: self.wound(closest.frame), ..closest }
     }
 
     /// The first frame of the piece.
     pub fn first(&self) -> Frame {
-        self.wound(self.shape.frame(self.range.from))
+        self.own_frame(self.range.from)
     }
 
     /// The last frame of the piece.
     pub fn last(&self) -> Frame {
-        self.wound(self.shape.frame(self.range.to))
+        self.own_frame(self.range.to)
     }
 
     /// The closest point of the part in `range`, both by the composite's parameter.

@@ -1,8 +1,8 @@
 //! The stretch of the parameter on which a contour lives.
 
 /// Smallest distance from the finite end (or from 0) that the spread of an infinite range resolves, in units of the
-/// parameter: a tenth of a percent of a rod of length 1.
-const FINEST: f64 = 1e-3;
+/// parameter: small against rods of micrometres given in metres.
+const FINEST: f64 = 1e-9;
 
 /// Largest distance that the spread of an infinite range reaches, in units of the parameter.
 const REACH: f64 = 1e4;
@@ -78,7 +78,7 @@ impl Range {
     }
 
     /// The parameter at the fraction `u` of the range, `u` from 0 to 1: evenly spread over a finite range, and over an
-    /// infinite one by a hyperbolic sine from 1e-3 to 1e4 away from its finite end (or from 0), so that a few hundred
+    /// infinite one by a hyperbolic sine from 1e-9 to 1e4 away from its finite end (or from 0), so that a few hundred
     /// values see small and large shapes alike. Always finite.
     ///
     /// ```

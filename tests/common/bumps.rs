@@ -68,10 +68,7 @@ impl Bumps {
 
     pub fn scaled(&self, scale: f64) -> Self {
         let bump = |b: &Bump| Bump { x: b.x * scale, y: b.y * scale, coefficient: b.coefficient / scale };
-        Self {
-            pieces: self.pieces.iter().map(bump).collect(),
-            breaks: self.breaks.iter().map(|x| x * scale).collect(),
-        }
+        Self { pieces: self.pieces.iter().map(bump).collect(), breaks: self.breaks.iter().map(|x| x * scale).collect() }
     }
 
     pub fn mirrored(&self) -> Self {

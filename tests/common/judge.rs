@@ -8,11 +8,21 @@ const SAMPLES: usize = 300;
 
 /// Everything that must hold of a reported state; the error says what does not.
 pub fn judge(scene: &Scene, state: &State) -> Result<(), String> {
-    let outcome = balances(scene, state).and_then(|()| contacts(scene, state)).and_then(|()| gaps(scene, state));
-    outcome.map_err(|what| {
-        let code = scene.code();
-        format!("{what}\nin phase {} at {:?}: {:?}\n{code}", state.phase(), state.pose, state)
+    let outcome = balances(scene, state).and_then(|()| contacts(scene, state)).and_then(|()| outside(scene, state));
+    outcome.map_err(|what| located(scene, state, &what))
+}
+
+/// Whether the certificate knows the smallest gap of the whole rod.
+pub fn judge_certified_gap(scene: &Scene, state: &State) -> Result<(), String> {
+    let certified = state.certificate.min_gap;
+    let (least, s) = least_gap(scene, state)?;
+    hold(certified <= least + 1e-9 * scene.length, || {
+        located(scene, state, &format!("the gap at s = {s} is {least:e}, certified {certified:e}"))
     })
+}
+
+fn located(scene: &Scene, state: &State, what: &str) -> String {
+    format!("{what}\nin phase {} at {:?}: {:?}\n{}", state.phase(), state.pose, state, scene.code())
 }
 
 fn hold(condition: bool, what: impl FnOnce() -> String) -> Result<(), String> {
@@ -98,20 +108,20 @@ fn contacts(scene: &Scene, state: &State) -> Result<(), String> {
     )
 }
 
-/// Nothing penetrates, and the certificate knows the smallest gap.
-fn gaps(scene: &Scene, state: &State) -> Result<(), String> {
-    let Scene { length, bumps, .. } = scene;
-    let rod = state.elastica(&scene.rod()).map_err(|e| e.to_string())?;
+/// Nothing penetrates, neither by the certificate nor by the brute force.
+fn outside(scene: &Scene, state: &State) -> Result<(), String> {
+    let Scene { length, .. } = scene;
     let certified = state.certificate.min_gap;
     hold(certified >= -1e-9 * length, || format!("the certificate's gap is {certified:e}"))?;
-    let mut least = (f64::INFINITY, 0.0);
-    for (i, at) in rod.sample(SAMPLES).enumerate() {
-        let gap = bumps.gap(at.x, at.y);
-        if gap < least.0 {
-            least = (gap, *length * i as f64 / (SAMPLES - 1) as f64);
-        }
-    }
-    let (least, s) = least;
-    hold(least >= -1e-9 * length, || format!("the rod goes through the object by {least:e} at s = {s}"))?;
-    hold(certified <= least + 1e-9 * length, || format!("the gap at s = {s} is {least:e}, certified {certified:e}"))
+    let (least, s) = least_gap(scene, state)?;
+    hold(least >= -1e-9 * length, || format!("the rod goes through the object by {least:e} at s = {s}"))
+}
+
+/// Smallest gap over samples of the rod, and where.
+fn least_gap(scene: &Scene, state: &State) -> Result<(f64, f64), String> {
+    let rod = state.elastica(&scene.rod()).map_err(|e| e.to_string())?;
+    let gaps = rod.sample(SAMPLES).map(|at| scene.bumps.gap(at.x, at.y)).enumerate();
+    let least = gaps.min_by(|a, b| a.1.total_cmp(&b.1));
+    let (i, least) = least.ok_or("a rod without points")?;
+    Ok((least, scene.length * i as f64 / (SAMPLES - 1) as f64))
 }
