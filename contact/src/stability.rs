@@ -58,6 +58,17 @@ impl Quadratic {
         }
     }
 
+    /// Adds the load on the modes by its cosine moments: sin((m + 1/2) x) sin((n + 1/2) x) is half of
+    /// cos((m - n) x) - cos((m + n + 1) x).
+    fn add_load(&mut self, moments: &[f64]) {
+        let mut entries = self.lower.iter_mut();
+        for i in 0..self.size {
+            for (j, entry) in entries.by_ref().take(i + 1).enumerate() {
+                *entry += moments[i - j] - moments[i + j + 1];
+            }
+        }
+    }
+
     fn is_positive(&self) -> bool {
         let mut matrix = DMatrix::zeros(self.size, self.size);
         let mut entries = self.lower.iter();
@@ -79,6 +90,16 @@ fn modes_at(x: f64, modes: &mut [f64]) {
     for mode in modes {
         *mode = here;
         (before, here) = (here, twice * here - before);
+    }
+}
+
+/// Adds weight cos(m x) to moment m.
+fn add_cosines(x: f64, weight: f64, moments: &mut [f64]) {
+    let cos = x.cos();
+    let (mut before, mut here) = (weight * cos, weight);
+    for moment in moments {
+        *moment += here;
+        (before, here) = (here, 2.0 * cos * here - before);
     }
 }
 
@@ -116,6 +137,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
     let zero = Modes::from_elem(0.0, size);
     // Positions change by int (-sin phi, cos phi) eta: accumulated from contact to contact.
     let (mut shift_x, mut shift_y, mut eta) = (zero.clone(), zero.clone(), zero.clone());
+    let mut moments: SmallVec<[f64; 64]> = SmallVec::from_elem(0.0, 2 * size);
     let supports = configuration.supports(world);
     for j in 0..n {
         let (from, start, a, b) = spans[j];
@@ -132,7 +154,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
                     *x -= simpson * sin * eta;
                     *y += simpson * cos * eta;
                 }
-                q.add(-simpson * (a * sin - b * cos), &eta, &eta);
+                add_cosines((from + h * k as f64) * scale, -0.5 * simpson * (a * sin - b * cos), &mut moments);
             }
         }
         let support = supports.support(j, configuration.t(j));
@@ -160,6 +182,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
             }
         }
     }
+    q.add_load(&moments);
     q.is_positive()
 }
 

@@ -152,8 +152,9 @@ fn unit<T: Scalar>(c: T, d: T, p: T) -> (T, T) {
 /// P cos^2(delta / 2) = (P + c) / 2, written so that it does not cancel where the rod points against the force.
 #[inline(always)]
 pub(crate) fn axial<T: Scalar>(c: T, d: T, p: T) -> T {
+    // Both forms and a look-up: which one it is cannot be predicted, and a wrong guess costs more than the division.
     let half = T::from_f64(0.5);
-    if c < T::from_f64(0.0) { half * d * d / (p - c) } else { half * (p + c) }
+    [half * (p + c), half * d * d / (p - c)][usize::from(c < T::from_f64(0.0))]
 }
 
 /// The start of a segment in its own frame: force components c = P cos delta, d = P sin delta where delta is the angle
