@@ -5,10 +5,9 @@ mod measure;
 
 use criterion::Criterion;
 use measure::objects::{OBJECTS, path, sweep};
-use measure::{Random, Time, interleaved, is_timed};
-use std::f64::consts::PI;
+use measure::{Time, interleaved, is_timed, kernel, segments};
 use std::hint::black_box;
-use vibrissa::{Composite, Section, advance};
+use vibrissa::Composite;
 
 /// Distances of the clamp.
 const DISTANCES: [f64; 3] = [0.2, 0.4, 0.6];
@@ -23,13 +22,6 @@ const BEHIND_FOLD: f64 = -0.8174;
 fn scan(contour: &Composite, q: f64, to: f64, states: usize) -> usize {
     black_box(sweep(black_box(contour), path(q, WAY.0, to), states));
     1
-}
-
-fn kernel(segments: &[(Section, f64, f64, f64)]) -> usize {
-    for (start, a, b, s) in segments {
-        black_box(advance(black_box(start), *a, *b, *s));
-    }
-    segments.len()
 }
 
 fn main() {
@@ -55,13 +47,7 @@ fn main() {
         return;
     }
 
-    let mut random = Random(1);
-    let segments: Vec<_> = (0..4096)
-        .map(|_| {
-            let start = Section { x: 0.0, y: 0.0, phi: random.within(PI), kappa: random.within(6.0) };
-            (start, random.within(20.0), random.within(20.0), random.within(1.0).abs())
-        })
-        .collect();
+    let segments = segments();
     let [kernel, full, sparse, before, behind]: [Time; 5] = interleaved(
         40,
         [
@@ -88,11 +74,9 @@ fn main() {
     for (object, contour) in OBJECTS.iter().zip(&contours) {
         let times = interleaved(
             10,
-            [
-                &mut || scan(contour, 0.2, WAY.1, STATES),
-                &mut || scan(contour, 0.4, WAY.1, STATES),
-                &mut || scan(contour, 0.6, WAY.1, STATES),
-            ],
+            [&mut || scan(contour, 0.2, WAY.1, STATES), &mut || scan(contour, 0.4, WAY.1, STATES), &mut || {
+                scan(contour, 0.6, WAY.1, STATES)
+            }],
         );
         for (q, time) in DISTANCES.iter().zip(times) {
             let snaps = sweep(contour, path(*q, WAY.0, WAY.1), 2).events;

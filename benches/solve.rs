@@ -8,16 +8,15 @@ mod measure;
 
 use criterion::{Criterion, Throughput};
 use measure::objects::{OBJECTS, path, rod, sweep};
-use measure::{Random, Time, interleaved, is_timed};
+use measure::{Time, interleaved, is_timed, kernel, segments};
 use std::f64::consts::PI;
 use std::hint::black_box;
 use vibrissa::{
-    ContactKind, Contour, Frame, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Parabola, Pose, Section, State,
-    Support, Supports, advance, solve,
+    ContactKind, Contour, Frame, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Parabola, Pose, State, Support,
+    Supports, solve,
 };
 
 const PHASES: [&str; 4] = ["A", "B", "BB", "BA"];
-const SEGMENTS: usize = 512;
 
 /// Contacts on bare parabolas: no composite, no dispatch.
 struct OnParabolas {
@@ -66,7 +65,8 @@ fn unknowns(state: &State, pieces: &[Parabola]) -> (OnParabolas, Vec<f64>) {
 fn cases(states: &[State], phase: &str, pieces: &[Parabola]) -> Vec<Case> {
     let in_phase = |state: &State| state.phase().to_string() == phase;
     let pieces_of = |state: &State| state.contacts.iter().map(|contact| contact.piece).collect::<Vec<_>>();
-    let pairs = states.windows(2).filter(|pair| pair.iter().all(in_phase) && pieces_of(&pair[0]) == pieces_of(&pair[1]));
+    let pairs =
+        states.windows(2).filter(|pair| pair.iter().all(in_phase) && pieces_of(&pair[0]) == pieces_of(&pair[1]));
     let case = |pair: &[State]| {
         let (supports, guess) = unknowns(&pair[0], pieces);
         Case { clamp: pair[1].pose, supports, guess, solution: unknowns(&pair[1], pieces).1 }
@@ -102,13 +102,6 @@ fn check(cases: &[Case]) -> f64 {
     f64::from(iterations) / cases.len() as f64
 }
 
-fn kernel(segments: &[(Section, f64, f64, f64)]) -> usize {
-    for (start, a, b, s) in segments {
-        black_box(advance(black_box(start), *a, *b, *s));
-    }
-    segments.len()
-}
-
 fn main() {
     let object = OBJECTS[0];
     let outcome = sweep(&object.contour(), path(0.4, 0.8, -0.9), 1701);
@@ -127,13 +120,7 @@ fn main() {
         return;
     }
 
-    let mut random = Random(1);
-    let segments: Vec<_> = (0..SEGMENTS)
-        .map(|_| {
-            let start = Section { x: 0.0, y: 0.0, phi: random.within(PI), kappa: random.within(6.0) };
-            (start, random.within(20.0), random.within(20.0), random.within(1.0).abs())
-        })
-        .collect();
+    let segments = segments();
     let mut memory: [(Vec<f64>, NewtonWorkspace); 4] = std::array::from_fn(|_| Default::default());
     let [m0, m1, m2, m3] = &mut memory;
     let [kernel, times @ ..]: [Time; 5] = interleaved(

@@ -3,7 +3,10 @@
 
 pub mod objects;
 
+use std::f64::consts::PI;
+use std::hint::black_box;
 use std::time::Instant;
+use vibrissa::{Section, advance};
 
 /// Seconds a unit of work.
 #[derive(Clone, Copy, Debug)]
@@ -61,4 +64,38 @@ impl Random {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         most * ((self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
     }
+}
+
+/// A segment of a rod: where it starts, its force and its length.
+pub struct Segment {
+    pub start: Section,
+    pub a: f64,
+    pub b: f64,
+    pub s: f64,
+}
+
+/// Random segments in the range in which the kernel's accuracy is claimed: |A|, |B| <= 20, |kappa| <= 6, s <= 1. So many that
+/// no branch predictor learns them by heart.
+pub fn segments() -> Vec<Segment> {
+    let mut random = Random(1);
+    let segment = |_| Segment {
+        start: Section {
+            x: random.within(1.0),
+            y: random.within(1.0),
+            phi: random.within(PI),
+            kappa: random.within(6.0),
+        },
+        a: random.within(20.0),
+        b: random.within(20.0),
+        s: random.within(1.0).abs(),
+    };
+    (0..8192).map(segment).collect()
+}
+
+/// Advances along each of the segments: what other times are compared with.
+pub fn kernel(segments: &[Segment]) -> usize {
+    for Segment { start, a, b, s } in segments {
+        black_box(advance(black_box(start), *a, *b, *s));
+    }
+    segments.len()
 }
