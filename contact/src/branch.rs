@@ -5,9 +5,7 @@
 use crate::configuration::{Configuration, Held, Holding, Unknowns};
 use crate::path::ClampPath;
 use crate::world::World;
-use rod_core::{
-    MultiPoint, NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, System, newton_step, prepare, report, solve,
-};
+use rod_core::{MultiPoint, NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, System, newton_step, solve};
 
 /// The condition that picks a point of the branch.
 #[derive(Clone, Copy, Debug)]
@@ -135,10 +133,10 @@ impl<'a> Corrector<'a> {
     pub fn inspect(&mut self, configuration: &Configuration, condition: Condition<'_>) -> (Tangent, SolveReport) {
         let system = bordered(&self.world, &self.path, &configuration.contacts, condition);
         let mut z = configuration.z.clone();
-        prepare(&system, &z, &mut self.workspace);
+        self.workspace.prepare(&system, &z);
         newton_step(&system, &mut z, &self.options, &mut self.workspace);
         let status = SolveStatus::Converged;
-        let report = report(&system, &configuration.z, status, 0, 0.0, &mut self.workspace);
+        let report = self.workspace.report(&system, &configuration.z, status, 0, 0.0);
         (self.last_tangent(configuration), report)
     }
 

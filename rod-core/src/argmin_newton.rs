@@ -2,9 +2,7 @@
 //!
 //! [`solve`](crate::solve) is the plain loop around the same step and costs less; both give the same iterates.
 
-use crate::newton::{
-    NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, prepare, report,
-};
+use crate::newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step};
 use argmin::core::{
     CostFunction, Error, Gradient, IterState, Jacobian, KV, Operator, Problem, Solver, TerminationReason,
     TerminationStatus,
@@ -123,7 +121,7 @@ impl<S: System> Solver<RootProblem<S>, NewtonState> for NewtonSolver {
             if u.len() != p.0.dimension() {
                 return Err(Error::msg(format!("the guess has {} entries, expected {}", u.len(), p.0.dimension())));
             }
-            prepare(&p.0, u.as_slice(), workspace);
+            workspace.prepare(&p.0, u.as_slice());
             Ok(p.residual(&u))
         })?;
         Ok((state.param(u).cost(residual.amax()), None))
@@ -146,7 +144,7 @@ impl<S: System> Solver<RootProblem<S>, NewtonState> for NewtonSolver {
                 }
                 StepOutcome::Continue(length) => (None, length),
             };
-            *done = status.map(|how| report(&p.0, u.as_slice(), how, *iterations, correction, workspace));
+            *done = status.map(|how| workspace.report(&p.0, u.as_slice(), how, *iterations, correction));
             Ok((correction, p.residual(&u)))
         })?;
         let mut kv = KV::new();
@@ -236,7 +234,7 @@ mod tests {
             prop_assert_eq!(seen.last().unwrap().as_slice(), plain.as_slice());
             // and step by step
             let (mut u, mut workspace) = (vec![x, y], NewtonWorkspace::new());
-            prepare(&system, &u, &mut workspace);
+            workspace.prepare(&system, &u);
             for iterate in seen.iter() {
                 newton_step(&system, &mut u, &options, &mut workspace);
                 prop_assert_eq!(iterate.as_slice(), u.as_slice());

@@ -42,9 +42,7 @@ pub use elastica::{Elastica, Load};
 pub use error::RodError;
 pub use general::GeneralElastica;
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
-pub use newton::{
-    NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, prepare, report, solve,
-};
+pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
 pub use ode::{Method, Ode};
 pub use pose::{Pose, Reactions};
 pub use propagator::{ClosedForm, Cut, Propagator};

@@ -108,7 +108,8 @@ impl NewtonWorkspace {
         Self::default()
     }
 
-    fn reset(&mut self, system: &impl System, u: &[f64]) {
+    /// Gets ready for a solve of `system` from `u`: to be called before the first [`newton_step`].
+    pub fn prepare(&mut self, system: &impl System, u: &[f64]) {
         let n = system.dimension();
         for v in [&mut self.residual, &mut self.step, &mut self.bar, &mut self.trial, &mut self.weights] {
             v.resize(n, 0.0);
@@ -117,6 +118,21 @@ impl NewtonWorkspace {
         self.inverse.resize(n * n, 0.0);
         system.weights(u, &mut self.weights);
         self.damping = 1.0;
+    }
+
+    /// Report on the solution `u` that the last [`newton_step`] led to, with its true residual.
+    pub fn report(
+        &mut self,
+        system: &impl System,
+        u: &[f64],
+        status: SolveStatus,
+        iterations: u32,
+        correction: f64,
+    ) -> SolveReport {
+        system.evaluate(u, &mut self.residual, None);
+        let residual = largest(&self.residual);
+        let condition = self.condition(system.dimension());
+        SolveReport { status, iterations, residual, condition, correction }
     }
 
     /// The inverse of the Jacobian that the last step used, column-major.
@@ -147,7 +163,8 @@ const ROUNDING_STEP: f64 = 1e-9;
 /// What rounding leaves of a residual of order 1 to 10.
 const ROUNDING_RESIDUAL: f64 = 1e-13;
 
-/// One damped Newton step from `u`, in place. `workspace` must have been prepared for this system by [`prepare`].
+/// One damped Newton step from `u`, in place. `workspace` must have been prepared for this system by
+/// [`NewtonWorkspace::prepare`].
 pub fn newton_step(
     system: &impl System,
     u: &mut [f64],
@@ -235,26 +252,6 @@ fn add(u: &mut [f64], scale: f64, v: &[f64]) {
     }
 }
 
-/// Prepares `workspace` for a solve of `system` from `u`.
-pub fn prepare(system: &impl System, u: &[f64], workspace: &mut NewtonWorkspace) {
-    workspace.reset(system, u);
-}
-
-/// Report on the solution `u`, with its true residual.
-pub fn report(
-    system: &impl System,
-    u: &[f64],
-    status: SolveStatus,
-    iterations: u32,
-    correction: f64,
-    workspace: &mut NewtonWorkspace,
-) -> SolveReport {
-    system.evaluate(u, &mut workspace.residual, None);
-    let residual = largest(&workspace.residual);
-    let condition = workspace.condition(system.dimension());
-    SolveReport { status, iterations, residual, condition, correction }
-}
-
 /// Solves F(u) = 0 from the guess `u`, in place, by the plain loop of the hot path. Allocates nothing once `workspace` has
 /// seen a system of this dimension.
 ///
@@ -281,7 +278,7 @@ pub fn solve(
     options: &NewtonOptions,
     workspace: &mut NewtonWorkspace,
 ) -> SolveReport {
-    prepare(system, u, workspace);
+    workspace.prepare(system, u);
     let (mut status, mut iterations, mut correction) = (SolveStatus::TooManyIterations, 0, f64::INFINITY);
     while iterations < options.max_iterations {
         iterations += 1;
@@ -293,5 +290,5 @@ pub fn solve(
             }
         }
     }
-    report(system, u, status, iterations, correction, workspace)
+    workspace.report(system, u, status, iterations, correction)
 }
