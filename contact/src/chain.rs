@@ -22,6 +22,8 @@ const LINKS: usize = 64;
 const LINK: f64 = 1.0 / LINKS as f64;
 /// Longest way of a node in one step: gaps are taken to be linear over it.
 const LONGEST_MOVE: f64 = 0.04;
+/// Gaps beyond this are out of reach of the longest step.
+const REACH: f64 = 2.0 * LONGEST_MOVE;
 /// A step that moves no node further than this has arrived.
 const ARRIVED: f64 = 2e-5;
 /// Most steps.
@@ -100,7 +102,7 @@ impl Chain {
             }
             for (node, &[x, y]) in nodes.iter().enumerate().skip(1) {
                 let mut foot = world.foot(stretch, x, y);
-                if foot.gap.abs() > reach {
+                if foot.gap > reach || foot.gap < -REACH {
                     continue;
                 }
                 if world.ends_in_notch(stretch, &foot) {
@@ -115,10 +117,11 @@ impl Chain {
         near
     }
 
-    /// One implicit step: how far it moved the chain, and the force at each near node. None where the programme failed.
-    fn step(&mut self, world: &World<'_>, time_step: f64) -> Option<(f64, Vec<(Near, f64)>)> {
+    /// One implicit step under the gaps smaller than `reach`: how far it moved the chain, and the force at each near node.
+    /// None where the programme failed.
+    fn step(&mut self, world: &World<'_>, time_step: f64, reach: f64) -> Option<(f64, Vec<(Near, f64)>)> {
         let (nodes, _) = self.nodes();
-        let near = Self::near(world, &nodes, 2.0 * LONGEST_MOVE);
+        let near = Self::near(world, &nodes, reach);
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
             let (change, forces) = programme(self, &nodes, &near, time_step, push)?;
@@ -128,9 +131,12 @@ impl Chain {
             }
             let (after, _) = moved.nodes();
             let way = nodes.iter().zip(&after).map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1])).fold(0.0, f64::max);
-            if way <= 1.5 * LONGEST_MOVE || time_step < 1e-4 {
+            if way <= 0.75 * reach || time_step < 1e-4 {
                 *self = moved;
                 return Some((way, near.into_iter().zip(forces).collect()));
+            }
+            if reach < REACH {
+                return self.step(world, time_step, REACH);
             }
             time_step *= (LONGEST_MOVE / way).min(0.5);
             push *= 0.5;
@@ -139,9 +145,11 @@ impl Chain {
 
     /// Lets the chain come to rest, and gives the contacts it then has as a guess for the boundary-value problem at `tau`.
     pub fn settle(&mut self, world: &World<'_>, tau: f64) -> Option<Configuration> {
-        let mut time_step = TIME_STEP;
+        let (mut time_step, mut reach) = (TIME_STEP, REACH);
         for _ in 0..MOST_STEPS {
-            let (way, forces) = self.step(world, time_step)?;
+            let (way, forces) = self.step(world, time_step, reach)?;
+            // what a slow chain cannot get to costs it nothing
+            reach = (8.0 * way).clamp(0.25 * REACH, REACH);
             let inside = forces.iter().any(|(near, _)| near.foot.gap < -0.5 * LINK);
             if way < ARRIVED && !inside {
                 return Some(self.contacts(world, forces, tau));
