@@ -12,6 +12,8 @@ use crate::transition::{Break, NoTransition, Transition, breaks};
 use rod_core::SolveReport;
 use smallvec::SmallVec;
 
+/// A step so short that what it ends in is where it ends.
+const SHORT: f64 = 1e-3;
 /// Longest step in arclength of the branch (lengths, angles, relative forces), and in the path parameter of a rod in contact.
 const LONGEST_STEP: f64 = 0.3;
 const LONGEST_WAY: f64 = 0.05;
@@ -94,7 +96,12 @@ impl Stepper<'_> {
             }
             let scan = self.scan(&next);
             if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
-                return Err(StopReason::ClampInside);
+                // something else may come before
+                if length < SHORT {
+                    return Err(StopReason::ClampInside);
+                }
+                self.shorten();
+                continue;
             }
             match self.first_transition(from, &next, &scan, &tangent, length) {
                 Ok(None) if scan.min_gap > -DEEPEST => {}
@@ -103,7 +110,7 @@ impl Stepper<'_> {
                     continue;
                 }
                 Ok(Some(step)) => return Ok(step),
-                Err(NoTransition::EndOfContour) if length < 1e-3 => return Err(StopReason::EndOfContour),
+                Err(NoTransition::EndOfContour) if length < SHORT => return Err(StopReason::EndOfContour),
                 Err(_) => {
                     self.shorten();
                     continue;
