@@ -230,8 +230,10 @@ impl<T: Scalar> Arc<T> {
     #[inline]
     fn whole_turns<U: Scalar>(&self, angle: U, s: U) -> U {
         use std::f64::consts::PI;
-        let most = (self.p + self.excess()).to_f64().max(0.0).sqrt() * s.to_f64().abs();
-        if most < LEAST_COIL {
+        // A pendulum that swings (M <= P) stays within a turn of the rod on either side: only one that goes round can coil.
+        let excess = self.excess().to_f64();
+        let most = (self.p.to_f64() + excess).max(0.0).sqrt() * s.to_f64().abs();
+        if excess <= 0.0 || most < LEAST_COIL {
             return U::from_f64(0.0);
         }
         // Walk the segment in parts that cannot coil. NaN and infinity walk once.
