@@ -33,6 +33,15 @@ impl Tangent {
         z.iter().zip(from).enumerate().map(|(i, (z, f))| self.row(i) * (z - f)).sum()
     }
 
+    /// `configuration` moved by `distance` along the tangent.
+    pub fn ahead(&self, configuration: &Configuration, distance: f64) -> Configuration {
+        let mut ahead = configuration.clone();
+        for (z, d) in ahead.z.iter_mut().zip(&self.direction) {
+            *z += distance * d;
+        }
+        ahead
+    }
+
     /// Change of the path parameter by arclength.
     pub fn by_tau(&self) -> f64 {
         self.direction.last().copied().unwrap_or(1.0)

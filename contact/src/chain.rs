@@ -5,16 +5,14 @@
 //! Kelvin-Voigt damping), under the linearised gaps of all nodes, which is a small quadratic programme. The result is good to
 //! the square of a link's length: enough to see which contacts there are.
 
-use crate::configuration::{Configuration, Held};
+use crate::configuration::{Configuration, Held, lying};
 use crate::notch::into_notch;
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use rod_contours::StretchKind;
-use rod_core::{Hold, Pose, Section, advance};
-use smallvec::SmallVec;
-use std::f64::consts::PI;
+use rod_core::{Hold, Pose, advance};
 
 /// Number of links.
 const LINKS: usize = 64;
@@ -58,11 +56,10 @@ impl Chain {
 
     /// The shape of the rod in `configuration`, on another clamp.
     pub fn of(world: &World<'_>, path: &ClampPath, configuration: &Configuration, clamp: Pose) -> Self {
-        let mut spans: SmallVec<[(f64, Section, f64, f64); 9]> = SmallVec::new();
-        configuration.segments(world, path, |s, start, a, b| spans.push((s, start, a, b)));
+        let spans = configuration.spans(world, path);
         let phi = |s: f64| {
-            let (from, start, a, b) = spans[spans.partition_point(|span| span.0 <= s).saturating_sub(1)];
-            advance(&start, a, b, s - from).phi
+            let span = spans[spans.partition_point(|span| span.s <= s).saturating_sub(1)];
+            advance(&span.start, span.a, span.b, s - span.s).phi
         };
         let mut before = path.at(configuration.tau()).phi;
         let joints = std::array::from_fn(|i| {
@@ -187,11 +184,7 @@ impl Chain {
             let foot = world.foot(stretch, nodes[node][0], nodes[node][1]);
             let tip = middle > LINKS as f64 - 0.75;
             let phi = if node < LINKS { 0.5 * (angles[node - 1] + angles[node]) } else { angles[LINKS - 1] };
-            let (hold, third) = if tip {
-                (Hold::Tip, phi)
-            } else {
-                (Hold::Tangent { offset: PI * ((phi - foot.alpha) / PI).round() }, middle * LINK)
-            };
+            let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - foot.alpha), middle * LINK) };
             let j = configuration.count();
             if j > 0 && configuration.ends_at_tip() {
                 into_notch(world, &mut configuration, stretch, foot.alpha, force);

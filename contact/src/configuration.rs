@@ -6,6 +6,7 @@ use crate::world::World;
 use rod_contours::StretchKind;
 use rod_core::{Hold, MultiPoint, Section, Support, Supports};
 use smallvec::SmallVec;
+use std::f64::consts::PI;
 
 /// Where a contact is (a stretch of the contour) and how it holds the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +86,13 @@ impl Configuration {
         MultiPoint { clamp: path.at(self.tau()), supports: &supports }.segments(&self.z[..3 * self.count()], visit);
     }
 
+    /// The rod's segments from the clamp to the tip; the last one is free.
+    pub fn spans(&self, world: &World<'_>, path: &ClampPath) -> Spans {
+        let mut spans = Spans::new();
+        self.segments(world, path, |s, start, a, b| spans.push(Span { s, start, a, b }));
+        spans
+    }
+
     pub fn kind(&self, world: &World<'_>, j: usize) -> ContactKind {
         let Held { stretch, hold } = self.contacts[j];
         match (world.stretches()[stretch].kind, hold) {
@@ -94,6 +102,23 @@ impl Configuration {
             _ => ContactKind::Tangent,
         }
     }
+}
+
+/// A segment of the rod: arc length and section where it starts, force (A, B) along it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    pub s: f64,
+    pub start: Section,
+    pub a: f64,
+    pub b: f64,
+}
+
+/// The segments of a rod.
+pub(crate) type Spans = SmallVec<[Span; 9]>;
+
+/// The hold of a rod that lies on a contour, from its slope angle less the contour's, about a multiple of pi.
+pub(crate) fn lying(angle: f64) -> Hold {
+    Hold::Tangent { offset: PI * (angle / PI).round() }
 }
 
 /// Contacts as the rod's supports.

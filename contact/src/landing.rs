@@ -6,10 +6,8 @@ use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
 use crate::scan::{GAP_TOLERANCE, Scanner};
 use crate::stability::is_stable;
-use crate::transition::{Break, as_tip, breaks, with_contact};
+use crate::transition::{Break, as_tangent, as_tip, breaks, with_contact};
 use crate::world::World;
-use rod_core::Hold;
-use std::f64::consts::PI;
 
 /// Most repairs of one guess.
 const MOST_REPAIRS: usize = 12;
@@ -70,7 +68,6 @@ fn badness(b: &Break, configuration: &Configuration) -> f64 {
 }
 
 fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -> Configuration {
-    let last = configuration.count().saturating_sub(1);
     match b {
         Break::Release(j) => configuration.remove(j),
         Break::Border(j, upwards) => match corrector.world.neighbour(configuration.contacts[j].stretch, upwards) {
@@ -80,10 +77,7 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
             }
             None => configuration.remove(j),
         },
-        Break::TipToTangent(angle) => {
-            configuration.contacts[last].hold = Hold::Tangent { offset: PI * (angle / PI).round() };
-            configuration.z[3 * last + 2] = 1.0;
-        }
+        Break::TipToTangent(angle) => configuration = as_tangent(configuration, angle),
         Break::OntoWall(wall, _) => configuration = parted(&corrector.world, &configuration, wall),
         Break::TangentToTip => configuration = as_tip(configuration, corrector),
         Break::Touch(crossing) => configuration = with_contact(&configuration, &crossing).0,

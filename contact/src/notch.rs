@@ -4,7 +4,7 @@
 //! leaves sideways: where the rod lies down on one wall at the tip, the force parts into a tangential contact on that wall,
 //! which then moves up the rod, and the tip on the other one.
 
-use crate::configuration::{Configuration, Held};
+use crate::configuration::{Configuration, Held, lying};
 use crate::world::World;
 use rod_contours::StretchKind;
 use rod_core::Hold;
@@ -50,12 +50,12 @@ pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usi
     let ((t, alpha_wall), (t_other, alpha_other)) = (edge(world, notch, wall), edge(world, notch, other));
     let (f, alpha) = (configuration.force(last), world.support(notch, configuration.t(last)).alpha);
     let whole = (alpha_other - alpha_wall).sin();
-    let offset = PI * ((configuration.z[3 * last + 2] - alpha_wall) / PI).round();
+    let hold = lying(configuration.z[3 * last + 2] - alpha_wall);
     parted.contacts[last].stretch = other;
     parted.z[3 * last] = t_other;
     parted.z[3 * last + 1] = f * (alpha - alpha_wall).sin() / whole;
     let force = f * (alpha_other - alpha).sin() / whole;
-    parted.insert(last, Held { stretch: wall, hold: Hold::Tangent { offset } }, [t, force, 1.0]);
+    parted.insert(last, Held { stretch: wall, hold }, [t, force, 1.0]);
     parted
 }
 

@@ -1,6 +1,6 @@
 //! The gap between the whole rod and the contour: smallest value, and where the rod goes through.
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use rod_contours::{Stretch, StretchKind};
@@ -36,14 +36,6 @@ pub(crate) struct Scan {
     pub clamp_inside: bool,
 }
 
-#[derive(Clone, Copy)]
-struct Span {
-    s: f64,
-    start: Section,
-    a: f64,
-    b: f64,
-}
-
 #[derive(Clone, Copy, Debug)]
 struct Node {
     s: f64,
@@ -72,8 +64,7 @@ pub(crate) struct Scanner {
 impl Scanner {
     /// Looks at the whole rod in `configuration`.
     pub fn scan(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
-        let mut spans: SmallVec<[Span; 9]> = SmallVec::new();
-        configuration.segments(world, path, |s, start, a, b| spans.push(Span { s, start, a, b }));
+        let spans = configuration.spans(world, path);
         self.place_nodes(&spans);
         // where there is a contact, there the gap is zero
         let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
@@ -182,7 +173,7 @@ impl Scanner {
             let foot = world.foot(stretch, at.x, at.y);
             (slope(&at, &foot), at, foot)
         };
-        // Illinois variant of regula falsi; the gap is stationary, so half the digits of s give all of its own
+        // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of s give all of its own
         let (mut lo, mut hi) = ((nodes.0.s, slopes.0), (nodes.1.s, slopes.1));
         let mut best = look(0.5 * (lo.0 + hi.0));
         let mut s = 0.5 * (lo.0 + hi.0);

@@ -12,11 +12,11 @@
 //! d alpha/dt = w). The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first modes of a free
 //! cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a Cholesky factor.
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::World;
 use nalgebra::DMatrix;
-use rod_core::{Hold, Section, Supports, walk};
+use rod_core::{Hold, Supports, walk};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -106,19 +106,14 @@ fn add_cosines(cos: f64, weight: f64, moments: &mut [f64]) {
 /// Whether the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
 pub(crate) fn wraps(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> bool {
     let supports = configuration.supports(world);
-    let mut contact = 0;
-    let mut found = false;
-    configuration.segments(world, path, |s, start, _, _| {
-        if s == 0.0 {
-            return;
+    let spans = configuration.spans(world, path);
+    configuration.contacts.iter().zip(&spans[1..]).enumerate().any(|(j, (contact, span))| match contact.hold {
+        Hold::Tangent { offset } => {
+            let support = supports.support(j, configuration.t(j));
+            support.turning <= support.speed * offset.cos() * span.start.kappa
         }
-        if let Some(Hold::Tangent { offset }) = configuration.contacts.get(contact).map(|c| c.hold) {
-            let support = supports.support(contact, configuration.t(contact));
-            found |= support.turning <= support.speed * offset.cos() * start.kappa;
-        }
-        contact += 1;
-    });
-    found
+        Hold::Tip => false,
+    })
 }
 
 /// Whether the second variation is positive definite.
@@ -131,8 +126,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
     let end = configuration.s(n - 1);
     let scale = PI / end;
     let mut q = Quadratic::diagonal((0..size).map(|m| 0.5 * end * ((m as f64 + 0.5) * scale).powi(2)));
-    let mut spans: SmallVec<[(f64, Section, f64, f64); 9]> = SmallVec::new();
-    configuration.segments(world, path, |s, start, a, b| spans.push((s, start, a, b)));
+    let spans = configuration.spans(world, path);
 
     let zero = Modes::from_elem(0.0, size);
     // Positions change by int (-sin phi, cos phi) eta: accumulated from contact to contact.
@@ -140,7 +134,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
     let mut moments: SmallVec<[f64; 64]> = SmallVec::from_elem(0.0, 2 * size);
     let supports = configuration.supports(world);
     for j in 0..n {
-        let (from, start, a, b) = spans[j];
+        let Span { s: from, start, a, b } = spans[j];
         let length = configuration.s(j) - from;
         if length > 0.0 {
             let steps = 2 * ((length * INTERVALS / 2.0).ceil() as usize).max(2);
@@ -170,7 +164,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
             Hold::Tip => q.add(-f * w / v, &along, &along),
             Hold::Tangent { offset } => {
                 modes_at(configuration.s(j) * scale, &mut eta);
-                let kappa = offset.cos() * spans[j + 1].1.kappa;
+                let kappa = offset.cos() * spans[j + 1].start.kappa;
                 let divisor = w - v * kappa;
                 if divisor <= 0.0 {
                     return false;

@@ -154,10 +154,7 @@ impl Stepper<'_> {
         let reach = self.h.min(LONGEST_WAY / slope.abs()).max(free);
         let mut land = to_go <= reach;
         let length = if land { to_go } else { reach };
-        let mut next = configuration.clone();
-        for (z, d) in next.z.iter_mut().zip(&tangent.direction) {
-            *z += length * d;
-        }
+        let mut next = tangent.ahead(configuration, length);
         let predicted = next.z.clone();
         let condition = if land {
             Condition::Fixed { index: 3 * next.count(), value: target }
@@ -209,10 +206,7 @@ impl Stepper<'_> {
     fn fold_ahead(&mut self, from: &Point) -> Option<Configuration> {
         let Point { configuration, tangent, .. } = from;
         for distance in [1e-4, 1e-3, 1e-2] {
-            let mut next = configuration.clone();
-            for (z, d) in next.z.iter_mut().zip(&tangent.direction) {
-                *z += distance * d;
-            }
+            let mut next = tangent.ahead(configuration, distance);
             let plane = Condition::Plane { tangent, from: &configuration.z, distance };
             if !self.corrector.correct(&mut next, plane).status.is_solved() {
                 return None;
@@ -280,12 +274,9 @@ impl Stepper<'_> {
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
         let Point { configuration, tangent, .. } = point;
-        let mut probe = configuration.clone();
         // where the pose hardly moves, a small step of the branch is small enough
         let distance = (PROBE / tangent.by_tau()).min(FARTHEST_PROBE);
-        for (z, d) in probe.z.iter_mut().zip(&tangent.direction) {
-            *z += distance * d;
-        }
+        let mut probe = tangent.ahead(configuration, distance);
         let plane = Condition::Plane { tangent, from: &configuration.z, distance };
         if !self.corrector.correct(&mut probe, plane).status.is_solved() {
             return false;

@@ -1,12 +1,11 @@
 //! Transitions: which condition of a contact set is broken, and where on the branch it broke.
 
 use crate::branch::{Condition, Corrector, Tangent};
-use crate::configuration::{Configuration, Held};
+use crate::configuration::{Configuration, Held, lying};
 use crate::event::EventKind;
 use crate::notch::{is_notch, lying_angle, merged, parted, straddles, wall_run_into};
 use crate::scan::{Crossing, Scan};
 use rod_core::Hold;
-use std::f64::consts::PI;
 
 /// A condition of the contact set that no longer holds.
 #[derive(Clone, Copy, Debug)]
@@ -150,11 +149,7 @@ impl Break {
                 (EventKind::TangentToTip, before.clone(), as_tip(before, corrector))
             }
             Self::TipToTangent(angle) => {
-                let offset = PI * (angle / PI).round();
-                let mut start = broken.clone();
-                start.contacts[last].hold = Hold::Tangent { offset };
-                start.z[3 * last + 2] = 1.0;
-                let after = on(corrector, start, 3 * last + 2, 1.0)?;
+                let after = on(corrector, as_tangent(broken.clone(), angle), 3 * last + 2, 1.0)?;
                 (EventKind::TipToTangent, as_tip(after.clone(), corrector), after)
             }
             Self::Touch(crossing) if is_notch(&corrector.world, crossing.stretch) => {
@@ -197,16 +192,21 @@ pub(crate) fn as_tip(mut configuration: Configuration, corrector: &Corrector<'_>
     configuration
 }
 
+/// The contact at the tip, where phi(1) - alpha is about `angle`, as a tangential one at s = 1.
+pub(crate) fn as_tangent(mut configuration: Configuration, angle: f64) -> Configuration {
+    let last = configuration.count() - 1;
+    configuration.contacts[last].hold = lying(angle);
+    configuration.z[3 * last + 2] = 1.0;
+    configuration
+}
+
 /// `configuration` with one more contact, without force, where the rod crosses the contour; and its number.
 pub(crate) fn with_contact(configuration: &Configuration, crossing: &Crossing) -> (Configuration, usize) {
     let mut more = configuration.clone();
     let n = configuration.count();
     let j = (0..n).find(|&j| configuration.s(j) > crossing.s).unwrap_or(n);
-    let (hold, third) = if crossing.tip {
-        (Hold::Tip, crossing.phi)
-    } else {
-        (Hold::Tangent { offset: PI * ((crossing.phi - crossing.foot.alpha) / PI).round() }, crossing.s)
-    };
+    let (hold, third) =
+        if crossing.tip { (Hold::Tip, crossing.phi) } else { (lying(crossing.phi - crossing.foot.alpha), crossing.s) };
     more.insert(j, Held { stretch: crossing.stretch, hold }, [crossing.foot.t, 0.0, third]);
     (more, j)
 }
