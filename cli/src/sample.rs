@@ -14,6 +14,7 @@ pub(crate) fn path() -> ClampPath {
 /// A state at x in a phase given by its name.
 pub(crate) fn state(x: f64, phase: &str) -> State {
     let contact = |letter| Contact {
+        object: 0,
         piece: 0,
         kind: if letter == 'A' { ContactKind::Tip } else { ContactKind::Tangent },
         s: 0.0,

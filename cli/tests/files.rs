@@ -58,7 +58,7 @@ fn a_sweep_writes_states_events_and_a_figure() {
     assert_eq!((&state["phase"], &state["stable"]), (&"B".into(), &true.into()));
     assert!(state["max_stress"].as_f64().unwrap() > 1e6);
     let contact = &state["contacts"][0];
-    assert_eq!(keys(contact), ["alpha", "force", "kind", "piece", "s", "x", "y"]);
+    assert_eq!(keys(contact), ["alpha", "force", "kind", "object", "piece", "s", "x", "y"]);
     assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &2.into()));
 
     let events = lines(&out.join("events.jsonl"));

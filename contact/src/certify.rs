@@ -48,6 +48,7 @@ pub(crate) fn state(
         b += f * at.alpha.sin();
         min_force = min_force.min(f);
         contacts.push(Contact {
+            object: world.object(configuration.contacts[j].stretch),
             piece: world.piece(configuration.contacts[j].stretch),
             kind: configuration.kind(world, j),
             s: configuration.s(j) * length,

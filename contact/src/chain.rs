@@ -11,7 +11,7 @@ use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
-use rod_contours::StretchKind;
+use rod_contours::Bounds;
 use rod_core::{Hold, Pose, advance};
 
 /// Number of links.
@@ -92,24 +92,25 @@ impl Chain {
     /// Nodes that could meet the contour within a step.
     fn near(world: &World<'_>, nodes: &[[f64; 2]; LINKS + 1], reach: f64) -> Vec<Near> {
         let mut near = Vec::new();
-        for (stretch, at) in world.stretches().iter().enumerate() {
-            // what holds the tip in a notch are the two pieces that end there
-            if matches!(at.kind, StretchKind::Notch { .. }) {
-                continue;
-            }
-            for (node, &[x, y]) in nodes.iter().enumerate().skip(1) {
-                let mut foot = world.foot(stretch, x, y);
+        for (node, &[x, y]) in nodes.iter().enumerate().skip(1) {
+            world.parts_near(Bounds::EMPTY.with(x, y).grown(REACH), |part| {
+                let stretch = part.stretch;
+                // what holds the tip in a notch are the two pieces that end there
+                if world.is_notch(stretch) {
+                    return;
+                }
+                let mut foot = world.foot_in(part, x, y);
                 if foot.gap > reach || foot.gap < -REACH {
-                    continue;
+                    return;
                 }
                 if world.ends_in_notch(stretch, &foot) {
                     // beyond its end a piece goes on as its tangent
                     foot.gap = (x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos();
                 } else if !foot.interior || (foot.gap < -1e-9 && !world.goes_through(&foot, x, y)) {
-                    continue;
+                    return;
                 }
                 near.push(Near { node, stretch, foot });
-            }
+            });
         }
         near
     }

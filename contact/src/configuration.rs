@@ -95,7 +95,7 @@ impl Configuration {
 
     pub fn kind(&self, world: &World<'_>, j: usize) -> ContactKind {
         let Held { stretch, hold } = self.contacts[j];
-        match (world.stretches()[stretch].kind, hold) {
+        match (world.kind(stretch), hold) {
             (StretchKind::Notch { .. }, _) => ContactKind::Notch,
             (_, Hold::Tip) => ContactKind::Tip,
             (StretchKind::Corner { .. }, _) => ContactKind::Corner,

@@ -23,8 +23,8 @@ pub struct Equilibrium {
     pub report: SolveReport,
 }
 
-/// The equilibrium of `rod` on `contour` with its clamp at `pose` (m, radians), held by exactly the contacts of `guess`: of
-/// each its piece and kind are kept; force, arc length and position are where the solve starts.
+/// The equilibrium of `rod` on `objects` (one [`Composite`] or a list of them) with its clamp at `pose` (m, radians), held by exactly the contacts of `guess`: of
+/// each its object, piece and kind are kept; force, arc length and position are where the solve starts.
 ///
 /// Nothing is added to the contact set or taken from it: that is what a [`Sweep`](crate::Sweep) does.
 ///
@@ -36,7 +36,7 @@ pub struct Equilibrium {
 /// let rod = Rod::new(1.0, 1.0)?;
 /// // a vertical rod beside the parabola, pushed against its flank
 /// let pose = Pose { x: 0.1, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
-/// let guess = Contact { piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0 };
+/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0 };
 /// let found = equilibrium(&rod, &contour, pose, &[guess])?;
 /// assert!(found.report.status.is_solved() && found.state.certificate.stable);
 /// assert_eq!(found.state.phase().to_string(), "B");
@@ -45,7 +45,12 @@ pub struct Equilibrium {
 ///
 /// # Errors
 /// [`ContactError::NotFinite`], [`ContactError::Guess`] where a contact cannot be where it is said to be.
-pub fn equilibrium(rod: &Rod, contour: &Composite, pose: Pose, guess: &[Contact]) -> Result<Equilibrium, ContactError> {
+pub fn equilibrium(
+    rod: &Rod,
+    objects: &(impl AsRef<[Composite]> + ?Sized),
+    pose: Pose,
+    guess: &[Contact],
+) -> Result<Equilibrium, ContactError> {
     for (what, value) in [("pose.x", pose.x), ("pose.y", pose.y), ("pose.phi", pose.phi)] {
         if !value.is_finite() {
             return Err(ContactError::NotFinite { what, value });
@@ -53,7 +58,7 @@ pub fn equilibrium(rod: &Rod, contour: &Composite, pose: Pose, guess: &[Contact]
     }
     let units = rod.units();
     let path = ClampPath::standing(pose).dimensionless(units);
-    let world = World::new(contour, units.length);
+    let world = World::new(objects.as_ref(), units.length);
     let mut configuration = Configuration::free(0.0);
     let (mut from, mut phi) = ((path.at(0.0).x, path.at(0.0).y), pose.phi);
     for (index, contact) in guess.iter().enumerate() {
@@ -69,8 +74,8 @@ pub fn equilibrium(rod: &Rod, contour: &Composite, pose: Pose, guess: &[Contact]
             ContactKind::Corner => StretchKind::Corner { before: contact.piece },
             ContactKind::Notch => StretchKind::Notch { before: contact.piece },
         };
-        let Some(stretch) = world.stretches().iter().position(|stretch| stretch.kind == wanted) else {
-            return wrong("the contour has no such piece, corner or notch");
+        let Some(stretch) = world.find(contact.object, wanted) else {
+            return wrong("there is no such object, or it has no such piece, corner or notch");
         };
         let foot = world.foot(stretch, contact.x / units.length, contact.y / units.length);
         // The rod's direction there, from the chord: an arc turns twice as far as its chord.
@@ -88,7 +93,7 @@ pub fn equilibrium(rod: &Rod, contour: &Composite, pose: Pose, guess: &[Contact]
         };
         configuration.insert(index, Held { stretch, hold }, [foot.t, contact.force / units.force, third]);
     }
-    let mut corrector = Corrector::new(world, path);
+    let mut corrector = Corrector::new(world.clone(), path);
     corrector.options.max_iterations = 60;
     let report = corrector.at_pose(&mut configuration, 0.0);
     let stable = report.status.is_solved() && is_stable(&world, &path, &configuration);

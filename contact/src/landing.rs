@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
 use crate::scan::{GAP_TOLERANCE, Scanner};
 use crate::stability::is_stable;
-use crate::transition::{Break, as_tangent, as_tip, breaks, with_contact};
+use crate::transition::{Break, as_tangent, as_tip, breaks, onto_neighbour, with_contact};
 use crate::world::World;
 
 /// Most repairs of one guess.
@@ -71,10 +71,7 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
     match b {
         Break::Release(j) => configuration.remove(j),
         Break::Border(j, upwards) => match corrector.world.neighbour(configuration.contacts[j].stretch, upwards) {
-            Some(next) => {
-                configuration.contacts[j].stretch = next;
-                configuration.z[3 * j] = corrector.world.border(next, !upwards);
-            }
+            Some(next) => configuration = onto_neighbour(configuration, j, upwards, next, &corrector.world),
             None => configuration.remove(j),
         },
         Break::TipToTangent(angle) => configuration = as_tangent(configuration, angle),

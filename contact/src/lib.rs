@@ -1,6 +1,6 @@
 //! A flexible rod against a rigid, frictionless contour: which contacts there are, how they move, and what the clamp feels.
 //!
-//! [`Sweep`] takes a [`Rod`](rod_core::Rod) along a [`ClampPath`] past a [`Composite`](rod_contours::Composite) contour and hands
+//! [`Sweep`] takes a [`Rod`](rod_core::Rod) along a [`ClampPath`] past one or more [`Composite`](rod_contours::Composite) contours and hands
 //! out states and events as they come; [`equilibrium`] solves for one pose and one given contact set. Units are SI.
 //!
 //! ```

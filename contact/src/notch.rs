@@ -6,18 +6,12 @@
 
 use crate::configuration::{Configuration, Held, lying};
 use crate::world::World;
-use rod_contours::StretchKind;
 use rod_core::Hold;
 use std::f64::consts::PI;
 
-pub(crate) fn is_notch(world: &World<'_>, stretch: usize) -> bool {
-    world.stretches().get(stretch).is_some_and(|s| matches!(s.kind, StretchKind::Notch { .. }))
-}
-
 /// Where a wall of `notch` meets it: the wall's parameter and tangent angle there.
 fn edge(world: &World<'_>, notch: usize, wall: usize) -> (f64, f64) {
-    let range = world.range(wall);
-    let t = if wall < notch { range.to } else { range.from };
+    let t = world.border(wall, world.neighbour(notch, false) == Some(wall));
     (t, world.support(wall, t).alpha)
 }
 
@@ -25,12 +19,14 @@ fn edge(world: &World<'_>, notch: usize, wall: usize) -> (f64, f64) {
 pub(crate) fn wall_run_into(world: &World<'_>, configuration: &Configuration, tolerance: f64) -> Option<(usize, f64)> {
     let last = configuration.count().checked_sub(1)?;
     let notch = configuration.contacts[last].stretch;
-    if !configuration.is_tip(last) || !is_notch(world, notch) {
+    if !configuration.is_tip(last) || !world.is_notch(notch) {
         return None;
     }
     let phi = configuration.z[3 * last + 2];
-    [notch - 1, notch + 1]
+    world
+        .walls(notch)
         .into_iter()
+        .flatten()
         .map(|wall| (wall, phi - edge(world, notch, wall).1))
         .find(|(_, angle)| angle.sin() < -tolerance)
 }
@@ -46,7 +42,7 @@ pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usi
     let mut parted = configuration.clone();
     let last = configuration.count() - 1;
     let notch = configuration.contacts[last].stretch;
-    let other = 2 * notch - wall;
+    let Some(other) = world.walls(notch).into_iter().flatten().find(|other| *other != wall) else { return parted };
     let ((t, alpha_wall), (t_other, alpha_other)) = (edge(world, notch, wall), edge(world, notch, other));
     let (f, alpha) = (configuration.force(last), world.support(notch, configuration.t(last)).alpha);
     let whole = (alpha_other - alpha_wall).sin();
@@ -64,10 +60,7 @@ pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usi
 pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, stretch: usize, alpha: f64, force: f64) {
     let last = configuration.count() - 1;
     let (held, f) = (configuration.contacts[last].stretch, configuration.force(last));
-    let notch = held.min(stretch) + 1;
-    if held.abs_diff(stretch) != 2 || !is_notch(world, notch) {
-        return;
-    }
+    let Some(notch) = world.notch_between(held, stretch) else { return };
     let (sin, cos) = world.support(held, configuration.t(last)).alpha.sin_cos();
     let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
     let range = world.range(notch);
@@ -82,8 +75,7 @@ pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, s
 /// Whether the last two contacts are the two walls of one notch, the tip on one and the rod lying on the other.
 pub(crate) fn straddles(world: &World<'_>, configuration: &Configuration) -> bool {
     let Some([lying, tip]) = configuration.contacts.last_chunk::<2>() else { return false };
-    let notch = lying.stretch.min(tip.stretch) + 1;
-    tip.hold == Hold::Tip && lying.stretch.abs_diff(tip.stretch) == 2 && is_notch(world, notch)
+    tip.hold == Hold::Tip && world.notch_between(lying.stretch, tip.stretch).is_some()
 }
 
 /// Two contacts that have met in the notch between their walls as the one that they are there.

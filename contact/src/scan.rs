@@ -3,13 +3,16 @@
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
-use rod_contours::{Stretch, StretchKind};
+use rod_contours::{Bounds, Part};
 use rod_core::{Hold, Section, advance, walk};
 use smallvec::SmallVec;
 
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
 const SPACING: f64 = 1.0 / 32.0;
+
+/// Nodes between which a box is put around the rod to see what is near.
+const BOXED: usize = 4;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
@@ -45,7 +48,7 @@ struct Node {
     contact: Option<usize>,
 }
 
-/// A node seen from one stretch.
+/// A node seen from one part of a contour.
 #[derive(Clone, Copy)]
 struct Sight {
     gap: f64,
@@ -55,10 +58,19 @@ struct Sight {
     interior: bool,
 }
 
+/// A part of a contour and the nodes of the rod (first, last) that are near it.
+#[derive(Clone, Copy, Debug)]
+struct Near {
+    part: Part,
+    first: usize,
+    last: usize,
+}
+
 /// Reusable memory of [`scan`](Scanner::scan).
 #[derive(Debug, Default)]
 pub(crate) struct Scanner {
     nodes: Vec<Node>,
+    near: Vec<Near>,
 }
 
 impl Scanner {
@@ -69,23 +81,59 @@ impl Scanner {
         // where there is a contact, there the gap is zero
         let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
         let mut found = Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false };
-        for (stretch, Stretch { kind, .. }) in world.stretches().iter().enumerate() {
-            if matches!(kind, StretchKind::Notch { .. }) {
-                self.scan_notch(world, configuration, stretch, &mut found);
+        self.look_around(world, least);
+        for near in &self.near {
+            if world.is_notch(near.part.stretch) {
+                self.scan_notch(world, configuration, near.part, &mut found);
             } else {
-                self.scan_stretch(world, configuration, &spans, stretch, &mut found);
+                self.scan_part(world, configuration, &spans, *near, &mut found);
             }
         }
         found
     }
 
+    /// Lists the parts of the contours that the rod could be nearer to than `least`.
+    fn look_around(&mut self, world: &World<'_>, least: f64) {
+        let Self { nodes, near } = self;
+        near.clear();
+        let last = nodes.len() - 1;
+        if world.is_small() {
+            world.parts_near(Bounds::ALL, |part| near.push(Near { part, first: 0, last }));
+            return;
+        }
+        let reach = if least == 0.0 { 0.0 } else { least_gap(world, nodes) };
+        for first in (0..last).step_by(BOXED) {
+            let last = (first + BOXED).min(last);
+            let group = &nodes[first..=last];
+            let ends = group.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y));
+            // An arc leaves its chord by no more than half its length, and by less where it is nearly straight. At its
+            // ends the curvature is within a few times of what it is between them.
+            let length = group.windows(2).map(|pair| pair[1].s - pair[0].s).fold(0.0, f64::max);
+            let kappa = group.iter().map(|node| node.at.kappa.abs()).fold(0.0, f64::max);
+            let sagitta = length * (0.5_f64).min(0.5 * length * (1.0 + kappa));
+            world.parts_near(ends.grown(sagitta + reach), |part| near.push(Near { part, first, last }));
+        }
+        // one entry a part, in the order of the contours
+        near.sort_unstable_by(|a, b| {
+            let by_start = a.part.range.from.total_cmp(&b.part.range.from);
+            a.part.stretch.cmp(&b.part.stretch).then(by_start).then(a.first.cmp(&b.first))
+        });
+        near.dedup_by(|next, kept| {
+            let same = next.part == kept.part;
+            if same {
+                kept.last = next.last;
+            }
+            same
+        });
+    }
+
     /// Only the tip can get into a notch, and only behind both its pieces: a step that went so far was too long.
-    fn scan_notch(&self, world: &World<'_>, configuration: &Configuration, stretch: usize, found: &mut Scan) {
+    fn scan_notch(&self, world: &World<'_>, configuration: &Configuration, part: Part, found: &mut Scan) {
         let Some(tip) = self.nodes.last().filter(|_| !configuration.ends_at_tip()) else { return };
-        let foot = world.foot(stretch, tip.at.x, tip.at.y);
+        let foot = world.foot_in(part, tip.at.x, tip.at.y);
         if foot.interior && foot.gap < -GAP_TOLERANCE && world.goes_through(&foot, tip.at.x, tip.at.y) {
             found.min_gap = found.min_gap.min(foot.gap);
-            found.crossings.push(Crossing { stretch, s: 1.0, phi: tip.at.phi, foot, tip: true });
+            found.crossings.push(Crossing { stretch: part.stretch, s: 1.0, phi: tip.at.phi, foot, tip: true });
         }
     }
 
@@ -113,20 +161,21 @@ impl Scanner {
         }
     }
 
-    fn scan_stretch(
+    fn scan_part(
         &self,
         world: &World<'_>,
         configuration: &Configuration,
         spans: &[Span],
-        stretch: usize,
+        near: Near,
         found: &mut Scan,
     ) {
-        let nodes = &self.nodes;
+        let Near { part, first, last } = near;
+        let nodes = &self.nodes[..=last];
         let mut before: Option<(usize, Sight)> = None;
-        let mut i = 0;
+        let mut i = first;
         while let Some(node) = nodes.get(i) {
-            let foot = world.foot(stretch, node.at.x, node.at.y);
-            let mut sight = see(node, &foot, configuration, stretch);
+            let foot = world.foot_in(part, node.at.x, node.at.y);
+            let mut sight = see(world, node, &foot, configuration, &part);
             if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
                 sight = Sight { gap: -sight.gap, left: f64::NAN, right: f64::NAN, interior: false };
             }
@@ -139,12 +188,13 @@ impl Scanner {
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
                 if last.right < 0.0 && sight.left >= 0.0 && matters {
-                    self.search(world, spans, stretch, (last_node, node), (last.right, sight.left), found);
+                    self.search(world, spans, part, (last_node, node), (last.right, sight.left), found);
                 }
             }
-            let at_end = i + 1 == nodes.len();
+            let at_end = i + 1 == self.nodes.len();
             let free_end = !configuration.ends_at_tip();
             if at_end && free_end && sight.interior && sight.left < 0.0 && sight.gap < -GAP_TOLERANCE {
+                let stretch = part.stretch;
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: node.at.phi, foot, tip: true });
             }
             before = Some((i, sight));
@@ -162,7 +212,7 @@ impl Scanner {
         &self,
         world: &World<'_>,
         spans: &[Span],
-        stretch: usize,
+        part: Part,
         nodes: (&Node, &Node),
         slopes: (f64, f64),
         found: &mut Scan,
@@ -170,7 +220,7 @@ impl Scanner {
         let span = &spans[nodes.0.span];
         let look = |s: f64| {
             let at = advance(&span.start, span.a, span.b, s - span.s);
-            let foot = world.foot(stretch, at.x, at.y);
+            let foot = world.foot_in(part, at.x, at.y);
             (slope(&at, &foot), at, foot)
         };
         // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of s give all of its own
@@ -195,10 +245,24 @@ impl Scanner {
         if foot.interior && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
             found.min_gap = found.min_gap.min(foot.gap);
             if foot.gap < -GAP_TOLERANCE {
-                found.crossings.push(Crossing { stretch, s, phi: at.phi, foot, tip: false });
+                found.crossings.push(Crossing { stretch: part.stretch, s, phi: at.phi, foot, tip: false });
             }
         }
     }
+}
+
+/// An upper bound of the smallest gap: that of the nodes.
+fn least_gap(world: &World<'_>, nodes: &[Node]) -> f64 {
+    let (mut least, mut safe) = (f64::INFINITY, f64::NEG_INFINITY);
+    for node in nodes {
+        // the gap changes no faster than the rod runs
+        if node.s >= safe {
+            let gap = world.gap(node.at.x, node.at.y);
+            least = gap.max(0.0).min(least);
+            safe = node.s + gap - least;
+        }
+    }
+    least
 }
 
 /// Slope of the gap along the rod: of the distance to the foot where that is an end of the stretch.
@@ -211,11 +275,12 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
 }
 
-fn see(node: &Node, foot: &Foot, configuration: &Configuration, stretch: usize) -> Sight {
+fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {
     let mut sight = Sight { gap: foot.gap, left: slope(&node.at, foot), right: 0.0, interior: foot.interior };
     sight.right = sight.left;
     if let Some(j) = node.contact
-        && configuration.contacts[j].stretch == stretch
+        && configuration.contacts[j].stretch == part.stretch
+        && world.holds(part, configuration.t(j))
         && let Hold::Tangent { offset } = configuration.contacts[j].hold
     {
         // A contact is a minimum of the gap itself, unless the rod is more curved towards the solid than the contour.

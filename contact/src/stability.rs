@@ -190,7 +190,7 @@ mod tests {
     /// A straight rod standing under a ceiling y = 1 + c x^2, pressed with force f: the tip slides, the clamp holds.
     fn stands(c: f64, f: f64) -> bool {
         let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap());
-        let world = World::new(&contour, 1.0);
+        let world = World::new(contour.as_ref(), 1.0);
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let mut column = Configuration::free(0.0);
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);

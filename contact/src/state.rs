@@ -19,7 +19,9 @@ pub enum ContactKind {
 /// One contact, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// Number of the contour's piece, from 0 (for a corner or notch: the piece before it).
+    /// Number of the object, from 0.
+    pub object: usize,
+    /// Number of the object's piece, from 0 (for a corner or notch: the piece before it).
     pub piece: usize,
     /// How it holds.
     pub kind: ContactKind,

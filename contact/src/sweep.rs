@@ -67,22 +67,27 @@ const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
 const BACK: (f64, f64) = (4.0, 0.05);
 
 impl<'a> Sweep<'a> {
-    /// A sweep of `rod` along `path` past `contour` (m), with states reported at 0, `step`, 2 `step`, ... of the path's
-    /// parameter (m, or radians where the clamp only turns).
+    /// A sweep of `rod` along `path` past `objects` (m): one [`Composite`], or a list of them. States are reported at 0,
+    /// `step`, 2 `step`, ... of the path's parameter (m, or radians where the clamp only turns).
     ///
     /// A start in contact has the shape that a sweep from further back along the same line would have brought there; only
     /// where no pose on that line is free, the straight rod is let go into contact.
     ///
     /// # Errors
     /// [`ContactError::Step`].
-    pub fn new(rod: &Rod, contour: &'a Composite, path: ClampPath, step: f64) -> Result<Self, ContactError> {
+    pub fn new(
+        rod: &Rod,
+        objects: &'a (impl AsRef<[Composite]> + ?Sized),
+        path: ClampPath,
+        step: f64,
+    ) -> Result<Self, ContactError> {
         if !(step.is_finite() && step > 0.0) {
             return Err(ContactError::Step { value: step });
         }
         let units = rod.units();
         let step = if path.turns_only() { step } else { step / units.length };
         let path = path.dimensionless(units);
-        let corrector = Corrector::new(World::new(contour, units.length), path);
+        let corrector = Corrector::new(World::new(objects.as_ref(), units.length), path);
         Ok(Self {
             rod: *rod,
             stepper: Stepper { corrector, scanner: Scanner::default(), h: FIRST_STEP },

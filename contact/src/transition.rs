@@ -3,9 +3,11 @@
 use crate::branch::{Condition, Corrector, Tangent};
 use crate::configuration::{Configuration, Held, lying};
 use crate::event::EventKind;
-use crate::notch::{is_notch, lying_angle, merged, parted, straddles, wall_run_into};
+use crate::notch::{lying_angle, merged, parted, straddles, wall_run_into};
 use crate::scan::{Crossing, Scan};
+use crate::world::World;
 use rod_core::Hold;
+use std::f64::consts::TAU;
 
 /// A condition of the contact set that no longer holds.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +60,7 @@ pub(crate) fn breaks(
         if configuration.is_tip(last) {
             let angle = tip_angle(corrector, configuration);
             let stretch = configuration.contacts[last].stretch;
-            if angle.sin() < -LIMIT_TOLERANCE && !is_notch(&corrector.world, stretch) {
+            if angle.sin() < -LIMIT_TOLERANCE && !corrector.world.is_notch(stretch) {
                 visit(Break::TipToTangent(angle));
                 lying_down = Some(stretch);
             } else if let Some((wall, angle)) = wall_run_into(&corrector.world, configuration, LIMIT_TOLERANCE) {
@@ -125,17 +127,14 @@ impl Break {
                 let border = corrector.world.border(here, upwards);
                 let next = corrector.world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
                 let before = on(corrector, broken.clone(), 3 * j, border)?;
-                if is_notch(&corrector.world, next)
+                if corrector.world.is_notch(next)
                     && straddles(&corrector.world, &before)
                     && (1.0 - before.s(before.count() - 2)).abs() < MEETING
                 {
                     let after = merged(&corrector.world, &before);
                     (EventKind::Release, before, after)
                 } else {
-                    let mut after = before.clone();
-                    after.contacts[j].stretch = next;
-                    after.z[3 * j] = corrector.world.border(next, !upwards);
-                    (EventKind::Piece, before, after)
+                    (EventKind::Piece, before.clone(), onto_neighbour(before, j, upwards, next, &corrector.world))
                 }
             }
             Self::OntoWall(wall, angle) => {
@@ -152,7 +151,7 @@ impl Break {
                 let after = on(corrector, as_tangent(broken.clone(), angle), 3 * last + 2, 1.0)?;
                 (EventKind::TipToTangent, as_tip(after.clone(), corrector), after)
             }
-            Self::Touch(crossing) if is_notch(&corrector.world, crossing.stretch) => {
+            Self::Touch(crossing) if corrector.world.is_notch(crossing.stretch) => {
                 return Err(NoTransition::NotLocated);
             }
             Self::Touch(crossing) => {
@@ -179,6 +178,26 @@ fn on(
 ) -> Result<Configuration, NoTransition> {
     let report = corrector.correct(&mut start, Condition::Fixed { index, value });
     if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
+}
+
+/// Contact j moved over the border of its stretch to where `next` begins. The angle of a closed contour jumps by whole turns
+/// where it begins anew.
+pub(crate) fn onto_neighbour(
+    mut configuration: Configuration,
+    j: usize,
+    upwards: bool,
+    next: usize,
+    world: &World<'_>,
+) -> Configuration {
+    let here = configuration.contacts[j].stretch;
+    let (leaves, enters) = (world.border(here, upwards), world.border(next, !upwards));
+    if let Hold::Tangent { offset } = &mut configuration.contacts[j].hold {
+        let jump = world.support(here, leaves).alpha - world.support(next, enters).alpha;
+        *offset += TAU * (jump / TAU).round();
+    }
+    configuration.contacts[j].stretch = next;
+    configuration.z[3 * j] = enters;
+    configuration
 }
 
 /// The last contact, tangential at s = 1, as a contact of the tip.

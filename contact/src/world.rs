@@ -1,18 +1,22 @@
-//! The contour as the rod sees it: in lengths of the rod.
+//! The objects as the rod sees them: in lengths of the rod.
 
-use rod_contours::{Composite, Contour, Range, Stretch, StretchKind};
+use rod_contours::{Bounds, Composite, Contour, Frame, Part, Range, StretchKind};
 use rod_core::Support;
+use smallvec::SmallVec;
 
-/// A contour in dimensionless lengths. Each stretch keeps a parameter of its own (that of its shape over the rod's length, or
-/// the angle turned at a joint), so that nothing is lost to an offset, however small the rod is.
-#[derive(Clone, Copy, Debug)]
+/// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that of its
+/// shape over the rod's length, or the angle turned at a joint), so that nothing is lost to an offset, however small the rod
+/// is.
+#[derive(Clone, Debug)]
 pub(crate) struct World<'a> {
-    contour: &'a Composite,
-    /// Length of the rod in the contour's unit.
+    objects: &'a [Composite],
+    /// Number of each object's first stretch.
+    first: SmallVec<[usize; 4]>,
+    /// Length of the rod in the contours' unit.
     length: f64,
 }
 
-/// The point of one stretch that is closest to a given point.
+/// The point of one part of the contour that is closest to a given point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Foot {
     pub t: f64,
@@ -22,29 +26,57 @@ pub(crate) struct Foot {
     pub curvature: f64,
     pub x: f64,
     pub y: f64,
-    /// Whether the foot is a perpendicular one, not an end of the stretch.
+    /// Whether the foot is a perpendicular one, not an end of the part.
     pub interior: bool,
 }
 
 impl<'a> World<'a> {
-    pub fn new(contour: &'a Composite, length: f64) -> Self {
-        Self { contour, length }
+    pub fn new(objects: &'a [Composite], length: f64) -> Self {
+        let first = objects.iter().scan(0, |next, object| {
+            let first = *next;
+            *next += object.stretches().len();
+            Some(first)
+        });
+        Self { objects, first: first.collect(), length }
     }
 
-    pub fn stretches(&self) -> &'a [Stretch] {
-        self.contour.stretches()
+    /// The number of the object that a stretch belongs to.
+    pub fn object(&self, stretch: usize) -> usize {
+        self.first.partition_point(|first| *first <= stretch).saturating_sub(1)
+    }
+
+    /// The object of a stretch, and the number of the stretch in it.
+    fn at(&self, stretch: usize) -> (&'a Composite, usize) {
+        let object = self.object(stretch);
+        (&self.objects[object], stretch - self.first[object])
+    }
+
+    pub fn kind(&self, stretch: usize) -> StretchKind {
+        let (object, own) = self.at(stretch);
+        object.kind(own)
+    }
+
+    pub fn is_notch(&self, stretch: usize) -> bool {
+        matches!(self.kind(stretch), StretchKind::Notch { .. })
+    }
+
+    /// The number of the stretch of an object that is of this kind.
+    pub fn find(&self, object: usize, kind: StretchKind) -> Option<usize> {
+        let stretch = self.objects.get(object)?.stretches().position(|stretch| stretch.kind == kind)?;
+        Some(self.first[object] + stretch)
     }
 
     /// Length of the contour's parameter that counts as 1 here: of pieces the rod's length, of joints, which are measured by
     /// angle, 1.
     fn unit(&self, stretch: usize) -> f64 {
-        if self.stretches()[stretch].is_joint() { 1.0 } else { self.length }
+        if matches!(self.kind(stretch), StretchKind::Piece(_)) { self.length } else { 1.0 }
     }
 
     /// Range of a stretch in its own parameter.
     pub fn range(&self, stretch: usize) -> Range {
-        let (own, unit) = (self.contour.own_range(stretch), self.unit(stretch));
-        Range { from: own.from / unit, to: own.to / unit }
+        let (object, own) = self.at(stretch);
+        let (range, unit) = (object.own_range(own), self.unit(stretch));
+        Range { from: range.from / unit, to: range.to / unit }
     }
 
     /// The upper or lower end of a stretch's range.
@@ -53,29 +85,47 @@ impl<'a> World<'a> {
         if upper { range.to } else { range.from }
     }
 
-    /// The stretch after or before.
+    /// The stretch after or before; none where the contour ends.
     pub fn neighbour(&self, stretch: usize, after: bool) -> Option<usize> {
-        let neighbour = if after { Some(stretch + 1) } else { stretch.checked_sub(1) };
-        neighbour.filter(|k| *k < self.stretches().len())
+        let (object, own) = self.at(stretch);
+        object.neighbour(own, after).map(|neighbour| stretch - own + neighbour)
     }
 
     pub fn support(&self, stretch: usize, t: f64) -> Support {
+        let (object, own) = self.at(stretch);
         let unit = self.unit(stretch);
-        let frame = self.contour.own_frame(stretch, t * unit);
+        let Frame { x, y, alpha, speed, turning } = object.own_frame(own, t * unit);
         Support {
-            x: frame.x / self.length,
-            y: frame.y / self.length,
-            alpha: frame.alpha,
-            speed: frame.speed / self.length * unit,
-            turning: frame.turning * unit,
+            x: x / self.length,
+            y: y / self.length,
+            alpha,
+            speed: speed / self.length * unit,
+            turning: turning * unit,
         }
     }
 
+    /// The closest point of a whole stretch.
     pub fn foot(&self, stretch: usize, x: f64, y: f64) -> Foot {
-        let closest = self.contour.own_closest(stretch, x * self.length, y * self.length);
+        let (object, own) = self.at(stretch);
+        self.foot_in(Part { stretch, range: object.own_range(own) }, x, y)
+    }
+
+    /// Whether `t` is in a part of its stretch, or next to it but for rounding.
+    pub fn holds(&self, part: &Part, t: f64) -> bool {
+        let t = t * self.unit(part.stretch);
+        let slack = 1e-9 * (1.0 + t.abs());
+        part.range.from - slack <= t && t <= part.range.to + slack
+    }
+
+    /// The closest point of a part of a stretch.
+    pub fn foot_in(&self, part: Part, x: f64, y: f64) -> Foot {
+        let Part { stretch, range } = part;
+        let (object, own) = self.at(stretch);
+        let unit = self.unit(stretch);
+        let closest = object.own_closest_in(own, range, x * self.length, y * self.length);
         let frame = closest.frame;
         Foot {
-            t: closest.t / self.unit(stretch),
+            t: closest.t / unit,
             gap: closest.gap / self.length,
             alpha: frame.alpha,
             curvature: frame.turning / frame.speed * self.length,
@@ -85,23 +135,59 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Whether a point with a negative gap to `foot`'s stretch is inside the solid, and there nearest to that stretch: what
-    /// lies behind one stretch may be outside of the object or nearer to another stretch, whose gap it then is.
+    /// Whether [`parts_near`](Self::parts_near) gives all parts whatever the bounds.
+    pub fn is_small(&self) -> bool {
+        self.objects.len() <= 2 && self.objects.iter().all(Composite::is_small)
+    }
+
+    /// Calls `visit` with all parts of all contours that meet `bounds`, and perhaps with others near by. Their ranges stay in
+    /// the contours' unit, so that they come back to the contour as they are.
+    pub fn parts_near(&self, bounds: Bounds, mut visit: impl FnMut(Part)) {
+        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
+        let bounds = Bounds { min: scaled(bounds.min), max: scaled(bounds.max) };
+        for (object, first) in self.objects.iter().zip(&self.first) {
+            object.parts_near(bounds, |part| visit(Part { stretch: first + part.stretch, ..part }));
+        }
+    }
+
+    /// Signed distance of a point from the nearest object: negative inside any of them.
+    pub fn gap(&self, x: f64, y: f64) -> f64 {
+        let gaps = self.objects.iter().map(|object| object.gap(x * self.length, y * self.length));
+        gaps.fold(f64::INFINITY, f64::min) / self.length
+    }
+
+    /// Whether a point with a negative gap to `foot`'s part is inside the solid, and there nearest to that part: what lies
+    /// behind one part may be outside of the object or nearer to another part, whose gap it then is.
     pub fn goes_through(&self, foot: &Foot, x: f64, y: f64) -> bool {
-        let gap = self.contour.gap(x * self.length, y * self.length) / self.length;
-        foot.gap < 0.0 && foot.gap >= gap * (1.0 + 1e-6) - 1e-14
+        foot.gap < 0.0 && foot.gap >= self.gap(x, y) * (1.0 + 1e-6) - 1e-14
     }
 
     /// Whether `foot` is the end of its stretch at a notch.
     pub fn ends_in_notch(&self, stretch: usize, foot: &Foot) -> bool {
-        let after = foot.t >= self.range(stretch).to;
-        let neighbour = self.neighbour(stretch, after).map(|k| self.stretches()[k].kind);
-        !foot.interior && matches!(neighbour, Some(StretchKind::Notch { .. }))
+        if foot.interior {
+            return false;
+        }
+        let range = self.range(stretch);
+        let notch_beyond = |after| self.neighbour(stretch, after).is_some_and(|neighbour| self.is_notch(neighbour));
+        (foot.t >= range.to && notch_beyond(true)) || (foot.t <= range.from && notch_beyond(false))
     }
 
-    /// Number of the piece a stretch belongs to: for a joint the piece before it.
+    /// The pieces before and after a notch.
+    pub fn walls(&self, notch: usize) -> [Option<usize>; 2] {
+        [false, true].map(|after| self.neighbour(notch, after))
+    }
+
+    /// The notch between two of its walls.
+    pub fn notch_between(&self, wall: usize, other: usize) -> Option<usize> {
+        [true, false].into_iter().find_map(|after| {
+            let notch = self.neighbour(wall, after).filter(|notch| self.is_notch(*notch))?;
+            (self.neighbour(notch, after) == Some(other)).then_some(notch)
+        })
+    }
+
+    /// Number of the piece, in its object, that a stretch belongs to: for a joint the piece before it.
     pub fn piece(&self, stretch: usize) -> usize {
-        match self.stretches()[stretch].kind {
+        match self.kind(stretch) {
             StretchKind::Piece(piece) => piece,
             StretchKind::Corner { before } | StretchKind::Notch { before } => before,
         }

@@ -1,9 +1,9 @@
 //! Putting pieces in their places: where consecutive ones meet or cross, and what stands between them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::crossing::{self, Crossing};
-use crate::joint::{Joint, wrapped};
+use crate::joint::wrapped;
 use crate::piece::Piece;
 use crate::{Contour, ContourError, Frame, Range};
 
@@ -14,45 +14,83 @@ const MEETING: f64 = 1e-9;
 /// Largest turn, rad, that is still a smooth joint: what a break computed in double precision leaves between tangents.
 const SMOOTH: f64 = 1e-9;
 
-/// Each piece up to where it enters the solid of the next, see [`Composite::joined`](crate::Composite::joined).
-pub(crate) fn crossing(pieces: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
-    let mut ranges: Vec<Range> = pieces.iter().map(|shape| shape.range()).collect();
-    for (index, pair) in pieces.windows(2).enumerate() {
-        let (piece, next) = (index + 1, index + 2);
-        let range = checked(ranges[index], piece)?;
-        let Crossing { leaves, enters } = crossing::entry(&pair[0], &pair[1], range.from)
-            .ok_or(ContourError::NoCrossing { piece, next, from: range.from, to: range.to })?;
+/// The shapes as pieces, whole.
+pub(crate) fn whole(shapes: Vec<Box<dyn Contour>>) -> Vec<Piece> {
+    shapes
+        .into_iter()
+        .map(|shape| {
+            let range = shape.range();
+            Piece::new(shape, range)
+        })
+        .collect()
+}
+
+/// Each piece up to where it meets the next one or enters its solid, see [`Composite::joined`](crate::Composite::joined).
+pub(crate) fn crossing(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
+    let mut pieces = whole(shapes);
+    for next in 2..=pieces.len() {
+        let piece = next - 1;
+        let (before, after) = pieces.split_at_mut(piece);
+        let (before, after) = (&mut before[piece - 1], &mut after[0]);
+        let range = checked(before.range, piece)?;
+        let apart = match meeting(before, after, piece) {
+            Ok(_) => continue,
+            // Ends that should have met, but for the crossing that is not there either.
+            Err(error @ ContourError::Apart { .. }) => error,
+            Err(_) => ContourError::NoCrossing { piece, next, from: range.from, to: range.to },
+        };
+        let Crossing { leaves, enters } = crossing::entry(&before.shape, &after.shape, range.from).ok_or(apart)?;
         if leaves <= range.from {
             return Err(ContourError::Hidden { piece, next, enters: range.from, leaves });
         }
-        ranges[index].to = leaves;
-        ranges[index + 1].from = enters;
+        before.range.to = leaves;
+        after.range.from = enters;
     }
-    Ok(pieces.into_iter().zip(ranges).map(|(shape, range)| Piece::new(shape, range)).collect())
+    Ok(pieces)
 }
 
-/// Checks that consecutive ends meet, then sets the pieces' offsets and whole turns and finds the joints between them.
-pub(crate) fn placed(mut pieces: Vec<Piece>) -> Result<(Vec<Piece>, Vec<Option<Joint>>), ContourError> {
+/// Checks that consecutive ends meet, and sets the pieces' offsets, whole turns and the joints between them. Returns how many
+/// turns the contour takes if its end meets its start, 0 if it does not.
+pub(crate) fn placed(pieces: &mut [Piece]) -> Result<i32, ContourError> {
     if pieces.is_empty() {
         return Err(ContourError::Empty);
     }
     for (index, piece) in pieces.iter().enumerate() {
         checked(piece.range, index + 1)?;
     }
-    let mut joints = Vec::with_capacity(pieces.len() - 1);
     for index in 1..pieces.len() {
         let (before, after) = pieces.split_at_mut(index);
-        let (before, after) = (&before[index - 1], &mut after[0]);
+        let (before, after) = (&mut before[index - 1], &mut after[0]);
         let (end, start) = meeting(before, after, index)?;
-        let turn = wrapped(start.alpha - end.alpha);
+        let turn = turn(end, start);
         // Rounded to whole turns, the piece keeps the digits of its own angle.
-        after.winding = TAU * ((end.alpha + turn - start.alpha) / TAU).round();
-        let end_t = before.range.to + before.offset;
-        let joint = (turn.abs() > SMOOTH).then(|| Joint::new(end, end_t, turn));
-        after.offset = joint.map_or(end_t, |joint| joint.range().to) - after.range.from;
-        joints.push(joint);
+        after.turns = whole_turns(end.alpha + turn - start.alpha);
+        if turn.abs() > SMOOTH {
+            before.set_turn(turn);
+        }
+        after.offset = before.after() - after.range.from;
     }
-    Ok((pieces, joints))
+    let last = pieces.len() - 1;
+    let Ok((end, start)) = meeting(&pieces[last], &pieces[0], last + 1) else { return Ok(0) };
+    let turn = turn(end, start);
+    let turns = whole_turns(end.alpha + turn - start.alpha);
+    if turns.abs() != 1 {
+        return Err(ContourError::Loops { turns });
+    }
+    if turn.abs() > SMOOTH {
+        pieces[last].set_turn(turn);
+    }
+    Ok(turns)
+}
+
+/// The turn, rad, from one direction to the next: a reversal is the end of a plate, which is convex.
+fn turn(end: Frame, start: Frame) -> f64 {
+    let turn = wrapped(start.alpha - end.alpha);
+    if turn < SMOOTH - PI { turn + TAU } else { turn }
+}
+
+fn whole_turns(angle: f64) -> i32 {
+    (angle / TAU).round() as i32
 }
 
 /// The range of a piece, if it is one.

@@ -9,6 +9,7 @@
 /// assert_eq!(bounds, Bounds { min: [0.0, 0.0], max: [2.0, 1.0] });
 /// assert!(bounds.contains(1.0, 0.5));
 /// assert_eq!(bounds.distance(5.0, 5.0), 5.0);
+/// assert!(bounds.is_finite() && bounds.meets(&bounds.grown(1.0)));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
@@ -46,6 +47,16 @@ impl Bounds {
     /// Whether the point `(x, y)` lies in the box, sides included.
     pub fn contains(&self, x: f64, y: f64) -> bool {
         (self.min[0]..=self.max[0]).contains(&x) && (self.min[1]..=self.max[1]).contains(&y)
+    }
+
+    /// Whether both boxes share a point.
+    pub fn meets(&self, other: &Self) -> bool {
+        (0..2).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
+    }
+
+    /// Whether all sides are at finite places.
+    pub fn is_finite(&self) -> bool {
+        self.min.iter().chain(&self.max).all(|side| side.is_finite())
     }
 
     /// Distance of the point `(x, y)` from the box, a length; 0 inside.

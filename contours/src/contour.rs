@@ -90,6 +90,12 @@ pub trait Contour: Send + Sync + Debug {
     fn bounds_in(&self, range: Range) -> Bounds {
         search::bounds(self, range)
     }
+
+    /// Parameters inside `range`, in order, that part it into simple arcs.
+    fn cuts(&self, range: Range) -> Vec<f64> {
+        let _ = range;
+        Vec::new()
+    }
 }
 
 impl<C: Contour + ?Sized> Contour for Box<C> {
@@ -119,5 +125,9 @@ impl<C: Contour + ?Sized> Contour for Box<C> {
 
     fn bounds_in(&self, range: Range) -> Bounds {
         (**self).bounds_in(range)
+    }
+
+    fn cuts(&self, range: Range) -> Vec<f64> {
+        (**self).cuts(range)
     }
 }

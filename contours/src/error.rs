@@ -48,6 +48,15 @@ pub enum ContourError {
         neighbour: usize,
     },
 
+    /// A contour comes back to its start after a number of turns that is not one.
+    #[error(
+        "the contour closes after {turns} turns, expected 1 (solid inside) or -1 (solid outside); it crosses itself"
+    )]
+    Loops {
+        /// How many turns, counterclockwise ones counted as positive.
+        turns: i32,
+    },
+
     /// Two consecutive pieces do not meet.
     #[error(
         "piece {piece} ends at ({x}, {y}), {distance:e} away from the start of piece {next}, expected at most {tolerance:e}"

@@ -26,6 +26,11 @@ impl Joint {
         self.range
     }
 
+    /// The angle turned, from 0.
+    pub fn own_range(&self) -> Range {
+        Range { from: 0.0, to: self.range.length() }
+    }
+
     pub fn frame(&self, t: f64) -> Frame {
         Frame { alpha: self.start.alpha + self.start.turning * (t - self.range.from), ..self.start }
     }

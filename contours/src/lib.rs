@@ -15,7 +15,7 @@
 //! let left = Parabola::new([0.0, 0.0], 5.0)?;
 //! let right = Parabola::new([0.3, 0.0], 5.0)?;
 //! let object = Composite::joined(vec![Box::new(left), Box::new(right)])?;
-//! assert_eq!(object.stretches()[1].kind, StretchKind::Notch { before: 0 });
+//! assert_eq!(object.stretch(1).kind, StretchKind::Notch { before: 0 });
 //!
 //! let closest = object.closest(0.3, -0.2);
 //! assert!((closest.gap - 0.2).abs() < 1e-15 && closest.frame.alpha.abs() < 1e-15);
@@ -32,13 +32,14 @@ pub mod contract;
 mod crossing;
 mod error;
 mod frame;
+mod index;
 mod joint;
 mod parabola;
+mod part;
 mod piece;
 mod range;
 mod search;
 mod stretch;
-mod tree;
 
 pub use bounds::Bounds;
 pub use closest::Closest;
@@ -47,5 +48,6 @@ pub use contour::Contour;
 pub use error::ContourError;
 pub use frame::Frame;
 pub use parabola::Parabola;
+pub use part::Part;
 pub use range::Range;
 pub use stretch::{Stretch, StretchKind};

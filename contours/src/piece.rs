@@ -1,8 +1,12 @@
 //! One shape in its place in a composite.
 
+use std::f64::consts::TAU;
+
+use crate::joint::Joint;
 use crate::{Bounds, Closest, Contour, Frame, Range};
 
-/// A shape, the part of it that belongs to the composite, and how its parameter and angle continue those before it.
+/// A shape, the part of it that belongs to the composite, how its parameter and angle continue those before it, and the
+/// joint after it. Kept small: there may be 1e5 of them.
 #[derive(Debug)]
 pub(crate) struct Piece {
     pub shape: Box<dyn Contour>,
@@ -10,14 +14,51 @@ pub(crate) struct Piece {
     pub range: Range,
     /// The composite's parameter less the shape's own.
     pub offset: f64,
-    /// The composite's alpha less the shape's own: whole turns.
-    pub winding: f64,
+    /// The composite's alpha less the shape's own, in whole turns.
+    pub turns: i32,
+    /// Index of its stretch.
+    pub stretch: u32,
+    /// The turn to the next piece, rad; 0 where that joint is smooth, or there is none.
+    turn: f64,
+    /// The point and the angle (of the composite) where the piece ends; known where there is a turn.
+    end: [f64; 3],
 }
 
 impl Piece {
     /// A piece that keeps its own parameter and angle.
     pub fn new(shape: Box<dyn Contour>, range: Range) -> Self {
-        Self { shape, range, offset: 0.0, winding: 0.0 }
+        Self { shape, range, offset: 0.0, turns: 0, stretch: 0, turn: 0.0, end: [0.0; 3] }
+    }
+
+    /// Sets the joint after it, which turns by `turn`, rad.
+    pub fn set_turn(&mut self, turn: f64) {
+        let Frame { x, y, alpha, .. } = self.last();
+        (self.turn, self.end) = (turn, [x, y, alpha]);
+    }
+
+    /// The turn to the next piece, rad.
+    pub fn turn(&self) -> f64 {
+        self.turn
+    }
+
+    pub fn has_joint(&self) -> bool {
+        self.turn != 0.0
+    }
+
+    /// The joint after it.
+    pub fn joint(&self) -> Joint {
+        let [x, y, alpha] = self.end;
+        Joint::new(Frame { x, y, alpha, speed: 0.0, turning: 0.0 }, self.to(), self.turn)
+    }
+
+    /// The composite's parameter where the piece ends.
+    pub fn to(&self) -> f64 {
+        self.range.to + self.offset
+    }
+
+    /// The composite's parameter where the piece and the joint after it end.
+    pub fn after(&self) -> f64 {
+        self.to() + self.turn.abs()
     }
 
     /// The frame at the composite's parameter `t`.
@@ -30,9 +71,9 @@ impl Piece {
         self.wound(self.shape.frame(u))
     }
 
-    /// The closest point of the piece, by the shape's own parameter.
-    pub fn own_closest(&self, x: f64, y: f64) -> Closest {
-        let closest = self.shape.closest_in(self.range, x, y);
+    /// The closest point of the part in `range`, both by the shape's own parameter.
+    pub fn own_closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+        let closest = self.shape.closest_in(range, x, y);
         Closest { frame: self.wound(closest.frame), ..closest }
     }
 
@@ -46,20 +87,9 @@ impl Piece {
         self.own_frame(self.range.to)
     }
 
-    /// The closest point of the part in `range`, both by the composite's parameter.
-    pub fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        let own = self.range.within(range.shifted(-self.offset));
-        let closest = self.shape.closest_in(own, x, y);
-        Closest {
-            // Rounding of the offset must not move the point out of the range.
-            t: range.clamp(closest.t + self.offset),
-            frame: self.wound(closest.frame),
-            ..closest
-        }
-    }
-
-    pub fn bounds(&self) -> Bounds {
-        self.shape.bounds_in(self.range)
+    /// A box that contains the part in `range`, by the shape's own parameter.
+    pub fn bounds_in(&self, range: Range) -> Bounds {
+        self.shape.bounds_in(range)
     }
 
     /// Largest coordinate at the ends of the piece (one unit of the parameter away from a single end, or from 0, where
@@ -73,6 +103,6 @@ impl Piece {
     }
 
     fn wound(&self, frame: Frame) -> Frame {
-        Frame { alpha: frame.alpha + self.winding, ..frame }
+        Frame { alpha: frame.alpha + TAU * f64::from(self.turns), ..frame }
     }
 }

@@ -26,7 +26,7 @@ pub enum StretchKind {
 ///
 /// let line = Composite::single(Parabola::new([0.0, 0.0], 0.0)?);
 /// assert_eq!(line.stretches().len(), 1);
-/// assert_eq!(line.stretches()[0].kind, StretchKind::Piece(0));
+/// assert_eq!(line.stretch(0).kind, StretchKind::Piece(0));
 /// # Ok::<(), rod_contours::ContourError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

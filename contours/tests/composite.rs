@@ -15,7 +15,7 @@ fn the_objects_of_the_paper() {
         let pieces: Vec<Box<dyn Contour>> =
             vec![Box::new(Parabola::new(left, 5.0).unwrap()), Box::new(Parabola::new(right, 5.0).unwrap())];
         let object = Composite::joined(pieces).unwrap();
-        let stretches = object.stretches();
+        let stretches: Vec<_> = object.stretches().collect();
         assert_eq!(stretches.len(), 3);
         assert_eq!(stretches[1].kind, StretchKind::Notch { before: 0 });
         let crossing = object.frame(stretches[1].range.from);
@@ -63,7 +63,7 @@ fn stretches_continue_smoothly_beyond_themselves() {
         Box::new(Parabola::new([-1.0, 0.0], 1.0).unwrap().between(0.0, 1.0).unwrap()),
     ];
     let wedge = Composite::new(pieces).unwrap();
-    let corner = wedge.stretches()[1].range;
+    let corner = wedge.stretch(1).range;
     let beyond = wedge.frame_on(0, corner.from + 0.1);
     assert!((beyond.x - 0.1).abs() < 1e-15 && (beyond.y - 0.81).abs() < 1e-15);
     let turned = wedge.frame_on(1, corner.to + 0.1);
@@ -138,7 +138,7 @@ fn a_part_of_a_composite_ends_where_it_is_cut() {
         Box::new(Parabola::new([-1.0, 0.0], 1.0).unwrap().between(0.0, 1.0).unwrap()),
     ];
     let wedge = Composite::new(pieces).unwrap();
-    let corner = wedge.stretches()[1].range;
+    let corner = wedge.stretch(1).range;
     let middle = 0.5 * (corner.from + corner.to);
     let left = Range { from: wedge.range().from, to: middle };
     // Straight below, the cut is the very tangent; to the right the part has no tangent any more; to the left it has.

@@ -93,7 +93,7 @@ fn window(area: &Area<'_>, points: &[(f64, f64)]) -> (Range<f64>, Range<f64>) {
 fn draw_contour(chart: &mut Chart<'_, '_>, scan: &Scan, (x, y): (Range<f64>, Range<f64>)) -> Result<(), FigureError> {
     let window = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     let distance = 0.016 * (x.end - x.start);
-    for part in outline::visible(&scan.scene.contour, window) {
+    for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, window)) {
         let mut since = distance;
         for (frame, next) in part.iter().zip(&part[1..]) {
             since += 1e3 * (next.x - frame.x).hypot(next.y - frame.y);

@@ -10,7 +10,7 @@ pub(super) fn visible(contour: &Composite, window: Bounds) -> Vec<Vec<Frame>> {
     let mut parts = vec![Vec::new()];
     let diagonal = (window.max[0] - window.min[0]).hypot(window.max[1] - window.min[1]);
     let share = (4 * POINTS / contour.stretches().len()).clamp(2, POINTS);
-    for (index, stretch) in contour.stretches().iter().enumerate() {
+    for (index, stretch) in contour.stretches().enumerate() {
         let Range { from, to } = reachable(contour, index, window, diagonal);
         for i in 0..=share {
             let frame = contour.frame_on(index, from + (to - from) * i as f64 / share as f64);
@@ -29,7 +29,7 @@ pub(super) fn visible(contour: &Composite, window: Bounds) -> Vec<Vec<Frame>> {
 /// The part of a stretch's range that can be seen: all of it, or, where it goes on for ever, as far as it takes to leave the
 /// window for good.
 fn reachable(contour: &Composite, index: usize, window: Bounds, diagonal: f64) -> Range {
-    let range = contour.stretches()[index].range;
+    let range = contour.stretch(index).range;
     if range.is_finite() {
         return range;
     }

@@ -1,4 +1,4 @@
-//! States and events as they are written: SI units, pieces counted from 1, numbers that survive a round trip.
+//! States and events as they are written: SI units, objects and pieces counted from 1, numbers that survive a round trip.
 
 use serde::Serialize;
 use vibrissa::{Contact, ContactKind, Event, State};
@@ -43,6 +43,7 @@ impl From<&State> for StateRecord {
 
 #[derive(Serialize)]
 struct ContactRecord {
+    object: usize,
     piece: usize,
     kind: &'static str,
     s: f64,
@@ -60,8 +61,8 @@ impl From<&Contact> for ContactRecord {
             ContactKind::Corner => "corner",
             ContactKind::Notch => "notch",
         };
-        let Contact { piece, s, x, y, alpha, force, .. } = *contact;
-        Self { piece: piece + 1, kind, s, x, y, alpha, force }
+        let Contact { object, piece, s, x, y, alpha, force, .. } = *contact;
+        Self { object: object + 1, piece: piece + 1, kind, s, x, y, alpha, force }
     }
 }
 

@@ -11,10 +11,10 @@ const MOST_STATES: f64 = 1e6;
 
 pub(super) fn scene(name: String, document: Document) -> Result<Scene, Fault> {
     let rod = rod(&document.rod)?;
-    let contour = contour(&document.contour)?;
+    let objects = vec![contour(&document.contour)?];
     let path = path(document.sweep.get_ref())?;
     let step = step(&document.sweep, &path)?;
-    Ok(Scene { name, rod, contour, path, step })
+    Ok(Scene { name, rod, objects, path, step })
 }
 
 fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {

@@ -21,8 +21,8 @@ pub struct Scene {
     pub name: String,
     /// The rod.
     pub rod: Rod,
-    /// The object, coordinates in m.
-    pub contour: Composite,
+    /// The objects, coordinates in m.
+    pub objects: Vec<Composite>,
     /// The way of the clamp.
     pub path: ClampPath,
     /// Distance between reported states: m, or radians where the clamp only turns.
@@ -58,7 +58,7 @@ impl Scene {
     ///     angle = 45.0
     ///     step = 1e-3
     /// "#)?;
-    /// assert_eq!((scene.name.as_str(), scene.contour.pieces()), ("line", 1));
+    /// assert_eq!((scene.name.as_str(), scene.objects[0].pieces()), ("line", 1));
     /// # Ok::<(), vibrissa_cli::SceneError>(())
     /// ```
     ///
@@ -76,7 +76,7 @@ impl Scene {
     /// # Errors
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
     pub fn sweep(&self) -> Result<Sweep<'_>, ContactError> {
-        Sweep::new(&self.rod, &self.contour, self.path, self.step)
+        Sweep::new(&self.rod, &self.objects, self.path, self.step)
     }
 }
 
