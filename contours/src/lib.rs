@@ -25,27 +25,36 @@
 
 mod assembly;
 mod bounds;
+mod circular_arc;
 mod closest;
 mod composite;
 mod contour;
 pub mod contract;
 mod crossing;
+mod cuts;
+mod ellipse;
+mod elliptic_arc;
 mod error;
 mod frame;
 mod joint;
+mod line;
 mod parabola;
 mod piece;
 mod range;
 mod search;
+mod span;
 mod stretch;
 mod tree;
 
 pub use bounds::Bounds;
+pub use circular_arc::CircularArc;
 pub use closest::Closest;
 pub use composite::Composite;
 pub use contour::Contour;
+pub use elliptic_arc::EllipticArc;
 pub use error::ContourError;
 pub use frame::Frame;
+pub use line::Line;
 pub use parabola::Parabola;
 pub use range::Range;
 pub use stretch::{Stretch, StretchKind};
