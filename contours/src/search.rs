@@ -5,6 +5,9 @@ use crate::{Bounds, Closest, Contour, Frame, Range};
 /// Cells of a finite range: 96 cells of a full circle turn by less than 4 degrees each.
 const CELLS: usize = 96;
 
+/// Fewest cells of a part of a finite range: one alone would not see a minimum between two maxima at its ends.
+const FEWEST: usize = 2;
+
 /// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
 const CELLS_INFINITE: usize = 512;
 
@@ -33,7 +36,7 @@ impl Probe {
 
 /// The closest point, see [`Contour::closest_in`].
 pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f64) -> Closest {
-    let cells = if range.is_finite() { CELLS } else { CELLS_INFINITE };
+    let cells = cells(shape.range(), range);
     let first = Probe::new(shape, range.at(0.0), x, y);
     // An end is a candidate where the distance grows away from it. The first sample stands in when there is no candidate
     // at all, which only numbers that are not finite and infinite ranges can bring about.
@@ -53,6 +56,18 @@ pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f
         (best, interior) = (left, false);
     }
     Closest::new(best.t, best.frame, interior, x, y)
+}
+
+/// Cells of the part in `range` of a contour whose own range is `whole`: in proportion where both are finite.
+fn cells(whole: Range, range: Range) -> usize {
+    match (whole.is_finite(), range.is_finite()) {
+        (_, false) => CELLS_INFINITE,
+        (false, true) => CELLS,
+        (true, true) => {
+            let share = range.length() / whole.length();
+            ((CELLS as f64 * share).ceil() as usize).clamp(FEWEST, CELLS)
+        }
+    }
 }
 
 /// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
@@ -105,4 +120,21 @@ pub(crate) fn bounds<C: Contour + ?Sized>(shape: &C, range: Range) -> Bounds {
         left = right;
     }
     bounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_get_their_share_of_the_cells() {
+        let whole = Range { from: -1.0, to: 3.0 };
+        assert_eq!(cells(whole, whole), 96);
+        assert_eq!(cells(whole, Range { from: 0.0, to: 1.0 }), 24);
+        assert_eq!(cells(whole, Range { from: 0.0, to: 1e-9 }), 2);
+        assert_eq!(cells(whole, Range { from: 0.0, to: 0.0 }), 2);
+        assert_eq!(cells(whole, Range { from: -9.0, to: 9.0 }), 96);
+        assert_eq!(cells(Range::ALL, whole), 96);
+        assert_eq!(cells(Range::ALL, Range::ALL), 512);
+    }
 }
