@@ -37,6 +37,7 @@ mod parabola;
 mod piece;
 mod range;
 mod search;
+mod spline;
 mod stretch;
 mod tree;
 
@@ -48,4 +49,5 @@ pub use error::ContourError;
 pub use frame::Frame;
 pub use parabola::Parabola;
 pub use range::Range;
+pub use spline::{Spline, SplineEnd};
 pub use stretch::{Stretch, StretchKind};
