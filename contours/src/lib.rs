@@ -48,6 +48,7 @@ mod range;
 mod reversed;
 mod search;
 mod span;
+mod spline;
 mod stretch;
 mod trimmed;
 
@@ -66,5 +67,6 @@ pub use parabola::Parabola;
 pub use part::Part;
 pub use range::Range;
 pub use reversed::Reversed;
+pub use spline::{Spline, SplineEnd};
 pub use stretch::{Stretch, StretchKind};
 pub use trimmed::Trimmed;
