@@ -4,7 +4,7 @@ use crate::assembly;
 use crate::index::Index;
 use crate::joint::Joint;
 use crate::piece::Piece;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, Stretch, StretchKind};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, SelfCrossing, Stretch, StretchKind};
 
 /// Pieces in order, with the solid on the left, as one contour with one parameter.
 ///
@@ -55,7 +55,7 @@ impl Composite {
     ///
     /// Without pieces ([`ContourError::Empty`]), with a range upside down ([`ContourError::PieceRange`]), an inner end at
     /// infinity ([`ContourError::NoEnd`]), ends that do not meet ([`ContourError::Apart`]) or a closed contour that takes
-    /// more or less than one turn ([`ContourError::Loops`]).
+    /// more or less than one turn ([`ContourError::Crosses`], or [`ContourError::Loops`] where no crossing is found).
     pub fn new(pieces: Vec<Box<dyn Contour>>) -> Result<Self, ContourError> {
         Self::assembled(assembly::whole(pieces))
     }
@@ -219,12 +219,31 @@ impl Composite {
     }
 
     fn assembled(mut pieces: Vec<Piece>) -> Result<Self, ContourError> {
-        let turns = assembly::placed(&mut pieces)?;
-        Ok(Self::laid_out(pieces, turns))
+        match assembly::placed(&mut pieces) {
+            Ok(turns) => Ok(Self::laid_out(pieces, turns)),
+            // Where it crosses itself is easier to mend than how often it turns.
+            Err(error @ ContourError::Loops { .. }) => Err(Self::laid_out(pieces, 0).simple().err().unwrap_or(error)),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The contour itself, unless it crosses itself: then [`ContourError::Crosses`].
+    pub(crate) fn simple(self) -> Result<Self, ContourError> {
+        match self.self_crossing() {
+            None => Ok(self),
+            Some(SelfCrossing { pieces: [first, second], point: [x, y], .. }) => {
+                Err(ContourError::Crosses { what: "piece", first: first + 1, second: second + 1, x, y })
+            }
+        }
+    }
+
+    /// The pieces in order, and the turns of a closed contour (0 for an open one).
+    pub(crate) fn taken_apart(self) -> (Vec<Piece>, i32) {
+        (self.pieces, self.turns)
     }
 
     /// Lists the stretches of placed pieces and cuts them into cells.
-    fn laid_out(mut pieces: Vec<Piece>, turns: i32) -> Self {
+    pub(crate) fn laid_out(mut pieces: Vec<Piece>, turns: i32) -> Self {
         let mut order = Vec::with_capacity(pieces.iter().map(|piece| 1 + usize::from(piece.has_joint())).sum());
         for (index, piece) in pieces.iter_mut().enumerate() {
             piece.stretch = order.len() as u32;
@@ -269,7 +288,7 @@ impl Composite {
     }
 
     /// The composite's parameter from the stretch's own.
-    fn common(&self, stretch: usize, t: f64) -> f64 {
+    pub(crate) fn common(&self, stretch: usize, t: f64) -> f64 {
         let range = self.stretch(stretch).range;
         // Rounding of the offset must not move the point out of the range.
         match self.at(stretch) {

@@ -132,6 +132,31 @@ pub enum ContourError {
         turns: i32,
     },
 
+    /// A contour that crosses itself, or touches itself at an angle.
+    #[error("{what} {first} crosses {}, expected a contour that does not cross itself; {}", crossed(what, *first, *second, *x, *y), untangle(what))]
+    Crosses {
+        /// What is counted: pieces or edges.
+        what: &'static str,
+        /// Number of the first of the two, from 1.
+        first: usize,
+        /// Number of the second, from 1; it may be the same one.
+        second: usize,
+        /// Where they cross.
+        x: f64,
+        /// Where they cross.
+        y: f64,
+    },
+
+    /// Points of a solid polygon in the order of a hole.
+    #[error("the points run clockwise, which would put the solid outside; reverse them, or ask for a cavity")]
+    Clockwise,
+
+    /// Points of a cavity in the order of a solid polygon.
+    #[error(
+        "the points of a cavity run counterclockwise, which would put the solid inside; reverse them, or ask for a polygon"
+    )]
+    Counterclockwise,
+
     /// Two consecutive pieces do not meet.
     #[error(
         "piece {piece} ends at ({x}, {y}), {distance:e} away from the start of piece {next}, expected at most {tolerance:e}"
@@ -260,6 +285,21 @@ pub enum ContourError {
         /// The angle by which the direction jumps, rad.
         turn: f64,
     },
+}
+
+/// What is crossed, and where.
+fn crossed(what: &str, first: usize, second: usize, x: f64, y: f64) -> String {
+    let other = if first == second { "itself".to_owned() } else { format!("{what} {second}") };
+    format!("{other} at ({x}, {y})")
+}
+
+/// What to do about it.
+fn untangle(what: &str) -> &'static str {
+    if what == "edge" {
+        "put the points in the order in which they are passed"
+    } else {
+        "trim the pieces, or move them apart"
+    }
 }
 
 #[cfg(test)]

@@ -25,6 +25,7 @@
 
 mod assembly;
 mod bounds;
+mod carry;
 mod circular_arc;
 mod closest;
 mod composite;
@@ -44,12 +45,15 @@ mod moved;
 mod parabola;
 mod part;
 mod piece;
+mod polygon;
 mod range;
 mod reversed;
 mod search;
+mod self_crossing;
 mod span;
 mod spline;
 mod stretch;
+mod taken_apart;
 mod trimmed;
 
 pub use bounds::Bounds;
@@ -67,6 +71,7 @@ pub use parabola::Parabola;
 pub use part::Part;
 pub use range::Range;
 pub use reversed::Reversed;
+pub use self_crossing::SelfCrossing;
 pub use spline::{Spline, SplineEnd};
 pub use stretch::{Stretch, StretchKind};
 pub use trimmed::Trimmed;

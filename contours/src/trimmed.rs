@@ -38,6 +38,11 @@ impl<C: Contour> Trimmed<C> {
         Ok(Self { shape, range })
     }
 
+    /// The part in a range that is known to be one of the shape's.
+    pub(crate) fn known(shape: C, range: Range) -> Self {
+        Self { shape, range }
+    }
+
     /// The whole shape.
     pub fn shape(&self) -> &C {
         &self.shape

@@ -1,0 +1,177 @@
+//! Contours of straight edges.
+
+use crate::{Composite, Contour, ContourError, Line};
+
+/// A last point counts as the first one given again if it is no farther away, relative to the way around.
+const CLOSED: f64 = 1e-9;
+
+impl Composite {
+    /// The edges from point to point (lengths), with the solid on the left; closed if the last point is the first one.
+    ///
+    /// ```
+    /// use rod_contours::{Composite, Contour};
+    ///
+    /// let step = Composite::polyline(&[[-1.0, 0.0], [0.0, 0.0], [0.0, 0.5], [1.0, 0.5]])?;
+    /// assert_eq!((step.pieces(), step.is_closed()), (3, false));
+    /// assert_eq!(step.gap(0.5, 0.3), 0.2);
+    /// # Ok::<(), rod_contours::ContourError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Fewer than two points ([`ContourError::TooFewPoints`]); a point that is not finite
+    /// ([`ContourError::PointNotFinite`]) or the same as the one before ([`ContourError::RepeatedPoint`]); edges that cross
+    /// ([`ContourError::Crosses`]).
+    pub fn polyline(points: &[[f64; 2]]) -> Result<Self, ContourError> {
+        of_edges(edges(points, false)?)
+    }
+
+    /// The edges from point to point (lengths) and back to the first one, counterclockwise: the solid is inside.
+    ///
+    /// The first point may be given again as the last one.
+    ///
+    /// ```
+    /// use rod_contours::{Composite, Contour};
+    ///
+    /// let square = Composite::polygon(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])?;
+    /// assert!(square.is_closed() && !square.is_cavity());
+    /// assert_eq!((square.gap(1.0, -0.5), square.gap(1.0, 0.5)), (0.5, -0.5));
+    /// # Ok::<(), rod_contours::ContourError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`polyline`](Self::polyline), for fewer than three points; points that run clockwise
+    /// ([`ContourError::Clockwise`]).
+    pub fn polygon(points: &[[f64; 2]]) -> Result<Self, ContourError> {
+        let polygon = of_edges(edges(points, true)?)?;
+        if polygon.is_cavity() { Err(ContourError::Clockwise) } else { Ok(polygon) }
+    }
+
+    /// The same for a hole: the points run clockwise, and the solid is outside.
+    ///
+    /// ```
+    /// use rod_contours::{Composite, Contour};
+    ///
+    /// let hole = Composite::cavity(&[[0.0, 0.0], [0.0, 2.0], [2.0, 2.0], [2.0, 0.0]])?;
+    /// assert!(hole.is_cavity() && hole.gap(1.0, 0.5) == 0.5);
+    /// # Ok::<(), rod_contours::ContourError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`polygon`](Self::polygon), with [`ContourError::Counterclockwise`] for the other direction.
+    pub fn cavity(points: &[[f64; 2]]) -> Result<Self, ContourError> {
+        let cavity = of_edges(edges(points, true)?)?;
+        if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
+    }
+}
+
+/// The edges from point to point, and back to the first one if they are closed.
+pub(crate) fn edges(points: &[[f64; 2]], closed: bool) -> Result<Vec<Box<dyn Contour>>, ContourError> {
+    for (index, &[x, y]) in points.iter().enumerate() {
+        if !(x.is_finite() && y.is_finite()) {
+            return Err(ContourError::PointNotFinite { point: index + 1, x, y });
+        }
+    }
+    let mut corners = points.to_vec();
+    if closed && let [first, .., last] = *points {
+        let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
+        if distance(first, last) <= CLOSED * around {
+            corners.pop();
+        }
+    }
+    let (what, needed) = if closed { ("a polygon", 3) } else { ("a polyline", 2) };
+    if let Some(index) = points.windows(2).position(|pair| pair[0] == pair[1]) {
+        let [x, y] = points[index + 1];
+        return Err(ContourError::RepeatedPoint { point: index + 2, x, y });
+    }
+    if corners.len() < needed {
+        return Err(ContourError::TooFewPoints { what, count: corners.len(), needed });
+    }
+    if closed {
+        corners.push(corners[0]);
+    }
+    let edge = |(index, pair): (usize, &[[f64; 2]])| match Line::new(pair[0], pair[1]) {
+        Ok(line) => Ok(Box::new(line) as Box<dyn Contour>),
+        // Apart, but by less than a line can be long.
+        Err(ContourError::SamePoint { x, y }) => Err(ContourError::RepeatedPoint { point: index + 2, x, y }),
+        Err(error) => Err(error),
+    };
+    corners.windows(2).enumerate().map(edge).collect()
+}
+
+/// A contour of edges that do not cross.
+fn of_edges(edges: Vec<Box<dyn Contour>>) -> Result<Composite, ContourError> {
+    let named = |error| match error {
+        ContourError::Crosses { first, second, x, y, .. } => {
+            ContourError::Crosses { what: "edge", first, second, x, y }
+        }
+        error => error,
+    };
+    let contour = Composite::new(edges).map_err(named)?;
+    contour.simple().map_err(named)
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (b[0] - a[0]).hypot(b[1] - a[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+
+    fn message(result: Result<Composite, ContourError>) -> String {
+        result.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn the_first_point_may_be_repeated() {
+        let closed: Vec<[f64; 2]> = SQUARE.into_iter().chain([SQUARE[0]]).collect();
+        assert_eq!(Composite::polygon(&closed).unwrap().pieces(), 4);
+        assert_eq!(Composite::polygon(&SQUARE).unwrap().pieces(), 4);
+        assert!(Composite::polyline(&closed).unwrap().is_closed());
+        assert!(!Composite::polyline(&SQUARE).unwrap().is_closed());
+        // The last bit of a computed last point does not matter.
+        let nearly: Vec<[f64; 2]> = SQUARE.into_iter().chain([[1e-16, -1e-16]]).collect();
+        assert_eq!(Composite::polygon(&nearly).unwrap().pieces(), 4);
+    }
+
+    #[test]
+    fn points_that_make_no_polygon() {
+        assert_eq!(message(Composite::polyline(&SQUARE[..1])), "a polyline needs at least 2 points, got 1");
+        assert_eq!(message(Composite::polygon(&SQUARE[..2])), "a polygon needs at least 3 points, got 2");
+        assert_eq!(message(Composite::polygon(&[])), "a polygon needs at least 3 points, got 0");
+        let repeated = [SQUARE[0], SQUARE[1], SQUARE[1], SQUARE[2]];
+        assert_eq!(
+            message(Composite::polygon(&repeated)),
+            "point 3 is (1, 0), the same as the one before it; leave one of them out"
+        );
+        assert!(message(Composite::polyline(&[[0.0, 0.0], [1e-200, 0.0]])).starts_with("point 2 is (0, 0)"));
+        let error = message(Composite::polygon(&[SQUARE[0], SQUARE[1], [f64::NAN, 1.0]]));
+        assert_eq!(error, "point 3 is (NaN, 1), expected finite numbers");
+    }
+
+    #[test]
+    fn points_in_the_wrong_order() {
+        let clockwise: Vec<[f64; 2]> = SQUARE.into_iter().rev().collect();
+        assert_eq!(
+            message(Composite::polygon(&clockwise)),
+            "the points run clockwise, which would put the solid outside; reverse them, or ask for a cavity"
+        );
+        assert!(Composite::cavity(&clockwise).unwrap().is_cavity());
+        assert_eq!(
+            message(Composite::cavity(&SQUARE)),
+            "the points of a cavity run counterclockwise, which would put the solid inside; reverse them, or ask for a polygon"
+        );
+        let bow_tie = [SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]];
+        let expected = "edge 1 crosses edge 3 at (0.5, 0.5), expected a contour that does not cross itself; put the points in the order in which they are passed";
+        assert_eq!(message(Composite::polygon(&bow_tie)), expected);
+        assert_eq!(message(Composite::polyline(&bow_tie)), expected);
+        // Through a corner.
+        let through = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.0], [1.0, -1.0]];
+        assert!(message(Composite::polyline(&through)).starts_with("edge 1 crosses edge 3 at (1, 0)"));
+    }
+}
