@@ -17,6 +17,10 @@ const ROUNDING: f64 = 1e-9;
 /// Largest number of arcs between two inflections, a bound for shapes whose angle is not to be trusted.
 const MOST: f64 = 1e5;
 
+/// Shortest arc next to an inflection, relative to the range: an inflection at an end may be rounded into the range, and
+/// two that have just merged may be rounded apart.
+const SHORTEST: f64 = 1e-9;
+
 /// Steps of a bisection, which halves a cell to rounding.
 const STEPS: usize = 60;
 
@@ -49,7 +53,11 @@ pub(crate) fn sampled<C: Contour + ?Sized>(shape: &C, range: Range) -> Vec<f64> 
 pub(crate) fn by_turn<C: Contour + ?Sized>(shape: &C, range: Range, bends: &[f64]) -> Vec<f64> {
     let mut cuts = Vec::new();
     let mut from = range.from;
+    let shortest = SHORTEST * range.length();
     for &to in bends.iter().chain([&range.to]) {
+        if to < range.to && (to - from < shortest || range.to - to < shortest) {
+            continue;
+        }
         let (first, last) = (shape.frame(from).alpha, shape.frame(to).alpha);
         let count = arcs(last - first);
         for arc in 1..count {
