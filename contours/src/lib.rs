@@ -38,9 +38,13 @@ mod crossing;
 mod cubic;
 mod curve;
 mod cuts;
+#[cfg(feature = "files")]
+pub mod description;
 mod ellipse;
 mod elliptic_arc;
 mod error;
+#[cfg(feature = "files")]
+pub mod file;
 mod frame;
 mod graph;
 mod index;

@@ -1,0 +1,156 @@
+//! What can be wrong with a file.
+
+use std::path::PathBuf;
+
+use crate::ContourError;
+use crate::description::ShapeError;
+
+/// Why a file gives no contour.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The file cannot be read as text.
+    #[error("cannot read {}: {source}", file.display())]
+    Unreadable {
+        /// Which file.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A table without a column of this name.
+    #[error(
+        "{}: no column {column} in the header \"{header}\", expected columns named x and y, separated by commas",
+        file.display()
+    )]
+    Column {
+        /// Which file.
+        file: PathBuf,
+        /// The column that is missing.
+        column: &'static str,
+        /// The first line of the file.
+        header: String,
+    },
+    /// A cell of a table that is no coordinate.
+    #[error("{}:{line}: column {column} is \"{text}\", expected a finite number", file.display())]
+    Cell {
+        /// Which file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Name of the column.
+        column: &'static str,
+        /// What stands there.
+        text: String,
+    },
+    /// A text that is not in the format it should be in.
+    #[error("{}:{line}: {message}", file.display())]
+    Malformed {
+        /// Which file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong there.
+        message: String,
+    },
+    /// Points that make no contour.
+    #[error("{}{}: {source}", file.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
+    Points {
+        /// Which file.
+        file: PathBuf,
+        /// Line of the point that is to blame, from 1, if it is one.
+        line: Option<u64>,
+        /// What is wrong.
+        source: ContourError,
+    },
+    /// A drawing without the path that is asked for.
+    #[error("{}: {source}", file.display())]
+    Svg {
+        /// Which file.
+        file: PathBuf,
+        /// What is wrong.
+        source: SvgError,
+    },
+    /// A shape of a list.
+    #[error(
+        "{}: shape {shape}{}: {source}",
+        file.display(),
+        source.field.map(|field| format!(", {field}")).unwrap_or_default()
+    )]
+    Shape {
+        /// Which file.
+        file: PathBuf,
+        /// Number of the shape, from 1.
+        shape: usize,
+        /// What is wrong.
+        source: Box<ShapeError>,
+    },
+    /// Shapes that do not make one contour.
+    #[error("{}: {source}", file.display())]
+    Contour {
+        /// Which file.
+        file: PathBuf,
+        /// What is wrong.
+        source: ContourError,
+    },
+}
+
+/// Why a drawing, or the data of a path, gives no contour.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SvgError {
+    /// No path element.
+    #[error("no `path` element, expected one; convert circles, rectangles and text to paths")]
+    NoPath,
+    /// Several path elements.
+    #[error("{count} `path` elements ({ids}), expected one; name one of them with `id`")]
+    SeveralPaths {
+        /// How many.
+        count: usize,
+        /// Their ids.
+        ids: String,
+    },
+    /// No path element with this id.
+    #[error("no `path` element with the id \"{id}\", expected one of: {ids}")]
+    NoSuchPath {
+        /// The id.
+        id: String,
+        /// Those there are.
+        ids: String,
+    },
+    /// A path without data.
+    #[error("the `path` element has no attribute `d`, expected the data of the path there")]
+    NoData,
+    /// An element with a transform.
+    #[error(
+        "the element `{element}` (of the path, or around it) has the transform \"{transform}\", which is not applied; expected none: let the drawing program apply it to the points"
+    )]
+    Transform {
+        /// Name of the element.
+        element: String,
+        /// The transform.
+        transform: String,
+    },
+    /// Data that are no path.
+    #[error("the data of the path cannot be read: {message}; expected SVG path data like \"M 0 0 L 1 0\"")]
+    Data {
+        /// What is wrong.
+        message: String,
+    },
+    /// A path without a segment of some length.
+    #[error("the path is empty, expected at least one line or curve")]
+    Empty,
+    /// A path with several parts.
+    #[error("the path has {count} subpaths, expected one; break it apart and take one of them for each contour")]
+    Subpaths {
+        /// How many.
+        count: usize,
+    },
+    /// A segment that cannot be part of a contour.
+    #[error("segment {segment} of the path: {source}")]
+    Segment {
+        /// Number of the segment, from 1.
+        segment: usize,
+        /// What is wrong.
+        source: ContourError,
+    },
+}
