@@ -1,19 +1,22 @@
 //! From a document to a scene: every number checked where it stands.
 
-use super::document::{ContourTable, Document, Point, RodTable, SweepTable};
-use super::{Fault, Scene};
+use super::document::{Document, Point, RodTable, SweepTable};
+use super::{Fault, Scene, object};
 use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
-use vibrissa::{ClampPath, Composite, ContactError, ContourError, Pose, Rod, RodError};
+use vibrissa::{ClampPath, ContactError, Pose, Rod, RodError};
 
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
 const MOST_STATES: f64 = 1e6;
 
-pub(super) fn scene(name: String, document: Document) -> Result<Scene, Fault> {
-    let rod = rod(&document.rod)?;
-    let objects = vec![contour(&document.contour)?];
-    let path = path(document.sweep.get_ref())?;
-    let step = step(&document.sweep, &path)?;
+/// Files that the objects name are looked for in `directory`.
+pub(super) fn scene(name: String, document: Document, directory: &Path) -> Result<Scene, Fault> {
+    let Document { tables, contour, objects } = document;
+    let rod = rod(&tables.rod)?;
+    let objects = object::all(&tables, &contour, &objects, directory)?;
+    let path = path(tables.sweep.get_ref())?;
+    let step = step(&tables.sweep, &path)?;
     Ok(Scene { name, rod, objects, path, step })
 }
 
@@ -58,23 +61,6 @@ fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
         Some(stress) => rod.with_yield_stress(*stress.get_ref()).map_err(at),
         None => Ok(rod),
     }
-}
-
-fn contour(table: &Spanned<ContourTable>) -> Result<Composite, Fault> {
-    let pieces = &table.get_ref().piece;
-    let shapes = pieces.iter().map(|piece| piece.get_ref().contour()).collect::<Result<_, _>>()?;
-    Composite::joined(shapes).map_err(|error| {
-        // The library counts pieces from 1. Of two that do not fit it is the second one that was put in the wrong place.
-        let blamed = match error {
-            ContourError::NoCrossing { next, .. } | ContourError::Apart { next, .. } => Some(next),
-            ContourError::Hidden { piece, .. }
-            | ContourError::NoEnd { piece, .. }
-            | ContourError::PieceRange { piece, .. } => Some(piece),
-            _ => None,
-        };
-        let piece = blamed.and_then(|number| pieces.get(number.checked_sub(1)?));
-        Fault::new(piece.map_or(table.span(), Spanned::span), error.to_string())
-    })
 }
 
 fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {

@@ -1,18 +1,28 @@
 //! The scene file as written: names, types and spans, no physics.
 
-use super::{Fault, shape::Shape};
+use super::{Fault, shape::Piece};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Name of the field that says which shape a piece is.
-const TAG: &str = "shape";
+/// A scene file, the pieces of its objects beside it.
+pub(super) struct Document {
+    pub tables: Tables,
+    /// Those of `[contour]`.
+    pub contour: Vec<Piece>,
+    /// Those of each `[[object]]`.
+    pub objects: Vec<Vec<Piece>>,
+}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Document {
+pub(super) struct Tables {
     pub rod: Spanned<RodTable>,
-    pub contour: Spanned<ContourTable>,
+    pub contour: Option<Spanned<ObjectTable>>,
+    #[serde(default)]
+    pub object: Vec<Spanned<ObjectTable>>,
     pub sweep: Spanned<SweepTable>,
 }
 
@@ -26,11 +36,22 @@ pub(super) struct RodTable {
     pub yield_stress: Option<Spanned<f64>>,
 }
 
+/// `[contour]` or one `[[object]]`: a contour and where it stands.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct ContourTable {
+pub(super) struct ObjectTable {
+    pub position: Option<Spanned<Point>>,
+    pub angle: Option<Spanned<f64>>,
+    pub scale: Option<Spanned<f64>>,
     #[serde(default)]
-    pub piece: Vec<Spanned<Shape>>,
+    pub mirror: bool,
+    #[serde(default)]
+    pub reversed: bool,
+    pub hollow: Option<Spanned<bool>>,
+    pub file: Option<Spanned<PathBuf>>,
+    /// Taken out and read before; named here for the list of fields in the message on an unknown one.
+    #[serde(default, rename = "piece")]
+    _piece: Vec<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
@@ -67,31 +88,22 @@ pub(super) fn table(text: &str) -> Result<Spanned<DeTable<'_>>, Fault> {
 
 /// The tree as a document.
 pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<Document, Fault> {
-    let contour = table.get_mut().get_mut("contour").map(Spanned::get_mut);
-    if let Some(DeValue::Table(contour)) = contour
-        && let Some(DeValue::Array(pieces)) = contour.get_mut("piece").map(Spanned::get_mut)
-    {
-        pieces.iter_mut().try_for_each(tag_outside)?;
-    }
-    Document::deserialize(toml::de::Deserializer::from(table)).map_err(Fault::from)
+    let contour = table.get_mut().get_mut("contour").map_or_else(|| Ok(Vec::new()), pieces)?;
+    let objects = match table.get_mut().get_mut("object").map(Spanned::get_mut) {
+        Some(DeValue::Array(objects)) => objects.iter_mut().map(pieces).collect::<Result<_, _>>()?,
+        _ => Vec::new(),
+    };
+    let tables = Tables::deserialize(toml::de::Deserializer::from(table))?;
+    Ok(Document { tables, contour, objects })
 }
 
-/// Rewrites `{ shape = "name", .. }` as `{ name = { .. } }`: serde loses all spans on its way through an enum with the tag
-/// inside. What is no table stays as it is, for serde to complain about.
-fn tag_outside(piece: &mut Spanned<DeValue<'_>>) -> Result<(), Fault> {
-    let span = piece.span();
-    let DeValue::Table(table) = piece.get_mut() else { return Ok(()) };
-    let Some(tag) = table.remove(TAG) else {
-        return Err(Fault::new(span, format!("missing field `{TAG}`, expected the name of a shape")));
-    };
-    let at = tag.span();
-    let name = match tag.into_inner() {
-        DeValue::String(name) => name,
-        other => {
-            return Err(Fault::new(at, format!("invalid type: {}, expected the name of a shape", other.type_str())));
+/// Takes the pieces out of an object. What is not in its place stays there, for serde to complain about.
+fn pieces(object: &mut Spanned<DeValue<'_>>) -> Result<Vec<Piece>, Fault> {
+    let DeValue::Table(object) = object.get_mut() else { return Ok(Vec::new()) };
+    match object.get_mut("piece").map(Spanned::get_mut) {
+        Some(DeValue::Array(pieces)) => {
+            std::mem::replace(pieces, std::iter::empty().collect()).into_iter().map(Piece::read).collect()
         }
-    };
-    let fields = std::mem::take(table);
-    table.insert(Spanned::new(at, name), Spanned::new(span, DeValue::Table(fields)));
-    Ok(())
+        _ => Ok(Vec::new()),
+    }
 }

@@ -1,11 +1,12 @@
-//! Scenes: a rod, a contour and the way the clamp goes, read from a TOML file.
+//! Scenes: a rod, objects and the way the clamp goes, read from a TOML file.
 //!
-//! Three steps, one file each: `document` is the file as written, `shape` its pieces of contour, and `check` turns
-//! both into what the library takes. Whatever is wrong becomes a [`SceneError`] that points into the file.
+//! Four steps, one file each: `document` is the file as written, `shape` its pieces of contour, `object` puts these together
+//! and where they stand, and `check` turns the rest into what the library takes. Whatever is wrong becomes a [`SceneError`] that points into the file.
 
 mod check;
 mod document;
 mod error;
+mod object;
 mod shape;
 
 pub use error::{Invalid, SceneError};
@@ -40,7 +41,8 @@ impl Scene {
         Self::parse(file, &text)
     }
 
-    /// The scene in a text. `file` names it, in messages and as a whole; it is not opened.
+    /// The scene in a text. `file` names it, in messages and as a whole; it is not opened, but the files that the text names
+    /// are: relative ones are looked for in the directory of `file`.
     ///
     /// ```
     /// use vibrissa_cli::Scene;
@@ -66,8 +68,9 @@ impl Scene {
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let table = document::table(text).map_err(|fault| fault.in_text(file, text, None))?;
+        let directory = file.parent().unwrap_or(file);
         document::document(table.clone())
-            .and_then(|document| check::scene(stem(file), document))
+            .and_then(|document| check::scene(stem(file), document, directory))
             .map_err(|fault| fault.in_text(file, text, Some(table.get_ref())))
     }
 

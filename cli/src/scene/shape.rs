@@ -1,42 +1,90 @@
-//! The shapes a piece of contour can have.
-//!
-//! A new one takes a variant here, with a struct of its fields as they are written in the file, and an arm in [`Shape::contour`].
+//! The pieces of a contour: the library's shapes, whose fields are listed there, with their places in the file.
 
 use super::Fault;
-use super::document::Point;
-use serde::Deserialize;
+use serde::de::Error as _;
+use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
-use vibrissa::{Contour, Parabola};
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+use vibrissa::description::{Pieces, Shape};
 
-/// One `[[contour.piece]]`.
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Shape {
-    Parabola(ParabolaFields),
+/// Name of the field that says which shape a piece is.
+const TAG: &str = "shape";
+
+/// One `[[contour.piece]]` or `[[object.piece]]`.
+pub(super) struct Piece {
+    pub span: Range<usize>,
+    shape: Shape,
+    fields: Vec<Field>,
 }
 
-/// y = vertex.y + coefficient (x - vertex.x)^2, the solid above.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ParabolaFields {
-    /// m
-    vertex: Spanned<Point>,
-    /// 1/m
-    coefficient: Spanned<f64>,
+/// Where a field stands, and its values where it is a list.
+struct Field {
+    name: String,
+    span: Range<usize>,
+    items: Vec<Range<usize>>,
 }
 
-impl Shape {
-    /// The shape as a contour.
-    pub fn contour(&self) -> Result<Box<dyn Contour>, Fault> {
-        match self {
-            Self::Parabola(ParabolaFields { vertex, coefficient }) => {
-                let parabola = Parabola::new(vertex.get_ref().0, *coefficient.get_ref()).map_err(|error| {
-                    let vertex_is_wrong = !vertex.get_ref().0.iter().all(|number| number.is_finite());
-                    let span = if vertex_is_wrong { vertex.span() } else { coefficient.span() };
-                    Fault::new(span, error.to_string())
-                })?;
-                Ok(Box::new(parabola))
+impl Piece {
+    /// A piece as written. Without the name of its shape the table holds the fields of the library's description, read by
+    /// name: serde loses all places on its way through an enum with the name inside.
+    pub fn read(value: Spanned<DeValue<'_>>) -> Result<Self, Fault> {
+        let span = value.span();
+        let mut table = match value.into_inner() {
+            DeValue::Table(table) => table,
+            other => {
+                return Err(Fault::new(
+                    span,
+                    format!("invalid type: {}, expected a table of fields", other.type_str()),
+                ));
             }
+        };
+        let Some(tag) = table.remove(TAG) else {
+            return Err(Fault::new(span, format!("missing field `{TAG}`, expected the name of a shape")));
+        };
+        let at = tag.span();
+        let name = match tag.into_inner() {
+            DeValue::String(name) => name,
+            other => {
+                return Err(Fault::new(
+                    at,
+                    format!("invalid type: {}, expected the name of a shape", other.type_str()),
+                ));
+            }
+        };
+        if !Shape::NAMES.contains(&name.as_ref()) {
+            return Err(Fault::new(at, toml::de::Error::unknown_variant(&name, Shape::NAMES).message()));
         }
+        let fields = fields(&table);
+        let values = ValueDeserializer::from(Spanned::new(span.clone(), DeValue::Table(table)));
+        let shape = Shape::from_fields(&name, values)?;
+        Ok(Self { span, shape, fields })
     }
+
+    /// The pieces of contour it stands for. Relative files are looked for in `directory`.
+    pub fn contours(&self, directory: &Path) -> Result<Pieces, Fault> {
+        self.shape.pieces(directory).map_err(|error| {
+            let field = self.fields.iter().find(|field| Some(field.name.as_str()) == error.field);
+            let point = || field?.items.get(error.point?.checked_sub(1)?).cloned();
+            let span = point().or_else(|| field.map(|field| field.span.clone())).unwrap_or_else(|| self.span.clone());
+            Fault::new(span, error.to_string())
+        })
+    }
+
+    /// Whether it is a polygon, whose pieces are edges.
+    pub fn has_edges(&self) -> bool {
+        matches!(self.shape, Shape::Polygon(_))
+    }
+}
+
+fn fields(table: &DeTable<'_>) -> Vec<Field> {
+    let mut fields = Vec::new();
+    for (name, value) in table {
+        let items = match value.get_ref() {
+            DeValue::Array(items) => items.iter().map(Spanned::span).collect(),
+            _ => Vec::new(),
+        };
+        fields.push(Field { name: name.get_ref().to_string(), span: value.span(), items });
+    }
+    fields
 }
