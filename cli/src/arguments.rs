@@ -26,6 +26,20 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Write the contours of a scene as points (CSV), and a drawing of them beside it (SVG)
+    Contour {
+        /// The scene, a TOML file
+        scene: PathBuf,
+        /// The CSV file; the drawing has the same name with .svg [default: out/<name of the scene>/contour.csv]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+        /// Largest distance of a chord between two points from the contour, m [default: 1e-6 of the rod's length]
+        #[arg(long, value_name = "METRES")]
+        tolerance: Option<f64>,
+        /// Only this object, from 1
+        #[arg(long, value_name = "N")]
+        object: Option<usize>,
+    },
     /// Run the nine scans of Merker et al. (2021) and compare their phases with the paper's
     Paper {
         /// Directory of the results

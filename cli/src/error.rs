@@ -1,6 +1,6 @@
 //! Why a command fails.
 
-use crate::{FigureError, OutputError, SceneError};
+use crate::{FigureError, OutputError, ProfileError, SceneError};
 use vibrissa::ContactError;
 
 /// Why a command fails.
@@ -14,6 +14,9 @@ pub enum Error {
     /// The sweep it asks for.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// What is asked of its contours.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] FigureError),

@@ -1,5 +1,5 @@
-//! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep, the nine scans of
-//! the paper and the reports on them.
+//! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep and of contours, the
+//! nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod cycle;
@@ -8,6 +8,7 @@ mod figure;
 mod interval;
 mod output;
 mod paper;
+mod profile;
 mod report;
 #[cfg(test)]
 mod sample;
@@ -19,7 +20,8 @@ pub use cycle::Cycle;
 pub use error::Error;
 pub use figure::FigureError;
 pub use interval::Interval;
-pub use output::{OutputError, Staged};
+pub use output::{OutputError, Staged, write_profiles};
 pub use paper::{Paper, PaperScan};
+pub use profile::{Profile, ProfileError, ProfilePoint};
 pub use scan::Scan;
 pub use scene::{Invalid, Scene, SceneError};

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use vibrissa_cli::{Error, Paper, Scan, Scene, Staged};
+use vibrissa_cli::{Error, Paper, Scan, Scene, Staged, write_profiles};
 
 /// A sweep stopped early, or is not what the paper found.
 const UNFINISHED: u8 = 2;
@@ -16,6 +16,7 @@ const UNFINISHED: u8 = 2;
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Sweep { scene, out } => sweep(&scene, out),
+        Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| {
@@ -34,6 +35,25 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     say(&scan.report());
     say(&format!("written to {}\n", out.display()));
     Ok(verdict([&scan]))
+}
+
+fn contour(
+    file: &Path,
+    out: Option<PathBuf>,
+    tolerance: Option<f64>,
+    object: Option<usize>,
+) -> Result<ExitCode, Error> {
+    let scene = Scene::read(file)?;
+    let profiles = scene.profiles(tolerance, object)?;
+    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
+    let drawing = write_profiles(&scene.name, &profiles, &out)?;
+    for profile in &profiles {
+        let length = profile.points.last().map_or(0.0, |point| point.arc_length);
+        let (object, count) = (profile.object, profile.points.len());
+        say(&format!("{}: object {object}: {count} points along {:.6} mm\n", scene.name, 1e3 * length));
+    }
+    say(&format!("written to {} and {}\n", out.display(), drawing.display()));
+    Ok(ExitCode::SUCCESS)
 }
 
 fn paper(out: &Path) -> Result<ExitCode, Error> {

@@ -3,11 +3,16 @@
 
 mod common;
 
-use common::{SCENE, edited, refused};
+use common::{SCENE, edited, refused_beside, with_objects};
 
 /// Checks that the message for a scene holds all these parts.
 fn says(scene: &str, parts: &[&str]) {
-    let message = refused(scene);
+    says_beside(scene, &[], parts);
+}
+
+/// The same for a scene with other files beside it.
+fn says_beside(scene: &str, files: &[(&str, &str)], parts: &[&str]) {
+    let message = refused_beside(scene, files);
     for part in parts {
         assert!(message.contains(part), "`{part}` is not in: {message}");
     }
@@ -106,4 +111,259 @@ fn a_sweep_that_is_none() {
     says(&turning, &["scene.toml:21:8: sweep.step: ", "turns without moving", "step_angle"]);
     let turning = turning.replace("step = 1e-3", "step_angle = -1.0");
     says(&turning, &["scene.toml:21:14: sweep.step_angle: ", "step_angle is -1, expected a positive"]);
+}
+
+/// A scene with a contour of one piece with these fields, on lines 8 and after.
+fn piece(shape: &str, fields: &str) -> String {
+    with_objects(&format!("[[contour.piece]]\nshape = \"{shape}\"\n{fields}\n"))
+}
+
+/// A scene with a square that runs counterclockwise and these other fields, on lines 7 and after.
+fn square(fields: &str) -> String {
+    let points = "points = [[0, 0], [0.01, 0], [0.01, 0.01], [0, 0.01]]";
+    with_objects(&format!("[[object]]\n{fields}\n[[object.piece]]\nshape = \"polygon\"\n{points}\n"))
+}
+
+#[test]
+fn too_few_points() {
+    let at = ["scene.toml:8:10: contour.piece[1].points: "];
+    says(&piece("polygon", "points = [[0, 0], [1, 0]]"), &[at[0], "a polygon needs at least 3 points, got 2"]);
+    says(&piece("polygon", "points = [[0, 0], [1, 0], [0, 0]]"), &[at[0], "a polygon needs at least 3 points, got 2"]);
+    let open = piece("polygon", "points = [[0, 0]]\nclosed = false");
+    says(&open, &[at[0], "a polyline needs at least 2 points, got 1"]);
+    says(&piece("spline", "points = [[0, 0]]"), &[at[0], "a spline needs at least 2 points, got 1"]);
+    let closed = piece("spline", "points = [[0, 0], [1, 0]]\nend = \"periodic\"");
+    says(&closed, &[at[0], "a closed spline needs at least 3 points, got 2"]);
+}
+
+#[test]
+fn points_that_are_none() {
+    for shape in ["polygon", "spline"] {
+        let repeated = piece(shape, "points = [[0, 0], [1, 0], [1, 0], [0, 1]]");
+        says(
+            &repeated,
+            &["scene.toml:8:27: contour.piece[1].points[3]: ", "point 3 is (1, 0), the same as the one before it"],
+        );
+        let nan = piece(shape, "points = [[0, 0], [1, nan], [1, 1]]");
+        says(&nan, &["scene.toml:8:19: contour.piece[1].points[2]", "point 2 is (1, NaN), expected finite numbers"]);
+        let three = piece(shape, "points = [[0, 0], [1, 0, 0], [1, 1]]");
+        says(&three, &["scene.toml:8:19: contour.piece[1].points[2]: ", "found a list of 3, expected two numbers"]);
+        let words = piece(shape, "points = [[0, 0], [1, \"0\"], [1, 1]]");
+        says(&words, &["scene.toml:8:23: contour.piece[1].points[2][2]: ", "string \"0\"", "expected a number"]);
+    }
+    says(
+        &piece("line", "from = [1, 2]\nto = [1, 2]"),
+        &["scene.toml:9:6: contour.piece[1].to: ", "the same point (1, 2), expected two different points"],
+    );
+    says(&piece("line", "from = [nan, 2]\nto = [1, 2]"), &["contour.piece[1].from: ", "NaN", "finite"]);
+}
+
+#[test]
+fn a_contour_that_crosses_itself() {
+    let expected = "edge 1 crosses edge 3 at (0.5, 0.5), expected a contour that does not cross itself; put the points in the order";
+    for closed in ["", "\nclosed = false"] {
+        let tie = piece("polygon", &format!("points = [[0, 0], [1, 1], [1, 0], [0, 1]]{closed}"));
+        says(&tie, &["scene.toml:6:1: contour.piece[1]: ", expected]);
+    }
+    // Three quarters of a circle, and a line out again.
+    let arc = "[[contour.piece]]\nshape = \"arc\"\ncenter = [0, 0]\nradius = 1\nfrom_angle = 0\nto_angle = 270\n";
+    let line = "[[contour.piece]]\nshape = \"line\"\nfrom = [0, -1]\nto = [0.6, 1.8]\n";
+    says(
+        &with_objects(&format!("{arc}{line}")),
+        &[
+            "scene.toml:12:1: contour.piece[2]: ",
+            "piece 1 crosses piece 2 at (0.409756",
+            "trim the pieces, or move them apart",
+        ],
+    );
+    let curve = piece("spline", "points = [[0, 0], [2, 1], [2, 0], [0, 1]]");
+    says(&curve, &["scene.toml:6:1: contour.piece[1]: ", "piece 1 crosses itself at ("]);
+}
+
+#[test]
+fn edges_are_counted_within_their_piece() {
+    let step = "[[contour.piece]]\nshape = \"polygon\"\nclosed = false\npoints = [[0, 0], [1, 0], [1, 1]]\n";
+    let line = "[[contour.piece]]\nshape = \"line\"\nfrom = [7, 7]\nto = [8, 8]\n";
+    says(
+        &with_objects(&format!("{step}{line}")),
+        &[
+            "scene.toml:10:1: contour.piece[2]: ",
+            "piece 2 ends at (1, 1)",
+            "number 2 here is edge 2 of piece[1]; number 3 here is piece[2]",
+        ],
+    );
+}
+
+#[test]
+fn a_contour_that_runs_the_wrong_way() {
+    let clockwise = square("mirror = true\nreversed = true");
+    says(
+        &clockwise,
+        &["scene.toml:6:1: object[1]: ", "runs clockwise", "reversed = true, or hollow = true for a cavity"],
+    );
+    says(
+        &square("hollow = true"),
+        &["scene.toml:7:10: object[1].hollow: ", "runs counterclockwise", "leave hollow out, or reverse"],
+    );
+    let open = edited("[[contour.piece]]", "[contour]\nhollow = true\n[[contour.piece]]");
+    says(&open, &["scene.toml:7:10: contour.hollow: ", "not closed"]);
+}
+
+#[test]
+fn a_radius_or_an_arc_that_is_none() {
+    let arc = |edit: (&str, &str)| {
+        piece("arc", &"center = [0, 0]\nradius = 1\nfrom_angle = 0\nto_angle = 90".replace(edit.0, edit.1))
+    };
+    for (radius, number) in [("0", "0"), ("-0.5", "-0.5")] {
+        says(
+            &arc(("radius = 1", &format!("radius = {radius}"))),
+            &["scene.toml:9:10: contour.piece[1].radius: ", &format!("radius is {number}, expected a positive number")],
+        );
+    }
+    says(&arc(("radius = 1", "radius = nan")), &["contour.piece[1].radius: ", "NaN", "finite"]);
+    says(&arc(("[0, 0]", "[0, inf]")), &["contour.piece[1].center: ", "inf", "finite"]);
+    says(&arc(("= 90", "= nan")), &["scene.toml:11:12: contour.piece[1].to_angle: ", "NaN", "finite"]);
+    let expected = "expected two different angles at most 360 degrees apart";
+    says(
+        &arc(("= 90", "= 400")),
+        &["scene.toml:11:12: contour.piece[1].to_angle: ", "from 0 to 400 degrees", expected],
+    );
+    says(&arc(("= 90", "= 0")), &["contour.piece[1].to_angle: ", "from 0 to 0 degrees", expected]);
+
+    let ellipse = |edit: (&str, &str)| {
+        let fields = "center = [0, 0]\nradii = [2, 1]\nrotation = 5\nfrom_angle = 0\nto_angle = 90";
+        piece("ellipse", &fields.replace(edit.0, edit.1))
+    };
+    says(&ellipse(("[2, 1]", "[2, -1]")), &["scene.toml:9:9: contour.piece[1].radii: ", "radius is -1", "positive"]);
+    says(&ellipse(("= 5", "= nan")), &["scene.toml:10:12: contour.piece[1].rotation: ", "NaN", "finite"]);
+    says(&ellipse(("= 90", "= 361")), &["contour.piece[1].to_angle: ", "from 0 to 361 degrees", expected]);
+}
+
+#[test]
+fn ends_in_the_wrong_order() {
+    let parabola = |ends: &str| piece("parabola", &format!("vertex = [0, 0]\ncoefficient = 5\n{ends}"));
+    says(
+        &parabola("from_x = 0.2\nto_x = 0.1"),
+        &["scene.toml:11:8: contour.piece[1].to_x: ", "runs from 0.2 to 0.1, expected the start to be less"],
+    );
+    says(&parabola("from_x = nan"), &["scene.toml:10:10: contour.piece[1].from_x: ", "NaN", "finite"]);
+    says(&parabola("to_x = -inf"), &["scene.toml:10:8: contour.piece[1].to_x: ", "-inf"]);
+}
+
+#[test]
+fn a_spline_that_is_none() {
+    let spline = |fields: &str| piece("spline", &format!("points = [[0, 0], [1, 0], [2, 1]]\n{fields}"));
+    says(&spline("end = \"free\""), &["scene.toml:9:7: contour.piece[1].end: ", "`free`", "`natural`", "`clamped`"]);
+    says(&spline("to_angle = 3"), &["scene.toml:9:12: contour.piece[1].to_angle: ", "end = \"clamped\""]);
+    let nan = spline("end = \"clamped\"\nfrom_angle = nan");
+    says(&nan, &["scene.toml:10:14: contour.piece[1].from_angle: ", "NaN", "finite"]);
+    says(&spline("smoothing = -1e-3"), &["scene.toml:9:13: contour.piece[1].smoothing: ", "is -0.001", "not less"]);
+    let both = spline("smoothing = 1e-3\nend = \"periodic\"");
+    says(&both, &["scene.toml:9:13: contour.piece[1].smoothing: ", "expected natural ends"]);
+}
+
+#[test]
+fn a_table_of_points_that_is_none() {
+    for shape in ["polygon", "spline"] {
+        let scene = piece(shape, "file = \"points.csv\"");
+        let at = "scene.toml:8:8: contour.piece[1].file: ";
+        let with = |points: &str, parts: &[&str]| {
+            says_beside(&scene, &[("points.csv", points)], &[&[at][..], parts].concat());
+        };
+        with("x,y\n0,0\n1,one\n", &["points.csv:3: column y is \"one\", expected a finite number"]);
+        with("x,y\n0,0\nnan,1\n", &["points.csv:3: column x is \"nan\", expected a finite number"]);
+        with("x,z\n0,0\n", &["points.csv: no column y in the header \"x,z\", expected columns named x and y"]);
+        with("x,y\n0,0\n1,0\n\n1,0\n", &["points.csv:5: point 3 is (1, 0), the same as the one before it"]);
+        with("x,y\n0,0\n", &["points.csv: a ", "needs at least", "got 1"]);
+        says(&scene, &[at, "cannot read points.csv: No such file"]);
+    }
+}
+
+#[test]
+fn points_from_two_places_or_none() {
+    for shape in ["polygon", "spline"] {
+        let both = piece(shape, "points = [[0, 0], [1, 0]]\nfile = \"points.csv\"");
+        says(&both, &["scene.toml:9:8: contour.piece[1].file: ", "given beside points, expected one of them"]);
+        let neither = piece(shape, "");
+        says(&neither, &["scene.toml:6:1: contour.piece[1]: ", "missing field `points` or `file`"]);
+    }
+}
+
+#[test]
+fn a_drawing_that_is_none() {
+    let drawing = |body: &str| format!("<svg xmlns=\"http://www.w3.org/2000/svg\">{body}</svg>");
+    let from = |fields: &str, body: &str, parts: &[&str]| {
+        says_beside(&piece("svg", fields), &[("drawing.svg", &drawing(body))], parts);
+    };
+    let file = "file = \"drawing.svg\"\nscale = 1e-3";
+    let at = "scene.toml:8:8: contour.piece[1].file: ";
+    from(file, "<circle r=\"1\"/>", &[at, "drawing.svg: no `path` element, expected one; convert circles"]);
+    let two = "<path id=\"a\" d=\"M0 0h1\"/><path id=\"b\" d=\"M0 0h1\"/>";
+    from(file, two, &[at, "2 `path` elements (a, b), expected one; name one of them with `id`"]);
+    let id = format!("{file}\nid = \"c\"");
+    from(&id, two, &["scene.toml:10:6: contour.piece[1].id: ", "no `path` element with the id \"c\"", "a, b"]);
+    let moved = "<g transform=\"scale(2)\"><path d=\"M0 0h1\"/></g>";
+    from(file, moved, &[at, "the element `g`", "the transform \"scale(2)\", which is not applied"]);
+    from(file, "<path d=\"M0 0\"/>", &[at, "drawing.svg: the path is empty"]);
+    from(file, "<path d=\"M0 0h1M2 2h1\"/>", &[at, "drawing.svg: the path has 2 subpaths, expected one"]);
+    from(file, "<path d=\"M0 0h1\"", &[at, "drawing.svg:1: "]);
+    says(&piece("svg", file), &[at, "cannot read drawing.svg: "]);
+
+    let path = |path: &str| piece("svg", &format!("path = \"{path}\"\nscale = 1e-3"));
+    says(&path("M0 0 K"), &["scene.toml:8:8: contour.piece[1].path: ", "cannot be read", "\"K\""]);
+    says(&path("M0 0 C0 0 1 1 2 0"), &["contour.piece[1].path: ", "segment 1 of the path", "stands still"]);
+    let scale = |scale: &str| piece("svg", &format!("path = \"M0 0h1\"{scale}"));
+    says(&scale("\nscale = 0.0"), &["scene.toml:9:9: contour.piece[1].scale: ", "scale is 0, expected a positive"]);
+    says(&scale("\nscale = nan"), &["contour.piece[1].scale: ", "scale is NaN"]);
+    says(&scale(""), &["contour.piece[1]: ", "missing field `scale`"]);
+    says(&scale("\nid = \"a\"\nscale = 1"), &["contour.piece[1].id: ", "given beside path"]);
+    says(&piece("svg", "scale = 1"), &["contour.piece[1]: ", "missing field `file` or `path`"]);
+}
+
+#[test]
+fn an_object_that_is_none() {
+    says(
+        &with_objects("[[object]]\nangle = 3"),
+        &["scene.toml:6:1: object[1]: ", "neither pieces nor a file, expected at least one piece or a file"],
+    );
+    says(&with_objects(""), &["missing field `contour`, expected one [contour], or an [[object]] for each object"]);
+    says(
+        &square("postion = [0, 0]"),
+        &["scene.toml:7:1: object[1].postion: ", "unknown field", "`position`", "`piece`"],
+    );
+    says(&square("position = [0, nan]"), &["scene.toml:7:12: object[1].position: ", "NaN", "finite"]);
+    says(&square("position = [0]"), &["scene.toml:7:12: object[1].position: ", "found a list of 1"]);
+    says(&square("angle = inf"), &["scene.toml:7:9: object[1].angle: ", "angle is inf", "degrees"]);
+    says(&square("scale = -2"), &["scene.toml:7:9: object[1].scale: ", "scale is -2, expected a positive", "mirror"]);
+    says(&square("scale = nan"), &["scene.toml:7:9: object[1].scale: ", "scale is NaN"]);
+    says(&with_objects("[[object]]\npiece = 3"), &["scene.toml:7:9: object[1].piece: ", "expected a sequence"]);
+    says(&with_objects("[[object]]\npiece = [3]"), &["object[1].piece[1]: ", "integer", "a table of fields"]);
+    says(
+        &with_objects("[[object.piece]]\nshape = \"line\""),
+        &["scene.toml:6:3: object: ", "expected [[object]] before the first [[object.piece]]"],
+    );
+    // The second object is told from the first.
+    let second = square("") + "[[object]]\nscale = 0.0\n";
+    says(&second, &["object[2].scale: ", "scale is 0"]);
+}
+
+#[test]
+fn a_file_of_shapes_that_is_none() {
+    let scene = with_objects("[[object]]\nfile = \"object.json\"");
+    let at = "scene.toml:7:8: object[1].file: ";
+    let with = |json: &str, parts: &[&str]| says_beside(&scene, &[("object.json", json)], &[&[at][..], parts].concat());
+    says(&scene, &[at, "cannot read object.json: "]);
+    with("[]", &["object.json: a composite contour needs at least one piece"]);
+    with("[\n{]", &["object.json:2: "]);
+    with("[{\"shape\": \"lime\"}]", &["object.json:1: unknown variant `lime`", "`polygon`"]);
+    let arc = |radius: &str| {
+        format!(
+            "[{{\"shape\": \"arc\", \"center\": [0, 0], \"radius\": {radius}, \"from_angle\": 0, \"to_angle\": 9}}]"
+        )
+    };
+    with(&arc("0"), &["object.json: shape 1, radius: the arc's radius is 0, expected a positive number"]);
+    let tie = "[{\"shape\": \"polygon\", \"points\": [[0, 0], [1, 1], [1, 0], [0, 1]]}]";
+    with(tie, &["object.json: piece 1 crosses piece 3 at (0.5, 0.5)"]);
+    let both = square("file = \"object.json\"");
+    says(&both, &["scene.toml:7:8: object[1].file: ", "given beside pieces, expected either"]);
 }

@@ -10,10 +10,12 @@ mod elasticae;
 mod labels;
 mod outline;
 mod palette;
+mod profile;
 mod sweep;
 mod trace;
 
 pub use canvas::FigureError;
 pub(crate) use criterion::criterion;
 pub(crate) use cycles::cycles;
+pub(crate) use profile::profile;
 pub(crate) use sweep::sweep;

@@ -1,8 +1,10 @@
-//! The files of a sweep.
+//! The files of a sweep, and of contours.
 
+mod profile;
 mod records;
 mod staged;
 
+pub use profile::write_profiles;
 pub use staged::{OutputError, Staged};
 
 use crate::{Error, Scan, figure};

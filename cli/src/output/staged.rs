@@ -17,6 +17,12 @@ pub enum OutputError {
         /// Why.
         source: io::Error,
     },
+    /// A name that is none for a table.
+    #[error("{} is no name for a CSV file, expected one that does not end in .svg, the name of the drawing", file.display())]
+    Name {
+        /// The name.
+        file: PathBuf,
+    },
     /// A file cannot be written.
     #[error("cannot write {}: {source}", file.display())]
     File {

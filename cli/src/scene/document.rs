@@ -89,8 +89,13 @@ pub(super) fn table(text: &str) -> Result<Spanned<DeTable<'_>>, Fault> {
 /// The tree as a document.
 pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<Document, Fault> {
     let contour = table.get_mut().get_mut("contour").map_or_else(|| Ok(Vec::new()), pieces)?;
-    let objects = match table.get_mut().get_mut("object").map(Spanned::get_mut) {
-        Some(DeValue::Array(objects)) => objects.iter_mut().map(pieces).collect::<Result<_, _>>()?,
+    let objects = match table.get_mut().get_mut("object").map(|objects| (objects.span(), objects.get_mut())) {
+        Some((_, DeValue::Array(objects))) => objects.iter_mut().map(pieces).collect::<Result<_, _>>()?,
+        Some((span, DeValue::Table(_))) => {
+            let message =
+                "a table where a list belongs, expected [[object]] before the first [[object.piece]] of each object";
+            return Err(Fault::new(span, message));
+        }
         _ => Vec::new(),
     };
     let tables = Tables::deserialize(toml::de::Deserializer::from(table))?;

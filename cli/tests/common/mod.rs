@@ -44,9 +44,23 @@ pub fn complaint(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
+/// The scene with other objects, on lines 6 and after.
+pub fn with_objects(objects: &str) -> String {
+    let (rod, sweep) = (SCENE.find("[[contour").unwrap(), SCENE.find("[sweep]").unwrap());
+    SCENE[..rod].to_owned() + objects + "\n" + &SCENE[sweep..]
+}
+
 /// What a sweep of this scene says on standard error, where it fails.
 pub fn refused(scene: &str) -> String {
+    refused_beside(scene, &[])
+}
+
+/// The same for a scene with other files beside it, by name and content.
+pub fn refused_beside(scene: &str, files: &[(&str, &str)]) -> String {
     let directory = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        std::fs::write(directory.path().join(name), content).unwrap();
+    }
     std::fs::write(directory.path().join("scene.toml"), scene).unwrap();
     let output = vibrissa(directory.path(), &["sweep", "scene.toml", "--out", "out"]);
     assert_eq!(output.status.code(), Some(1), "{}", complaint(&output));

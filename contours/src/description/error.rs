@@ -50,7 +50,7 @@ impl ShapeError {
         Self { field: None, point: None, fault: Box::new(ShapeFault::Fields(message.into())) }
     }
 
-    /// The fault of a shape, at the field that holds the number it names, or the point, or else at `otherwise`.
+    /// The fault of a shape, at the field that holds the number that is not finite, or else at `otherwise`.
     pub(super) fn blaming(
         error: ContourError,
         fields: &[(&'static str, &[f64])],
@@ -61,9 +61,7 @@ impl ShapeError {
             _ => None,
         };
         let field = match error {
-            ContourError::NotFinite { value, .. }
-            | ContourError::NotPositive { value, .. }
-            | ContourError::Negative { value, .. } => fields
+            ContourError::NotFinite { value, .. } => fields
                 .iter()
                 .find(|(_, numbers)| {
                     numbers.iter().any(|number| number.total_cmp(&value).is_eq() || both_nan(*number, value))

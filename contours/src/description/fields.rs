@@ -127,7 +127,7 @@ impl ArcFields {
         ];
         CircularArc::new(*center, *radius, from_angle.to_radians(), to_angle.to_radians())
             .map(one)
-            .map_err(|error| arc(error, &fields, *from_angle, *to_angle))
+            .map_err(|error| arc(error, &fields, "radius", [*from_angle, *to_angle]))
     }
 }
 
@@ -163,12 +163,17 @@ impl EllipseFields {
         let [rotation, from, to] = [rotation, from_angle, to_angle].map(|angle| angle.to_radians());
         EllipticArc::new(*center, *radii, rotation, from, to)
             .map(one)
-            .map_err(|error| arc(error, &fields, *from_angle, *to_angle))
+            .map_err(|error| arc(error, &fields, "radii", [*from_angle, *to_angle]))
     }
 }
 
 /// The fault of an arc, in degrees.
-fn arc(error: ContourError, fields: &[(&'static str, &[f64])], from: f64, to: f64) -> ShapeError {
+fn arc(
+    error: ContourError,
+    fields: &[(&'static str, &[f64])],
+    radius: &'static str,
+    [from, to]: [f64; 2],
+) -> ShapeError {
     match error {
         ContourError::ArcAngle { .. } => ShapeError::says(
             "to_angle",
@@ -176,7 +181,7 @@ fn arc(error: ContourError, fields: &[(&'static str, &[f64])], from: f64, to: f6
                 "the arc runs from {from} to {to} degrees, expected two different angles at most {TURN} degrees apart"
             ),
         ),
-        error => ShapeError::blaming(error, fields, None),
+        error => ShapeError::blaming(error, fields, Some(radius)),
     }
 }
 
@@ -321,7 +326,8 @@ impl<'a> Points<'a> {
 
     /// The fault, in the list or in the file.
     fn blame(self, error: ContourError, fields: &[(&'static str, &[f64])]) -> ShapeError {
-        let blamed = ShapeError::blaming(error.clone(), fields, None);
+        let smoothing = matches!(error, ContourError::Negative { .. }).then_some("smoothing");
+        let blamed = ShapeError::blaming(error.clone(), fields, smoothing);
         if blamed.field.is_some() {
             return blamed;
         }
