@@ -147,7 +147,7 @@ fn points_that_are_none() {
         let nan = piece(shape, "points = [[0, 0], [1, nan], [1, 1]]");
         says(&nan, &["scene.toml:8:19: contour.piece[1].points[2]", "point 2 is (1, NaN), expected finite numbers"]);
         let three = piece(shape, "points = [[0, 0], [1, 0, 0], [1, 1]]");
-        says(&three, &["scene.toml:8:19: contour.piece[1].points[2]: ", "found a list of 3, expected two numbers"]);
+        says(&three, &["scene.toml:8:10: contour.piece[1].points: ", "point 2 is a list of 3, expected two numbers"]);
         let words = piece(shape, "points = [[0, 0], [1, \"0\"], [1, 1]]");
         says(&words, &["scene.toml:8:23: contour.piece[1].points[2][2]: ", "string \"0\"", "expected a number"]);
     }

@@ -63,7 +63,7 @@ impl<'a> Tracer<'a> {
     /// Goes along the contour; none where there is not enough room.
     pub fn run(&mut self, reach: &Reach) -> Option<()> {
         let parts: Vec<_> = self.contour.parts().filter(|part| self.is_piece(part.stretch)).collect();
-        let mut aside_at_end = 0.0;
+        let (mut first_aside, mut aside_at_end) = (0.0, 0.0);
         for run in parts.chunk_by(|one, other| one.stretch == other.stretch) {
             let stretch = run[0].stretch;
             let (before, after) = (self.joint(stretch, false), self.joint(stretch, true));
@@ -83,7 +83,7 @@ impl<'a> Tracer<'a> {
             }
             let start = self.place(stretch, shown.from);
             if self.points.is_empty() {
-                self.arc_length = 0.0;
+                first_aside = std::mem::take(&mut self.arc_length);
             }
             if self.points.is_empty() || before {
                 self.push(start.frame);
@@ -99,7 +99,7 @@ impl<'a> Tracer<'a> {
                 last = end;
             }
         }
-        self.close(aside_at_end);
+        self.close(aside_at_end, first_aside);
         Some(())
     }
 
@@ -167,16 +167,16 @@ impl<'a> Tracer<'a> {
             .sum::<f64>()
     }
 
-    /// Comes back to the first point of a closed contour.
-    fn close(&mut self, aside: f64) {
+    /// Comes back to the first point of a closed contour, over a corner if the way to it and from it (m) is not 0.
+    fn close(&mut self, before: f64, after: f64) {
         let Some(first) = self.points.first().copied().filter(|_| self.contour.is_closed()) else { return };
         let turn = if self.contour.is_cavity() { -TAU } else { TAU };
         let end = ProfilePoint { tangent_angle: first.tangent_angle + turn, ..first };
-        let corner = aside > 0.0;
+        let corner = before > 0.0;
         match self.points.last_mut() {
             // The end of the last piece is the start of the first one, to rounding.
             Some(last) if !corner => *last = ProfilePoint { arc_length: last.arc_length, ..end },
-            _ => self.points.push(ProfilePoint { arc_length: self.arc_length + 2.0 * aside, ..end }),
+            _ => self.points.push(ProfilePoint { arc_length: self.arc_length + before + after, ..end }),
         }
     }
 }
