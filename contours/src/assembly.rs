@@ -7,7 +7,7 @@ use crate::joint::wrapped;
 use crate::piece::Piece;
 use crate::{Contour, ContourError, Frame, Range};
 
-/// Largest distance between the ends of consecutive pieces, relative to the largest coordinate at their ends: room for
+/// Largest distance between the ends of consecutive pieces, relative to the largest coordinate of [`Piece::scale`]: room for
 /// breaks typed to ten digits, far below anything mechanical.
 const MEETING: f64 = 1e-9;
 
@@ -118,5 +118,18 @@ fn meeting(before: &Piece, after: &Piece, number: usize) -> Result<(Frame, Frame
         Ok((end, start))
     } else {
         Err(ContourError::Apart { piece: number, next: number + 1, x: end.x, y: end.y, distance, tolerance })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{CircularArc, Composite};
+
+    #[test]
+    fn a_circle_from_the_origin_to_the_origin_is_closed() {
+        let circle = CircularArc::new([0.0, 0.015], 0.015, -0.5 * PI, 1.5 * PI).unwrap();
+        assert!(Composite::single(circle).is_closed());
+        assert!(Composite::new(vec![Box::new(circle)]).unwrap().is_closed());
     }
 }

@@ -49,7 +49,7 @@ struct Cell {
 }
 
 impl Composite {
-    /// Pieces whose ends meet, to 1e-9 of the largest coordinate at their ends.
+    /// Pieces whose ends meet, to 1e-9 of the largest coordinate at their ends and in their middle.
     ///
     /// # Errors
     ///

@@ -92,11 +92,12 @@ impl Piece {
         self.shape.bounds_in(range)
     }
 
-    /// Largest coordinate at the ends of the piece (one unit of the parameter away from a single end, or from 0, where
+    /// Largest coordinate at the ends and in the middle of the piece (one unit of the parameter away from a single end, or from 0, where
     /// it goes on for ever): the length against which rounding is judged.
     pub fn scale(&self) -> f64 {
         let part = self.range.window(1.0);
-        [part.from, part.to]
+        // Both ends alone would not do for a circle from the origin to the origin.
+        [part.from, 0.5 * (part.from + part.to), part.to]
             .into_iter()
             .map(|t| self.shape.frame(t))
             .fold(0.0, |scale: f64, frame| scale.max(frame.x.abs()).max(frame.y.abs()))

@@ -19,6 +19,9 @@ const MARGIN: u32 = 16;
 /// Distance of the strokes into the solid, and their length, pixels.
 const APART: f64 = 22.0;
 const STROKE: f64 = 20.0;
+/// Turn (rad) beyond which a corner is seen as one, and the distance of the first stroke from it, in lengths of a stroke.
+const SMOOTH: f64 = 0.3;
+const CLEAR: f64 = 0.75;
 /// Least distance of two points that are drawn, pixels; the canvas knows whole ones only.
 const FINEST: f64 = 3.0;
 /// Radius of the marks where pieces meet, pixels.
@@ -103,10 +106,15 @@ fn visible(profile: &Profile, finest: f64) -> Vec<(f64, f64)> {
 fn hatching(line: &[(f64, f64)], scale: f64) -> Vec<Vec<(f64, f64)>> {
     let (apart_by, length) = (APART * scale, STROKE * scale);
     let mut strokes = Vec::new();
-    let mut ahead = 0.5 * apart_by;
+    let (mut ahead, mut before): (f64, Option<f64>) = (0.0, None);
     for chord in line.windows(2) {
         let [from, to] = [chord[0], chord[1]];
         let (chord, angle) = (apart(from, to), (to.1 - from.1).atan2(to.0 - from.0));
+        // Nearer to a corner a stroke would come out on its other side.
+        if before.is_none_or(|before| (angle - before).cos() < SMOOTH.cos()) {
+            ahead = ahead.max(CLEAR * length);
+        }
+        before = Some(angle);
         while ahead < chord {
             let place = (from.0 + ahead * angle.cos(), from.1 + ahead * angle.sin());
             let (sin, cos) = (angle + 0.75 * PI).sin_cos();
