@@ -138,7 +138,7 @@ mod tests {
     fn strokes_stand_evenly_and_in_the_solid() {
         let strokes = hatching(&[(0.0, 0.0), (33.0, 0.0), (100.0, 0.0)], 1.0);
         let places: Vec<f64> = strokes.iter().map(|stroke| stroke[0].0).collect();
-        assert_eq!(places.len(), 5);
+        assert_eq!(places.len(), 4);
         assert!(places.windows(2).all(|pair| (pair[1] - pair[0] - APART).abs() < 1e-9), "{places:?}");
         assert!(strokes.iter().all(|stroke| stroke[1].1 > 0.0), "the solid is above a line to the right");
     }
