@@ -24,8 +24,9 @@ const SMOOTH: f64 = 0.3;
 const CLEAR: f64 = 0.75;
 /// Least distance of two points that are drawn, pixels; the canvas knows whole ones only.
 const FINEST: f64 = 3.0;
-/// Radius of the marks where pieces meet, pixels.
+/// Radius of the marks where pieces meet, and their least distance, pixels.
 const MARK: i32 = 6;
+const MARKS: f64 = 18.0;
 
 /// Draws the contours of a scene.
 pub(crate) fn profile(name: &str, profiles: &[Profile]) -> Result<String, FigureError> {
@@ -64,10 +65,9 @@ pub(crate) fn profile(name: &str, profiles: &[Profile]) -> Result<String, Figure
                 hatching(&line, scale).into_iter().map(|stroke| PathElement::new(stroke, MUTED.stroke_width(2))),
             )?;
             chart.draw_series([PathElement::new(line, INK.stroke_width(4))])?;
-            let marks = profile.joints.iter().map(|[x, y]| Circle::new((1e3 * x, 1e3 * y), MARK, WHITE.filled()));
-            chart.draw_series(marks)?;
-            let marks = profile.joints.iter().map(|[x, y]| Circle::new((1e3 * x, 1e3 * y), MARK, INK.stroke_width(3)));
-            chart.draw_series(marks)?;
+            let marks = marks(&profile.joints, MARKS * scale);
+            chart.draw_series(marks.iter().map(|mark| Circle::new(*mark, MARK, WHITE.filled())))?;
+            chart.draw_series(marks.iter().map(|mark| Circle::new(*mark, MARK, INK.stroke_width(3))))?;
         }
         Ok(())
     })
@@ -102,6 +102,18 @@ fn visible(profile: &Profile, finest: f64) -> Vec<(f64, f64)> {
     line
 }
 
+/// The joints (mm) that are at least so far (mm) from the one before; none where most are nearer, as on a fine polygon.
+fn marks(joints: &[[f64; 2]], least: f64) -> Vec<(f64, f64)> {
+    let mut marks: Vec<(f64, f64)> = Vec::new();
+    for [x, y] in joints {
+        let joint = (1e3 * x, 1e3 * y);
+        if marks.last().is_none_or(|last| apart(*last, joint) >= least) {
+            marks.push(joint);
+        }
+    }
+    if 2 * marks.len() < joints.len() { Vec::new() } else { marks }
+}
+
 /// Strokes (mm) from the contour into the solid, slanted backwards.
 fn hatching(line: &[(f64, f64)], scale: f64) -> Vec<Vec<(f64, f64)>> {
     let (apart_by, length) = (APART * scale, STROKE * scale);
@@ -133,6 +145,13 @@ fn apart(one: (f64, f64), other: (f64, f64)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn joints_too_near_to_be_told_apart_are_not_marked() {
+        let joints = |apart: f64| (0..100).map(|k| [1e-3 * apart * f64::from(k), 0.0]).collect::<Vec<_>>();
+        assert_eq!(marks(&joints(1.0), 0.9).len(), 100);
+        assert!(marks(&joints(1.0), 2.5).is_empty());
+    }
 
     #[test]
     fn strokes_stand_evenly_and_in_the_solid() {
