@@ -3,9 +3,10 @@
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
-use rod_contours::{Bounds, Part};
+use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, advance, walk};
 use smallvec::SmallVec;
+use std::f64::consts::PI;
 
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
@@ -13,6 +14,12 @@ const SPACING: f64 = 1.0 / 32.0;
 
 /// Nodes between which a box is put around the rod to see what is near.
 const BOXED: usize = 4;
+
+/// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
+const DEEPEST: f64 = 0.1;
+
+/// Slopes, and distances off a normal, that are what rounding leaves of none.
+const PARALLEL: f64 = 1e-9;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
@@ -83,10 +90,10 @@ impl Scanner {
         let mut found = Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false };
         self.look_around(world, least);
         for near in &self.near {
-            if world.is_notch(near.part.stretch) {
-                self.scan_notch(world, configuration, near.part, &mut found);
-            } else {
-                self.scan_part(world, configuration, &spans, *near, &mut found);
+            match world.kind(near.part.stretch) {
+                StretchKind::Piece(_) => self.scan_part(world, configuration, &spans, *near, &mut found),
+                StretchKind::Corner { .. } => self.scan_corner(world, configuration, &spans, *near, &mut found),
+                StretchKind::Notch { .. } => self.scan_notch(world, configuration, near.part, &mut found),
             }
         }
         found
@@ -161,6 +168,80 @@ impl Scanner {
         }
     }
 
+    /// A rod lies on a corner with a slope angle between those of the two pieces. So it goes through where it runs by the
+    /// vertex in such a direction, on the side of the solid, and the solid is there: from a sharp corner it may have cut off the
+    /// tip without coming nearer to it than outside.
+    fn scan_corner(
+        &self,
+        world: &World<'_>,
+        configuration: &Configuration,
+        spans: &[Span],
+        near: Near,
+        found: &mut Scan,
+    ) {
+        let Near { part, first, last } = near;
+        let range = world.range(part.stretch);
+        let vertex = world.support(part.stretch, 0.5 * (range.from + range.to));
+        let (half, alpha) = (0.5 * range.length(), vertex.alpha);
+        let mut before: Option<(usize, f64)> = None;
+        let mut i = first;
+        while i <= last {
+            let node = &self.nodes[i];
+            let (dx, dy) = (node.at.x - vertex.x, node.at.y - vertex.y);
+            let distance = dx.hypot(dy);
+            if distance < found.min_gap && found.min_gap > 0.0 {
+                let foot = world.foot_in(part, node.at.x, node.at.y);
+                if foot.interior && foot.gap > 0.0 {
+                    found.min_gap = foot.gap;
+                }
+            }
+            let (sin, cos) = node.at.phi.sin_cos();
+            let ahead = dx * cos + dy * sin;
+            let own = node.contact.is_some_and(|j| configuration.contacts[j].stretch == part.stretch);
+            if let Some((_, was)) = before.filter(|(k, _)| k + 1 == i && !own)
+                && was < 0.0
+                && ahead >= 0.0
+            {
+                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (vertex.x, vertex.y), was, ahead);
+                let lean = (at.phi - alpha) - PI * ((at.phi - alpha) / PI).round();
+                let (sin, cos) = (alpha + lean).sin_cos();
+                let gap = (at.x - vertex.x) * sin - (at.y - vertex.y) * cos;
+                if lean.abs() <= half + PARALLEL {
+                    // where the rod crosses the line that halves the solid's angle
+                    let along = -gap / lean.cos().max(PARALLEL);
+                    let (sin, cos) = alpha.sin_cos();
+                    let cut = (vertex.x - along * sin, vertex.y + along * cos);
+                    let (sin, cos) = at.phi.sin_cos();
+                    let s_cut = s + (cut.0 - at.x) * cos + (cut.1 - at.y) * sin;
+                    let on_rod = (0.0..=1.0).contains(&s_cut);
+                    if gap > -GAP_TOLERANCE {
+                        found.min_gap = found.min_gap.min(gap);
+                    } else if gap > -DEEPEST && on_rod && world.gap(cut.0, cut.1) < GAP_TOLERANCE {
+                        found.min_gap = found.min_gap.min(gap);
+                        let t = range.clamp(range.from + half + lean);
+                        let foot = Foot {
+                            t,
+                            gap,
+                            alpha: alpha + lean,
+                            curvature: f64::INFINITY,
+                            x: vertex.x,
+                            y: vertex.y,
+                            interior: true,
+                        };
+                        let stretch = part.stretch;
+                        found.crossings.push(Crossing { stretch, s, phi: at.phi, foot, tip: false });
+                    }
+                }
+            }
+            before = (!own).then_some((i, ahead));
+            let safe = node.s + (distance - found.min_gap.clamp(DEEPEST, 1.0)).max(0.0);
+            i += 1;
+            while i < last && nodes_before(&self.nodes, i, safe) {
+                i += 1;
+            }
+        }
+    }
+
     fn scan_part(
         &self,
         world: &World<'_>,
@@ -187,7 +268,8 @@ impl Scanner {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
-                if last.right < 0.0 && sight.left >= 0.0 && matters {
+                let flat = foot.curvature == 0.0 && last.right.abs().max(sight.left.abs()) < PARALLEL;
+                if last.right < 0.0 && sight.left >= 0.0 && matters && !flat {
                     self.search(world, spans, part, (last_node, node), (last.right, sight.left), found);
                 }
             }
@@ -242,13 +324,36 @@ impl Scanner {
             best = look(s);
         }
         let (_, at, foot) = best;
-        if foot.interior && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
+        if is_square(&at, &foot) && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
             found.min_gap = found.min_gap.min(foot.gap);
             if foot.gap < -GAP_TOLERANCE {
                 found.crossings.push(Crossing { stretch: part.stretch, s, phi: at.phi, foot, tip: false });
             }
         }
     }
+}
+
+fn nodes_before(nodes: &[Node], i: usize, safe: f64) -> bool {
+    nodes[i].s < safe && nodes[i + 1].s < safe
+}
+
+/// Where between two nodes the rod runs by a point: the arc length, and the section; (r - point) . tangent is given at both.
+fn pass(spans: &[Span], nodes: (&Node, &Node), point: (f64, f64), before: f64, after: f64) -> (f64, Section) {
+    let span = &spans[nodes.0.span];
+    let mut s = nodes.0.s + (nodes.1.s - nodes.0.s) * before / (before - after);
+    let mut at = span.start;
+    for _ in 0..6 {
+        at = advance(&span.start, span.a, span.b, s - span.s);
+        let (sin, cos) = at.phi.sin_cos();
+        let (dx, dy) = (at.x - point.0, at.y - point.1);
+        let rate = (1.0 + at.kappa * (dy * cos - dx * sin)).max(0.1);
+        let step = -(dx * cos + dy * sin) / rate;
+        if step.abs() < 1e-15 {
+            break;
+        }
+        s = (s + step).clamp(nodes.0.s, nodes.1.s);
+    }
+    (s, at)
 }
 
 /// An upper bound of the smallest gap: that of the nodes.
@@ -265,7 +370,7 @@ fn least_gap(world: &World<'_>, nodes: &[Node]) -> f64 {
     least
 }
 
-/// Slope of the gap along the rod: of the distance to the foot where that is an end of the stretch.
+/// Slope of the gap along the rod: of the distance to the foot where that is an end of the part.
 fn slope(at: &Section, foot: &Foot) -> f64 {
     if foot.interior {
         return -(at.phi - foot.alpha).sin();
@@ -273,6 +378,12 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     let (sin, cos) = at.phi.sin_cos();
     let (dx, dy) = (at.x - foot.x, at.y - foot.y);
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
+}
+
+/// Whether the foot is a perpendicular one; at the end of a part, where rounding decides, it is one for its neighbour too.
+fn is_square(at: &Section, foot: &Foot) -> bool {
+    let (sin, cos) = foot.alpha.sin_cos();
+    foot.interior || ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL
 }
 
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {

@@ -33,6 +33,8 @@ const DEEPEST: f64 = 1e-9;
 const LARGEST_RESIDUAL: f64 = 1e-9;
 /// A contact this near to the clamp is at the clamp.
 const AT_CLAMP: f64 = 1e-3;
+/// Transitions this close together along the branch are one but for rounding.
+const AT_ONCE: f64 = 1e-12;
 /// Path parameter by which a new contact set is tried.
 const PROBE: f64 = 1e-6;
 const FARTHEST_PROBE: f64 = 1e-3;
@@ -238,13 +240,15 @@ impl Stepper<'_> {
         breaks(&self.corrector, next, scan, |b| broken.push(b));
         let slack = 1e-9 + 1e-6 * length;
         let mut first: Option<(f64, Step)> = None;
+        // A straight rod comes to lie on a straight edge everywhere at once: what holds it then is the point next to the clamp.
+        broken.sort_by(|a, b| a.s().total_cmp(&b.s()));
         for b in broken {
             let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;
             let along = transition.along;
             if !(-slack..=length + slack).contains(&along) {
                 return Err(NoTransition::NotLocated);
             }
-            if first.as_ref().is_none_or(|(least, _)| along < *least) {
+            if first.as_ref().is_none_or(|(least, _)| along < *least - AT_ONCE) {
                 first = Some((along, Step::Changed(Box::new(transition))));
             }
         }

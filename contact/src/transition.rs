@@ -7,6 +7,7 @@ use crate::notch::{lying_angle, merged, parted, straddles, wall_run_into};
 use crate::scan::{Crossing, Scan};
 use crate::world::World;
 use rod_core::Hold;
+use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
 /// A condition of the contact set that no longer holds.
@@ -42,6 +43,7 @@ pub(crate) fn breaks(
     mut visit: impl FnMut(Break),
 ) {
     let n = configuration.count();
+    let mut entered: SmallVec<[Option<usize>; 4]> = SmallVec::new();
     for j in 0..n {
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
@@ -49,10 +51,10 @@ pub(crate) fn breaks(
         let range = corrector.world.range(configuration.contacts[j].stretch);
         let t = configuration.t(j);
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
-        if t > range.to + slack {
-            visit(Break::Border(j, true));
-        } else if t < range.from - slack {
-            visit(Break::Border(j, false));
+        let upwards = t > range.to + slack;
+        if upwards || t < range.from - slack {
+            entered.push(corrector.world.neighbour(configuration.contacts[j].stretch, upwards));
+            visit(Break::Border(j, upwards));
         }
     }
     let mut lying_down = None;
@@ -71,8 +73,13 @@ pub(crate) fn breaks(
             visit(Break::TangentToTip);
         }
     }
-    // a tip that has gone over goes through the contour just before it: not a touch of its own
-    for crossing in scan.crossings.iter().filter(|crossing| Some(crossing.stretch) != lying_down) {
+    // a tip that has gone over goes through the contour just before it, and a contact that has left its stretch lies on the next
+    // one: not touches of their own
+    for crossing in scan
+        .crossings
+        .iter()
+        .filter(|crossing| Some(crossing.stretch) != lying_down && !entered.contains(&Some(crossing.stretch)))
+    {
         visit(Break::Touch(*crossing));
     }
 }
@@ -106,6 +113,11 @@ pub(crate) enum NoTransition {
 }
 
 impl Break {
+    /// Arc length where the rod meets the contour anew; less than that for what concerns the contacts there are.
+    pub fn s(&self) -> f64 {
+        if let Self::Touch(crossing) = self { crossing.s } else { f64::NEG_INFINITY }
+    }
+
     /// Finds where on the branch the condition broke, starting from `broken`, a point of the branch where it has.
     pub fn locate(
         self,
