@@ -18,7 +18,7 @@ const BOXED: usize = 4;
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
 
-/// Slopes, and distances off a normal, that are what rounding leaves of none.
+/// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
@@ -108,7 +108,9 @@ impl Scanner {
             world.parts_near(Bounds::ALL, |part| near.push(Near { part, first: 0, last }));
             return;
         }
-        let reach = if least == 0.0 { 0.0 } else { least_gap(world, nodes) };
+        // as far as it could be to what is nearest, or as deep as it could have gone in
+        let gap = least_gap(world, nodes);
+        let reach = if gap < 0.0 { -2.0 * gap } else { gap.min(least) };
         for first in (0..last).step_by(BOXED) {
             let last = (first + BOXED).min(last);
             let group = &nodes[first..=last];
@@ -268,7 +270,8 @@ impl Scanner {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
-                let flat = foot.curvature == 0.0 && last.right.abs().max(sight.left.abs()) < PARALLEL;
+                // a straight rod lies on a straight edge by the corners at its ends
+                let flat = foot.curvature == 0.0 && last_node.at.kappa.abs().max(node.at.kappa.abs()) < PARALLEL;
                 if last.right < 0.0 && sight.left >= 0.0 && matters && !flat {
                     self.search(world, spans, part, (last_node, node), (last.right, sight.left), found);
                 }
@@ -363,7 +366,7 @@ fn least_gap(world: &World<'_>, nodes: &[Node]) -> f64 {
         // the gap changes no faster than the rod runs
         if node.s >= safe {
             let gap = world.gap(node.at.x, node.at.y);
-            least = gap.max(0.0).min(least);
+            least = gap.min(least);
             safe = node.s + gap - least;
         }
     }
@@ -387,7 +390,9 @@ fn is_square(at: &Section, foot: &Foot) -> bool {
 }
 
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {
-    let mut sight = Sight { gap: foot.gap, left: slope(&node.at, foot), right: 0.0, interior: foot.interior };
+    // beyond an end the sign is that of the tangent there, and says nothing
+    let gap = if foot.interior { foot.gap } else { foot.gap.abs() };
+    let mut sight = Sight { gap, left: slope(&node.at, foot), right: 0.0, interior: foot.interior };
     sight.right = sight.left;
     if let Some(j) = node.contact
         && configuration.contacts[j].stretch == part.stretch

@@ -153,7 +153,7 @@ impl Stepper<'_> {
         let to_go = if slope > STEEPEST { (target - tau) / slope } else { f64::INFINITY };
         // a free rod is safe as far as its gap reaches
         let free = if configuration.count() == 0 { scan.min_gap.min(1.0) / self.fastest() } else { 0.0 };
-        let reach = self.h.min(LONGEST_WAY / slope.abs()).max(free);
+        let reach = self.h.min(LONGEST_WAY / slope.abs()).min(self.to_border(from)).max(free);
         let mut land = to_go <= reach;
         let length = if land { to_go } else { reach };
         let mut next = tangent.ahead(configuration, length);
@@ -202,6 +202,18 @@ impl Stepper<'_> {
         }
         let length = tangent.along(&next.z, &configuration.z);
         Some((next, report, length))
+    }
+
+    /// Length of a step that takes a contact over the border of its stretch for certain, but not much further: there may be
+    /// many short ones.
+    fn to_border(&self, from: &Point) -> f64 {
+        let Point { configuration, tangent, .. } = from;
+        let step = |j: usize| {
+            let (t, rate) = (configuration.t(j), tangent.direction[3 * j]);
+            let border = self.corrector.world.border(configuration.contacts[j].stretch, rate > 0.0);
+            1.5 * ((border - t) / rate).max(0.0) + PROBE
+        };
+        (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)
     }
 
     /// The fold that follows `from` closely, if one does.
@@ -277,9 +289,14 @@ impl Stepper<'_> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
+        // the next transition may follow closely
+        [1.0, 1e-2, 1e-4].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
+    }
+
+    fn holds_ahead(&mut self, point: &Point, way: f64) -> bool {
         let Point { configuration, tangent, .. } = point;
         // where the pose hardly moves, a small step of the branch is small enough
-        let distance = (PROBE / tangent.by_tau()).min(FARTHEST_PROBE);
+        let distance = (way / tangent.by_tau()).min(FARTHEST_PROBE);
         let mut probe = tangent.ahead(configuration, distance);
         let plane = Condition::Plane { tangent, from: &configuration.z, distance };
         if !self.corrector.correct(&mut probe, plane).status.is_solved() {

@@ -212,6 +212,20 @@ pub(crate) fn onto_neighbour(
     configuration
 }
 
+/// The tip, at an end of its piece where there is a convex corner, on the piece beyond that: on the corner itself it cannot
+/// rest.
+pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
+    let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
+    let (here, t) = (configuration.contacts[last].stretch, configuration.t(last));
+    let range = world.range(here);
+    let upwards = t - range.from > range.to - t;
+    let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
+    let beyond = world.neighbour(corner, upwards)?;
+    configuration.contacts[last].stretch = beyond;
+    configuration.z[3 * last] = world.border(beyond, !upwards);
+    Some(configuration)
+}
+
 /// The last contact, tangential at s = 1, as a contact of the tip.
 pub(crate) fn as_tip(mut configuration: Configuration, corrector: &Corrector<'_>) -> Configuration {
     let last = configuration.count() - 1;

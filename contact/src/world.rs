@@ -60,6 +60,10 @@ impl<'a> World<'a> {
         matches!(self.kind(stretch), StretchKind::Notch { .. })
     }
 
+    pub fn is_corner(&self, stretch: usize) -> bool {
+        matches!(self.kind(stretch), StretchKind::Corner { .. })
+    }
+
     /// The number of the stretch of an object that is of this kind.
     pub fn find(&self, object: usize, kind: StretchKind) -> Option<usize> {
         let stretch = self.objects.get(object)?.stretches().position(|stretch| stretch.kind == kind)?;
