@@ -11,6 +11,9 @@ const FEWEST: usize = 2;
 /// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
 const CELLS_INFINITE: usize = 512;
 
+/// Steps towards the extremum of the slope within a cell; one that they do not show is too flat to matter.
+const DIP_STEPS: usize = 12;
+
 /// Largest number of steps of one refinement; bisection alone reaches rounding in about 60.
 const STEPS: usize = 80;
 
@@ -44,8 +47,8 @@ pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f
     let mut left = first;
     for cell in 1..=cells {
         let right = Probe::new(shape, range.at(cell as f64 / cells as f64), x, y);
-        if left.slope < 0.0 && right.slope >= 0.0 {
-            let foot = refine(shape, left, right, x, y);
+        if let Some((low, high)) = falls_then_rises(shape, left, right, x, y) {
+            let foot = refine(shape, low, high, x, y);
             if foot.distance < best.distance {
                 (best, interior) = (foot, foot.t < range.to);
             }
@@ -68,6 +71,49 @@ fn cells(whole: Range, range: Range) -> usize {
             ((CELLS as f64 * share).ceil() as usize).clamp(FEWEST, CELLS)
         }
     }
+}
+
+/// Two probes in the cell from `left` to `right` between which the distance has a minimum, if it has one.
+///
+/// Where the slope has the same sign at both ends of the cell but tends towards 0 at both, as it does near a centre of
+/// curvature, it may change sign twice between them: its extremum is looked at, too.
+fn falls_then_rises<C: Contour + ?Sized>(
+    shape: &C,
+    left: Probe,
+    right: Probe,
+    x: f64,
+    y: f64,
+) -> Option<(Probe, Probe)> {
+    let falls = left.slope < 0.0;
+    if falls != (right.slope < 0.0) {
+        return falls.then_some((left, right));
+    }
+    let sign = if falls { -1.0 } else { 1.0 };
+    let (rate_left, rate_right) = (sign * left.rate, sign * right.rate);
+    if rate_left >= 0.0 || rate_right <= 0.0 {
+        return None;
+    }
+    // The tangents of the slope at both ends meet below its extremum, unless it is bent both ways in the cell.
+    let lowest = (sign * (left.slope * rate_right - right.slope * rate_left)
+        + rate_left * rate_right * (right.t - left.t))
+        / (rate_right - rate_left);
+    if lowest > 0.0 {
+        return None;
+    }
+    let (mut low, mut high) = (left, right);
+    for _ in 0..DIP_STEPS {
+        let share = low.rate / (low.rate - high.rate);
+        let middle = Probe::new(shape, low.t + share.clamp(0.1, 0.9) * (high.t - low.t), x, y);
+        if falls != (middle.slope < 0.0) {
+            return Some(if falls { (left, middle) } else { (middle, right) });
+        }
+        if sign * middle.rate < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    None
 }
 
 /// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
