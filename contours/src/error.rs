@@ -28,6 +28,81 @@ pub enum ContourError {
         to: f64,
     },
 
+    /// A number that must be positive is not.
+    #[error("{what} is {value}, expected a positive number")]
+    NotPositive {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
+    /// A line that goes nowhere.
+    #[error("from and to are the same point ({x}, {y}), expected two different points")]
+    SamePoint {
+        /// First coordinate of the point.
+        x: f64,
+        /// Second coordinate of the point.
+        y: f64,
+    },
+
+    /// An arc without length, or that goes round more than once.
+    #[error("{what} runs from angle {from} to {to}, expected two different angles at most a full turn (2 pi) apart")]
+    ArcAngle {
+        /// Which arc.
+        what: &'static str,
+        /// Its first angle, rad.
+        from: f64,
+        /// Its last angle, rad.
+        to: f64,
+    },
+
+    /// A curve whose speed vanishes: it has no tangent there.
+    #[error(
+        "{what} stands still at t = {t}, expected a speed that vanishes nowhere; cut it there, and move control points that coincide apart or leave the curve out"
+    )]
+    Standstill {
+        /// Which curve.
+        what: &'static str,
+        /// Parameter at which it stands still.
+        t: f64,
+    },
+
+    /// A curve that jumps from one direction to another, where the angle cannot be followed.
+    #[error("the direction of {what} jumps at t = {t}, expected a smooth curve; cut it there into two pieces")]
+    Jump {
+        /// Which curve.
+        what: &'static str,
+        /// Parameter at which the direction jumps.
+        t: f64,
+    },
+
+    /// A function that is not finite somewhere on its range.
+    #[error(
+        "{what} is {value} at t = {t}, expected finite numbers on the whole range (up to 1e4 along one that goes on for ever); trim the range"
+    )]
+    NotFiniteAt {
+        /// Which number.
+        what: &'static str,
+        /// The parameter.
+        t: f64,
+        /// The value there.
+        value: f64,
+    },
+
+    /// A part of a shape that is not within the shape.
+    #[error("the part from {from} to {to} leaves the shape's range, {start} to {end}; expected a part of it")]
+    NotWithin {
+        /// Start of the part.
+        from: f64,
+        /// End of the part.
+        to: f64,
+        /// Start of the shape's range.
+        start: f64,
+        /// End of the shape's range.
+        end: f64,
+    },
+
     /// A piece of a composite whose own range or ends are unusable.
     #[error("piece {piece}: parameter runs from {from} to {to}, expected the start to be less than the end")]
     PieceRange {

@@ -2,8 +2,10 @@
 //!
 //! A [`Contour`] is the border of a solid, travelled with the SOLID ON ITS LEFT: a point, a tangent angle `alpha` and
 //! their rates at each parameter. From that one method ([`Contour::frame`]) follow the closest point, the signed gap
-//! (positive outside the solid) and the bounds; a shape with a closed form, like the [`Parabola`], overrides them.
-//! A [`Composite`] joins pieces into one contour with convex corners and concave notches between them.
+//! (positive outside the solid) and the bounds; shapes with a closed form override them: [`Line`], [`CircularArc`],
+//! [`EllipticArc`], [`Parabola`], [`Bezier`]. A [`Graph`] and a [`Curve`] come from functions, with derivatives that are
+//! computed along with them ([`Jet`]). A shape can be [`Moved`], [`Reversed`] or [`Trimmed`], and a [`Composite`] joins
+//! pieces into one contour with convex corners and concave notches between them.
 //!
 //! The crate is geometry and nothing else: no rods, no forces, no units. Coordinates may be metres or dimensionless, as
 //! long as one scene uses one kind; angles are radians.
@@ -24,30 +26,57 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod assembly;
+mod bezier;
 mod bounds;
+mod circular_arc;
 mod closest;
 mod composite;
 mod contour;
 pub mod contract;
 mod crossing;
+mod cubic;
+mod curve;
+mod cuts;
+mod ellipse;
+mod elliptic_arc;
 mod error;
 mod frame;
+mod graph;
 mod index;
+mod jet;
 mod joint;
+mod line;
+mod motion;
+mod moved;
 mod parabola;
 mod part;
 mod piece;
 mod range;
+mod reversed;
 mod search;
+mod span;
 mod stretch;
+mod trimmed;
+mod vector;
 
+pub use bezier::Bezier;
 pub use bounds::Bounds;
+pub use circular_arc::CircularArc;
 pub use closest::Closest;
 pub use composite::Composite;
 pub use contour::Contour;
+pub use curve::Curve;
+pub use elliptic_arc::EllipticArc;
 pub use error::ContourError;
 pub use frame::Frame;
+pub use graph::Graph;
+pub use jet::{DualNum, Jet};
+pub use line::Line;
+pub use motion::Motion;
+pub use moved::Moved;
 pub use parabola::Parabola;
 pub use part::Part;
 pub use range::Range;
+pub use reversed::Reversed;
 pub use stretch::{Stretch, StretchKind};
+pub use trimmed::Trimmed;

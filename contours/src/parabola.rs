@@ -165,6 +165,10 @@ impl Contour for Parabola {
         let moved = |side: [f64; 2]| [side[0] + self.vertex[0], side[1] + self.vertex[1]];
         Bounds { min: moved(bounds.min), max: moved(bounds.max) }
     }
+    /// None: its closest points are exact on any part.
+    fn cuts(&self, _: Range) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 /// The parameter of the nearest point of the whole parabola `y = c x^2` to `(px, py)`.
