@@ -59,7 +59,7 @@ pub enum ContourError {
 
     /// A curve whose speed vanishes: it has no tangent there.
     #[error(
-        "{what} stands still at t = {t}, expected a speed that vanishes nowhere; cut it there, and move control points that coincide apart or leave the curve out"
+        "{what} stands still at t = {t}, expected a speed that vanishes nowhere; cut it there, or move apart the points that coincide"
     )]
     Standstill {
         /// Which curve.
@@ -179,6 +179,86 @@ pub enum ContourError {
         enters: f64,
         /// Where the composite would leave the piece, parameter of the piece.
         leaves: f64,
+    },
+
+    /// A number that must not be negative is.
+    #[error("{what} is {value}, expected a number not less than 0")]
+    Negative {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
+    /// Too few points for a curve.
+    #[error("{what} needs at least {needed} points, got {count}")]
+    TooFewPoints {
+        /// Which curve.
+        what: &'static str,
+        /// How many points there are.
+        count: usize,
+        /// How many it needs.
+        needed: usize,
+    },
+
+    /// A point of which a coordinate is not finite.
+    #[error("point {point} is ({x}, {y}), expected finite numbers")]
+    PointNotFinite {
+        /// Number of the point, from 1.
+        point: usize,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+    },
+
+    /// A point that does not lie apart from the one before it.
+    #[error("point {point} is ({x}, {y}), the same as the one before it; leave one of them out")]
+    RepeatedPoint {
+        /// Number of the later of the two, from 1.
+        point: usize,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+    },
+
+    /// A stored spline with a key of another kind.
+    #[error("key {key} of the spline is of another kind, expected interpolation `stroke_bezier` with its two handles")]
+    KeyKind {
+        /// Number of the key, from 1.
+        key: usize,
+    },
+
+    /// A stored spline with a number that is not finite.
+    #[error("key {key} of the spline contains {value}, expected finite numbers")]
+    KeyNotFinite {
+        /// Number of the key, from 1.
+        key: usize,
+        /// The number.
+        value: f64,
+    },
+
+    /// A stored spline whose parameters do not rise.
+    #[error("key {key} of the spline is at t = {t}, expected more than the {before} of the key before it")]
+    KeyOrder {
+        /// Number of the key, from 1.
+        key: usize,
+        /// Its parameter.
+        t: f64,
+        /// The parameter of the key before it.
+        before: f64,
+    },
+
+    /// A stored spline with a corner.
+    #[error(
+        "the spline turns by {turn} rad at its key {key}, expected both handles on one line through the point; make it two splines with a corner"
+    )]
+    Kink {
+        /// Number of the key, from 1.
+        key: usize,
+        /// The angle by which the direction jumps, rad.
+        turn: f64,
     },
 }
 
