@@ -16,7 +16,7 @@
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::World;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Dim, Matrix, SMatrix, StorageMut};
 use rod_core::{Hold, Supports, walk};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
@@ -70,16 +70,25 @@ impl Quadratic {
         }
     }
 
+    /// Whether there is a Cholesky factor. The usual sizes take no memory.
     fn is_positive(&self) -> bool {
-        let mut matrix = DMatrix::zeros(self.size, self.size);
+        match self.size {
+            8 => self.fill(SMatrix::<f64, 8, 8>::zeros()).cholesky().is_some(),
+            10 => self.fill(SMatrix::<f64, 10, 10>::zeros()).cholesky().is_some(),
+            12 => self.fill(SMatrix::<f64, 12, 12>::zeros()).cholesky().is_some(),
+            size => self.fill(DMatrix::zeros(size, size)).cholesky().is_some(),
+        }
+    }
+
+    /// The lower triangle, which is all that is read, in a matrix.
+    fn fill<D: Dim, S: StorageMut<f64, D, D>>(&self, mut matrix: Matrix<f64, D, D, S>) -> Matrix<f64, D, D, S> {
         let mut entries = self.lower.iter();
         for i in 0..self.size {
             for (j, entry) in entries.by_ref().take(i + 1).enumerate() {
                 matrix[(i, j)] = *entry;
             }
         }
-        // reads the lower triangle alone
-        matrix.cholesky().is_some()
+        matrix
     }
 }
 
