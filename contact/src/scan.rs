@@ -1,5 +1,6 @@
 //! The gap between the whole rod and the contour: smallest value, and where the rod goes through.
 
+use crate::arc::Arc;
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
@@ -11,9 +12,6 @@ use std::f64::consts::PI;
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
 const SPACING: f64 = 1.0 / 32.0;
-
-/// Nodes between which a box is put around the rod to see what is near.
-const BOXED: usize = 4;
 
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
@@ -46,10 +44,11 @@ pub(crate) struct Scan {
     pub clamp_inside: bool,
 }
 
+/// A point of the rod that is looked at.
 #[derive(Clone, Copy, Debug)]
-struct Node {
-    s: f64,
-    at: Section,
+pub(crate) struct Node {
+    pub s: f64,
+    pub at: Section,
     span: usize,
     /// The contact that is here.
     contact: Option<usize>,
@@ -63,6 +62,10 @@ struct Sight {
     left: f64,
     right: f64,
     interior: bool,
+    /// Whether the part's own contact is here.
+    contact: bool,
+    /// On a straight part the slope of the gap to the line that it is a part of.
+    line: Option<f64>,
 }
 
 /// A part of a contour and the nodes of the rod (first, last) that are near it.
@@ -101,27 +104,26 @@ impl Scanner {
 
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
     fn look_around(&mut self, world: &World<'_>, least: f64) {
-        let Self { nodes, near } = self;
-        near.clear();
-        let last = nodes.len() - 1;
+        self.near.clear();
+        let last = self.nodes.len() - 1;
         if world.is_small() {
-            world.parts_near(Bounds::ALL, |part| near.push(Near { part, first: 0, last }));
+            world.parts_near(Bounds::ALL, |part| self.near.push(Near { part, first: 0, last }));
             return;
         }
         // as far as it could be to what is nearest, or as deep as it could have gone in
-        let gap = least_gap(world, nodes);
-        let reach = if gap < 0.0 { -2.0 * gap } else { gap.min(least) };
-        for first in (0..last).step_by(BOXED) {
-            let last = (first + BOXED).min(last);
-            let group = &nodes[first..=last];
-            let ends = group.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y));
-            // An arc leaves its chord by no more than half its length, and by less where it is nearly straight. At its
-            // ends the curvature is within a few times of what it is between them.
-            let length = group.windows(2).map(|pair| pair[1].s - pair[0].s).fold(0.0, f64::max);
-            let kappa = group.iter().map(|node| node.at.kappa.abs()).fold(0.0, f64::max);
-            let sagitta = length * (0.5_f64).min(0.5 * length * (1.0 + kappa));
-            world.parts_near(ends.grown(sagitta + reach), |part| near.push(Near { part, first, last }));
+        let reach = |gap: f64| if gap < 0.0 { -2.0 * gap } else { gap };
+        if least > 0.0 {
+            let gap = least_gap(world, self.nodes.iter());
+            self.look_within(world, reach(gap));
+        } else {
+            self.look_within(world, 0.0);
+            let gap = least_gap(world, self.near.iter().flat_map(|near| &self.nodes[near.first..=near.last]));
+            if gap < -GAP_TOLERANCE {
+                self.near.clear();
+                self.look_within(world, reach(gap));
+            }
         }
+        let near = &mut self.near;
         // one entry a part, in the order of the contours
         near.sort_unstable_by(|a, b| {
             let by_start = a.part.range.from.total_cmp(&b.part.range.from);
@@ -134,6 +136,19 @@ impl Scanner {
             }
             same
         });
+    }
+
+    /// Lists the parts that each interval between two nodes could be nearer to than `reach`.
+    fn look_within(&mut self, world: &World<'_>, reach: f64) {
+        let Self { nodes, near } = self;
+        for (first, pair) in nodes.windows(2).enumerate() {
+            let arc = Arc::new(&pair[0], &pair[1]);
+            world.parts_near(arc.bounds().grown(reach), |part| {
+                if arc.comes_near(&world.bounds(part), reach) {
+                    near.push(Near { part, first, last: first + 1 });
+                }
+            });
+        }
     }
 
     /// Only the tip can get into a notch, and only behind both its pieces: a step that went so far was too long.
@@ -260,7 +275,14 @@ impl Scanner {
             let foot = world.foot_in(part, node.at.x, node.at.y);
             let mut sight = see(world, node, &foot, configuration, &part);
             if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
-                sight = Sight { gap: -sight.gap, left: f64::NAN, right: f64::NAN, interior: false };
+                sight = Sight {
+                    gap: -sight.gap,
+                    left: f64::NAN,
+                    right: f64::NAN,
+                    interior: false,
+                    contact: false,
+                    line: None,
+                };
             }
             if sight.interior {
                 found.min_gap = found.min_gap.min(sight.gap);
@@ -270,10 +292,20 @@ impl Scanner {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
-                // a straight rod lies on a straight edge by the corners at its ends
-                let flat = foot.curvature == 0.0 && last_node.at.kappa.abs().max(node.at.kappa.abs()) < PARALLEL;
-                if last.right < 0.0 && sight.left >= 0.0 && matters && !flat {
-                    self.search(world, spans, part, (last_node, node), (last.right, sight.left), found);
+                // What passes by an end of a straight part passes by the corner there; what meets it between its ends is
+                // parallel to it there, and curved: a straight rod lies on a straight edge by the corners.
+                let own = last.contact || sight.contact;
+                let slopes = match (last.line, sight.line) {
+                    (Some(_), Some(_)) if last_node.at.kappa.abs().max(node.at.kappa.abs()) < PARALLEL => None,
+                    (Some(right), Some(left)) if !own => Some((right, left, true)),
+                    _ => Some((last.right, sight.left, false)),
+                };
+                if let Some((right, left, line)) = slopes
+                    && right < 0.0
+                    && left >= 0.0
+                    && matters
+                {
+                    self.search(world, spans, part, (last_node, node), (right, left, line), found);
                 }
             }
             let at_end = i + 1 == self.nodes.len();
@@ -299,14 +331,15 @@ impl Scanner {
         spans: &[Span],
         part: Part,
         nodes: (&Node, &Node),
-        slopes: (f64, f64),
+        slopes: (f64, f64, bool),
         found: &mut Scan,
     ) {
         let span = &spans[nodes.0.span];
         let look = |s: f64| {
             let at = advance(&span.start, span.a, span.b, s - span.s);
             let foot = world.foot_in(part, at.x, at.y);
-            (slope(&at, &foot), at, foot)
+            let slope = if slopes.2 { -(at.phi - foot.alpha).sin() } else { slope(&at, &foot) };
+            (slope, at, foot)
         };
         // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of s give all of its own
         let (mut lo, mut hi) = ((nodes.0.s, slopes.0), (nodes.1.s, slopes.1));
@@ -360,14 +393,14 @@ fn pass(spans: &[Span], nodes: (&Node, &Node), point: (f64, f64), before: f64, a
 }
 
 /// An upper bound of the smallest gap: that of the nodes.
-fn least_gap(world: &World<'_>, nodes: &[Node]) -> f64 {
+fn least_gap<'n>(world: &World<'_>, nodes: impl Iterator<Item = &'n Node>) -> f64 {
     let (mut least, mut safe) = (f64::INFINITY, f64::NEG_INFINITY);
     for node in nodes {
         // the gap changes no faster than the rod runs
         if node.s >= safe {
             let gap = world.gap(node.at.x, node.at.y);
             least = gap.min(least);
-            safe = node.s + gap - least;
+            safe = node.s + gap - least.max(0.0);
         }
     }
     least
@@ -392,8 +425,9 @@ fn is_square(at: &Section, foot: &Foot) -> bool {
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {
     // beyond an end the sign is that of the tangent there, and says nothing
     let gap = if foot.interior { foot.gap } else { foot.gap.abs() };
-    let mut sight = Sight { gap, left: slope(&node.at, foot), right: 0.0, interior: foot.interior };
-    sight.right = sight.left;
+    let line = (foot.curvature == 0.0).then(|| -(node.at.phi - foot.alpha).sin());
+    let left = slope(&node.at, foot);
+    let mut sight = Sight { gap, left, right: left, interior: foot.interior, contact: false, line };
     if let Some(j) = node.contact
         && configuration.contacts[j].stretch == part.stretch
         && world.holds(part, configuration.t(j))
@@ -402,7 +436,7 @@ fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuratio
         // A contact is a minimum of the gap itself, unless the rod is more curved towards the solid than the contour.
         let bend = if foot.interior { foot.curvature - node.at.kappa * offset.cos() } else { 1.0 };
         let sign = if bend >= 0.0 || bend.is_nan() { 1.0 } else { -1.0 };
-        (sight.left, sight.right) = (-sign, sign);
+        (sight.left, sight.right, sight.contact) = (-sign, sign, true);
     }
     sight
 }

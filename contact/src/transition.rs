@@ -32,6 +32,9 @@ pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 /// Arc lengths and angles beyond their limits by this are on them.
 const LIMIT_TOLERANCE: f64 = 1e-13;
 
+/// Parameters beyond the end of a stretch by no more than this are at its end.
+const BEYOND_END: f64 = 1e-12;
+
 /// Two contacts this near to each other in a notch have met there.
 const MEETING: f64 = 1e-7;
 
@@ -169,6 +172,11 @@ impl Break {
             Self::Touch(crossing) => {
                 let (start, j) = with_contact(broken, &crossing);
                 let after = on(corrector, start, 3 * j + 1, 0.0)?;
+                let (range, t) = (corrector.world.range(crossing.stretch), after.t(j));
+                if (t - range.clamp(t)).abs() > BEYOND_END * (1.0 + t.abs()) {
+                    // it has gone so deep that it is a neighbour that it met first
+                    return Err(NoTransition::NotLocated);
+                }
                 let mut before = after.clone();
                 before.remove(j);
                 let kind = if before.count() == 0 { EventKind::FirstContact } else { EventKind::Touch };

@@ -157,6 +157,14 @@ impl<'a> World<'a> {
         }
     }
 
+    /// A box around a part.
+    pub fn bounds(&self, part: Part) -> Bounds {
+        let (object, own) = self.at(part.stretch);
+        let Bounds { min, max } = object.own_bounds_in(own, part.range);
+        let scaled = |side: [f64; 2]| side.map(|side| side / self.length);
+        Bounds { min: scaled(min), max: scaled(max) }
+    }
+
     /// Signed distance of a point from the nearest object: negative inside any of them.
     pub fn gap(&self, x: f64, y: f64) -> f64 {
         let gaps = self.objects.iter().map(|object| object.gap(x * self.length, y * self.length));
