@@ -117,7 +117,9 @@ impl Scanner {
             self.look_within(world, reach(gap));
         } else {
             self.look_within(world, 0.0);
-            let gap = least_gap(world, self.near.iter().flat_map(|near| &self.nodes[near.first..=near.last]));
+            // as they come, interval after interval
+            let intervals = self.near.chunk_by(|a, b| a.first == b.first).filter_map(|near| near.first());
+            let gap = least_gap(world, intervals.flat_map(|near| &self.nodes[near.first..=near.last]));
             if gap < -GAP_TOLERANCE {
                 self.near.clear();
                 self.look_within(world, reach(gap));
