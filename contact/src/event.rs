@@ -20,6 +20,8 @@ pub enum EventKind {
     TangentToTip,
     /// A contact runs over the border of a piece: onto the next one, a corner or a notch.
     Piece,
+    /// The tip slips over a convex corner, by less than 0.05 lengths of the rod, and rests on the piece beyond.
+    Slip,
     /// The equilibrium ends and the rod jumps to another one.
     Snap,
     /// The equilibrium ends and the rod jumps free.
@@ -35,6 +37,7 @@ impl fmt::Display for EventKind {
             Self::TipToTangent => "tip-to-tangent",
             Self::TangentToTip => "tangent-to-tip",
             Self::Piece => "piece",
+            Self::Slip => "slip",
             Self::Snap => "snap",
             Self::SnapOff => "snap-off",
         })
@@ -46,7 +49,7 @@ impl fmt::Display for EventKind {
 pub struct Event {
     /// What happened.
     pub kind: EventKind,
-    /// The last state before. At a snap it is the one at the fold; otherwise it equals `after` up to the contact of zero
+    /// The last state before. At a snap or slip it is the one where the equilibrium ended; otherwise it equals `after` up to the contact of zero
     /// force that comes or goes.
     pub before: State,
     /// The first state after, at the same pose of the clamp; after a snap whose new branch starts only beyond the fold, where

@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
 use crate::scan::{GAP_TOLERANCE, Scanner};
 use crate::stability::is_stable;
-use crate::transition::{Break, as_tangent, as_tip, breaks, onto_neighbour, with_contact};
+use crate::transition::{Break, as_tangent, as_tip, beyond_corner, breaks, onto_neighbour, with_contact};
 use crate::world::World;
 
 /// Most repairs of one guess.
@@ -70,6 +70,12 @@ fn badness(b: &Break, configuration: &Configuration) -> f64 {
 fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -> Configuration {
     match b {
         Break::Release(j) => configuration.remove(j),
+        Break::Border(j, upwards) if configuration.is_tip(j) => {
+            match slid(&configuration, j, upwards, &corrector.world) {
+                Some(slid) => configuration = slid,
+                None => configuration.remove(j),
+            }
+        }
         Break::Border(j, upwards) => match corrector.world.neighbour(configuration.contacts[j].stretch, upwards) {
             Some(next) => configuration = onto_neighbour(configuration, j, upwards, next, &corrector.world),
             None => configuration.remove(j),
@@ -80,4 +86,12 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
         Break::Touch(crossing) => configuration = with_contact(&configuration, &crossing).0,
     }
     configuration
+}
+
+/// The tip moved over an end of its piece: onto the next stretch, or over the corner there onto the piece beyond.
+fn slid(configuration: &Configuration, j: usize, upwards: bool, world: &World<'_>) -> Option<Configuration> {
+    beyond_corner(configuration.clone(), world).or_else(|| {
+        let next = world.neighbour(configuration.contacts[j].stretch, upwards)?;
+        Some(onto_neighbour(configuration.clone(), j, upwards, next, world))
+    })
 }

@@ -27,6 +27,7 @@
 //! This crate knows nothing of sensors, files or reconstruction.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod arc;
 mod branch;
 mod certify;
 mod chain;

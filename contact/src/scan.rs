@@ -1,18 +1,23 @@
 //! The gap between the whole rod and the contour: smallest value, and where the rod goes through.
 
+use crate::arc::Arc;
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
-use rod_contours::{Bounds, Part};
+use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, advance, walk};
 use smallvec::SmallVec;
+use std::f64::consts::PI;
 
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
 const SPACING: f64 = 1.0 / 32.0;
 
-/// Nodes between which a box is put around the rod to see what is near.
-const BOXED: usize = 4;
+/// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
+const DEEPEST: f64 = 0.1;
+
+/// Curvatures, angles and distances off a normal that are what rounding leaves of none.
+const PARALLEL: f64 = 1e-9;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
@@ -39,10 +44,11 @@ pub(crate) struct Scan {
     pub clamp_inside: bool,
 }
 
+/// A point of the rod that is looked at.
 #[derive(Clone, Copy, Debug)]
-struct Node {
-    s: f64,
-    at: Section,
+pub(crate) struct Node {
+    pub s: f64,
+    pub at: Section,
     span: usize,
     /// The contact that is here.
     contact: Option<usize>,
@@ -56,6 +62,10 @@ struct Sight {
     left: f64,
     right: f64,
     interior: bool,
+    /// Whether the part's own contact is here.
+    contact: bool,
+    /// On a straight part the slope of the gap to the line that it is a part of.
+    line: Option<f64>,
 }
 
 /// A part of a contour and the nodes of the rod (first, last) that are near it.
@@ -83,10 +93,10 @@ impl Scanner {
         let mut found = Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false };
         self.look_around(world, least);
         for near in &self.near {
-            if world.is_notch(near.part.stretch) {
-                self.scan_notch(world, configuration, near.part, &mut found);
-            } else {
-                self.scan_part(world, configuration, &spans, *near, &mut found);
+            match world.kind(near.part.stretch) {
+                StretchKind::Piece(_) => self.scan_part(world, configuration, &spans, *near, &mut found),
+                StretchKind::Corner { .. } => self.scan_corner(world, configuration, &spans, *near, &mut found),
+                StretchKind::Notch { .. } => self.scan_notch(world, configuration, near.part, &mut found),
             }
         }
         found
@@ -94,25 +104,28 @@ impl Scanner {
 
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
     fn look_around(&mut self, world: &World<'_>, least: f64) {
-        let Self { nodes, near } = self;
-        near.clear();
-        let last = nodes.len() - 1;
+        self.near.clear();
+        let last = self.nodes.len() - 1;
         if world.is_small() {
-            world.parts_near(Bounds::ALL, |part| near.push(Near { part, first: 0, last }));
+            world.parts_near(Bounds::ALL, |part| self.near.push(Near { part, first: 0, last }));
             return;
         }
-        let reach = if least == 0.0 { 0.0 } else { least_gap(world, nodes) };
-        for first in (0..last).step_by(BOXED) {
-            let last = (first + BOXED).min(last);
-            let group = &nodes[first..=last];
-            let ends = group.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y));
-            // An arc leaves its chord by no more than half its length, and by less where it is nearly straight. At its
-            // ends the curvature is within a few times of what it is between them.
-            let length = group.windows(2).map(|pair| pair[1].s - pair[0].s).fold(0.0, f64::max);
-            let kappa = group.iter().map(|node| node.at.kappa.abs()).fold(0.0, f64::max);
-            let sagitta = length * (0.5_f64).min(0.5 * length * (1.0 + kappa));
-            world.parts_near(ends.grown(sagitta + reach), |part| near.push(Near { part, first, last }));
+        // as far as it could be to what is nearest, or as deep as it could have gone in
+        let reach = |gap: f64| if gap < 0.0 { -2.0 * gap } else { gap };
+        if least > 0.0 {
+            let gap = least_gap(world, self.nodes.iter());
+            self.look_within(world, reach(gap));
+        } else {
+            self.look_within(world, 0.0);
+            // as they come, interval after interval
+            let intervals = self.near.chunk_by(|a, b| a.first == b.first).filter_map(|near| near.first());
+            let gap = least_gap(world, intervals.flat_map(|near| &self.nodes[near.first..=near.last]));
+            if gap < -GAP_TOLERANCE {
+                self.near.clear();
+                self.look_within(world, reach(gap));
+            }
         }
+        let near = &mut self.near;
         // one entry a part, in the order of the contours
         near.sort_unstable_by(|a, b| {
             let by_start = a.part.range.from.total_cmp(&b.part.range.from);
@@ -125,6 +138,19 @@ impl Scanner {
             }
             same
         });
+    }
+
+    /// Lists the parts that each interval between two nodes could be nearer to than `reach`.
+    fn look_within(&mut self, world: &World<'_>, reach: f64) {
+        let Self { nodes, near } = self;
+        for (first, pair) in nodes.windows(2).enumerate() {
+            let arc = Arc::new(&pair[0], &pair[1]);
+            world.parts_near(arc.bounds().grown(reach), |part| {
+                if arc.comes_near(&world.bounds(part), reach) {
+                    near.push(Near { part, first, last: first + 1 });
+                }
+            });
+        }
     }
 
     /// Only the tip can get into a notch, and only behind both its pieces: a step that went so far was too long.
@@ -161,6 +187,80 @@ impl Scanner {
         }
     }
 
+    /// A rod lies on a corner with a slope angle between those of the two pieces. So it goes through where it runs by the
+    /// vertex in such a direction, on the side of the solid, and the solid is there: from a sharp corner it may have cut off the
+    /// tip without coming nearer to it than outside.
+    fn scan_corner(
+        &self,
+        world: &World<'_>,
+        configuration: &Configuration,
+        spans: &[Span],
+        near: Near,
+        found: &mut Scan,
+    ) {
+        let Near { part, first, last } = near;
+        let range = world.range(part.stretch);
+        let vertex = world.support(part.stretch, 0.5 * (range.from + range.to));
+        let (half, alpha) = (0.5 * range.length(), vertex.alpha);
+        let mut before: Option<(usize, f64)> = None;
+        let mut i = first;
+        while i <= last {
+            let node = &self.nodes[i];
+            let (dx, dy) = (node.at.x - vertex.x, node.at.y - vertex.y);
+            let distance = dx.hypot(dy);
+            if distance < found.min_gap && found.min_gap > 0.0 {
+                let foot = world.foot_in(part, node.at.x, node.at.y);
+                if foot.interior && foot.gap > 0.0 {
+                    found.min_gap = foot.gap;
+                }
+            }
+            let (sin, cos) = node.at.phi.sin_cos();
+            let ahead = dx * cos + dy * sin;
+            let own = node.contact.is_some_and(|j| configuration.contacts[j].stretch == part.stretch);
+            if let Some((_, was)) = before.filter(|(k, _)| k + 1 == i && !own)
+                && was < 0.0
+                && ahead >= 0.0
+            {
+                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (vertex.x, vertex.y), was, ahead);
+                let lean = (at.phi - alpha) - PI * ((at.phi - alpha) / PI).round();
+                let (sin, cos) = (alpha + lean).sin_cos();
+                let gap = (at.x - vertex.x) * sin - (at.y - vertex.y) * cos;
+                if lean.abs() <= half + PARALLEL {
+                    // where the rod crosses the line that halves the solid's angle
+                    let along = -gap / lean.cos().max(PARALLEL);
+                    let (sin, cos) = alpha.sin_cos();
+                    let cut = (vertex.x - along * sin, vertex.y + along * cos);
+                    let (sin, cos) = at.phi.sin_cos();
+                    let s_cut = s + (cut.0 - at.x) * cos + (cut.1 - at.y) * sin;
+                    let on_rod = (0.0..=1.0).contains(&s_cut);
+                    if gap > -GAP_TOLERANCE {
+                        found.min_gap = found.min_gap.min(gap);
+                    } else if gap > -DEEPEST && on_rod && world.gap(cut.0, cut.1) < GAP_TOLERANCE {
+                        found.min_gap = found.min_gap.min(gap);
+                        let t = range.clamp(range.from + half + lean);
+                        let foot = Foot {
+                            t,
+                            gap,
+                            alpha: alpha + lean,
+                            curvature: f64::INFINITY,
+                            x: vertex.x,
+                            y: vertex.y,
+                            interior: true,
+                        };
+                        let stretch = part.stretch;
+                        found.crossings.push(Crossing { stretch, s, phi: at.phi, foot, tip: false });
+                    }
+                }
+            }
+            before = (!own).then_some((i, ahead));
+            let safe = node.s + (distance - found.min_gap.clamp(DEEPEST, 1.0)).max(0.0);
+            i += 1;
+            while i < last && nodes_before(&self.nodes, i, safe) {
+                i += 1;
+            }
+        }
+    }
+
     fn scan_part(
         &self,
         world: &World<'_>,
@@ -177,7 +277,14 @@ impl Scanner {
             let foot = world.foot_in(part, node.at.x, node.at.y);
             let mut sight = see(world, node, &foot, configuration, &part);
             if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
-                sight = Sight { gap: -sight.gap, left: f64::NAN, right: f64::NAN, interior: false };
+                sight = Sight {
+                    gap: -sight.gap,
+                    left: f64::NAN,
+                    right: f64::NAN,
+                    interior: false,
+                    contact: false,
+                    line: None,
+                };
             }
             if sight.interior {
                 found.min_gap = found.min_gap.min(sight.gap);
@@ -187,8 +294,20 @@ impl Scanner {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
-                if last.right < 0.0 && sight.left >= 0.0 && matters {
-                    self.search(world, spans, part, (last_node, node), (last.right, sight.left), found);
+                // What passes by an end of a straight part passes by the corner there; what meets it between its ends is
+                // parallel to it there, and curved: a straight rod lies on a straight edge by the corners.
+                let own = last.contact || sight.contact;
+                let slopes = match (last.line, sight.line) {
+                    (Some(_), Some(_)) if last_node.at.kappa.abs().max(node.at.kappa.abs()) < PARALLEL => None,
+                    (Some(right), Some(left)) if !own => Some((right, left, true)),
+                    _ => Some((last.right, sight.left, false)),
+                };
+                if let Some((right, left, line)) = slopes
+                    && right < 0.0
+                    && left >= 0.0
+                    && matters
+                {
+                    self.search(world, spans, part, (last_node, node), (right, left, line), found);
                 }
             }
             let at_end = i + 1 == self.nodes.len();
@@ -214,14 +333,15 @@ impl Scanner {
         spans: &[Span],
         part: Part,
         nodes: (&Node, &Node),
-        slopes: (f64, f64),
+        slopes: (f64, f64, bool),
         found: &mut Scan,
     ) {
         let span = &spans[nodes.0.span];
         let look = |s: f64| {
             let at = advance(&span.start, span.a, span.b, s - span.s);
             let foot = world.foot_in(part, at.x, at.y);
-            (slope(&at, &foot), at, foot)
+            let slope = if slopes.2 { -(at.phi - foot.alpha).sin() } else { slope(&at, &foot) };
+            (slope, at, foot)
         };
         // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of s give all of its own
         let (mut lo, mut hi) = ((nodes.0.s, slopes.0), (nodes.1.s, slopes.1));
@@ -242,7 +362,7 @@ impl Scanner {
             best = look(s);
         }
         let (_, at, foot) = best;
-        if foot.interior && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
+        if is_square(&at, &foot) && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
             found.min_gap = found.min_gap.min(foot.gap);
             if foot.gap < -GAP_TOLERANCE {
                 found.crossings.push(Crossing { stretch: part.stretch, s, phi: at.phi, foot, tip: false });
@@ -251,21 +371,44 @@ impl Scanner {
     }
 }
 
+fn nodes_before(nodes: &[Node], i: usize, safe: f64) -> bool {
+    nodes[i].s < safe && nodes[i + 1].s < safe
+}
+
+/// Where between two nodes the rod runs by a point: the arc length, and the section; (r - point) . tangent is given at both.
+fn pass(spans: &[Span], nodes: (&Node, &Node), point: (f64, f64), before: f64, after: f64) -> (f64, Section) {
+    let span = &spans[nodes.0.span];
+    let mut s = nodes.0.s + (nodes.1.s - nodes.0.s) * before / (before - after);
+    let mut at = span.start;
+    for _ in 0..6 {
+        at = advance(&span.start, span.a, span.b, s - span.s);
+        let (sin, cos) = at.phi.sin_cos();
+        let (dx, dy) = (at.x - point.0, at.y - point.1);
+        let rate = (1.0 + at.kappa * (dy * cos - dx * sin)).max(0.1);
+        let step = -(dx * cos + dy * sin) / rate;
+        if step.abs() < 1e-15 {
+            break;
+        }
+        s = (s + step).clamp(nodes.0.s, nodes.1.s);
+    }
+    (s, at)
+}
+
 /// An upper bound of the smallest gap: that of the nodes.
-fn least_gap(world: &World<'_>, nodes: &[Node]) -> f64 {
+fn least_gap<'n>(world: &World<'_>, nodes: impl Iterator<Item = &'n Node>) -> f64 {
     let (mut least, mut safe) = (f64::INFINITY, f64::NEG_INFINITY);
     for node in nodes {
         // the gap changes no faster than the rod runs
         if node.s >= safe {
             let gap = world.gap(node.at.x, node.at.y);
-            least = gap.max(0.0).min(least);
-            safe = node.s + gap - least;
+            least = gap.min(least);
+            safe = node.s + gap - least.max(0.0);
         }
     }
     least
 }
 
-/// Slope of the gap along the rod: of the distance to the foot where that is an end of the stretch.
+/// Slope of the gap along the rod: of the distance to the foot where that is an end of the part.
 fn slope(at: &Section, foot: &Foot) -> f64 {
     if foot.interior {
         return -(at.phi - foot.alpha).sin();
@@ -275,9 +418,18 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
 }
 
+/// Whether the foot is a perpendicular one; at the end of a part, where rounding decides, it is one for its neighbour too.
+fn is_square(at: &Section, foot: &Foot) -> bool {
+    let (sin, cos) = foot.alpha.sin_cos();
+    foot.interior || ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL
+}
+
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {
-    let mut sight = Sight { gap: foot.gap, left: slope(&node.at, foot), right: 0.0, interior: foot.interior };
-    sight.right = sight.left;
+    // beyond an end the sign is that of the tangent there, and says nothing
+    let gap = if foot.interior { foot.gap } else { foot.gap.abs() };
+    let line = (foot.curvature == 0.0).then(|| -(node.at.phi - foot.alpha).sin());
+    let left = slope(&node.at, foot);
+    let mut sight = Sight { gap, left, right: left, interior: foot.interior, contact: false, line };
     if let Some(j) = node.contact
         && configuration.contacts[j].stretch == part.stretch
         && world.holds(part, configuration.t(j))
@@ -286,7 +438,7 @@ fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuratio
         // A contact is a minimum of the gap itself, unless the rod is more curved towards the solid than the contour.
         let bend = if foot.interior { foot.curvature - node.at.kappa * offset.cos() } else { 1.0 };
         let sign = if bend >= 0.0 || bend.is_nan() { 1.0 } else { -1.0 };
-        (sight.left, sight.right) = (-sign, sign);
+        (sight.left, sight.right, sight.contact) = (-sign, sign, true);
     }
     sight
 }

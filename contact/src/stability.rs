@@ -9,13 +9,14 @@
 //! where (A, B) is the force on the segment and g_j the second-order change of gap j: k u^2 at the tip, and
 //! (2 w eta u - w kappa' u^2 - v eta^2) / (w - v kappa') where the rod is tangential, with u the shift of the rod's point
 //! along the contour, kappa' the rod's curvature in the contour's sense, k = w / v the contour's curvature (dr/dt = v,
-//! d alpha/dt = w). The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first modes of a free
+//! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
+//! -|eta|^(3/2), so that eta is held. The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first modes of a free
 //! cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a Cholesky factor.
 
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::world::World;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Dim, Matrix, SMatrix, StorageMut};
 use rod_core::{Hold, Supports, walk};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
@@ -69,16 +70,25 @@ impl Quadratic {
         }
     }
 
+    /// Whether there is a Cholesky factor. The usual sizes take no memory.
     fn is_positive(&self) -> bool {
-        let mut matrix = DMatrix::zeros(self.size, self.size);
+        match self.size {
+            8 => self.fill(SMatrix::<f64, 8, 8>::zeros()).cholesky().is_some(),
+            10 => self.fill(SMatrix::<f64, 10, 10>::zeros()).cholesky().is_some(),
+            12 => self.fill(SMatrix::<f64, 12, 12>::zeros()).cholesky().is_some(),
+            size => self.fill(DMatrix::zeros(size, size)).cholesky().is_some(),
+        }
+    }
+
+    /// The lower triangle, which is all that is read, in a matrix.
+    fn fill<D: Dim, S: StorageMut<f64, D, D>>(&self, mut matrix: Matrix<f64, D, D, S>) -> Matrix<f64, D, D, S> {
         let mut entries = self.lower.iter();
         for i in 0..self.size {
             for (j, entry) in entries.by_ref().take(i + 1).enumerate() {
                 matrix[(i, j)] = *entry;
             }
         }
-        // reads the lower triangle alone
-        matrix.cholesky().is_some()
+        matrix
     }
 }
 
@@ -110,10 +120,17 @@ pub(crate) fn wraps(world: &World<'_>, path: &ClampPath, configuration: &Configu
     configuration.contacts.iter().zip(&spans[1..]).enumerate().any(|(j, (contact, span))| match contact.hold {
         Hold::Tangent { offset } => {
             let support = supports.support(j, configuration.t(j));
-            support.turning <= support.speed * offset.cos() * span.start.kappa
+            let kappa = offset.cos() * span.start.kappa;
+            let last = j + 1 == configuration.count();
+            support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa, last)
         }
         Hold::Tip => false,
     })
+}
+
+/// Whether the end of the rod, straight beyond its last contact, lies on a straight edge.
+fn lies_flat(turning: f64, kappa: f64, last: bool) -> bool {
+    last && turning == 0.0 && kappa == 0.0
 }
 
 /// Whether the second variation is positive definite.
@@ -166,13 +183,17 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
                 modes_at(configuration.s(j) * scale, &mut eta);
                 let kappa = offset.cos() * spans[j + 1].start.kappa;
                 let divisor = w - v * kappa;
+                if lies_flat(w, kappa, j + 1 == n) {
+                    q.add(PENALTY, &eta, &eta);
+                    continue;
+                }
                 if divisor <= 0.0 {
                     return false;
                 }
                 let scale = f / divisor;
                 q.add(-2.0 * scale * w, &eta, &along);
                 q.add(scale * w * kappa, &along, &along);
-                q.add(scale * v, &eta, &eta);
+                q.add((scale * v).min(PENALTY), &eta, &eta);
             }
         }
     }

@@ -33,6 +33,8 @@ const DEEPEST: f64 = 1e-9;
 const LARGEST_RESIDUAL: f64 = 1e-9;
 /// A contact this near to the clamp is at the clamp.
 const AT_CLAMP: f64 = 1e-3;
+/// Transitions this close together along the branch are one but for rounding.
+const AT_ONCE: f64 = 1e-12;
 /// Path parameter by which a new contact set is tried.
 const PROBE: f64 = 1e-6;
 const FARTHEST_PROBE: f64 = 1e-3;
@@ -151,7 +153,7 @@ impl Stepper<'_> {
         let to_go = if slope > STEEPEST { (target - tau) / slope } else { f64::INFINITY };
         // a free rod is safe as far as its gap reaches
         let free = if configuration.count() == 0 { scan.min_gap.min(1.0) / self.fastest() } else { 0.0 };
-        let reach = self.h.min(LONGEST_WAY / slope.abs()).max(free);
+        let reach = self.h.min(LONGEST_WAY / slope.abs()).min(self.to_border(from)).max(free);
         let mut land = to_go <= reach;
         let length = if land { to_go } else { reach };
         let mut next = tangent.ahead(configuration, length);
@@ -202,6 +204,18 @@ impl Stepper<'_> {
         Some((next, report, length))
     }
 
+    /// Length of a step that takes a contact over the border of its stretch for certain, but not much further: there may be
+    /// many short ones.
+    fn to_border(&self, from: &Point) -> f64 {
+        let Point { configuration, tangent, .. } = from;
+        let step = |j: usize| {
+            let (t, rate) = (configuration.t(j), tangent.direction[3 * j]);
+            let border = self.corrector.world.border(configuration.contacts[j].stretch, rate > 0.0);
+            1.5 * ((border - t) / rate).max(0.0) + PROBE
+        };
+        (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)
+    }
+
     /// The fold that follows `from` closely, if one does.
     fn fold_ahead(&mut self, from: &Point) -> Option<Configuration> {
         let Point { configuration, tangent, .. } = from;
@@ -238,13 +252,15 @@ impl Stepper<'_> {
         breaks(&self.corrector, next, scan, |b| broken.push(b));
         let slack = 1e-9 + 1e-6 * length;
         let mut first: Option<(f64, Step)> = None;
+        // A straight rod comes to lie on a straight edge everywhere at once: what holds it then is the point next to the clamp.
+        broken.sort_by(|a, b| a.s().total_cmp(&b.s()));
         for b in broken {
             let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;
             let along = transition.along;
             if !(-slack..=length + slack).contains(&along) {
                 return Err(NoTransition::NotLocated);
             }
-            if first.as_ref().is_none_or(|(least, _)| along < *least) {
+            if first.as_ref().is_none_or(|(least, _)| along < *least - AT_ONCE) {
                 first = Some((along, Step::Changed(Box::new(transition))));
             }
         }
@@ -273,9 +289,14 @@ impl Stepper<'_> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
+        // the next transition may follow closely
+        [1.0, 1e-2, 1e-4].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
+    }
+
+    fn holds_ahead(&mut self, point: &Point, way: f64) -> bool {
         let Point { configuration, tangent, .. } = point;
         // where the pose hardly moves, a small step of the branch is small enough
-        let distance = (PROBE / tangent.by_tau()).min(FARTHEST_PROBE);
+        let distance = (way / tangent.by_tau()).min(FARTHEST_PROBE);
         let mut probe = tangent.ahead(configuration, distance);
         let plane = Condition::Plane { tangent, from: &configuration.z, distance };
         if !self.corrector.correct(&mut probe, plane).status.is_solved() {

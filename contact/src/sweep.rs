@@ -11,6 +11,7 @@ use crate::path::ClampPath;
 use crate::scan::{GAP_TOLERANCE, Scanner};
 use crate::state::State;
 use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
+use crate::transition::beyond_corner;
 use crate::world::World;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
@@ -62,6 +63,8 @@ const MOST_AT_ONE_POSE: usize = 12;
 const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
 /// Bends of the straight rod that is let go into contact, radians: which way it gives is a matter of chance.
 const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
+/// Farthest way of a tip that slips over a corner; a longer one is a snap.
+const FARTHEST_SLIP: f64 = 0.05;
 /// How far back a free pose is searched from a start in contact, and how densely: rod lengths, or the angle of a path that
 /// only turns.
 const BACK: (f64, f64) = (4.0, 0.05);
@@ -186,10 +189,13 @@ impl<'a> Sweep<'a> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
     fn snap(&mut self, last: Configuration) -> Result<Point, StopReason> {
         let tau = last.tau();
+        if let Some(landed) = self.slip(&last) {
+            return Ok(self.landed(EventKind::Slip, last, landed));
+        }
         let mut beyond = None;
         for kick in KICK {
             match self.land(&last, tau, kick) {
-                Some(landed) if landed.tau() == tau => return Ok(self.landed(last, landed)),
+                Some(landed) if landed.tau() == tau => return Ok(self.jumped(last, landed)),
                 Some(landed) => beyond = beyond.or(Some(landed)),
                 None => {}
             }
@@ -197,11 +203,27 @@ impl<'a> Sweep<'a> {
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to rest in
         // the descent, but could be free, will be.
         let landed = beyond.or_else(|| self.free(tau)).ok_or(StopReason::NoLanding)?;
-        Ok(self.landed(last, landed))
+        Ok(self.jumped(last, landed))
     }
 
-    fn landed(&mut self, last: Configuration, landed: Configuration) -> Point {
+    /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
+    /// which needs no descent to find.
+    fn slip(&mut self, last: &Configuration) -> Option<Configuration> {
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        let from = corrector.world.support(last.contacts.last()?.stretch, last.t(last.count() - 1));
+        let guess = beyond_corner(last.clone(), &corrector.world)?;
+        let landed = settle(corrector, scanner, guess)?;
+        let tip = landed.count().checked_sub(1).filter(|_| landed.ends_at_tip() && landed.count() == last.count())?;
+        let to = corrector.world.support(landed.contacts[tip].stretch, landed.t(tip));
+        ((to.x - from.x).hypot(to.y - from.y) < FARTHEST_SLIP).then_some(landed)
+    }
+
+    fn jumped(&mut self, last: Configuration, landed: Configuration) -> Point {
         let kind = if landed.count() == 0 { EventKind::SnapOff } else { EventKind::Snap };
+        self.landed(kind, last, landed)
+    }
+
+    fn landed(&mut self, kind: EventKind, last: Configuration, landed: Configuration) -> Point {
         let (before, after) = (self.stepper.point(last), self.stepper.point(landed));
         self.announce(kind, &before, &after);
         self.stepper.h = FIRST_STEP;

@@ -7,6 +7,7 @@ use crate::notch::{lying_angle, merged, parted, straddles, wall_run_into};
 use crate::scan::{Crossing, Scan};
 use crate::world::World;
 use rod_core::Hold;
+use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
 /// A condition of the contact set that no longer holds.
@@ -31,6 +32,9 @@ pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 /// Arc lengths and angles beyond their limits by this are on them.
 const LIMIT_TOLERANCE: f64 = 1e-13;
 
+/// Parameters beyond the end of a stretch by no more than this are at its end.
+const BEYOND_END: f64 = 1e-12;
+
 /// Two contacts this near to each other in a notch have met there.
 const MEETING: f64 = 1e-7;
 
@@ -42,6 +46,7 @@ pub(crate) fn breaks(
     mut visit: impl FnMut(Break),
 ) {
     let n = configuration.count();
+    let mut entered: SmallVec<[Option<usize>; 4]> = SmallVec::new();
     for j in 0..n {
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
@@ -49,10 +54,10 @@ pub(crate) fn breaks(
         let range = corrector.world.range(configuration.contacts[j].stretch);
         let t = configuration.t(j);
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
-        if t > range.to + slack {
-            visit(Break::Border(j, true));
-        } else if t < range.from - slack {
-            visit(Break::Border(j, false));
+        let upwards = t > range.to + slack;
+        if upwards || t < range.from - slack {
+            entered.push(corrector.world.neighbour(configuration.contacts[j].stretch, upwards));
+            visit(Break::Border(j, upwards));
         }
     }
     let mut lying_down = None;
@@ -71,8 +76,13 @@ pub(crate) fn breaks(
             visit(Break::TangentToTip);
         }
     }
-    // a tip that has gone over goes through the contour just before it: not a touch of its own
-    for crossing in scan.crossings.iter().filter(|crossing| Some(crossing.stretch) != lying_down) {
+    // a tip that has gone over goes through the contour just before it, and a contact that has left its stretch lies on the next
+    // one: not touches of their own
+    for crossing in scan
+        .crossings
+        .iter()
+        .filter(|crossing| Some(crossing.stretch) != lying_down && !entered.contains(&Some(crossing.stretch)))
+    {
         visit(Break::Touch(*crossing));
     }
 }
@@ -106,6 +116,11 @@ pub(crate) enum NoTransition {
 }
 
 impl Break {
+    /// Arc length where the rod meets the contour anew; less than that for what concerns the contacts there are.
+    pub fn s(&self) -> f64 {
+        if let Self::Touch(crossing) = self { crossing.s } else { f64::NEG_INFINITY }
+    }
+
     /// Finds where on the branch the condition broke, starting from `broken`, a point of the branch where it has.
     pub fn locate(
         self,
@@ -157,6 +172,11 @@ impl Break {
             Self::Touch(crossing) => {
                 let (start, j) = with_contact(broken, &crossing);
                 let after = on(corrector, start, 3 * j + 1, 0.0)?;
+                let (range, t) = (corrector.world.range(crossing.stretch), after.t(j));
+                if (t - range.clamp(t)).abs() > BEYOND_END * (1.0 + t.abs()) {
+                    // it has gone so deep that it is a neighbour that it met first
+                    return Err(NoTransition::NotLocated);
+                }
                 let mut before = after.clone();
                 before.remove(j);
                 let kind = if before.count() == 0 { EventKind::FirstContact } else { EventKind::Touch };
@@ -198,6 +218,20 @@ pub(crate) fn onto_neighbour(
     configuration.contacts[j].stretch = next;
     configuration.z[3 * j] = enters;
     configuration
+}
+
+/// The tip, at an end of its piece where there is a convex corner, on the piece beyond that: on the corner itself it cannot
+/// rest.
+pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
+    let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
+    let (here, t) = (configuration.contacts[last].stretch, configuration.t(last));
+    let range = world.range(here);
+    let upwards = t - range.from > range.to - t;
+    let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
+    let beyond = world.neighbour(corner, upwards)?;
+    configuration.contacts[last].stretch = beyond;
+    configuration.z[3 * last] = world.border(beyond, !upwards);
+    Some(configuration)
 }
 
 /// The last contact, tangential at s = 1, as a contact of the tip.

@@ -47,6 +47,9 @@ impl<'a> World<'a> {
 
     /// The object of a stretch, and the number of the stretch in it.
     fn at(&self, stretch: usize) -> (&'a Composite, usize) {
+        if let [only] = self.objects {
+            return (only, stretch);
+        }
         let object = self.object(stretch);
         (&self.objects[object], stretch - self.first[object])
     }
@@ -60,6 +63,10 @@ impl<'a> World<'a> {
         matches!(self.kind(stretch), StretchKind::Notch { .. })
     }
 
+    pub fn is_corner(&self, stretch: usize) -> bool {
+        matches!(self.kind(stretch), StretchKind::Corner { .. })
+    }
+
     /// The number of the stretch of an object that is of this kind.
     pub fn find(&self, object: usize, kind: StretchKind) -> Option<usize> {
         let stretch = self.objects.get(object)?.stretches().position(|stretch| stretch.kind == kind)?;
@@ -68,14 +75,14 @@ impl<'a> World<'a> {
 
     /// Length of the contour's parameter that counts as 1 here: of pieces the rod's length, of joints, which are measured by
     /// angle, 1.
-    fn unit(&self, stretch: usize) -> f64 {
-        if matches!(self.kind(stretch), StretchKind::Piece(_)) { self.length } else { 1.0 }
+    fn unit(&self, (object, own): (&Composite, usize)) -> f64 {
+        if matches!(object.kind(own), StretchKind::Piece(_)) { self.length } else { 1.0 }
     }
 
     /// Range of a stretch in its own parameter.
     pub fn range(&self, stretch: usize) -> Range {
         let (object, own) = self.at(stretch);
-        let (range, unit) = (object.own_range(own), self.unit(stretch));
+        let (range, unit) = (object.own_range(own), self.unit((object, own)));
         Range { from: range.from / unit, to: range.to / unit }
     }
 
@@ -93,7 +100,7 @@ impl<'a> World<'a> {
 
     pub fn support(&self, stretch: usize, t: f64) -> Support {
         let (object, own) = self.at(stretch);
-        let unit = self.unit(stretch);
+        let unit = self.unit((object, own));
         let Frame { x, y, alpha, speed, turning } = object.own_frame(own, t * unit);
         Support {
             x: x / self.length,
@@ -112,7 +119,7 @@ impl<'a> World<'a> {
 
     /// Whether `t` is in a part of its stretch, or next to it but for rounding.
     pub fn holds(&self, part: &Part, t: f64) -> bool {
-        let t = t * self.unit(part.stretch);
+        let t = t * self.unit(self.at(part.stretch));
         let slack = 1e-9 * (1.0 + t.abs());
         part.range.from - slack <= t && t <= part.range.to + slack
     }
@@ -121,7 +128,7 @@ impl<'a> World<'a> {
     pub fn foot_in(&self, part: Part, x: f64, y: f64) -> Foot {
         let Part { stretch, range } = part;
         let (object, own) = self.at(stretch);
-        let unit = self.unit(stretch);
+        let unit = self.unit((object, own));
         let closest = object.own_closest_in(own, range, x * self.length, y * self.length);
         let frame = closest.frame;
         Foot {
@@ -148,6 +155,14 @@ impl<'a> World<'a> {
         for (object, first) in self.objects.iter().zip(&self.first) {
             object.parts_near(bounds, |part| visit(Part { stretch: first + part.stretch, ..part }));
         }
+    }
+
+    /// A box around a part.
+    pub fn bounds(&self, part: Part) -> Bounds {
+        let (object, own) = self.at(part.stretch);
+        let Bounds { min, max } = object.own_bounds_in(own, part.range);
+        let scaled = |side: [f64; 2]| side.map(|side| side / self.length);
+        Bounds { min: scaled(min), max: scaled(max) }
     }
 
     /// Signed distance of a point from the nearest object: negative inside any of them.

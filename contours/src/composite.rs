@@ -199,6 +199,14 @@ impl Composite {
         }
     }
 
+    /// A box that contains a part of a stretch, by the stretch's own parameter.
+    pub fn own_bounds_in(&self, stretch: usize, range: Range) -> Bounds {
+        match self.at(stretch) {
+            At::Piece(piece) => piece.bounds_in(range),
+            At::Joint(joint) => joint.bounds(),
+        }
+    }
+
     /// All parts of all stretches, in order.
     pub fn parts(&self) -> impl Iterator<Item = Part> {
         let cells = if self.cells.is_empty() { self.pieces.len() } else { self.cells.len() };
@@ -397,10 +405,7 @@ impl Contour for Composite {
         for stretch in first..=last {
             bounds = match self.at(stretch) {
                 At::Piece(piece) => bounds.union(piece.bounds_in(piece.range.within(range.shifted(-piece.offset)))),
-                At::Joint(joint) => {
-                    let vertex = joint.frame(0.0);
-                    bounds.with(vertex.x, vertex.y)
-                }
+                At::Joint(joint) => bounds.union(joint.bounds()),
             };
         }
         bounds

@@ -68,8 +68,8 @@ pub trait Contour: Send + Sync + Debug {
     /// By default the range is cut into 96 equal cells (an infinite one into 512 unequal ones, see [`Range::at`]) and
     /// in each cell where the distance turns from falling to rising the minimum is refined to rounding by a safeguarded
     /// Newton iteration on `(r - p) . tangent = 0`. A part of a finite contour gets its share of the 96 cells, at least
-    /// 2, so that a short part costs little. What this misses are two nearest points within one cell: cut such a shape
-    /// into pieces, or override the method. A point that is not finite gives a gap that is not finite.
+    /// 2, so that a short part costs little. What this misses are several nearest points within one cell: cut such a
+    /// shape into pieces, or override the method. A point that is not finite gives a gap that is not finite.
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         search::closest(self, range, x, y)
     }

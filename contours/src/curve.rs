@@ -5,8 +5,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::jet::{Jet, variable};
+use crate::search::{self, Probe};
 use crate::vector::{cross, dot};
-use crate::{Contour, ContourError, Frame, Range};
+use crate::{Closest, Contour, ContourError, Frame, Range};
 
 /// Cells of the range in which the direction is followed, as many as the default search takes.
 const CELLS: usize = 96;
@@ -127,6 +128,10 @@ impl Contour for Curve {
 
     fn range(&self) -> Range {
         self.range
+    }
+
+    fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+        search::closest_by(self, range, x, y, |t| Probe::new(t, (self.derivatives)(t), x, y))
     }
 }
 

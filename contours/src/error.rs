@@ -59,7 +59,7 @@ pub enum ContourError {
 
     /// A curve whose speed vanishes: it has no tangent there.
     #[error(
-        "{what} stands still at t = {t}, expected a speed that vanishes nowhere; cut it there, and move control points that coincide apart or leave the curve out"
+        "{what} stands still at t = {t}, expected a speed that vanishes nowhere; cut it there, or move apart the points that coincide"
     )]
     Standstill {
         /// Which curve.

@@ -4,7 +4,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::jet::{Jet, variable};
-use crate::{Contour, ContourError, Frame, Range};
+use crate::search::{self, Probe};
+use crate::{Closest, Contour, ContourError, Frame, Range};
 
 /// Parameters at which a new graph is checked, as many as the default search looks at on a finite range.
 const SAMPLES: usize = 96;
@@ -14,7 +15,7 @@ type Derivatives = dyn Fn(f64) -> [f64; 3] + Send + Sync;
 
 /// The graph `y = g(x)`, travelled to +x: the solid is above.
 ///
-/// The parameter is x. The frame is as exact as the function; closest points come from the trait's default search, of
+/// The parameter is x. The frame is as exact as the function; closest points come from the search of the trait, of
 /// which see the limits at [`Contour::closest_in`]. Iterations may ask for g a little beyond the range.
 ///
 /// ```
@@ -92,6 +93,13 @@ impl Contour for Graph {
 
     fn range(&self) -> Range {
         self.range
+    }
+
+    fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+        search::closest_by(self, range, x, y, |t| {
+            let [value, first, second] = (self.derivatives)(t);
+            Probe::new(t, [[t, value], [1.0, first], [0.0, second]], x, y)
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::{Closest, Frame, Range};
+use crate::{Bounds, Closest, Frame, Range};
 
 /// A vertex: the point stands still while alpha runs from one tangent to the other.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,11 @@ impl Joint {
     /// The angle turned, from 0.
     pub fn own_range(&self) -> Range {
         Range { from: 0.0, to: self.range.length() }
+    }
+
+    /// The vertex as a box.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::EMPTY.with(self.start.x, self.start.y)
     }
 
     pub fn frame(&self, t: f64) -> Frame {

@@ -189,7 +189,7 @@ fn nearest(c: f64, px: f64, py: f64) -> f64 {
     if !(rate > 0.0 && step.abs() <= NEAR * q) {
         // One step from q is an upper bound when the rate is positive there, q itself when the slope is; so is the
         // root of the cubic without its linear term, moved out by the root without its constant term.
-        let mut bound = (q / a).cbrt() + (-b / a).max(0.0).sqrt();
+        let mut bound = above_cube_root(q / a) + (-b / a).max(0.0).sqrt();
         if b > 0.0 {
             bound = bound.min(q / b);
         }
@@ -210,4 +210,11 @@ fn nearest(c: f64, px: f64, py: f64) -> f64 {
         }
     }
     t.copysign(px)
+}
+
+/// A number between the cube root of a positive one and 1.07 times that: a third of the exponent, to which the fraction is
+/// nearly linear, taken from the bits.
+fn above_cube_root(number: f64) -> f64 {
+    const THIRD_OF_BIAS: u64 = 0x2AA0_1000_0000_0000;
+    f64::from_bits(number.to_bits() / 3 + THIRD_OF_BIAS)
 }

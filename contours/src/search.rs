@@ -1,6 +1,7 @@
 //! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
 
-use crate::{Bounds, Closest, Contour, Frame, Range};
+use crate::vector::dot;
+use crate::{Bounds, Closest, Contour, Range};
 
 /// Cells of a finite range: 96 cells of a full circle turn by less than 4 degrees each.
 const CELLS: usize = 96;
@@ -11,41 +12,67 @@ const FEWEST: usize = 2;
 /// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
 const CELLS_INFINITE: usize = 512;
 
+/// Steps towards the extremum of the slope within a cell; one that they do not show is too flat to matter.
+const DIP_STEPS: usize = 12;
+
 /// Largest number of steps of one refinement; bisection alone reaches rounding in about 60.
 const STEPS: usize = 80;
 
 /// A sample of the contour, seen from the point whose closest point is wanted.
 #[derive(Clone, Copy)]
-struct Probe {
+pub(crate) struct Probe {
     t: f64,
-    frame: Frame,
     distance: f64,
-    /// (r - p) . tangent: the distance falls with t where this is negative.
+    /// (r - p) . dr/dt, or the same by the unit tangent: the distance falls with t where this is negative.
     slope: f64,
     /// d slope / dt.
     rate: f64,
 }
 
 impl Probe {
-    fn new<C: Contour + ?Sized>(shape: &C, t: f64, x: f64, y: f64) -> Self {
+    /// The point and its first two derivatives at `t`, seen from `(x, y)`: without alpha, whose sine and cosine would take
+    /// most of the time.
+    pub fn new(t: f64, [place, velocity, acceleration]: [[f64; 2]; 3], x: f64, y: f64) -> Self {
+        let way = [place[0] - x, place[1] - y];
+        Self {
+            t,
+            distance: way[0].hypot(way[1]),
+            slope: dot(way, velocity),
+            rate: dot(velocity, velocity) + dot(way, acceleration),
+        }
+    }
+
+    /// The same of a shape of which only the frame is known.
+    fn of<C: Contour + ?Sized>(shape: &C, t: f64, x: f64, y: f64) -> Self {
         let frame = shape.frame(t);
         let (ahead, outside) = frame.local(x, y);
-        Self { t, frame, distance: ahead.hypot(outside), slope: -ahead, rate: frame.speed + frame.turning * outside }
+        Self { t, distance: ahead.hypot(outside), slope: -ahead, rate: frame.speed + frame.turning * outside }
     }
 }
 
 /// The closest point, see [`Contour::closest_in`].
 pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f64) -> Closest {
+    closest_by(shape, range, x, y, |t| Probe::of(shape, t, x, y))
+}
+
+/// The closest point of a shape that has a cheaper way to its probes.
+pub(crate) fn closest_by<C: Contour + ?Sized>(
+    shape: &C,
+    range: Range,
+    x: f64,
+    y: f64,
+    probe: impl Fn(f64) -> Probe,
+) -> Closest {
     let cells = cells(shape.range(), range);
-    let first = Probe::new(shape, range.at(0.0), x, y);
+    let first = probe(range.at(0.0));
     // An end is a candidate where the distance grows away from it. The first sample stands in when there is no candidate
     // at all, which only numbers that are not finite and infinite ranges can bring about.
     let (mut best, mut interior) = (first, false);
     let mut left = first;
     for cell in 1..=cells {
-        let right = Probe::new(shape, range.at(cell as f64 / cells as f64), x, y);
-        if left.slope < 0.0 && right.slope >= 0.0 {
-            let foot = refine(shape, left, right, x, y);
+        let right = probe(range.at(cell as f64 / cells as f64));
+        if let Some((low, high)) = falls_then_rises(&probe, left, right) {
+            let foot = refine(&probe, low, high);
             if foot.distance < best.distance {
                 (best, interior) = (foot, foot.t < range.to);
             }
@@ -55,7 +82,7 @@ pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f
     if left.distance < best.distance {
         (best, interior) = (left, false);
     }
-    Closest::new(best.t, best.frame, interior, x, y)
+    Closest::new(best.t, shape.frame(best.t), interior, x, y)
 }
 
 /// Cells of the part in `range` of a contour whose own range is `whole`: in proportion where both are finite.
@@ -70,35 +97,72 @@ fn cells(whole: Range, range: Range) -> usize {
     }
 }
 
+/// Two probes in the cell from `left` to `right` between which the distance has a minimum, if it has one.
+///
+/// Where the slope has the same sign at both ends of the cell but tends towards 0 at both, as it does near a centre of
+/// curvature, it may change sign twice between them: its extremum is looked at, too.
+fn falls_then_rises(probe: impl Fn(f64) -> Probe, left: Probe, right: Probe) -> Option<(Probe, Probe)> {
+    let falls = left.slope < 0.0;
+    if falls != (right.slope < 0.0) {
+        return falls.then_some((left, right));
+    }
+    let sign = if falls { -1.0 } else { 1.0 };
+    let (rate_left, rate_right) = (sign * left.rate, sign * right.rate);
+    if rate_left >= 0.0 || rate_right <= 0.0 {
+        return None;
+    }
+    // The tangents of the slope at both ends meet below its extremum, unless it is bent both ways in the cell.
+    let lowest = (sign * (left.slope * rate_right - right.slope * rate_left)
+        + rate_left * rate_right * (right.t - left.t))
+        / (rate_right - rate_left);
+    if lowest > 0.0 || lowest.is_nan() {
+        return None;
+    }
+    let (mut low, mut high) = (left, right);
+    for _ in 0..DIP_STEPS {
+        let share = low.rate / (low.rate - high.rate);
+        let middle = probe(low.t + share.clamp(0.1, 0.9) * (high.t - low.t));
+        if falls != (middle.slope < 0.0) {
+            return Some(if falls { (left, middle) } else { (middle, right) });
+        }
+        if sign * middle.rate < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    None
+}
+
 /// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
-fn refine<C: Contour + ?Sized>(shape: &C, low: Probe, high: Probe, x: f64, y: f64) -> Probe {
+fn refine(probe: impl Fn(f64) -> Probe, low: Probe, high: Probe) -> Probe {
     let (mut low, mut high) = (low, high);
     let resolution = f64::EPSILON * low.t.abs().max(high.t.abs());
-    let mut probe = if -low.slope < high.slope { low } else { high };
+    let mut here = if -low.slope < high.slope { low } else { high };
     let mut step_before = high.t - low.t;
     for _ in 0..STEPS {
-        let mut step = -probe.slope / probe.rate;
-        let mut t = probe.t + step;
+        let mut step = -here.slope / here.rate;
+        let mut t = here.t + step;
         // Newton only while it stays inside and converges faster than halving would.
         if !(t > low.t && t < high.t && step.abs() <= 0.5 * step_before.abs()) {
             t = 0.5 * (low.t + high.t);
-            step = t - probe.t;
+            step = t - here.t;
         }
-        if t == probe.t {
+        if t == here.t {
             break;
         }
-        probe = Probe::new(shape, t, x, y);
-        if probe.slope < 0.0 {
-            low = probe;
+        here = probe(t);
+        if here.slope < 0.0 {
+            low = here;
         } else {
-            high = probe;
+            high = here;
         }
-        if probe.slope == 0.0 || step.abs() <= resolution || high.t - low.t <= resolution {
+        if here.slope == 0.0 || step.abs() <= resolution || high.t - low.t <= resolution {
             break;
         }
         step_before = step;
     }
-    probe
+    here
 }
 
 /// The bounds, see [`Contour::bounds_in`].

@@ -20,18 +20,7 @@ impl Spline {
     /// right angle at most, of four cubics at most.
     ///
     /// A curve that turns back by less than 1e-9 rad counts as straight.
-    ///
-    /// ```
-    /// use rod_contours::{Contour, Spline, SplineEnd};
-    ///
-    /// let wave: Vec<[f64; 2]> = (0..=30).map(|k| 0.2 * f64::from(k)).map(|x| [x, x.sin()]).collect();
-    /// let spline = Spline::through(&wave, SplineEnd::Natural)?;
-    /// let cuts = spline.cuts(spline.range());
-    /// assert!(cuts.iter().any(|&t| (spline.frame(t).x - std::f64::consts::PI).abs() < 1e-3));
-    /// assert!(cuts.len() >= 7 && cuts.is_sorted());
-    /// # Ok::<(), rod_contours::ContourError>(())
-    /// ```
-    pub fn cuts(&self, range: Range) -> Vec<f64> {
+    pub(super) fn parted(&self, range: Range) -> Vec<f64> {
         let range = self.range().within(range);
         let mut cuts = Vec::new();
         let mut from = range.from;

@@ -1,7 +1,7 @@
 //! The cubic spline: a smooth contour through given points.
 
 mod arc_length;
-mod blocks;
+mod chords;
 mod cubic;
 mod cuts;
 mod end;
@@ -19,7 +19,7 @@ pub use end::SplineEnd;
 
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
 use arc_length::lengths;
-use blocks::{Blocks, beyond};
+use chords::Chords;
 use cubic::{cross, dot};
 use keys::Keys;
 use nearest::nearest;
@@ -64,7 +64,8 @@ pub struct Spline {
     angles: Vec<f64>,
     /// Arc length up to each point.
     lengths: Vec<f64>,
-    blocks: Blocks,
+    chords: Chords,
+    bounds: Bounds,
 }
 
 impl Spline {
@@ -103,8 +104,10 @@ impl Spline {
         if !value.is_finite() {
             return Err(ContourError::NotFinite { what: "the length of the spline", value });
         }
-        let blocks = Blocks::new(count, |index| keys.cubic(index).bounds(0.0, 1.0));
-        Ok(Self { keys, angles, lengths, blocks })
+        let chords = Chords::new(count, |index| keys.cubic(index));
+        let boxes = (0..count).map(|index| keys.cubic(index).bounds(0.0, 1.0));
+        let bounds = boxes.fold(Bounds::EMPTY, |bounds, one| bounds.union(one));
+        Ok(Self { keys, angles, lengths, chords, bounds })
     }
 
     /// The cubics that share more than an end with the range, at least one.
@@ -188,35 +191,27 @@ impl Contour for Spline {
         Range { from: self.keys.knot(0), to: self.keys.knot(self.keys.len() - 1) }
     }
 
-    fn cuts(&self, range: Range) -> Vec<f64> {
-        Self::cuts(self, range)
-    }
-
-    /// The best over the cubics; those whose boxes are too far away are passed over together.
+    /// The best over the cubics; those whose chords are too far away are passed over together.
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let range = self.range().within(range);
         let (mut best, mut least) = (range.from, f64::INFINITY);
-        self.blocks.visit(self.span(range), x, y, &mut |run| {
-            for index in run {
-                let cubic = self.keys.cubic(index);
-                let ([from, to], part) = self.part(index, range);
-                if beyond(cubic.bounds(0.0, 1.0).distance(x, y), least.sqrt()) {
-                    continue;
+        let points = |index| self.keys.point(index);
+        self.chords.visit(self.span(range), [x, y], points, &mut |index| {
+            let cubic = self.keys.cubic(index);
+            let ([from, to], part) = self.part(index, range);
+            nearest(&cubic, from, to, [x, y], &mut |s, square| {
+                if square < least {
+                    least = square;
+                    best = if s == to { part.to } else { part.clamp(cubic.from + s * cubic.width) };
                 }
-                nearest(&cubic, from, to, [x, y], &mut |s, square| {
-                    if square < least {
-                        least = square;
-                        best = if s == to { part.to } else { part.clamp(cubic.from + s * cubic.width) };
-                    }
-                });
-            }
+            });
             least.sqrt()
         });
         Closest::new(best, self.frame(best), range.from < best && best < range.to, x, y)
     }
 
     fn bounds(&self) -> Bounds {
-        self.blocks.bounds()
+        self.bounds
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
@@ -225,5 +220,10 @@ impl Contour for Spline {
             let ([from, to], _) = self.part(index, range);
             bounds.union(self.keys.cubic(index).bounds(from, to))
         })
+    }
+
+    /// Besides, no arc is longer than 4 cubics.
+    fn cuts(&self, range: Range) -> Vec<f64> {
+        self.parted(range)
     }
 }

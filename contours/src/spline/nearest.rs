@@ -45,12 +45,13 @@ impl<F: FnMut(f64, f64)> Search<'_, F> {
         if changes == 0 {
             return;
         }
-        if changes == 1 {
+        // An end that is itself a root to rounding does not bracket another: that needs a closer look.
+        let bracketed = slopes[0].abs() > self.tiny && slopes[5].abs() > self.tiny;
+        if changes == 1 && bracketed {
             // One root: a minimum if the slope rises through it.
             if sign > 0.0 {
                 let secant = slopes[0] / (slopes[0] - slopes[5]);
-                let start = if secant > 0.0 && secant < 1.0 { secant } else { 0.5 };
-                let s = refine(&self.seen, from, to, from + start * (to - from));
+                let s = refine(&self.seen, from, to, from + secant * (to - from));
                 self.look_at(s);
             }
             return;
@@ -169,6 +170,19 @@ mod tests {
                     assert!(dx.hypot(dy) >= distance - 1e-15, "{cubic:?} {from} {to} {point:?}: {s} {step}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_maximum_at_the_end_does_not_hide_the_minimum() {
+        // Seen along its last normal from beyond the centre of curvature.
+        let cubic = Cubic { control: [[0.0, 0.0], [0.5, -0.2], [1.0, 0.0], [1.0, 0.3]], from: 0.0, width: 1.0 };
+        for away in [0.3, 0.5, 0.7, 0.9] {
+            let point = [1.0 - away, 0.3];
+            let grid = (0..=1000).map(|k| minus(cubic.point(f64::from(k) / 1000.0), point));
+            let least = grid.map(|way| dot(way, way).sqrt()).fold(f64::INFINITY, f64::min);
+            let (_, distance) = best(&cubic, 0.0, 1.0, point);
+            assert!(distance <= least && distance > least - 1e-5, "{away}: {distance} {least}");
         }
     }
 
