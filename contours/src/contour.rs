@@ -16,7 +16,8 @@ use crate::{Bounds, Closest, Frame, Range, cuts, search};
 /// Write [`frame`](Self::frame), and [`range`](Self::range) unless it is 0 to 1. Let `frame` continue smoothly a little
 /// beyond the range, since iterations step there. Override [`closest_in`](Self::closest_in) and
 /// [`bounds_in`](Self::bounds_in) where the shape has a closed form; the other methods call these two. Then put the
-/// shape through [`contract::check`](crate::contract::check), which tests these lines under the same numbers:
+/// shape through [`contract::check`](crate::contract::check), which tests these lines under the same numbers
+/// (`docs/add-a-shape.md` in the repository goes all the way, with a package to copy):
 ///
 /// 1. The frame is finite everywhere on the range.
 /// 2. `dr/dt = speed (cos alpha, sin alpha)`.
