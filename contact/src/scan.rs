@@ -362,7 +362,9 @@ impl Scanner {
             best = look(s);
         }
         let (_, at, foot) = best;
-        if is_square(&at, &foot) && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y)) {
+        if is_square(world, part.stretch, &at, &foot)
+            && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y))
+        {
             found.min_gap = found.min_gap.min(foot.gap);
             if foot.gap < -GAP_TOLERANCE {
                 found.crossings.push(Crossing { stretch: part.stretch, s, phi: at.phi, foot, tip: false });
@@ -418,10 +420,12 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
 }
 
-/// Whether the foot is a perpendicular one; at the end of a part, where rounding decides, it is one for its neighbour too.
-fn is_square(at: &Section, foot: &Foot) -> bool {
+/// Whether the foot is a perpendicular one; where the contour goes on smoothly beyond the part and rounding decides which of the
+/// two it is on, for both.
+fn is_square(world: &World<'_>, stretch: usize, at: &Section, foot: &Foot) -> bool {
     let (sin, cos) = foot.alpha.sin_cos();
-    foot.interior || ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL
+    let square = ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL;
+    foot.interior || (square && !world.ends_at_joint(stretch, foot))
 }
 
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {

@@ -179,12 +179,21 @@ impl<'a> World<'a> {
 
     /// Whether `foot` is the end of its stretch at a notch.
     pub fn ends_in_notch(&self, stretch: usize, foot: &Foot) -> bool {
-        if foot.interior {
-            return false;
-        }
+        !foot.interior && self.beyond_end(stretch, foot).is_some_and(|beyond| self.is_notch(beyond))
+    }
+
+    /// Whether `foot` is the end of its stretch at a corner or notch.
+    pub fn ends_at_joint(&self, stretch: usize, foot: &Foot) -> bool {
+        let beyond = self.beyond_end(stretch, foot);
+        beyond.is_some_and(|beyond| !matches!(self.kind(beyond), StretchKind::Piece(_)))
+    }
+
+    /// The stretch beyond the end that `foot` is, if it is one.
+    fn beyond_end(&self, stretch: usize, foot: &Foot) -> Option<usize> {
         let range = self.range(stretch);
-        let notch_beyond = |after| self.neighbour(stretch, after).is_some_and(|neighbour| self.is_notch(neighbour));
-        (foot.t >= range.to && notch_beyond(true)) || (foot.t <= range.from && notch_beyond(false))
+        let neighbour = |after| self.neighbour(stretch, after);
+        let upper = (foot.t >= range.to).then(|| neighbour(true)).flatten();
+        upper.or_else(|| (foot.t <= range.from).then(|| neighbour(false)).flatten())
     }
 
     /// The pieces before and after a notch.
