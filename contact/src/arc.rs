@@ -38,8 +38,9 @@ impl Arc {
         self.ends.grown(self.error + 0.125 * self.kappa.abs() * self.chord * self.chord)
     }
 
-    /// Whether it may come nearer than `reach` to something in `bounds`, of which it is known that the boxes meet.
-    pub fn comes_near(&self, bounds: &Bounds, reach: f64) -> bool {
+    /// Whether it may come nearer than `reach` to a part of a contour in `bounds`, whose box its own one meets, or may have gone
+    /// through it: `alpha` is about the part's tangent angle.
+    pub fn comes_near(&self, bounds: &Bounds, reach: f64, alpha: impl FnOnce() -> f64) -> bool {
         if self.along == (0.0, 0.0) || !bounds.is_finite() {
             return true;
         }
@@ -53,6 +54,11 @@ impl Arc {
         let at = ahead.clamp(0.0, self.chord);
         let height = -0.5 * self.kappa * at * (self.chord - at);
         let slope = 0.5 * self.kappa.abs() * self.chord;
-        (aside - height).abs() <= reach_aside + slope * (reach_ahead + reach) + self.error + reach
+        let left = height - aside;
+        // Beyond that distance, on the outer side it is out of reach; on the inner one it has been there.
+        left.abs() <= reach_aside + slope * (reach_ahead + reach) + self.error + reach || {
+            let (sin_alpha, cos_alpha) = alpha().sin_cos();
+            left * (cos * cos_alpha + sin * sin_alpha) > 0.0
+        }
     }
 }

@@ -146,7 +146,7 @@ impl Scanner {
         for (first, pair) in nodes.windows(2).enumerate() {
             let arc = Arc::new(&pair[0], &pair[1]);
             world.parts_near(arc.bounds().grown(reach), |part| {
-                if arc.comes_near(&world.bounds(part), reach) {
+                if arc.comes_near(&world.bounds(part), reach, || world.angle(part)) {
                     near.push(Near { part, first, last: first + 1 });
                 }
             });

@@ -165,6 +165,12 @@ impl<'a> World<'a> {
         Bounds { min: scaled(min), max: scaled(max) }
     }
 
+    /// The tangent angle in the middle of a part.
+    pub fn angle(&self, part: Part) -> f64 {
+        let (object, own) = self.at(part.stretch);
+        object.own_frame(own, 0.5 * (part.range.from + part.range.to)).alpha
+    }
+
     /// Signed distance of a point from the nearest object: negative inside any of them.
     pub fn gap(&self, x: f64, y: f64) -> f64 {
         let gaps = self.objects.iter().map(|object| object.gap(x * self.length, y * self.length));
