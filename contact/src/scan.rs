@@ -16,6 +16,9 @@ const SPACING: f64 = 1.0 / 32.0;
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
 
+/// Distance at which a rod that cannot go on is taken to have come upon an end.
+const AT_END: f64 = 1e-6;
+
 /// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
 
@@ -100,6 +103,17 @@ impl Scanner {
             }
         }
         found
+    }
+
+    /// Whether the rod looked at last runs by the end of an open contour, so near that it must be that which is in its way.
+    pub fn runs_by_an_end(&self, world: &World<'_>) -> bool {
+        world.open_ends().any(|(x, y)| {
+            let point = Bounds::EMPTY.with(x, y);
+            self.nodes.windows(2).any(|pair| {
+                let arc = Arc::new(&pair[0], &pair[1]);
+                arc.bounds().grown(AT_END).contains(x, y) && arc.comes_near(&point, AT_END, || f64::NAN)
+            })
+        })
     }
 
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
@@ -226,7 +240,8 @@ impl Scanner {
                 let (sin, cos) = (alpha + lean).sin_cos();
                 let gap = (at.x - vertex.x) * sin - (at.y - vertex.y) * cos;
                 if lean.abs() <= half + PARALLEL {
-                    // where the rod crosses the line that halves the solid's angle
+                    // where the rod crosses the line that halves the solid's angle, it is inside by about the sine of half
+                    // that angle
                     let along = -gap / lean.cos().max(PARALLEL);
                     let (sin, cos) = alpha.sin_cos();
                     let cut = (vertex.x - along * sin, vertex.y + along * cos);
@@ -235,7 +250,10 @@ impl Scanner {
                     let on_rod = (0.0..=1.0).contains(&s_cut);
                     if gap > -GAP_TOLERANCE {
                         found.min_gap = found.min_gap.min(gap);
-                    } else if gap > -DEEPEST && on_rod && world.gap(cut.0, cut.1) < GAP_TOLERANCE {
+                    } else if gap > -DEEPEST
+                        && on_rod
+                        && world.gap(cut.0, cut.1) < GAP_TOLERANCE - 0.5 * along * half.cos()
+                    {
                         found.min_gap = found.min_gap.min(gap);
                         let t = range.clamp(range.from + half + lean);
                         let foot = Foot {
@@ -289,6 +307,8 @@ impl Scanner {
             if sight.interior {
                 found.min_gap = found.min_gap.min(sight.gap);
                 found.clamp_inside |= i == 0 && sight.gap < -GAP_TOLERANCE;
+            } else if sight.gap < found.min_gap && world.is_open_end(part.stretch, &foot) {
+                found.min_gap = sight.gap;
             }
             if let Some((_, last)) = before.filter(|(k, _)| k + 1 == i) {
                 let last_node = &nodes[i - 1];
@@ -425,7 +445,7 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
 fn is_square(world: &World<'_>, stretch: usize, at: &Section, foot: &Foot) -> bool {
     let (sin, cos) = foot.alpha.sin_cos();
     let square = ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL;
-    foot.interior || (square && !world.ends_at_joint(stretch, foot))
+    foot.interior || (square && world.goes_on(stretch, foot))
 }
 
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {

@@ -188,10 +188,17 @@ impl<'a> World<'a> {
         !foot.interior && self.beyond_end(stretch, foot).is_some_and(|beyond| self.is_notch(beyond))
     }
 
-    /// Whether `foot` is the end of its stretch at a corner or notch.
-    pub fn ends_at_joint(&self, stretch: usize, foot: &Foot) -> bool {
-        let beyond = self.beyond_end(stretch, foot);
-        beyond.is_some_and(|beyond| !matches!(self.kind(beyond), StretchKind::Piece(_)))
+    /// Whether the contour goes on smoothly beyond `foot`, an end of a part.
+    pub fn goes_on(&self, stretch: usize, foot: &Foot) -> bool {
+        let range = self.range(stretch);
+        let inside = range.from < foot.t && foot.t < range.to;
+        inside || self.beyond_end(stretch, foot).is_some_and(|on| matches!(self.kind(on), StretchKind::Piece(_)))
+    }
+
+    /// Whether `foot` is an end of an open contour.
+    pub fn is_open_end(&self, stretch: usize, foot: &Foot) -> bool {
+        let range = self.range(stretch);
+        (foot.t >= range.to || foot.t <= range.from) && self.beyond_end(stretch, foot).is_none()
     }
 
     /// The stretch beyond the end that `foot` is, if it is one.
@@ -213,6 +220,16 @@ impl<'a> World<'a> {
             let notch = self.neighbour(wall, after).filter(|notch| self.is_notch(*notch))?;
             (self.neighbour(notch, after) == Some(other)).then_some(notch)
         })
+    }
+
+    /// The points where open contours end.
+    pub fn open_ends(&self) -> impl Iterator<Item = (f64, f64)> {
+        let open = self.objects.iter().filter(|object| !object.is_closed());
+        open.flat_map(|object| {
+            let Range { from, to } = object.range();
+            [from, to].into_iter().filter(|t| t.is_finite()).map(|t| object.frame(t))
+        })
+        .map(|end| (end.x / self.length, end.y / self.length))
     }
 
     /// Number of the piece, in its object, that a stretch belongs to: for a joint the piece before it.
