@@ -2,12 +2,12 @@
 
 use crate::arc::Arc;
 use crate::configuration::{Configuration, Span};
+use crate::corner::{Corner, Passing};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, advance, walk};
 use smallvec::SmallVec;
-use std::f64::consts::PI;
 
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
@@ -15,9 +15,6 @@ const SPACING: f64 = 1.0 / 32.0;
 
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
-
-/// Distance at which a rod that cannot go on is taken to have come upon an end.
-const AT_END: f64 = 1e-6;
 
 /// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
@@ -45,6 +42,17 @@ pub(crate) struct Scan {
     pub crossings: SmallVec<[Crossing; 2]>,
     /// The clamp itself is inside the solid.
     pub clamp_inside: bool,
+    /// On which side of the rod, and how far, the ends of open contours are; not a number where the rod does not run by.
+    sides: SmallVec<[f64; 2]>,
+}
+
+impl Scan {
+    /// Whether the rod, from where it was, has swept over an end of an open contour.
+    pub fn has_swept_over_an_end(&self, before: &Self) -> bool {
+        // an end that the rod lies on is on either side by rounding; a far one has been gone around
+        let near = |side: f64| (PARALLEL..DEEPEST).contains(&side.abs());
+        self.sides.iter().zip(&before.sides).any(|(now, was)| near(*now) && near(*was) && now.signum() != was.signum())
+    }
 }
 
 /// A point of the rod that is looked at.
@@ -93,7 +101,8 @@ impl Scanner {
         self.place_nodes(&spans);
         // where there is a contact, there the gap is zero
         let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
-        let mut found = Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false };
+        let mut found =
+            Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false, sides: self.sides(world, &spans) };
         self.look_around(world, least);
         for near in &self.near {
             match world.kind(near.part.stretch) {
@@ -105,15 +114,24 @@ impl Scanner {
         found
     }
 
-    /// Whether the rod looked at last runs by the end of an open contour, so near that it must be that which is in its way.
-    pub fn runs_by_an_end(&self, world: &World<'_>) -> bool {
-        world.open_ends().any(|(x, y)| {
-            let point = Bounds::EMPTY.with(x, y);
-            self.nodes.windows(2).any(|pair| {
-                let arc = Arc::new(&pair[0], &pair[1]);
-                arc.bounds().grown(AT_END).contains(x, y) && arc.comes_near(&point, AT_END, || f64::NAN)
-            })
-        })
+    /// On which side of the rod, and how far, the ends of open contours are.
+    fn sides(&self, world: &World<'_>, spans: &[Span]) -> SmallVec<[f64; 2]> {
+        let side = |&(x, y): &(f64, f64)| {
+            let sides = self.nodes.windows(2).filter_map(|pair| {
+                let ahead = |node: &Node| {
+                    let (sin, cos) = node.at.phi.sin_cos();
+                    (node.at.x - x) * cos + (node.at.y - y) * sin
+                };
+                let (before, after) = (ahead(&pair[0]), ahead(&pair[1]));
+                (before < 0.0 && after >= 0.0).then(|| {
+                    let (_, at) = pass(spans, (&pair[0], &pair[1]), (x, y), before, after);
+                    let (sin, cos) = at.phi.sin_cos();
+                    (y - at.y) * cos - (x - at.x) * sin
+                })
+            });
+            sides.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::NAN)
+        };
+        world.open_ends().iter().map(side).collect()
     }
 
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
@@ -213,14 +231,12 @@ impl Scanner {
         found: &mut Scan,
     ) {
         let Near { part, first, last } = near;
-        let range = world.range(part.stretch);
-        let vertex = world.support(part.stretch, 0.5 * (range.from + range.to));
-        let (half, alpha) = (0.5 * range.length(), vertex.alpha);
+        let corner = Corner::new(world, part.stretch);
         let mut before: Option<(usize, f64)> = None;
         let mut i = first;
         while i <= last {
             let node = &self.nodes[i];
-            let (dx, dy) = (node.at.x - vertex.x, node.at.y - vertex.y);
+            let (dx, dy) = (node.at.x - corner.x, node.at.y - corner.y);
             let distance = dx.hypot(dy);
             if distance < found.min_gap && found.min_gap > 0.0 {
                 let foot = world.foot_in(part, node.at.x, node.at.y);
@@ -235,36 +251,16 @@ impl Scanner {
                 && was < 0.0
                 && ahead >= 0.0
             {
-                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (vertex.x, vertex.y), was, ahead);
-                let lean = (at.phi - alpha) - PI * ((at.phi - alpha) / PI).round();
-                let (sin, cos) = (alpha + lean).sin_cos();
-                let gap = (at.x - vertex.x) * sin - (at.y - vertex.y) * cos;
-                if lean.abs() <= half + PARALLEL {
-                    // where the rod crosses the line that halves the solid's angle, it is inside by about the sine of half
-                    // that angle
-                    let along = -gap / lean.cos().max(PARALLEL);
-                    let (sin, cos) = alpha.sin_cos();
-                    let cut = (vertex.x - along * sin, vertex.y + along * cos);
-                    let (sin, cos) = at.phi.sin_cos();
-                    let s_cut = s + (cut.0 - at.x) * cos + (cut.1 - at.y) * sin;
-                    let on_rod = (0.0..=1.0).contains(&s_cut);
-                    if gap > -GAP_TOLERANCE {
-                        found.min_gap = found.min_gap.min(gap);
-                    } else if gap > -DEEPEST
-                        && on_rod
-                        && world.gap(cut.0, cut.1) < GAP_TOLERANCE - 0.5 * along * half.cos()
-                    {
-                        found.min_gap = found.min_gap.min(gap);
-                        let t = range.clamp(range.from + half + lean);
-                        let foot = Foot {
-                            t,
-                            gap,
-                            alpha: alpha + lean,
-                            curvature: f64::INFINITY,
-                            x: vertex.x,
-                            y: vertex.y,
-                            interior: true,
-                        };
+                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (corner.x, corner.y), was, ahead);
+                if let Some(passing) = corner.passing(&at)
+                    && (passing.gap >= -GAP_TOLERANCE
+                        || (passing.gap > -DEEPEST && corner.is_cut(world, &at, &passing, (s, 1.0 - s))))
+                {
+                    let Passing { gap, alpha, t } = passing;
+                    found.min_gap = found.min_gap.min(gap);
+                    if gap < -GAP_TOLERANCE {
+                        let (x, y) = (corner.x, corner.y);
+                        let foot = Foot { t, gap, alpha, curvature: f64::INFINITY, x, y, interior: true };
                         let stretch = part.stretch;
                         found.crossings.push(Crossing { stretch, s, phi: at.phi, foot, tip: false });
                     }

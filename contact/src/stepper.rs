@@ -105,6 +105,13 @@ impl Stepper<'_> {
                 self.shorten();
                 continue;
             }
+            if scan.has_swept_over_an_end(&from.scan) {
+                if length < SHORT {
+                    return Err(StopReason::EndOfContour);
+                }
+                self.shorten();
+                continue;
+            }
             match self.first_transition(from, &next, &scan, &tangent, length) {
                 Ok(None) if scan.min_gap > -DEEPEST => {}
                 Ok(None) => {

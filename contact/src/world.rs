@@ -12,6 +12,7 @@ pub(crate) struct World<'a> {
     objects: &'a [Composite],
     /// Number of each object's first stretch.
     first: SmallVec<[usize; 4]>,
+    ends: SmallVec<[(f64, f64); 2]>,
     /// Length of the rod in the contours' unit.
     length: f64,
 }
@@ -37,7 +38,13 @@ impl<'a> World<'a> {
             *next += object.stretches().len();
             Some(first)
         });
-        Self { objects, first: first.collect(), length }
+        let open = objects.iter().filter(|object| !object.is_closed());
+        let ends = open.flat_map(|object| {
+            let Range { from, to } = object.range();
+            [from, to].into_iter().filter(|t| t.is_finite()).map(|t| object.frame(t))
+        });
+        let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
+        Self { objects, first: first.collect(), ends, length }
     }
 
     /// The number of the object that a stretch belongs to.
@@ -223,13 +230,8 @@ impl<'a> World<'a> {
     }
 
     /// The points where open contours end.
-    pub fn open_ends(&self) -> impl Iterator<Item = (f64, f64)> {
-        let open = self.objects.iter().filter(|object| !object.is_closed());
-        open.flat_map(|object| {
-            let Range { from, to } = object.range();
-            [from, to].into_iter().filter(|t| t.is_finite()).map(|t| object.frame(t))
-        })
-        .map(|end| (end.x / self.length, end.y / self.length))
+    pub fn open_ends(&self) -> &[(f64, f64)] {
+        &self.ends
     }
 
     /// Number of the piece, in its object, that a stretch belongs to: for a joint the piece before it.
