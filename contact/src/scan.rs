@@ -316,7 +316,7 @@ impl Scanner {
                     right: f64::NAN,
                     interior: false,
                     contact: false,
-                    line: None,
+                    line: sight.line,
                 };
             }
             if sight.interior {

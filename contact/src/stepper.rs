@@ -126,7 +126,7 @@ impl Stepper<'_> {
                 }
             }
             let stable = self.is_stable(&next);
-            if !stable && from.quality.stable {
+            if !stable {
                 if length > PROBE {
                     self.shorten();
                     continue;
