@@ -2,17 +2,18 @@
 //!
 //! The rod is a chain of rigid links with a spring in each joint (inextensible by construction). Each step is implicit: it
 //! minimises the energy after the step plus the distance gone, in the metric of the springs (a rod with internal,
-//! Kelvin-Voigt damping), under the linearised gaps of all nodes, which is a small quadratic programme. The result is good to
+//! Kelvin-Voigt damping), under the linearised gaps of all nodes and of corners to links, which is a small quadratic programme. The result is good to
 //! the square of a link's length: enough to see which contacts there are.
 
 use crate::configuration::{Configuration, Held, lying};
+use crate::corner::Corner;
 use crate::notch::into_notch;
 use crate::path::ClampPath;
-use crate::world::{Foot, World};
+use crate::world::World;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
-use rod_contours::Bounds;
-use rod_core::{Hold, Pose, advance};
+use rod_contours::{Bounds, StretchKind};
+use rod_core::{Hold, Pose, Section, advance};
 
 /// Number of links.
 const LINKS: usize = 64;
@@ -41,11 +42,16 @@ pub(crate) struct Chain {
     joints: [f64; LINKS],
 }
 
-/// A node near the contour.
+/// A point of the chain near the contour: a node, or the point of a link that is next to a corner.
 struct Near {
-    node: usize,
+    /// Arc length, in links.
+    s: f64,
+    /// The point.
+    x: f64,
+    y: f64,
     stretch: usize,
-    foot: Foot,
+    gap: f64,
+    alpha: f64,
 }
 
 impl Chain {
@@ -89,27 +95,33 @@ impl Chain {
         (nodes, angles)
     }
 
-    /// Nodes that could meet the contour within a step.
-    fn near(world: &World<'_>, nodes: &[[f64; 2]; LINKS + 1], reach: f64) -> Vec<Near> {
+    /// What could meet the contour within a step: nodes, and links at corners.
+    fn near(&self, world: &World<'_>, nodes: &[[f64; 2]; LINKS + 1], angles: &[f64; LINKS], reach: f64) -> Vec<Near> {
         let mut near = Vec::new();
         for (node, &[x, y]) in nodes.iter().enumerate().skip(1) {
             world.parts_near(Bounds::EMPTY.with(x, y).grown(REACH), |part| {
                 let stretch = part.stretch;
-                // what holds the tip in a notch are the two pieces that end there
-                if world.is_notch(stretch) {
-                    return;
+                let at = |gap, alpha| Near { s: node as f64, x, y, stretch, gap, alpha };
+                match world.kind(stretch) {
+                    // what holds the tip in a notch are the two pieces that end there
+                    StretchKind::Notch { .. } => {}
+                    StretchKind::Corner { .. } => {
+                        let start =
+                            Section { x: nodes[node - 1][0], y: nodes[node - 1][1], phi: angles[node - 1], kappa: 0.0 };
+                        near.extend(at_corner(world, stretch, node - 1, &start, reach));
+                    }
+                    StretchKind::Piece(_) => {
+                        let foot = world.foot_in(part, x, y);
+                        if foot.gap > reach || foot.gap < -REACH {
+                        } else if world.ends_in_notch(stretch, &foot) {
+                            // beyond its end a piece goes on as its tangent
+                            let gap = (x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos();
+                            near.push(at(gap, foot.alpha));
+                        } else if foot.interior && (foot.gap >= -1e-9 || world.goes_through(&foot, x, y)) {
+                            near.push(at(foot.gap, foot.alpha));
+                        }
+                    }
                 }
-                let mut foot = world.foot_in(part, x, y);
-                if foot.gap > reach || foot.gap < -REACH {
-                    return;
-                }
-                if world.ends_in_notch(stretch, &foot) {
-                    // beyond its end a piece goes on as its tangent
-                    foot.gap = (x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos();
-                } else if !foot.interior || (foot.gap < -1e-9 && !world.goes_through(&foot, x, y)) {
-                    return;
-                }
-                near.push(Near { node, stretch, foot });
             });
         }
         near
@@ -118,8 +130,8 @@ impl Chain {
     /// One implicit step under the gaps smaller than `reach`: how far it moved the chain, and the force at each near node.
     /// None where the programme failed.
     fn step(&mut self, world: &World<'_>, time_step: f64, reach: f64) -> Option<(f64, Vec<(Near, f64)>)> {
-        let (nodes, _) = self.nodes();
-        let near = Self::near(world, &nodes, reach);
+        let (nodes, angles) = self.nodes();
+        let near = self.near(world, &nodes, &angles, reach);
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
             let (change, forces) = programme(self, &nodes, &near, time_step, push)?;
@@ -148,7 +160,7 @@ impl Chain {
             let (way, forces) = self.step(world, time_step, reach)?;
             // what a slow chain cannot get to costs it nothing
             reach = (8.0 * way).clamp(0.25 * REACH, REACH);
-            let inside = forces.iter().any(|(near, _)| near.foot.gap < -0.5 * LINK);
+            let inside = forces.iter().any(|(near, _)| near.gap < -0.5 * LINK);
             if way < ARRIVED && !inside {
                 return Some(self.contacts(world, forces, tau));
             }
@@ -163,38 +175,64 @@ impl Chain {
     /// Clusters of loaded neighbouring nodes as contacts.
     fn contacts(&self, world: &World<'_>, mut forces: Vec<(Near, f64)>, tau: f64) -> Configuration {
         forces.retain(|(_, force)| *force > LEAST_FORCE);
-        forces.sort_by_key(|(near, _)| (near.node, near.stretch));
+        forces.sort_by(|(a, _), (b, _)| a.s.total_cmp(&b.s).then(a.stretch.cmp(&b.stretch)));
         let (nodes, angles) = self.nodes();
         let mut configuration = Configuration::free(tau);
-        // (stretch, force, sum of force x node, last node)
-        let mut clusters: Vec<(usize, f64, f64, usize)> = Vec::new();
+        // (stretch, force, sum of force x arc length, last arc length)
+        let mut clusters: Vec<(usize, f64, f64, f64)> = Vec::new();
         for (near, force) in forces {
-            let moment = force * near.node as f64;
-            match clusters.iter_mut().rev().find(|c| c.0 == near.stretch && near.node - c.3 <= 1) {
+            let moment = force * near.s;
+            match clusters.iter_mut().rev().find(|c| c.0 == near.stretch && near.s - c.3 < 1.5) {
                 Some(cluster) => {
                     cluster.1 += force;
                     cluster.2 += moment;
-                    cluster.3 = near.node;
+                    cluster.3 = near.s;
                 }
-                None => clusters.push((near.stretch, force, moment, near.node)),
+                None => clusters.push((near.stretch, force, moment, near.s)),
             }
         }
         for (stretch, force, moment, _) in clusters {
             let middle = moment / force;
             let node = (middle.round() as usize).clamp(1, LINKS);
-            let foot = world.foot(stretch, nodes[node][0], nodes[node][1]);
-            let tip = middle > LINKS as f64 - 0.75;
+            let [x, y] = nodes[node];
+            let foot = world.foot(stretch, x, y);
+            let tip = middle > LINKS as f64 - 0.75 && !world.is_corner(stretch);
             let phi = if node < LINKS { 0.5 * (angles[node - 1] + angles[node]) } else { angles[LINKS - 1] };
-            let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - foot.alpha), middle * LINK) };
+            let on_corner = world.is_corner(stretch).then(|| Corner::new(world, stretch));
+            let lies = on_corner.and_then(|corner| corner.passing(&Section { x, y, phi, kappa: 0.0 }));
+            let (t, alpha) = lies.map_or((foot.t, foot.alpha), |passing| (passing.t, passing.alpha));
+            let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), middle * LINK) };
             let j = configuration.count();
             if j > 0 && configuration.ends_at_tip() {
                 into_notch(world, &mut configuration, stretch, foot.alpha, force);
                 continue;
             }
-            configuration.insert(j, Held { stretch, hold }, [foot.t, force, third]);
+            configuration.insert(j, Held { stretch, hold }, [t, force, third]);
         }
         configuration
     }
+}
+
+/// A link (its number, and where it starts) next to a corner that it may come to lie on.
+fn at_corner(world: &World<'_>, stretch: usize, link: usize, start: &Section, reach: f64) -> Option<Near> {
+    let corner = Corner::new(world, stretch);
+    let (sin, cos) = start.phi.sin_cos();
+    let way = (corner.x - start.x) * cos + (corner.y - start.y) * sin;
+    if !(0.0..LINK).contains(&way) {
+        return None;
+    }
+    let at = Section { x: start.x + way * cos, y: start.y + way * sin, ..*start };
+    let passing = corner.passing(&at).filter(|passing| passing.gap.abs() <= reach)?;
+    let s = link as f64 + way / LINK;
+    let rest = (s * LINK, (LINKS as f64 - s) * LINK);
+    (passing.gap >= -1e-9 || corner.is_cut(world, &at, &passing, rest)).then_some(Near {
+        s,
+        x: at.x,
+        y: at.y,
+        stretch,
+        gap: passing.gap,
+        alpha: passing.alpha,
+    })
 }
 
 /// The quadratic programme of one step: change d of the joints, force at each near node.
@@ -216,10 +254,9 @@ fn programme(
         return Some((change, Vec::new()));
     }
     // by joint i node turns as (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
-    let gradient = |Near { node, foot, .. }: &Near| -> [f64; LINKS] {
-        let (sin, cos) = foot.alpha.sin_cos();
-        let ([x, y], node) = (nodes[*node], *node);
-        std::array::from_fn(|i| if i < node { (y - nodes[i][1]) * sin + (x - nodes[i][0]) * cos } else { 0.0 })
+    let gradient = |&Near { s, x, y, alpha, .. }: &Near| -> [f64; LINKS] {
+        let (sin, cos) = alpha.sin_cos();
+        std::array::from_fn(|i| if (i as f64) < s { (y - nodes[i][1]) * sin + (x - nodes[i][0]) * cos } else { 0.0 })
     };
     let rows: Vec<[f64; LINKS]> = near.iter().map(gradient).collect();
     let m = near.len();
@@ -237,7 +274,7 @@ fn programme(
         .zip(&rows)
         .map(|(near, row)| {
             let unforced: f64 = row.iter().zip(&change).map(|(a, d)| a * d).sum();
-            near.foot.gap.max(-push) - unforced
+            near.gap.max(-push) - unforced
         })
         .collect();
     let pushing = CscMatrix::new(m, m, (0..=m).collect(), (0..m).collect(), vec![-1.0; m]);

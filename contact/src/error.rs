@@ -57,7 +57,7 @@ pub enum StopReason {
     StepTooSmall,
     /// The rod snaps, and no stable equilibrium was found for it to land in.
     NoLanding,
-    /// A contact ran off the end of an open contour.
+    /// A contact ran off the end of an open contour, or the rod came upon such an end from the side.
     EndOfContour,
     /// The rod is bent around the contour so tightly that it touches along a line, not at a point.
     LineContact,
@@ -75,7 +75,9 @@ impl std::fmt::Display for Stop {
                 ("the equilibrium could not be followed", "look at the last states, or start beyond")
             }
             StopReason::NoLanding => ("the rod snaps and no stable equilibrium was found", "start a new sweep beyond"),
-            StopReason::EndOfContour => ("a contact ran off the end of the contour", "make the contour longer"),
+            StopReason::EndOfContour => {
+                ("the rod came to the end of an open contour", "make the contour longer, or close it")
+            }
             StopReason::LineContact => {
                 ("the rod wraps around the contour and would touch it along a line", "end the path before it")
             }

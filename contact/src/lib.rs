@@ -32,6 +32,7 @@ mod branch;
 mod certify;
 mod chain;
 mod configuration;
+mod corner;
 mod equilibrium;
 mod error;
 mod event;

@@ -2,12 +2,12 @@
 
 use crate::arc::Arc;
 use crate::configuration::{Configuration, Span};
+use crate::corner::{Corner, Passing};
 use crate::path::ClampPath;
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, advance, walk};
 use smallvec::SmallVec;
-use std::f64::consts::PI;
 
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
@@ -15,6 +15,15 @@ const SPACING: f64 = 1.0 / 32.0;
 
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
+
+/// Cosine of the largest turn of a part between two feet that are taken to be on the same side of it, or on opposite ones.
+const LEAST_COSINE: f64 = 0.8;
+
+/// Distance from the rod at which an end of an open contour is what it cannot go on for.
+const BY_END: f64 = 0.02;
+
+/// Distance from the rod of what is on it but for rounding.
+const ON_ROD: f64 = 1e-12;
 
 /// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
@@ -42,6 +51,22 @@ pub(crate) struct Scan {
     pub crossings: SmallVec<[Crossing; 2]>,
     /// The clamp itself is inside the solid.
     pub clamp_inside: bool,
+    /// On which side of the rod, and how far, the ends of open contours are; not a number where the rod does not run by.
+    sides: SmallVec<[f64; 2]>,
+}
+
+impl Scan {
+    /// Whether the rod is next to an end of an open contour.
+    pub fn is_by_an_end(&self) -> bool {
+        self.sides.iter().any(|side| side.abs() < BY_END)
+    }
+
+    /// Whether the rod, from where it was, has swept over an end of an open contour.
+    pub fn has_swept_over_an_end(&self, before: &Self) -> bool {
+        // an end that the rod lies on is on either side by rounding; a far one has been gone around
+        let near = |side: f64| (ON_ROD..DEEPEST).contains(&side.abs());
+        self.sides.iter().zip(&before.sides).any(|(now, was)| near(*now) && near(*was) && now.signum() != was.signum())
+    }
 }
 
 /// A point of the rod that is looked at.
@@ -90,7 +115,8 @@ impl Scanner {
         self.place_nodes(&spans);
         // where there is a contact, there the gap is zero
         let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
-        let mut found = Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false };
+        let mut found =
+            Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false, sides: self.sides(world, &spans) };
         self.look_around(world, least);
         for near in &self.near {
             match world.kind(near.part.stretch) {
@@ -100,6 +126,26 @@ impl Scanner {
             }
         }
         found
+    }
+
+    /// On which side of the rod, and how far, the ends of open contours are.
+    fn sides(&self, world: &World<'_>, spans: &[Span]) -> SmallVec<[f64; 2]> {
+        let side = |&(x, y): &(f64, f64)| {
+            let sides = self.nodes.windows(2).filter_map(|pair| {
+                let ahead = |node: &Node| {
+                    let (sin, cos) = node.at.phi.sin_cos();
+                    (node.at.x - x) * cos + (node.at.y - y) * sin
+                };
+                let (before, after) = (ahead(&pair[0]), ahead(&pair[1]));
+                (before < 0.0 && after >= 0.0).then(|| {
+                    let (_, at) = pass(spans, (&pair[0], &pair[1]), (x, y), before, after);
+                    let (sin, cos) = at.phi.sin_cos();
+                    (y - at.y) * cos - (x - at.x) * sin
+                })
+            });
+            sides.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::NAN)
+        };
+        world.open_ends().iter().map(side).collect()
     }
 
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
@@ -199,14 +245,12 @@ impl Scanner {
         found: &mut Scan,
     ) {
         let Near { part, first, last } = near;
-        let range = world.range(part.stretch);
-        let vertex = world.support(part.stretch, 0.5 * (range.from + range.to));
-        let (half, alpha) = (0.5 * range.length(), vertex.alpha);
+        let corner = Corner::new(world, part.stretch);
         let mut before: Option<(usize, f64)> = None;
         let mut i = first;
         while i <= last {
             let node = &self.nodes[i];
-            let (dx, dy) = (node.at.x - vertex.x, node.at.y - vertex.y);
+            let (dx, dy) = (node.at.x - corner.x, node.at.y - corner.y);
             let distance = dx.hypot(dy);
             if distance < found.min_gap && found.min_gap > 0.0 {
                 let foot = world.foot_in(part, node.at.x, node.at.y);
@@ -221,32 +265,16 @@ impl Scanner {
                 && was < 0.0
                 && ahead >= 0.0
             {
-                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (vertex.x, vertex.y), was, ahead);
-                let lean = (at.phi - alpha) - PI * ((at.phi - alpha) / PI).round();
-                let (sin, cos) = (alpha + lean).sin_cos();
-                let gap = (at.x - vertex.x) * sin - (at.y - vertex.y) * cos;
-                if lean.abs() <= half + PARALLEL {
-                    // where the rod crosses the line that halves the solid's angle
-                    let along = -gap / lean.cos().max(PARALLEL);
-                    let (sin, cos) = alpha.sin_cos();
-                    let cut = (vertex.x - along * sin, vertex.y + along * cos);
-                    let (sin, cos) = at.phi.sin_cos();
-                    let s_cut = s + (cut.0 - at.x) * cos + (cut.1 - at.y) * sin;
-                    let on_rod = (0.0..=1.0).contains(&s_cut);
-                    if gap > -GAP_TOLERANCE {
-                        found.min_gap = found.min_gap.min(gap);
-                    } else if gap > -DEEPEST && on_rod && world.gap(cut.0, cut.1) < GAP_TOLERANCE {
-                        found.min_gap = found.min_gap.min(gap);
-                        let t = range.clamp(range.from + half + lean);
-                        let foot = Foot {
-                            t,
-                            gap,
-                            alpha: alpha + lean,
-                            curvature: f64::INFINITY,
-                            x: vertex.x,
-                            y: vertex.y,
-                            interior: true,
-                        };
+                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (corner.x, corner.y), was, ahead);
+                if let Some(passing) = corner.passing(&at)
+                    && (passing.gap >= -GAP_TOLERANCE
+                        || (passing.gap > -DEEPEST && corner.is_cut(world, &at, &passing, (s, 1.0 - s))))
+                {
+                    let Passing { gap, alpha, t } = passing;
+                    found.min_gap = found.min_gap.min(gap);
+                    if gap < -GAP_TOLERANCE {
+                        let (x, y) = (corner.x, corner.y);
+                        let foot = Foot { t, gap, alpha, curvature: f64::INFINITY, x, y, interior: true };
                         let stretch = part.stretch;
                         found.crossings.push(Crossing { stretch, s, phi: at.phi, foot, tip: false });
                     }
@@ -271,10 +299,15 @@ impl Scanner {
     ) {
         let Near { part, first, last } = near;
         let nodes = &self.nodes[..=last];
-        let mut before: Option<(usize, Sight)> = None;
+        let mut before: Option<(usize, Sight, Foot)> = None;
         let mut i = first;
         while let Some(node) = nodes.get(i) {
             let foot = world.foot_in(part, node.at.x, node.at.y);
+            if let Some((_, _, was)) = before.filter(|(k, ..)| k + 1 == i)
+                && pierces(&was, &foot)
+            {
+                found.min_gap = found.min_gap.min(-was.gap.abs().min(foot.gap.abs()));
+            }
             let mut sight = see(world, node, &foot, configuration, &part);
             if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
                 sight = Sight {
@@ -289,8 +322,10 @@ impl Scanner {
             if sight.interior {
                 found.min_gap = found.min_gap.min(sight.gap);
                 found.clamp_inside |= i == 0 && sight.gap < -GAP_TOLERANCE;
+            } else if sight.gap < found.min_gap && world.is_open_end(part.stretch, &foot) {
+                found.min_gap = sight.gap;
             }
-            if let Some((_, last)) = before.filter(|(k, _)| k + 1 == i) {
+            if let Some((_, last, _)) = before.filter(|(k, ..)| k + 1 == i) {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
@@ -316,7 +351,7 @@ impl Scanner {
                 let stretch = part.stretch;
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: node.at.phi, foot, tip: true });
             }
-            before = Some((i, sight));
+            before = Some((i, sight, foot));
             // within the distance by which the gap exceeds the smallest one there is nothing smaller
             let safe = node.s + (sight.gap - found.min_gap.max(0.0)).max(0.0);
             i += 1;
@@ -420,12 +455,19 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
 }
 
+/// Whether the rod goes through a part between two of its nodes, from one side to the other: through something thin, that is
+/// behind it again at the next node.
+fn pierces(was: &Foot, foot: &Foot) -> bool {
+    let sides = was.gap.min(foot.gap) < -PARALLEL && was.gap.max(foot.gap) > PARALLEL;
+    sides && was.interior && foot.interior && (was.alpha - foot.alpha).cos() > LEAST_COSINE
+}
+
 /// Whether the foot is a perpendicular one; where the contour goes on smoothly beyond the part and rounding decides which of the
 /// two it is on, for both.
 fn is_square(world: &World<'_>, stretch: usize, at: &Section, foot: &Foot) -> bool {
     let (sin, cos) = foot.alpha.sin_cos();
     let square = ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL;
-    foot.interior || (square && !world.ends_at_joint(stretch, foot))
+    foot.interior || (square && world.goes_on(stretch, foot))
 }
 
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {

@@ -105,6 +105,13 @@ impl Stepper<'_> {
                 self.shorten();
                 continue;
             }
+            if scan.has_swept_over_an_end(&from.scan) {
+                if length < SHORT {
+                    return Err(StopReason::EndOfContour);
+                }
+                self.shorten();
+                continue;
+            }
             match self.first_transition(from, &next, &scan, &tangent, length) {
                 Ok(None) if scan.min_gap > -DEEPEST => {}
                 Ok(None) => {
@@ -137,7 +144,8 @@ impl Stepper<'_> {
             let quality = Quality::new(&report, stable);
             return Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })));
         }
-        Err(StopReason::StepTooSmall)
+        // Behind the end of an open contour there is no telling inside from outside.
+        Err(if from.scan.is_by_an_end() { StopReason::EndOfContour } else { StopReason::StepTooSmall })
     }
 
     fn shorten(&mut self) {
@@ -280,7 +288,7 @@ impl Stepper<'_> {
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         let seen = self.scanner.scan(&self.corrector.world, &self.corrector.path, reached);
-        if ordered_or_new(reached) && seen.crossings.iter().all(|crossing| crossing.foot.gap > -DEEPEST) {
+        if ordered_or_new(reached) && seen.min_gap > -DEEPEST {
             Ok(first.map(|(_, step)| step))
         } else {
             Err(NoTransition::NotLocated)

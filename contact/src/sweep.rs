@@ -63,8 +63,9 @@ const MOST_AT_ONE_POSE: usize = 12;
 const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
 /// Bends of the straight rod that is let go into contact, radians: which way it gives is a matter of chance.
 const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
-/// Farthest way of a tip that slips over a corner; a longer one is a snap.
+/// Farthest and shortest way of a tip that slips over a corner; a longer one is a snap.
 const FARTHEST_SLIP: f64 = 0.05;
+const SHORTEST_SLIP: f64 = 1e-9;
 /// How far back a free pose is searched from a start in contact, and how densely: rod lengths, or the angle of a path that
 /// only turns.
 const BACK: (f64, f64) = (4.0, 0.05);
@@ -151,7 +152,8 @@ impl<'a> Sweep<'a> {
                 return Err(reason);
             }
         };
-        if reports && next.configuration.tau() >= target {
+        // a snap may have gone beyond it
+        if reports && next.configuration.tau() == target {
             self.report(&next);
         }
         self.at = Some(next);
@@ -215,7 +217,9 @@ impl<'a> Sweep<'a> {
         let landed = settle(corrector, scanner, guess)?;
         let tip = landed.count().checked_sub(1).filter(|_| landed.ends_at_tip() && landed.count() == last.count())?;
         let to = corrector.world.support(landed.contacts[tip].stretch, landed.t(tip));
-        ((to.x - from.x).hypot(to.y - from.y) < FARTHEST_SLIP).then_some(landed)
+        // no way at all would be back at once
+        let way = (to.x - from.x).hypot(to.y - from.y);
+        (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way).then_some(landed)
     }
 
     fn jumped(&mut self, last: Configuration, landed: Configuration) -> Point {

@@ -46,7 +46,7 @@ pub(crate) fn breaks(
     mut visit: impl FnMut(Break),
 ) {
     let n = configuration.count();
-    let mut entered: SmallVec<[Option<usize>; 4]> = SmallVec::new();
+    let mut entered: SmallVec<[usize; 4]> = SmallVec::new();
     for j in 0..n {
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
@@ -56,7 +56,11 @@ pub(crate) fn breaks(
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
         let upwards = t > range.to + slack;
         if upwards || t < range.from - slack {
-            entered.push(corrector.world.neighbour(configuration.contacts[j].stretch, upwards));
+            let next = corrector.world.neighbour(configuration.contacts[j].stretch, upwards);
+            // a rod that comes to lie on a straight edge comes upon the corner at its other end at once
+            let beyond = next.and_then(|next| corrector.world.neighbour(next, upwards));
+            entered.extend(next);
+            entered.extend(beyond.filter(|beyond| corrector.world.is_corner(*beyond)));
             visit(Break::Border(j, upwards));
         }
     }
@@ -81,7 +85,7 @@ pub(crate) fn breaks(
     for crossing in scan
         .crossings
         .iter()
-        .filter(|crossing| Some(crossing.stretch) != lying_down && !entered.contains(&Some(crossing.stretch)))
+        .filter(|crossing| Some(crossing.stretch) != lying_down && !entered.contains(&crossing.stretch))
     {
         visit(Break::Touch(*crossing));
     }

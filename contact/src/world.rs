@@ -12,6 +12,7 @@ pub(crate) struct World<'a> {
     objects: &'a [Composite],
     /// Number of each object's first stretch.
     first: SmallVec<[usize; 4]>,
+    ends: SmallVec<[(f64, f64); 2]>,
     /// Length of the rod in the contours' unit.
     length: f64,
 }
@@ -37,7 +38,13 @@ impl<'a> World<'a> {
             *next += object.stretches().len();
             Some(first)
         });
-        Self { objects, first: first.collect(), length }
+        let open = objects.iter().filter(|object| !object.is_closed());
+        let ends = open.flat_map(|object| {
+            let Range { from, to } = object.range();
+            [from, to].into_iter().filter(|t| t.is_finite()).map(|t| object.frame(t))
+        });
+        let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
+        Self { objects, first: first.collect(), ends, length }
     }
 
     /// The number of the object that a stretch belongs to.
@@ -188,10 +195,17 @@ impl<'a> World<'a> {
         !foot.interior && self.beyond_end(stretch, foot).is_some_and(|beyond| self.is_notch(beyond))
     }
 
-    /// Whether `foot` is the end of its stretch at a corner or notch.
-    pub fn ends_at_joint(&self, stretch: usize, foot: &Foot) -> bool {
-        let beyond = self.beyond_end(stretch, foot);
-        beyond.is_some_and(|beyond| !matches!(self.kind(beyond), StretchKind::Piece(_)))
+    /// Whether the contour goes on smoothly beyond `foot`, an end of a part.
+    pub fn goes_on(&self, stretch: usize, foot: &Foot) -> bool {
+        let range = self.range(stretch);
+        let inside = range.from < foot.t && foot.t < range.to;
+        inside || self.beyond_end(stretch, foot).is_some_and(|on| matches!(self.kind(on), StretchKind::Piece(_)))
+    }
+
+    /// Whether `foot` is an end of an open contour.
+    pub fn is_open_end(&self, stretch: usize, foot: &Foot) -> bool {
+        let range = self.range(stretch);
+        (foot.t >= range.to || foot.t <= range.from) && self.beyond_end(stretch, foot).is_none()
     }
 
     /// The stretch beyond the end that `foot` is, if it is one.
@@ -213,6 +227,11 @@ impl<'a> World<'a> {
             let notch = self.neighbour(wall, after).filter(|notch| self.is_notch(*notch))?;
             (self.neighbour(notch, after) == Some(other)).then_some(notch)
         })
+    }
+
+    /// The points where open contours end.
+    pub fn open_ends(&self) -> &[(f64, f64)] {
+        &self.ends
     }
 
     /// Number of the piece, in its object, that a stretch belongs to: for a joint the piece before it.

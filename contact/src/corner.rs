@@ -1,0 +1,61 @@
+//! A convex corner under the rod: which side of it the rod passes on.
+
+use crate::world::World;
+use rod_core::Section;
+use std::f64::consts::PI;
+
+/// Rounding of an angle between the rod and one of the two pieces that meet in a corner, rad.
+const PARALLEL: f64 = 1e-9;
+
+/// A vertex, and the angles with which a rod can lie on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corner {
+    pub x: f64,
+    pub y: f64,
+    /// The middle of the tangent angles.
+    alpha: f64,
+    /// Half the turn.
+    half: f64,
+    /// The parameter of the stretch in the middle.
+    middle: f64,
+}
+
+/// The rod running by a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passing {
+    /// Distance of the rod's tangent from the vertex: negative where the vertex is on the wrong side.
+    pub gap: f64,
+    /// The tangent angle of the corner along the rod, and its parameter.
+    pub alpha: f64,
+    pub t: f64,
+}
+
+impl Corner {
+    pub fn new(world: &World<'_>, stretch: usize) -> Self {
+        let range = world.range(stretch);
+        let middle = 0.5 * (range.from + range.to);
+        let at = world.support(stretch, middle);
+        Self { x: at.x, y: at.y, alpha: at.alpha, half: 0.5 * range.length(), middle }
+    }
+
+    /// How a rod runs by whose point nearest to the vertex is `at`; none where it could not lie on the vertex in that direction.
+    pub fn passing(&self, at: &Section) -> Option<Passing> {
+        let lean = (at.phi - self.alpha) - PI * ((at.phi - self.alpha) / PI).round();
+        let (sin, cos) = (self.alpha + lean).sin_cos();
+        let gap = (at.x - self.x) * sin - (at.y - self.y) * cos;
+        let t = self.middle + lean.clamp(-self.half, self.half);
+        (lean.abs() <= self.half + PARALLEL).then_some(Passing { gap, alpha: self.alpha + lean, t })
+    }
+
+    /// Whether the rod, on the wrong side of the vertex, goes through the solid there, and does not just run along the far side of
+    /// the object. It is told by the point where the rod crosses the line that halves the solid's angle: that point is inside
+    /// by about the sine of half the angle. `ahead` and `behind` is how far the rod goes on.
+    pub fn is_cut(&self, world: &World<'_>, at: &Section, passing: &Passing, (behind, ahead): (f64, f64)) -> bool {
+        let along = -passing.gap / (passing.alpha - self.alpha).cos().max(PARALLEL);
+        let (sin, cos) = self.alpha.sin_cos();
+        let (x, y) = (self.x - along * sin, self.y + along * cos);
+        let (sin, cos) = at.phi.sin_cos();
+        let way = (x - at.x) * cos + (y - at.y) * sin;
+        -behind <= way && way <= ahead && world.gap(x, y) < 1e-12 - 0.5 * along * self.half.cos()
+    }
+}
