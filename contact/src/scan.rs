@@ -305,6 +305,8 @@ impl Scanner {
             let foot = world.foot_in(part, node.at.x, node.at.y);
             if let Some((_, _, was)) = before.filter(|(k, ..)| k + 1 == i)
                 && pierces(&was, &foot)
+                && world.is_inside(&part, was.t)
+                && world.is_inside(&part, foot.t)
             {
                 found.min_gap = found.min_gap.min(-was.gap.abs().min(foot.gap.abs()));
             }
