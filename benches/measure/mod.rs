@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each bench takes what it needs")]
 
 pub mod objects;
+pub mod waves;
 
 use std::f64::consts::PI;
 use std::hint::black_box;

@@ -187,8 +187,18 @@ impl<'a> World<'a> {
 
     /// Signed distance of a point from the nearest object: negative inside any of them.
     pub fn gap(&self, x: f64, y: f64) -> f64 {
-        let gaps = self.objects.iter().map(|object| object.gap(x * self.length, y * self.length));
-        gaps.fold(f64::INFINITY, f64::min) / self.length
+        let (x, y) = (x * self.length, y * self.length);
+        let least = self.objects.iter().fold(f64::INFINITY, |least, object| {
+            // Most of many objects are farther away than what has been found; only of those that are closed the solid is
+            // within the bounds.
+            let is_bounded = object.is_closed() && !object.is_cavity();
+            if is_bounded && object.bounds().distance(x, y) > least.max(0.0) {
+                least
+            } else {
+                least.min(object.gap(x, y))
+            }
+        });
+        least / self.length
     }
 
     /// Whether a point with a negative gap to `foot`'s part is inside the solid, and there nearest to that part: what lies

@@ -66,6 +66,13 @@ impl Bounds {
         // One of the two is 0 for most points: no root then.
         if dx == 0.0 || dy == 0.0 { dx + dy } else { (dx * dx + dy * dy).sqrt() }
     }
+
+    /// The square of [`distance`](Self::distance).
+    pub(crate) fn square(&self, x: f64, y: f64) -> f64 {
+        let dx = (self.min[0] - x).max(x - self.max[0]).max(0.0);
+        let dy = (self.min[1] - y).max(y - self.max[1]).max(0.0);
+        dx * dx + dy * dy
+    }
 }
 
 #[cfg(test)]

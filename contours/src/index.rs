@@ -1,79 +1,156 @@
-//! Which of many boxes are near: the seam to `static_aabb2d_index`.
-
-use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+//! Which of many boxes that follow each other along a contour are near.
 
 use crate::Bounds;
 
 /// Up to so many items are all looked at: that costs less than to ask which ones are near.
 const FEW: usize = 16;
 
-/// Items by their boxes: a packed Hilbert R-tree where they are many.
+/// Boxes within one box of the next level: with fewer of them the levels above take more memory, with more of them more
+/// boxes are compared.
+const FAN: usize = 4;
+
+/// Room for rounding, relative to the distance squared: a box that touches its item can come out just beyond it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Items by their boxes, and where they are many the boxes around each [`FAN`] of them, around each [`FAN`] of those, and
+/// so on up to one.
+///
+/// The items keep their order: what follows each other along a contour is together in space as well. An order by place
+/// alone would pack different waves of a long wavy line together.
 #[derive(Debug)]
 pub(crate) struct Index {
     count: usize,
-    /// None where there are few.
-    tree: Option<StaticAABB2DIndex<f64>>,
-    /// Items without finite boxes, in order; they are near everything. A contour has two at most.
+    /// The boxes of the items, then those of each further level; nothing where there are few.
+    boxes: Vec<Bounds>,
+    /// Where each level starts in `boxes`.
+    levels: Vec<usize>,
+    /// Items without finite boxes, in order; they are near everything, and stay out of the boxes around others. A contour
+    /// has two at most.
     unbounded: Vec<usize>,
 }
 
+/// What [`Index::nearest`] looks for.
+struct Nearest<'a, F> {
+    x: f64,
+    y: f64,
+    /// The square of the distance beyond which nothing matters.
+    limit: f64,
+    look: &'a mut F,
+}
+
+impl<F: FnMut(usize) -> f64> Nearest<'_, F> {
+    fn look_at(&mut self, item: usize) {
+        let limit = (self.look)(item);
+        self.limit = limit * limit * (1.0 + ROUNDING);
+    }
+}
+
 impl Index {
-    pub fn new(boxes: impl ExactSizeIterator<Item = Bounds> + Clone) -> Self {
-        let count = boxes.len();
+    pub fn new(items: impl ExactSizeIterator<Item = Bounds>) -> Self {
+        let count = items.len();
         if count <= FEW {
-            return Self { count, tree: None, unbounded: Vec::new() };
+            return Self { count, boxes: Vec::new(), levels: Vec::new(), unbounded: Vec::new() };
         }
-        let unbounded: Vec<usize> =
-            boxes.clone().enumerate().filter(|(_, bounds)| !bounds.is_finite()).map(|(item, _)| item).collect();
-        let mut builder = StaticAABB2DIndexBuilder::new(count - unbounded.len());
-        for bounds in boxes.filter(Bounds::is_finite) {
-            builder.add(bounds.min[0], bounds.min[1], bounds.max[0], bounds.max[1]);
+        let mut sizes = vec![count];
+        while let Some(size) = sizes.last().filter(|size| **size > 1) {
+            sizes.push(size.div_ceil(FAN));
         }
-        // It fails only where fewer boxes were added than announced.
-        Self { count, tree: builder.build().ok(), unbounded }
+        let mut boxes = Vec::with_capacity(sizes.iter().sum());
+        let mut unbounded = Vec::new();
+        boxes.extend(items.enumerate().map(|(item, bounds)| {
+            if bounds.is_finite() {
+                return bounds;
+            }
+            unbounded.push(item);
+            Bounds::EMPTY
+        }));
+        let mut levels = vec![0];
+        for _ in 1..sizes.len() {
+            let (from, to) = (levels[levels.len() - 1], boxes.len());
+            levels.push(to);
+            for first in (from..to).step_by(FAN) {
+                let around = boxes[first..to.min(first + FAN)].iter().fold(Bounds::EMPTY, |all, one| all.union(*one));
+                boxes.push(around);
+            }
+        }
+        Self { count, boxes, levels, unbounded }
     }
 
     /// Whether all items are looked at anyway.
     pub fn is_small(&self) -> bool {
-        self.tree.is_none()
-    }
-
-    /// Number of the item that is number `id` in the tree, which the unbounded ones are missing from.
-    fn item(&self, id: usize) -> usize {
-        self.unbounded.iter().fold(id, |item, unbounded| item + usize::from(*unbounded <= item))
+        self.levels.is_empty()
     }
 
     /// Calls `visit` with the items whose boxes meet `bounds`, and perhaps with others.
     pub fn meeting(&self, bounds: Bounds, visit: &mut impl FnMut(usize)) {
-        let Some(tree) = &self.tree else {
-            (0..self.count).for_each(visit);
-            return;
-        };
-        self.unbounded.iter().copied().for_each(&mut *visit);
-        let [[left, low], [right, high]] = [bounds.min, bounds.max];
-        tree.visit_query(left, low, right, high, &mut |id: usize| visit(self.item(id)));
+        match self.levels.len().checked_sub(1) {
+            None => (0..self.count).for_each(visit),
+            Some(top) => {
+                self.unbounded.iter().copied().for_each(&mut *visit);
+                self.descend_to(&bounds, top, 0, visit);
+            }
+        }
     }
 
     /// Calls `look` with the items that may be nearer to `(x, y)` than the limit it returned last, nearer boxes first.
     pub fn nearest(&self, x: f64, y: f64, look: &mut impl FnMut(usize) -> f64) {
-        let Some(tree) = &self.tree else {
-            (0..self.count).for_each(|item| {
+        match self.levels.len().checked_sub(1) {
+            None => (0..self.count).for_each(|item| {
                 look(item);
-            });
-            return;
-        };
-        let mut limit = f64::INFINITY;
-        for &item in &self.unbounded {
-            limit = look(item);
-        }
-        tree.visit_neighbors(x, y, &mut |id: usize, square: f64| {
-            // A box that touches its item can round to a distance just above the item's own.
-            if square.sqrt() > limit * (1.0 + 8.0 * f64::EPSILON) {
-                return Control::Break(());
+            }),
+            Some(top) => {
+                let mut nearest = Nearest { x, y, limit: f64::INFINITY, look };
+                self.unbounded.iter().for_each(|item| nearest.look_at(*item));
+                self.descend_near(&mut nearest, top, 0);
             }
-            limit = look(self.item(id));
-            Control::Continue
-        });
+        }
+    }
+
+    /// Number of the first box within one of a level above the lowest, and those boxes.
+    fn within(&self, level: usize, number: usize) -> (usize, &[Bounds]) {
+        let (from, to) = (self.levels[level - 1], self.levels[level]);
+        let first = FAN * number;
+        (first, &self.boxes[from + first..to.min(from + first + FAN)])
+    }
+
+    fn descend_to(&self, bounds: &Bounds, level: usize, number: usize, visit: &mut impl FnMut(usize)) {
+        let (first, boxes) = self.within(level, number);
+        for (number, _) in (first..).zip(boxes).filter(|(_, one)| one.meets(bounds)) {
+            if level == 1 {
+                visit(number);
+            } else {
+                self.descend_to(bounds, level - 1, number, visit);
+            }
+        }
+    }
+
+    fn descend_near<F: FnMut(usize) -> f64>(&self, nearest: &mut Nearest<'_, F>, level: usize, number: usize) {
+        let (first, boxes) = self.within(level, number);
+        let mut near = [(f64::INFINITY, 0); FAN];
+        let mut count = 0;
+        for (number, one) in (first..).zip(boxes) {
+            let square = one.square(nearest.x, nearest.y);
+            if square > nearest.limit {
+                continue;
+            }
+            let mut place = count;
+            while place > 0 && near[place - 1].0 > square {
+                near[place] = near[place - 1];
+                place -= 1;
+            }
+            near[place] = (square, number);
+            count += 1;
+        }
+        for &(square, number) in &near[..count] {
+            if square > nearest.limit {
+                return;
+            }
+            if level == 1 {
+                nearest.look_at(number);
+            } else {
+                self.descend_near(nearest, level - 1, number);
+            }
+        }
     }
 }
 
@@ -107,6 +184,33 @@ mod tests {
                 assert!(met.contains(&(count / 2)), "{count}: {met:?}");
                 assert!(index.is_small() || (seen.len() <= 4 && met.len() <= 4), "{seen:?} {met:?}");
                 assert_eq!(index.is_small(), count <= FEW);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_near_is_passed_over() {
+        // A curve that comes back to itself again and again.
+        let point = |k: usize| [(k as f64 * 0.031).sin() * 3.0, (k as f64 * 0.047).cos()];
+        for count in [17, 63, 64, 65, 257, 1000] {
+            let one = |k: usize| {
+                let ([x, y], [u, v]) = (point(k), point(k + 1));
+                Bounds::EMPTY.with(x, y).with(u, v)
+            };
+            let index = Index::new((0..count).map(one));
+            for query in 0..200 {
+                let [x, y] = point(7 * query + 3).map(|side| 1.3 * side + 0.1);
+                let mut best = f64::INFINITY;
+                index.nearest(x, y, &mut |k| {
+                    best = best.min(one(k).distance(x, y));
+                    best
+                });
+                let least = (0..count).map(|k| one(k).distance(x, y)).fold(f64::INFINITY, f64::min);
+                assert_eq!(best, least, "{count} {query}");
+                let around = Bounds::EMPTY.with(x, y).grown(0.2);
+                let mut met = Vec::new();
+                index.meeting(around, &mut |k| met.push(k));
+                assert_eq!(met, (0..count).filter(|k| one(*k).meets(&around)).collect::<Vec<_>>());
             }
         }
     }

@@ -162,6 +162,9 @@ const MOST_CHORDS: usize = 4;
 const ROUNDING_STEP: f64 = 1e-9;
 /// What rounding leaves of a residual of order 1 to 10.
 const ROUNDING_RESIDUAL: f64 = 1e-13;
+/// What the rounding of the unknowns leaves of it besides, relative to their weighted norm: the parameter of a long contour
+/// may be in the thousands.
+const ROUNDING_UNKNOWNS: f64 = 4.0 * f64::EPSILON;
 
 /// One damped Newton step from `u`, in place. `workspace` must have been prepared for this system by
 /// [`NewtonWorkspace::prepare`].
@@ -201,7 +204,8 @@ pub fn newton_step(
             }
             return chords(system, u, options, w, length, simplified);
         }
-        if simplified <= ROUNDING_STEP && largest(&w.residual) <= ROUNDING_RESIDUAL {
+        let rounding = ROUNDING_RESIDUAL + ROUNDING_UNKNOWNS * w.norm(u);
+        if simplified <= ROUNDING_STEP && largest(&w.residual) <= rounding {
             return StepOutcome::Done(SolveStatus::Stalled, simplified);
         }
         damping *= 0.5;
@@ -291,4 +295,36 @@ pub fn solve(
         }
     }
     workspace.report(system, u, status, iterations, correction)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// sin u = 0.
+    struct Sine;
+
+    impl System for Sine {
+        fn dimension(&self) -> usize {
+            1
+        }
+
+        fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+            residual[0] = u[0].sin();
+            if let Some(jacobian) = jacobian {
+                jacobian[0] = u[0].cos();
+            }
+        }
+    }
+
+    #[test]
+    fn a_large_unknown_is_found_to_its_own_rounding() {
+        for k in 1000..3000 {
+            let mut u = [f64::from(k) * PI + 0.1];
+            let report = solve(&Sine, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
+            assert!(report.status.is_solved(), "{k}: {report:?}");
+            assert!((u[0] - f64::from(k) * PI).abs() <= f64::EPSILON * u[0], "{k}: {report:?}");
+        }
+    }
 }

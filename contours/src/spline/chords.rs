@@ -63,7 +63,19 @@ impl Chords {
         points: impl Fn(usize) -> [f64; 2],
         look: &mut impl FnMut(usize) -> f64,
     ) {
-        self.descend(self.root(), 0.0, &mut Visit { span, seen_from, points, limit: f64::INFINITY, look });
+        // Straight down to the run that the span is in: a short part of a long spline costs what it is long.
+        let mut node = self.root();
+        while !node.is_single() {
+            let [left, right] = node.halves();
+            if span.end <= left.end {
+                node = left;
+            } else if span.start >= right.first {
+                node = right;
+            } else {
+                break;
+            }
+        }
+        self.descend(node, 0.0, &mut Visit { span, seen_from, points, limit: f64::INFINITY, look });
     }
 
     fn root(&self) -> Node {
