@@ -35,7 +35,7 @@ const SCENES: [(&str, &str, usize); 13] = [
 const THREADED: [&str; 3] = ["channel", "gears", "pegs"];
 
 /// Those in which the rod meets the object between two contacts it has.
-const BETWEEN: [&str; 1] = ["bumps"];
+const BETWEEN: [&str; 3] = ["bumps", "gears", "pegs"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
