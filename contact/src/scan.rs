@@ -16,6 +16,15 @@ const SPACING: f64 = 1.0 / 32.0;
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
 
+/// Cosine of the largest turn of a part between two feet that are taken to be on the same side of it, or on opposite ones.
+const LEAST_COSINE: f64 = 0.8;
+
+/// Distance from the rod at which an end of an open contour is what it cannot go on for.
+const BY_END: f64 = 0.02;
+
+/// Distance from the rod of what is on it but for rounding.
+const ON_ROD: f64 = 1e-12;
+
 /// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
 
@@ -47,10 +56,15 @@ pub(crate) struct Scan {
 }
 
 impl Scan {
+    /// Whether the rod is next to an end of an open contour.
+    pub fn is_by_an_end(&self) -> bool {
+        self.sides.iter().any(|side| side.abs() < BY_END)
+    }
+
     /// Whether the rod, from where it was, has swept over an end of an open contour.
     pub fn has_swept_over_an_end(&self, before: &Self) -> bool {
         // an end that the rod lies on is on either side by rounding; a far one has been gone around
-        let near = |side: f64| (PARALLEL..DEEPEST).contains(&side.abs());
+        let near = |side: f64| (ON_ROD..DEEPEST).contains(&side.abs());
         self.sides.iter().zip(&before.sides).any(|(now, was)| near(*now) && near(*was) && now.signum() != was.signum())
     }
 }
@@ -285,10 +299,17 @@ impl Scanner {
     ) {
         let Near { part, first, last } = near;
         let nodes = &self.nodes[..=last];
-        let mut before: Option<(usize, Sight)> = None;
+        let mut before: Option<(usize, Sight, Foot)> = None;
         let mut i = first;
         while let Some(node) = nodes.get(i) {
             let foot = world.foot_in(part, node.at.x, node.at.y);
+            if let Some((_, _, was)) = before.filter(|(k, ..)| k + 1 == i)
+                && pierces(&was, &foot)
+                && world.is_inside(&part, was.t)
+                && world.is_inside(&part, foot.t)
+            {
+                found.min_gap = found.min_gap.min(-was.gap.abs().min(foot.gap.abs()));
+            }
             let mut sight = see(world, node, &foot, configuration, &part);
             if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
                 sight = Sight {
@@ -297,7 +318,7 @@ impl Scanner {
                     right: f64::NAN,
                     interior: false,
                     contact: false,
-                    line: None,
+                    line: sight.line,
                 };
             }
             if sight.interior {
@@ -306,7 +327,7 @@ impl Scanner {
             } else if sight.gap < found.min_gap && world.is_open_end(part.stretch, &foot) {
                 found.min_gap = sight.gap;
             }
-            if let Some((_, last)) = before.filter(|(k, _)| k + 1 == i) {
+            if let Some((_, last, _)) = before.filter(|(k, ..)| k + 1 == i) {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
@@ -332,7 +353,7 @@ impl Scanner {
                 let stretch = part.stretch;
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: node.at.phi, foot, tip: true });
             }
-            before = Some((i, sight));
+            before = Some((i, sight, foot));
             // within the distance by which the gap exceeds the smallest one there is nothing smaller
             let safe = node.s + (sight.gap - found.min_gap.max(0.0)).max(0.0);
             i += 1;
@@ -434,6 +455,13 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     let (sin, cos) = at.phi.sin_cos();
     let (dx, dy) = (at.x - foot.x, at.y - foot.y);
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
+}
+
+/// Whether the rod goes through a part between two of its nodes, from one side to the other: through something thin, that is
+/// behind it again at the next node.
+fn pierces(was: &Foot, foot: &Foot) -> bool {
+    let sides = was.gap.min(foot.gap) < -PARALLEL && was.gap.max(foot.gap) > PARALLEL;
+    sides && was.interior && foot.interior && (was.alpha - foot.alpha).cos() > LEAST_COSINE
 }
 
 /// Whether the foot is a perpendicular one; where the contour goes on smoothly beyond the part and rounding decides which of the

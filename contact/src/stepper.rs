@@ -126,7 +126,7 @@ impl Stepper<'_> {
                 }
             }
             let stable = self.is_stable(&next);
-            if !stable && from.quality.stable {
+            if !stable {
                 if length > PROBE {
                     self.shorten();
                     continue;
@@ -144,7 +144,8 @@ impl Stepper<'_> {
             let quality = Quality::new(&report, stable);
             return Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })));
         }
-        Err(StopReason::StepTooSmall)
+        // Behind the end of an open contour there is no telling inside from outside.
+        Err(if from.scan.is_by_an_end() { StopReason::EndOfContour } else { StopReason::StepTooSmall })
     }
 
     fn shorten(&mut self) {
@@ -287,7 +288,7 @@ impl Stepper<'_> {
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         let seen = self.scanner.scan(&self.corrector.world, &self.corrector.path, reached);
-        if ordered_or_new(reached) && seen.crossings.iter().all(|crossing| crossing.foot.gap > -DEEPEST) {
+        if ordered_or_new(reached) && seen.min_gap > -DEEPEST {
             Ok(first.map(|(_, step)| step))
         } else {
             Err(NoTransition::NotLocated)

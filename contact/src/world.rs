@@ -131,6 +131,13 @@ impl<'a> World<'a> {
         part.range.from - slack <= t && t <= part.range.to + slack
     }
 
+    /// Whether `t` is in a part of its stretch, and not at an end, where a corner may be.
+    pub fn is_inside(&self, part: &Part, t: f64) -> bool {
+        let t = t * self.unit(self.at(part.stretch));
+        let slack = 1e-6 * (1.0 + t.abs());
+        part.range.from + slack < t && t < part.range.to - slack
+    }
+
     /// The closest point of a part of a stretch.
     pub fn foot_in(&self, part: Part, x: f64, y: f64) -> Foot {
         let Part { stretch, range } = part;

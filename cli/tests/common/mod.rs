@@ -1,6 +1,8 @@
 //! The command, run as a user runs it.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod judge;
+
 use std::path::Path;
 use std::process::{Command, Output};
 

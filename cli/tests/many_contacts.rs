@@ -1,0 +1,83 @@
+//! The scenes with many contacts, with corners, and with objects on both sides of the rod.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::judge::{is_pushed_from_both_sides, judge};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use vibrissa::{Event, EventKind, Phase};
+use vibrissa_cli::{Scan, Scene};
+
+/// Scene, phases, and the largest number of contacts that any state has.
+const SCENES: [(&str, &str, usize); 13] = [
+    ("bay", "A BA BBA BBBA BBA BBBA BBA", 4),
+    ("bumps", "A B BB BA B BB BA B BB BBB BBA BB BBB BB BA BBA BBBA BBA BB BBB BB B", 4),
+    ("channel", "A B BA BB BBA BBB BBBA BBBB", 4),
+    ("comb", "B BB BA B BB BA B BB BA BBA BA B BB BBB BB BA BBA BB BBB BB BBB BB BA BBA BBBA BBB BB B", 4),
+    ("gears", "B BB B BB BBB BB BBB BB BBB BB BBB BB BBB BB BBB", 3),
+    ("pegs", "B BB BBB BBA BB", 3),
+    ("ring_gear", "A BA BBA", 3),
+    ("ripples", "B BB BA B BA B BA B BB BA BBA BA B BB BBB BB BA BBA BBBA BBB BB BBB BBA BA BBA BB B A", 4),
+    (
+        "saw",
+        "B BA B BA B BB BBB BB BA B BB BBB BA B BB BBB BB BBA BB BBB BB BBB BB BBA BB BBB BB BBB BB BA BBA BB B",
+        3,
+    ),
+    ("scallops", "A B BB BA B BB BA B BB BA BBA BA B BB BBB BB BA BBA BB BBB BB BBB BBA BBBA BBA BB BBB BB BA B", 4),
+    ("square_flush", "B A", 1),
+    ("square_tilted", "B A B", 1),
+    ("triangle", "A B", 1),
+];
+
+/// Those with objects on both sides of the rod.
+const THREADED: [&str; 3] = ["channel", "gears", "pegs"];
+
+/// Those in which the rod meets the object between two contacts it has.
+const BETWEEN: [&str; 1] = ["bumps"];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+fn swept(name: &str) -> Scan {
+    Scan::run(Scene::read(&folder().join(name).with_extension("toml")).unwrap()).unwrap()
+}
+
+/// Whether the contact that came is neither the first nor the last one.
+fn comes_between(event: &Event) -> bool {
+    let [before, after] = [&event.before, &event.after].map(|state| &state.contacts);
+    let same = |i: usize, j: usize| (before[i].s - after[j].s).abs() < 1e-9;
+    event.kind == EventKind::Touch
+        && after.len() == before.len() + 1
+        && before.len() >= 2
+        && same(0, 0)
+        && same(before.len() - 1, after.len() - 1)
+}
+
+#[test]
+fn every_scene_but_those_of_the_paper_is_in_the_table() {
+    let files = fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
+    let names: BTreeSet<String> = files.map(|file| file.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+    let others: Vec<&str> = names.iter().map(String::as_str).filter(|name| !name.starts_with('O')).collect();
+    assert_eq!(others, SCENES.map(|(name, ..)| name));
+    assert_eq!(names.len(), others.len() + 9);
+}
+
+#[test]
+fn every_scene_gives_its_phases_and_nothing_but_equilibria() {
+    for (name, phases, most) in SCENES {
+        let scan = swept(name);
+        judge(&scan.scene, &scan.outcome).unwrap();
+        assert_eq!(scan.cycle().to_string(), phases, "{name}");
+        let events = scan.outcome.events.iter().flat_map(|event| [event.from(), event.to()]);
+        let counts = scan.outcome.states.iter().map(|state| state.phase()).chain(events).map(|phase| phase.contacts);
+        assert_eq!(counts.max(), Some(most), "{name}");
+        let between = scan.outcome.events.iter().any(comes_between);
+        assert_eq!(between, BETWEEN.contains(&name), "{name}: a contact between others");
+        let threaded = scan.outcome.states.iter().any(|state| is_pushed_from_both_sides(state, &scan.scene));
+        assert_eq!(threaded, THREADED.contains(&name), "{name}: contacts on both sides");
+        assert_eq!(scan.outcome.states.first().map(|state| state.phase()), Some(Phase::FREE), "{name} starts free");
+    }
+}
