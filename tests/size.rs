@@ -1,7 +1,7 @@
 //! What a contour of very many pieces costs: memory, and looks at its shapes while a rod sweeps past a few of them.
 //!
 //! How long that takes is for `cargo bench --bench size`.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may, and its numbers are there to be read")]
 
 #[path = "../benches/measure/waves.rs"]
 mod waves;
