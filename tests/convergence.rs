@@ -3,7 +3,13 @@
 //! A contour that is off by `delta` along its normal changes the energy by force times delta, and the reactions, which are
 //! the energy's derivatives by the clamp's pose, by the derivative of that. So a cubic spline through points h apart (position
 //! h^4, angle h^3) gives the energy to order 4 and the reactions to order 3, a polygon (h^2, h) to orders 2 and 1.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may, and its tables are there to be read")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test may, and its tables are there to be read"
+)]
 
 mod common;
 
