@@ -51,7 +51,8 @@ pub(crate) fn state(
             object: world.object(configuration.contacts[j].stretch),
             piece: world.piece(configuration.contacts[j].stretch),
             kind: configuration.kind(world, j),
-            s: configuration.s(j) * length,
+            // rounding of the product must not leave the rod
+            s: (configuration.s(j) * length).min(length),
             x: at.x * length,
             y: at.y * length,
             alpha: at.alpha,
