@@ -13,6 +13,11 @@ use smallvec::SmallVec;
 /// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
 const SPACING: f64 = 1.0 / 32.0;
 
+const SMALLEST_SPACING: f64 = 1.0 / 512.0;
+
+/// Largest distance between them in the elastica's own wavelength: in units of the square root of EI over the force.
+const LARGEST_PHASE: f64 = 0.5;
+
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
 
@@ -83,9 +88,10 @@ pub(crate) struct Node {
 #[derive(Clone, Copy)]
 struct Sight {
     gap: f64,
-    /// Slope of the gap along the rod, to the left and to the right of the node.
+    /// Slope of the gap along the rod, to the left and to the right of the node, and how fast it changes.
     left: f64,
     right: f64,
+    bend: f64,
     interior: bool,
     /// Whether the part's own contact is here.
     contact: bool,
@@ -219,7 +225,7 @@ impl Scanner {
             if length <= 0.0 {
                 continue;
             }
-            let steps = (length / SPACING).ceil() as usize;
+            let steps = ((length / spacing(span)).ceil() as usize).max(1);
             // the last section of a span is the first of the next, where it is known better
             let keep = if i + 1 < spans.len() { steps - 1 } else { steps };
             let h = length / steps as f64;
@@ -282,10 +288,7 @@ impl Scanner {
             }
             before = (!own).then_some((i, ahead));
             let safe = node.s + (distance - found.min_gap.clamp(DEEPEST, 1.0)).max(0.0);
-            i += 1;
-            while i < last && nodes_before(&self.nodes, i, safe) {
-                i += 1;
-            }
+            i = next_beyond(&self.nodes[..=last], i, safe);
         }
     }
 
@@ -312,14 +315,8 @@ impl Scanner {
             }
             let mut sight = see(world, node, &foot, configuration, &part);
             if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
-                sight = Sight {
-                    gap: -sight.gap,
-                    left: f64::NAN,
-                    right: f64::NAN,
-                    interior: false,
-                    contact: false,
-                    line: sight.line,
-                };
+                let none = f64::NAN;
+                sight = Sight { gap: -sight.gap, left: none, right: none, interior: false, contact: false, ..sight };
             }
             if sight.interior {
                 found.min_gap = found.min_gap.min(sight.gap);
@@ -339,12 +336,12 @@ impl Scanner {
                     (Some(right), Some(left)) if !own => Some((right, left, true)),
                     _ => Some((last.right, sight.left, false)),
                 };
-                if let Some((right, left, line)) = slopes
-                    && right < 0.0
-                    && left >= 0.0
-                    && matters
-                {
-                    self.search(world, spans, part, (last_node, node), (right, left, line), found);
+                if let Some((right, left, line)) = slopes.filter(|_| matters) {
+                    let search = Search { world, part, span: &spans[last_node.span], line };
+                    let ends = ((last_node.s, right), (node.s, left));
+                    if let Some(ends) = search.bracket(ends, (last.bend, sight.bend)) {
+                        search.run(ends, found);
+                    }
                 }
             }
             let at_end = i + 1 == self.nodes.len();
@@ -356,34 +353,58 @@ impl Scanner {
             before = Some((i, sight, foot));
             // within the distance by which the gap exceeds the smallest one there is nothing smaller
             let safe = node.s + (sight.gap - found.min_gap.max(0.0)).max(0.0);
-            i += 1;
-            while i + 1 < nodes.len() && nodes[i].s < safe && nodes[i + 1].s < safe {
-                i += 1;
-            }
+            i = next_beyond(nodes, i, safe);
+        }
+    }
+}
+
+/// The search of the smallest gap to a part between two neighbouring nodes of a span of the rod.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    world: &'a World<'a>,
+    part: Part,
+    span: &'a Span,
+    /// Whether the slope is that of the gap to the line that the part belongs to.
+    line: bool,
+}
+
+/// An arc length, and the slope of the gap there.
+type Sloped = (f64, f64);
+
+impl Search<'_> {
+    /// Slope of the gap along the rod, where the rod is, and the closest point of the part.
+    fn look(&self, s: f64) -> (f64, Section, Foot) {
+        let Span { s: from, start, a, b } = self.span;
+        let at = advance(start, *a, *b, s - from);
+        let foot = self.world.foot_in(self.part, at.x, at.y);
+        (if self.line { -(at.phi - foot.alpha).sin() } else { slope(&at, &foot) }, at, foot)
+    }
+
+    /// Where the slope changes from falling to rising. Under a large force the gap may fall, rise and fall again between two
+    /// nodes: a slope of one sign that comes nearer to zero at both ends, by its own changes there, is looked at in between.
+    fn bracket(&self, (first, last): (Sloped, Sloped), (bend, last_bend): (f64, f64)) -> Option<(Sloped, Sloped)> {
+        if first.1 < 0.0 && last.1 >= 0.0 {
+            return Some((first, last));
+        }
+        let (falls, rises) = (first.1 < 0.0 && last.1 < 0.0, first.1 >= 0.0 && last.1 >= 0.0);
+        let dips = (falls && bend > 0.0 && last_bend < 0.0) || (rises && bend < 0.0 && last_bend > 0.0);
+        if !dips {
+            return None;
+        }
+        let s = first.0 + (last.0 - first.0) * bend / (bend - last_bend);
+        let (slope, ..) = self.look(s);
+        match (falls, slope < 0.0) {
+            (true, false) => Some((first, (s, slope))),
+            (false, true) => Some(((s, slope), last)),
+            _ => None,
         }
     }
 
-    /// The smallest gap between two neighbouring nodes, where its slope changes sign.
-    fn search(
-        &self,
-        world: &World<'_>,
-        spans: &[Span],
-        part: Part,
-        nodes: (&Node, &Node),
-        slopes: (f64, f64, bool),
-        found: &mut Scan,
-    ) {
-        let span = &spans[nodes.0.span];
-        let look = |s: f64| {
-            let at = advance(&span.start, span.a, span.b, s - span.s);
-            let foot = world.foot_in(part, at.x, at.y);
-            let slope = if slopes.2 { -(at.phi - foot.alpha).sin() } else { slope(&at, &foot) };
-            (slope, at, foot)
-        };
+    /// The smallest gap between two points, where its slope changes sign.
+    fn run(&self, (mut lo, mut hi): (Sloped, Sloped), found: &mut Scan) {
         // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of s give all of its own
-        let (mut lo, mut hi) = ((nodes.0.s, slopes.0), (nodes.1.s, slopes.1));
-        let mut best = look(0.5 * (lo.0 + hi.0));
         let mut s = 0.5 * (lo.0 + hi.0);
+        let mut best = self.look(s);
         for _ in 0..40 {
             if best.0.abs() < 1e-9 || hi.0 - lo.0 < 1e-10 {
                 break;
@@ -396,8 +417,9 @@ impl Scanner {
                 lo.1 *= 0.5;
             }
             s = (lo.0 * hi.1 - hi.0 * lo.1) / (hi.1 - lo.1);
-            best = look(s);
+            best = self.look(s);
         }
+        let Self { world, part, .. } = self;
         let (_, at, foot) = best;
         if is_square(world, part.stretch, &at, &foot)
             && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y))
@@ -410,8 +432,18 @@ impl Scanner {
     }
 }
 
-fn nodes_before(nodes: &[Node], i: usize, safe: f64) -> bool {
-    nodes[i].s < safe && nodes[i + 1].s < safe
+/// Distance between the nodes of a span.
+fn spacing(span: &Span) -> f64 {
+    (LARGEST_PHASE / span.a.hypot(span.b).sqrt()).clamp(SMALLEST_SPACING, SPACING)
+}
+
+/// The node after node `i`, or the last one after which an interval goes beyond the arc length `safe`.
+fn next_beyond(nodes: &[Node], mut i: usize, safe: f64) -> usize {
+    i += 1;
+    while i + 1 < nodes.len() && nodes[i].s < safe && nodes[i + 1].s < safe {
+        i += 1;
+    }
+    i
 }
 
 /// Where between two nodes the rod runs by a point: the arc length, and the section; (r - point) . tangent is given at both.
@@ -477,7 +509,9 @@ fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuratio
     let gap = if foot.interior { foot.gap } else { foot.gap.abs() };
     let line = (foot.curvature == 0.0).then(|| -(node.at.phi - foot.alpha).sin());
     let left = slope(&node.at, foot);
-    let mut sight = Sight { gap, left, right: left, interior: foot.interior, contact: false, line };
+    let cos = (node.at.phi - foot.alpha).cos();
+    let bend = cos * (foot.curvature * cos / (1.0 + foot.curvature * foot.gap) - node.at.kappa);
+    let mut sight = Sight { gap, left, right: left, bend, interior: foot.interior, contact: false, line };
     if let Some(j) = node.contact
         && configuration.contacts[j].stretch == part.stretch
         && world.holds(part, configuration.t(j))
