@@ -72,6 +72,16 @@ impl ClampPath {
         Self { from: pose, to: pose, length: 1.0 }
     }
 
+    /// Other paths through the first pose at 0: turning there, and sideways across the rod, either way.
+    pub(crate) fn others_to_its_start(&self) -> [Self; 4] {
+        let here = self.from;
+        let (sin, cos) = here.phi.sin_cos();
+        [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)].map(|(sideways, turned)| {
+            let to = Pose { x: here.x - sideways * sin, y: here.y + sideways * cos, phi: here.phi + turned };
+            Self { from: here, to, length: 1.0 }
+        })
+    }
+
     /// The same path in dimensionless lengths.
     pub(crate) fn dimensionless(&self, units: Units) -> Self {
         let scale = |p: Pose| Pose { x: p.x / units.length, y: p.y / units.length, phi: p.phi };

@@ -74,8 +74,9 @@ impl<'a> Sweep<'a> {
     /// A sweep of `rod` along `path` past `objects` (m): one [`Composite`], or a list of them. States are reported at 0,
     /// `step`, 2 `step`, ... of the path's parameter (m, or radians where the clamp only turns).
     ///
-    /// A start in contact has the shape that a sweep from further back along the same line would have brought there; only
-    /// where no pose on that line is free, the straight rod is let go into contact.
+    /// A start in contact has the shape that a sweep from further back along the same line would have brought there. Where
+    /// there is none, it is one that the clamp turned, or moved sideways, into its first pose would have brought; and where there is
+    /// none either, the straight rod is let go into contact.
     ///
     /// # Errors
     /// [`ContactError::Step`].
@@ -255,15 +256,34 @@ impl<'a> Sweep<'a> {
         back.or(beyond)
     }
 
-    /// The first point: free, or brought into contact along the path.
+    /// The first point: free, or brought into contact along the path, or else by another way.
     fn start(&mut self) -> Result<Point, StopReason> {
         if let Some(start) = self.free(0.0) {
             return Ok(self.stepper.point(start));
         }
-        let farthest = if self.stepper.corrector.path.turns_only() { PI } else { BACK.0 };
+        let own = self.stepper.corrector.path;
+        let ways = std::iter::once(own).chain(own.others_to_its_start());
+        let brought = ways.into_iter().find_map(|way| self.brought_by(way));
+        self.stepper.corrector.path = own;
+        self.pending.clear();
+        (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
+        let start = brought.or_else(|| self.let_go()).ok_or(StopReason::NoStart)?;
+        Ok(self.stepper.point(start))
+    }
+
+    /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where, further
+    /// back, it is free.
+    fn brought_by(&mut self, way: ClampPath) -> Option<Configuration> {
+        self.stepper.corrector.path = way;
+        let farthest = if way.turns_only() { PI } else { BACK.0 };
         let tries = (farthest / BACK.1) as usize;
-        let back = (1..=tries).find_map(|k| self.free(-BACK.1 * k as f64));
-        back.and_then(|start| self.approach(start)).or_else(|| self.let_go()).ok_or(StopReason::NoStart)
+        let start = (1..=tries).find_map(|k| self.free(-BACK.1 * k as f64))?;
+        (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
+        let mut point = self.stepper.point(start);
+        while point.configuration.tau() < 0.0 {
+            point = self.follow(&point, 0.0).ok()?;
+        }
+        Some(point.configuration)
     }
 
     /// The straight rod at a pose, if it touches nothing there.
@@ -273,27 +293,14 @@ impl<'a> Sweep<'a> {
         (scan.min_gap >= -GAP_TOLERANCE && !scan.clamp_inside).then_some(configuration)
     }
 
-    /// The sweep from a free pose back on the line up to the start, in silence.
-    fn approach(&mut self, start: Configuration) -> Option<Point> {
-        let mut point = self.stepper.point(start);
-        while point.configuration.tau() < 0.0 {
-            point = self.follow(&point, 0.0).ok()?;
-        }
-        self.pending.clear();
-        Some(point)
-    }
-
     /// The straight rod let go in the first pose.
-    fn let_go(&mut self) -> Option<Point> {
-        self.pending.clear();
-        (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
+    fn let_go(&mut self) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let settled = BENDS.into_iter().find_map(|bend| {
+        BENDS.into_iter().find_map(|bend| {
             let mut chain = Chain::straight(corrector.path.at(0.0), bend);
             let guess = chain.settle(&corrector.world, 0.0)?;
             settle(corrector, scanner, guess)
-        })?;
-        Some(self.stepper.point(settled))
+        })
     }
 
     fn report(&mut self, point: &Point) {
