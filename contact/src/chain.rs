@@ -34,6 +34,9 @@ const LEAST_FORCE: f64 = 1e-4;
 /// Deepest penetration taken back in one step.
 const DEEPEST_PUSH: f64 = 0.03;
 
+/// How far walls give way to a unit of force where they leave the chain no other way.
+const YIELDING: f64 = 1e-5;
+
 /// A chain of links in the contour's world.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
@@ -134,7 +137,8 @@ impl Chain {
         let near = self.near(world, &nodes, &angles, reach);
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
-            let (change, forces) = programme(self, &nodes, &near, time_step, push)?;
+            let solved = programme(self, &nodes, &near, time_step, push, 0.0);
+            let (change, forces) = solved.or_else(|| programme(self, &nodes, &near, time_step, push, YIELDING))?;
             let mut moved = self.clone();
             for (joint, change) in moved.joints.iter_mut().zip(&change) {
                 *joint += change;
@@ -238,13 +242,15 @@ fn at_corner(world: &World<'_>, stretch: usize, link: usize, start: &Section, re
 /// The quadratic programme of one step: change d of the joints, force at each near node.
 ///
 /// It is minimise 1/2 d' D d + q' d subject to A d <= b with a diagonal D, solved by its dual in the forces, which are few:
-/// minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f over f >= 0, then d = -D^-1 (q + A' f).
+/// minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f over f >= 0, then d = -D^-1 (q + A' f). Walls between which, linearised,
+/// there is no room are let give way by `yielding` a unit of force: A d <= b + yielding f.
 fn programme(
     chain: &Chain,
     nodes: &[[f64; 2]; LINKS + 1],
     near: &[Near],
     time_step: f64,
     push: f64,
+    yielding: f64,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let damped = 1.0 + 1.0 / time_step;
     let softness = |i: usize| 1.0 / (Chain::stiffness(i) * damped);
@@ -264,7 +270,8 @@ fn programme(
     for (j, right) in rows.iter().enumerate() {
         for (i, left) in rows.iter().enumerate().take(j + 1) {
             indices.push(i);
-            values.push((0..LINKS).map(|k| left[k] * right[k] * softness(k)).sum());
+            let given = if i == j { yielding } else { 0.0 };
+            values.push(given + (0..LINKS).map(|k| left[k] * right[k] * softness(k)).sum::<f64>());
         }
         columns.push(indices.len());
     }
