@@ -7,7 +7,7 @@
 use crate::configuration::{Configuration, Held, lying};
 use crate::world::World;
 use rod_core::Hold;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Where a wall of `notch` meets it: the wall's parameter and tangent angle there.
 fn edge(world: &World<'_>, notch: usize, wall: usize) -> (f64, f64) {
@@ -65,8 +65,8 @@ pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, s
     let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
     let range = world.range(notch);
     // along a notch alpha falls by 1 per unit of its parameter
-    let before = world.support(notch, range.from).alpha;
-    let t = range.from + (before - b.atan2(a));
+    let turned = world.support(notch, range.from).alpha - b.atan2(a);
+    let t = range.from + turned - TAU * (turned / TAU).round();
     configuration.contacts[last].stretch = notch;
     configuration.z[3 * last] = t.clamp(range.from, range.to);
     configuration.z[3 * last + 1] = a.hypot(b);
