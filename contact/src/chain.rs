@@ -120,7 +120,7 @@ impl Chain {
                             // beyond its end a piece goes on as its tangent
                             let gap = (x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos();
                             near.push(at(gap, foot.alpha));
-                        } else if foot.interior && (foot.gap >= -1e-9 || world.goes_through(&foot, x, y)) {
+                        } else if foot.interior && (foot.gap >= -1e-9 || world.goes_through(stretch, &foot, x, y)) {
                             near.push(at(foot.gap, foot.alpha));
                         }
                     }

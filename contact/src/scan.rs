@@ -209,7 +209,7 @@ impl Scanner {
     fn scan_notch(&self, world: &World<'_>, configuration: &Configuration, part: Part, found: &mut Scan) {
         let Some(tip) = self.nodes.last().filter(|_| !configuration.ends_at_tip()) else { return };
         let foot = world.foot_in(part, tip.at.x, tip.at.y);
-        if foot.interior && foot.gap < -GAP_TOLERANCE && world.goes_through(&foot, tip.at.x, tip.at.y) {
+        if foot.interior && foot.gap < -GAP_TOLERANCE && world.goes_through(part.stretch, &foot, tip.at.x, tip.at.y) {
             found.min_gap = found.min_gap.min(foot.gap);
             found.crossings.push(Crossing { stretch: part.stretch, s: 1.0, phi: tip.at.phi, foot, tip: true });
         }
@@ -314,7 +314,7 @@ impl Scanner {
                 found.min_gap = found.min_gap.min(-was.gap.abs().min(foot.gap.abs()));
             }
             let mut sight = see(world, node, &foot, configuration, &part);
-            if sight.gap < -GAP_TOLERANCE && !world.goes_through(&foot, node.at.x, node.at.y) {
+            if sight.gap < -GAP_TOLERANCE && !world.goes_through(part.stretch, &foot, node.at.x, node.at.y) {
                 let none = f64::NAN;
                 sight = Sight { gap: -sight.gap, left: none, right: none, interior: false, contact: false, ..sight };
             }
@@ -422,7 +422,7 @@ impl Search<'_> {
         let Self { world, part, .. } = self;
         let (_, at, foot) = best;
         if is_square(world, part.stretch, &at, &foot)
-            && (foot.gap > -GAP_TOLERANCE || world.goes_through(&foot, at.x, at.y))
+            && (foot.gap > -GAP_TOLERANCE || world.goes_through(part.stretch, &foot, at.x, at.y))
         {
             found.min_gap = found.min_gap.min(foot.gap);
             if foot.gap < -GAP_TOLERANCE {

@@ -4,6 +4,9 @@ use rod_contours::{Bounds, Composite, Contour, Frame, Part, Range, StretchKind};
 use rod_core::Support;
 use smallvec::SmallVec;
 
+/// Depth to which there is solid behind an open contour: further than a step of the sweep takes any point of the rod.
+const SKIN: f64 = 0.1;
+
 /// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that of its
 /// shape over the rod's length, or the angle turned at a joint), so that nothing is lost to an offset, however small the rod
 /// is.
@@ -201,10 +204,13 @@ impl<'a> World<'a> {
         least / self.length
     }
 
-    /// Whether a point with a negative gap to `foot`'s part is inside the solid, and there nearest to that part: what lies
-    /// behind one part may be outside of the object or nearer to another part, whose gap it then is.
-    pub fn goes_through(&self, foot: &Foot, x: f64, y: f64) -> bool {
-        foot.gap < 0.0 && foot.gap >= self.gap(x, y) * (1.0 + 1e-6) - 1e-14
+    /// Whether a point with a negative gap to `foot`, the closest point of a part of a stretch, is inside the solid, and there
+    /// nearest to that part: what lies behind one part may be outside of the object or nearer to another part, whose gap it then
+    /// is. What is deep behind an open contour came there around an end of it.
+    pub fn goes_through(&self, stretch: usize, foot: &Foot, x: f64, y: f64) -> bool {
+        foot.gap < 0.0
+            && foot.gap >= self.gap(x, y) * (1.0 + 1e-6) - 1e-14
+            && (foot.gap > -SKIN || self.at(stretch).0.is_closed())
     }
 
     /// Whether `foot` is the end of its stretch at a notch.
