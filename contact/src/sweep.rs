@@ -261,6 +261,9 @@ impl<'a> Sweep<'a> {
         if let Some(start) = self.free(0.0) {
             return Ok(self.stepper.point(start));
         }
+        if self.stepper.scan(&Configuration::free(0.0)).clamp_inside {
+            return Err(StopReason::NoStart);
+        }
         let own = self.stepper.corrector.path;
         let ways = std::iter::once(own).chain(own.others_to_its_start());
         let brought = ways.into_iter().find_map(|way| self.brought_by(way));
