@@ -10,9 +10,10 @@ use std::fmt;
 pub enum EventKind {
     /// The free rod meets the contour.
     FirstContact,
-    /// A rod in contact meets the contour at one more place.
+    /// A rod in contact meets the contour at one more place, or its last contact, at an inflection of the contour, parts into
+    /// two.
     Touch,
-    /// A contact lets go.
+    /// A contact lets go, or two run together at an inflection of the contour.
     Release,
     /// The tip lies down on the contour: A -> B.
     TipToTangent,
@@ -52,9 +53,9 @@ pub struct Event {
     /// The last state before. At a snap or slip it is the one where the equilibrium ended; otherwise it equals `after` up to the contact of zero
     /// force that comes or goes.
     pub before: State,
-    /// The first state after, at the same pose of the clamp; after a snap whose new branch starts only beyond the fold, where
-    /// it starts, at most 0.05 lengths of the rod further along the path. Poses to report in between have no equilibrium that
-    /// the rod could be in, and no state.
+    /// The first state after, at the same pose of the clamp, or at most 0.05 lengths of the rod further along the path: after
+    /// a snap whose new branch starts only beyond the fold, where it starts, and at an inflection of the contour, where the
+    /// two contacts are (were) 0.01 lengths of the rod apart. Poses to report in between have no state.
     pub after: State,
 }
 

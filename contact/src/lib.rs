@@ -37,6 +37,7 @@ mod equilibrium;
 mod error;
 mod event;
 mod fold;
+mod inflection;
 mod landing;
 mod notch;
 mod path;

@@ -113,11 +113,11 @@ fn add_cosines(cos: f64, weight: f64, moments: &mut [f64]) {
     }
 }
 
-/// Whether the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
-pub(crate) fn wraps(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> bool {
+/// The contact where the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
+pub(crate) fn wraps(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Option<usize> {
     let supports = configuration.supports(world);
     let spans = configuration.spans(world, path);
-    configuration.contacts.iter().zip(&spans[1..]).enumerate().any(|(j, (contact, span))| match contact.hold {
+    configuration.contacts.iter().zip(&spans[1..]).enumerate().position(|(j, (contact, span))| match contact.hold {
         Hold::Tangent { offset } => {
             let support = supports.support(j, configuration.t(j));
             let kappa = offset.cos() * span.start.kappa;

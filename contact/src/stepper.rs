@@ -5,6 +5,7 @@ use crate::certify::Quality;
 use crate::configuration::Configuration;
 use crate::error::StopReason;
 use crate::fold::locate_fold;
+use crate::inflection::{parted, run_together};
 use crate::landing::ordered;
 use crate::scan::{Scan, Scanner};
 use crate::stability::{is_stable, wraps};
@@ -57,6 +58,8 @@ pub(crate) enum Step {
     Changed(Box<Transition>),
     /// The branch ends here, in a fold, or loses its stability.
     Ended(Box<Configuration>),
+    /// The contour becomes concave under the last contact, behind which the rod is straight.
+    Wrapped(Box<Configuration>),
 }
 
 /// Follows branches.
@@ -131,12 +134,22 @@ impl Stepper<'_> {
                     self.shorten();
                     continue;
                 }
-                if wraps(&self.corrector.world, &self.corrector.path, &next) {
-                    return Err(StopReason::LineContact);
+                match wraps(&self.corrector.world, &self.corrector.path, &next) {
+                    Some(last) if last + 1 == next.count() => {
+                        let parted = parted(&mut self.corrector, &from.configuration).map(Box::new);
+                        return Ok(
+                            parted.map_or_else(|| Step::Wrapped(Box::new(from.configuration.clone())), Step::Changed)
+                        );
+                    }
+                    Some(_) => return Err(StopReason::LineContact),
+                    None => {}
                 }
                 // Mostly the fold is just ahead, and known better than the loss of stability is.
                 let fold = self.fold_ahead(from);
                 return Ok(Step::Ended(Box::new(fold.unwrap_or_else(|| from.configuration.clone()))));
+            }
+            if let Some(transition) = self.runs_together(&next, &tangent) {
+                return Ok(Step::Changed(Box::new(transition)));
             }
             if report.iterations <= 2 {
                 self.h = (2.0 * self.h).min(LONGEST_STEP);
@@ -146,6 +159,13 @@ impl Stepper<'_> {
         }
         // Behind the end of an open contour there is no telling inside from outside.
         Err(if from.scan.is_by_an_end() { StopReason::EndOfContour } else { StopReason::StepTooSmall })
+    }
+
+    /// The last two contacts run together, if they are about to.
+    fn runs_together(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
+        let j = next.count().checked_sub(2).filter(|_| !next.ends_at_tip())?;
+        let closes = tangent.direction[3 * j + 5] < tangent.direction[3 * j + 2];
+        closes.then(|| run_together(&mut self.corrector, next)).flatten()
     }
 
     fn shorten(&mut self) {
@@ -284,7 +304,7 @@ impl Stepper<'_> {
         let reached = match &first {
             None => return Ok(None),
             Some((_, Step::Changed(transition))) => &transition.after,
-            Some((_, Step::Ended(fold))) => fold,
+            Some((_, Step::Ended(fold) | Step::Wrapped(fold))) => fold,
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         let seen = self.scanner.scan(&self.corrector.world, &self.corrector.path, reached);

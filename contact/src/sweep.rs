@@ -181,6 +181,10 @@ impl<'a> Sweep<'a> {
                 self.count_crowd(last.tau())?;
                 self.snap(*last)
             }
+            Step::Wrapped(last) => {
+                self.count_crowd(last.tau())?;
+                self.snap(*last).map_err(|_| StopReason::LineContact)
+            }
         }
     }
 

@@ -194,7 +194,7 @@ impl Break {
 }
 
 /// The point of the branch near `start` where one unknown has a given value.
-fn on(
+pub(crate) fn on(
     corrector: &mut Corrector<'_>,
     mut start: Configuration,
     index: usize,

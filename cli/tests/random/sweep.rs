@@ -372,7 +372,8 @@ impl Examiner<'_> {
                 // it may come upon an end from the side, anywhere along the rod
                 let rod = Case::new(self.scene, last).rod;
                 let points = (0..=100).map(|k| rod.at(0.01 * f64::from(k)));
-                let from_rod = points.flat_map(|at| self.outlines.iter().map(move |o| o.distance_to_open_end(at.x, at.y)));
+                let from_rod =
+                    points.flat_map(|at| self.outlines.iter().map(move |o| o.distance_to_open_end(at.x, at.y)));
                 let least = last.contacts.iter().map(near).chain(from_rod).fold(f64::INFINITY, f64::min);
                 (least > 0.2).then(|| format!("nothing is nearer to an end than {least:.3}"))
             }

@@ -1,0 +1,104 @@
+//! The last contact at an inflection of the contour, where one contact parts into two or two run together.
+//!
+//! Behind its last contact the rod is straight, so that the contour is convex there. Where the contact comes to an inflection,
+//! with the concave part on the clamp's side, it cannot go on. The contour is y = c x^3 + d x^4 there, and so is the rod to the
+//! leading order: what holds it are two contacts a small distance l apart, the one nearer to the tip with the force 6 c (the
+//! rate of the contour's curvature) and at a distance of order l^2 from the inflection. That needs d < 0 where the solid is
+//! at y < 0 and c > 0; else the rod snaps.
+
+use crate::branch::Corrector;
+use crate::configuration::{Configuration, Held};
+use crate::event::EventKind;
+use crate::landing::ordered;
+use crate::transition::{Transition, on};
+use crate::world::World;
+use rod_contours::StretchKind;
+use rod_core::{Hold, find_root};
+
+/// Distance at which two contacts are told apart. Their forces are known to the rounding of its third power.
+pub(crate) const APART: f64 = 0.01;
+
+/// Distances tried where the two contacts do not stay as close as that.
+const FARTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
+
+/// How far around the last contact an inflection is looked for.
+const NEAR: f64 = 0.02;
+
+/// How far the path goes on, at most, until the two are told apart.
+const LONGEST_WAY: f64 = 0.05;
+
+/// How far from the inflection the one contact is that the two have run into.
+const CONVEX: f64 = 1e-4;
+
+/// An inflection: its parameter, the rate of the contour's curvature along the rod's length, and the change of the parameter
+/// along it.
+struct Inflection {
+    t: f64,
+    rate: f64,
+    by_s: f64,
+}
+
+/// The inflection next to contact j, with the concave side towards the clamp.
+fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<Inflection> {
+    let Held { stretch, hold: Hold::Tangent { offset } } = configuration.contacts[j] else { return None };
+    if !matches!(world.kind(stretch), StretchKind::Piece(_)) {
+        return None;
+    }
+    let t = configuration.t(j);
+    let by_s = offset.cos() / world.support(stretch, t).speed;
+    let curvature = |t: f64| {
+        let support = world.support(stretch, t);
+        support.turning / support.speed
+    };
+    let range = world.range(stretch);
+    let (before, after) = (range.clamp(t - NEAR * by_s), range.clamp(t + NEAR * by_s));
+    if !(curvature(before) < 0.0 && curvature(after) > 0.0) {
+        return None;
+    }
+    let t = find_root("curvature", |t| Ok(curvature(t)), before.min(after), before.max(after), 0.0).ok()?.at;
+    let (before, after) = (range.clamp(t - APART * by_s), range.clamp(t + APART * by_s));
+    let rate = (curvature(after) - curvature(before)) / ((after - before) / by_s);
+    Some(Inflection { t, rate, by_s })
+}
+
+/// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is at the
+/// inflection, and after it the two as soon as they can be told apart.
+pub(crate) fn parted(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {
+    let j = from.count().checked_sub(1)?;
+    let Inflection { t, rate, by_s } = inflection(&corrector.world, from, j)?;
+    let before = on(corrector, from.clone(), 3 * j, t).ok()?;
+    let (s, f) = (before.s(j), before.force(j));
+    let after = FARTHER.into_iter().find_map(|farther| {
+        let l = farther * APART;
+        let first = t - l * by_s;
+        let mut two = before.clone();
+        two.z[3 * j + 1] = rate;
+        two.insert(j, two.contacts[j], [first, f - rate, s - l]);
+        let two = on(corrector, two, 3 * j, first).ok()?;
+        let way = two.tau() - before.tau();
+        let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && ordered(&corrector.world, &two);
+        ((0.0..LONGEST_WAY).contains(&way) && holds).then_some(two)
+    })?;
+    Some(Transition { kind: EventKind::Touch, before, after, along: 0.0 })
+}
+
+/// The last two contacts, about to run together at an inflection between them, as the one that they will be.
+pub(crate) fn run_together(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {
+    let j = from.count().checked_sub(2)?;
+    let [one, other] = from.contacts.last_chunk::<2>()?;
+    if one != other || from.s(j + 1) - from.s(j) > APART {
+        return None;
+    }
+    let Inflection { t, by_s, .. } = inflection(&corrector.world, from, j + 1)?;
+    let mut together = from.clone();
+    together.remove(j);
+    together.z[3 * j + 1] += from.force(j);
+    let after = on(corrector, together, 3 * j, t + CONVEX * by_s).ok()?;
+    let way = after.tau() - from.tau();
+    (0.0..LONGEST_WAY).contains(&way).then(|| Transition {
+        kind: EventKind::Release,
+        before: from.clone(),
+        after,
+        along: 0.0,
+    })
+}
