@@ -42,12 +42,16 @@ fn two_thousand_scenes() {
 }
 
 /// `SEEDS=12,345 cargo test ... -- --ignored --nocapture these_scenes` runs single ones, with all that comes out; a name of a
-/// file in place of a seed runs that scene.
+/// file in place of a seed runs that scene, and `2000..4000` a range of them, of which the table is printed.
 #[test]
 #[ignore = "for a look at single scenes"]
 fn these_scenes() {
     let seeds = std::env::var("SEEDS").unwrap_or_default();
     for name in seeds.split(',').filter(|name| !name.is_empty()) {
+        if let Some((Ok(first), Ok(end))) = name.split_once("..").map(|(first, end)| (first.parse(), end.parse())) {
+            run(first..end);
+            continue;
+        }
         let generated = match name.parse() {
             Ok(seed) => scene(seed),
             Err(_) => Generated { seed: 0, kind: "from a file", text: std::fs::read_to_string(name).unwrap() },
