@@ -428,6 +428,9 @@ impl Search<'_> {
             if foot.gap < -GAP_TOLERANCE {
                 found.crossings.push(Crossing { stretch: part.stretch, s, phi: at.phi, foot, tip: false });
             }
+        } else if world.goes_on(part.stretch, &foot) {
+            // across something thin, whose other side is the next part: it has gone too deep to tell where it went in
+            found.min_gap = found.min_gap.min(world.gap(at.x, at.y));
         }
     }
 }

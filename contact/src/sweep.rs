@@ -8,7 +8,7 @@ use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::landing::settle;
 use crate::path::ClampPath;
-use crate::scan::{GAP_TOLERANCE, Scanner};
+use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
 use crate::state::State;
 use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
 use crate::transition::beyond_corner;
@@ -265,7 +265,7 @@ impl<'a> Sweep<'a> {
         if let Some(start) = self.free(0.0) {
             return Ok(self.stepper.point(start));
         }
-        if self.stepper.scan(&Configuration::free(0.0)).clamp_inside {
+        if self.scan_straight(0.0).clamp_inside {
             return Err(StopReason::NoStart);
         }
         let own = self.stepper.corrector.path;
@@ -295,9 +295,16 @@ impl<'a> Sweep<'a> {
 
     /// The straight rod at a pose, if it touches nothing there.
     fn free(&mut self, tau: f64) -> Option<Configuration> {
-        let configuration = Configuration::free(tau);
-        let scan = self.stepper.scan(&configuration);
-        (scan.min_gap >= -GAP_TOLERANCE && !scan.clamp_inside).then_some(configuration)
+        let scan = self.scan_straight(tau);
+        (scan.min_gap >= -GAP_TOLERANCE && !scan.clamp_inside).then(|| Configuration::free(tau))
+    }
+
+    /// A look at the straight rod where it has not come from elsewhere: all that is behind an open contour is solid.
+    fn scan_straight(&mut self, tau: f64) -> Scan {
+        let skin = std::mem::replace(&mut self.stepper.corrector.world.skin, f64::INFINITY);
+        let scan = self.stepper.scan(&Configuration::free(tau));
+        self.stepper.corrector.world.skin = skin;
+        scan
     }
 
     /// The straight rod let go in the first pose.

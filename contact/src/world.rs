@@ -4,7 +4,8 @@ use rod_contours::{Bounds, Composite, Contour, Frame, Part, Range, StretchKind};
 use rod_core::Support;
 use smallvec::SmallVec;
 
-/// Depth to which there is solid behind an open contour: further than a step of the sweep takes any point of the rod.
+/// Depth to which a rod that has come there may be in the solid behind an open contour: further than a step of the sweep takes
+/// any point of it.
 const SKIN: f64 = 0.1;
 
 /// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that of its
@@ -16,6 +17,8 @@ pub(crate) struct World<'a> {
     /// Number of each object's first stretch.
     first: SmallVec<[usize; 4]>,
     ends: SmallVec<[(f64, f64); 2]>,
+    /// Depth to which there is solid behind an open contour.
+    pub skin: f64,
     /// Length of the rod in the contours' unit.
     length: f64,
 }
@@ -47,7 +50,7 @@ impl<'a> World<'a> {
             [from, to].into_iter().filter(|t| t.is_finite()).map(|t| object.frame(t))
         });
         let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
-        Self { objects, first: first.collect(), ends, length }
+        Self { objects, first: first.collect(), ends, skin: SKIN, length }
     }
 
     /// The number of the object that a stretch belongs to.
@@ -210,7 +213,7 @@ impl<'a> World<'a> {
     pub fn goes_through(&self, stretch: usize, foot: &Foot, x: f64, y: f64) -> bool {
         foot.gap < 0.0
             && foot.gap >= self.gap(x, y) * (1.0 + 1e-6) - 1e-14
-            && (foot.gap > -SKIN || self.at(stretch).0.is_closed())
+            && (foot.gap > -self.skin || self.at(stretch).0.is_closed())
     }
 
     /// Whether `foot` is the end of its stretch at a notch.
