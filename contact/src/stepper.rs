@@ -108,6 +108,10 @@ impl Stepper<'_> {
                 self.shorten();
                 continue;
             }
+            // no point of a free rod has gone further than the smallest gap was: it came around an end
+            if next.count() == 0 && scan.min_gap < -DEEPEST && length * self.fastest() <= from.scan.min_gap {
+                return Err(StopReason::EndOfContour);
+            }
             if scan.has_swept_over_an_end(&from.scan) {
                 if length < SHORT {
                     return Err(StopReason::EndOfContour);
