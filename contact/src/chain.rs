@@ -14,6 +14,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use rod_contours::{Bounds, StretchKind};
 use rod_core::{Hold, Pose, Section, advance};
+use smallvec::{SmallVec, smallvec};
 
 /// Number of links.
 const LINKS: usize = 64;
@@ -31,6 +32,8 @@ const MOST_STEPS: usize = 400;
 const TIME_STEP: f64 = 1.0;
 /// Forces below this are what a chain that has all but arrived leaves.
 const LEAST_FORCE: f64 = 1e-4;
+/// Length, in links, of what is pressed all along and may be two contacts.
+const WIDE: f64 = 1.5;
 /// Deepest penetration taken back in one step.
 const DEEPEST_PUSH: f64 = 0.03;
 
@@ -157,8 +160,22 @@ impl Chain {
         }
     }
 
-    /// Lets the chain come to rest, and gives the contacts it then has as a guess for the boundary-value problem at `tau`.
-    pub fn settle(&mut self, world: &World<'_>, tau: f64) -> Option<Configuration> {
+    /// Lets the chain come to rest, and gives the contacts it then has as guesses for the boundary-value problem at `tau`, the
+    /// likeliest first. What is pressed all along a few links is one contact, or, on a contour that follows the rod, one at
+    /// either end.
+    pub fn settle(&mut self, world: &World<'_>, tau: f64) -> SmallVec<[Configuration; 2]> {
+        let Some(forces) = self.come_to_rest(world) else { return SmallVec::new() };
+        let clusters = clusters(forces);
+        let mut guesses = smallvec![self.contacts(world, &clusters, tau)];
+        if clusters.iter().any(Cluster::is_wide) {
+            let parted: Vec<_> = clusters.iter().flat_map(Cluster::ends).collect();
+            guesses.push(self.contacts(world, &parted, tau));
+        }
+        guesses
+    }
+
+    /// The force at each near node of the chain come to rest.
+    fn come_to_rest(&mut self, world: &World<'_>) -> Option<Vec<(Near, f64)>> {
         let (mut time_step, mut reach) = (TIME_STEP, REACH);
         for _ in 0..MOST_STEPS {
             let (way, forces) = self.step(world, time_step, reach)?;
@@ -166,7 +183,7 @@ impl Chain {
             reach = (8.0 * way).clamp(0.25 * REACH, REACH);
             let inside = forces.iter().any(|(near, _)| near.gap < -0.5 * LINK);
             if way < ARRIVED && !inside {
-                return Some(self.contacts(world, forces, tau));
+                return Some(forces);
             }
             // slow motion is far from everything that could be missed
             if way < 0.25 * LONGEST_MOVE {
@@ -176,26 +193,11 @@ impl Chain {
         None
     }
 
-    /// Clusters of loaded neighbouring nodes as contacts.
-    fn contacts(&self, world: &World<'_>, mut forces: Vec<(Near, f64)>, tau: f64) -> Configuration {
-        forces.retain(|(_, force)| *force > LEAST_FORCE);
-        forces.sort_by(|(a, _), (b, _)| a.s.total_cmp(&b.s).then(a.stretch.cmp(&b.stretch)));
+    /// Clusters as contacts.
+    fn contacts(&self, world: &World<'_>, clusters: &[Cluster], tau: f64) -> Configuration {
         let (nodes, angles) = self.nodes();
         let mut configuration = Configuration::free(tau);
-        // (stretch, force, sum of force x arc length, last arc length)
-        let mut clusters: Vec<(usize, f64, f64, f64)> = Vec::new();
-        for (near, force) in forces {
-            let moment = force * near.s;
-            match clusters.iter_mut().rev().find(|c| c.0 == near.stretch && near.s - c.3 < 1.5) {
-                Some(cluster) => {
-                    cluster.1 += force;
-                    cluster.2 += moment;
-                    cluster.3 = near.s;
-                }
-                None => clusters.push((near.stretch, force, moment, near.s)),
-            }
-        }
-        for (stretch, force, moment, _) in clusters {
+        for &Cluster { stretch, force, moment, .. } in clusters {
             let middle = moment / force;
             let node = (middle.round() as usize).clamp(1, LINKS);
             let [x, y] = nodes[node];
@@ -215,6 +217,53 @@ impl Chain {
         }
         configuration
     }
+}
+
+/// Loaded neighbouring nodes on one stretch.
+#[derive(Clone, Copy)]
+struct Cluster {
+    stretch: usize,
+    force: f64,
+    /// Sum of force times arc length, in links.
+    moment: f64,
+    /// Arc lengths of the first and the last of them, in links.
+    from: f64,
+    to: f64,
+}
+
+impl Cluster {
+    fn is_wide(&self) -> bool {
+        self.to - self.from > WIDE
+    }
+
+    /// The two forces at its ends that are worth as much; the cluster itself where it is not wide.
+    fn ends(&self) -> SmallVec<[Self; 2]> {
+        if !self.is_wide() {
+            return smallvec![*self];
+        }
+        let last = (self.moment - self.force * self.from) / (self.to - self.from);
+        let end = |s: f64, force: f64| Self { force, moment: force * s, from: s, to: s, ..*self };
+        smallvec![end(self.from, self.force - last), end(self.to, last)]
+    }
+}
+
+/// Clusters of loaded neighbouring nodes, along the chain.
+fn clusters(mut forces: Vec<(Near, f64)>) -> Vec<Cluster> {
+    forces.retain(|(_, force)| *force > LEAST_FORCE);
+    forces.sort_by(|(a, _), (b, _)| a.s.total_cmp(&b.s).then(a.stretch.cmp(&b.stretch)));
+    let mut clusters: Vec<Cluster> = Vec::new();
+    for (Near { s, stretch, .. }, force) in forces {
+        let moment = force * s;
+        match clusters.iter_mut().rev().find(|c| c.stretch == stretch && s - c.to < 1.5) {
+            Some(cluster) => {
+                cluster.force += force;
+                cluster.moment += moment;
+                cluster.to = s;
+            }
+            None => clusters.push(Cluster { stretch, force, moment, from: s, to: s }),
+        }
+    }
+    clusters
 }
 
 /// A link (its number, and where it starts) next to a corner that it may come to lie on.

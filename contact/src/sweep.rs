@@ -244,8 +244,8 @@ impl<'a> Sweep<'a> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let clamp = corrector.path.at(tau + kick);
         let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
-        let guess = chain.settle(&corrector.world, tau + kick)?;
-        let beyond = settle(corrector, scanner, guess);
+        let guesses = chain.settle(&corrector.world, tau + kick);
+        let beyond = guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess));
         let elsewhere = |found: Configuration| Some(found).filter(|found| !same(found, last));
         let back = beyond.as_ref().and_then(|beyond| {
             let mut back = beyond.clone();
@@ -254,8 +254,8 @@ impl<'a> Sweep<'a> {
         });
         let back = back.or_else(|| {
             chain.clamp = corrector.path.at(tau);
-            let guess = chain.settle(&corrector.world, tau)?;
-            settle(corrector, scanner, guess).and_then(elsewhere)
+            let guesses = chain.settle(&corrector.world, tau);
+            guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).and_then(elsewhere))
         });
         back.or(beyond)
     }
@@ -312,8 +312,8 @@ impl<'a> Sweep<'a> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         BENDS.into_iter().find_map(|bend| {
             let mut chain = Chain::straight(corrector.path.at(0.0), bend);
-            let guess = chain.settle(&corrector.world, 0.0)?;
-            settle(corrector, scanner, guess)
+            let guesses = chain.settle(&corrector.world, 0.0);
+            guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess))
         })
     }
 
