@@ -61,6 +61,16 @@ fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Opt
     Some(Inflection { t, rate, by_s })
 }
 
+/// Whether the last contact is at an inflection. A rod that finds no other place there follows the contour, as every elastica
+/// does a cubic spline to the leading order.
+pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration) -> bool {
+    let last = configuration.count().checked_sub(1);
+    last.is_some_and(|j| {
+        inflection(world, configuration, j)
+            .is_some_and(|Inflection { t, by_s, .. }| (configuration.t(j) - t).abs() < CONVEX * by_s.abs())
+    })
+}
+
 /// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is at the
 /// inflection, and after it the two as soon as they can be told apart.
 pub(crate) fn parted(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {

@@ -58,8 +58,6 @@ pub(crate) enum Step {
     Changed(Box<Transition>),
     /// The branch ends here, in a fold, or loses its stability.
     Ended(Box<Configuration>),
-    /// The contour becomes concave under the last contact, behind which the rod is straight.
-    Wrapped(Box<Configuration>),
 }
 
 /// Follows branches.
@@ -142,7 +140,7 @@ impl Stepper<'_> {
                     Some(last) if last + 1 == next.count() => {
                         let parted = parted(&mut self.corrector, &from.configuration).map(Box::new);
                         return Ok(
-                            parted.map_or_else(|| Step::Wrapped(Box::new(from.configuration.clone())), Step::Changed)
+                            parted.map_or_else(|| Step::Ended(Box::new(from.configuration.clone())), Step::Changed)
                         );
                     }
                     Some(_) => return Err(StopReason::LineContact),
@@ -308,7 +306,7 @@ impl Stepper<'_> {
         let reached = match &first {
             None => return Ok(None),
             Some((_, Step::Changed(transition))) => &transition.after,
-            Some((_, Step::Ended(fold) | Step::Wrapped(fold))) => fold,
+            Some((_, Step::Ended(fold))) => fold,
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         let seen = self.scanner.scan(&self.corrector.world, &self.corrector.path, reached);

@@ -6,6 +6,7 @@ use crate::chain::Chain;
 use crate::configuration::Configuration;
 use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
+use crate::inflection::is_at_inflection;
 use crate::landing::settle;
 use crate::path::ClampPath;
 use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
@@ -181,10 +182,6 @@ impl<'a> Sweep<'a> {
                 self.count_crowd(last.tau())?;
                 self.snap(*last)
             }
-            Step::Wrapped(last) => {
-                self.count_crowd(last.tau())?;
-                self.snap(*last).map_err(|_| StopReason::LineContact)
-            }
         }
     }
 
@@ -209,8 +206,11 @@ impl<'a> Sweep<'a> {
         }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to rest in
         // the descent, but could be free, will be.
-        let landed = beyond.or_else(|| self.free(tau)).ok_or(StopReason::NoLanding)?;
-        Ok(self.jumped(last, landed))
+        match beyond.or_else(|| self.free(tau)) {
+            Some(landed) => Ok(self.jumped(last, landed)),
+            None if is_at_inflection(&self.stepper.corrector.world, &last) => Err(StopReason::LineContact),
+            None => Err(StopReason::NoLanding),
+        }
     }
 
     /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
