@@ -88,10 +88,9 @@ pub(crate) struct Node {
 #[derive(Clone, Copy)]
 struct Sight {
     gap: f64,
-    /// Slope of the gap along the rod, to the left and to the right of the node, and how fast it changes.
+    /// Slope of the gap along the rod, to the left and to the right of the node.
     left: f64,
     right: f64,
-    bend: f64,
     interior: bool,
     /// Whether the part's own contact is here.
     contact: bool,
@@ -324,7 +323,7 @@ impl Scanner {
             } else if sight.gap < found.min_gap && world.is_open_end(part.stretch, &foot) {
                 found.min_gap = sight.gap;
             }
-            if let Some((_, last, _)) = before.filter(|(k, ..)| k + 1 == i) {
+            if let Some((_, last, was)) = before.filter(|(k, ..)| k + 1 == i) {
                 let last_node = &nodes[i - 1];
                 let least = 0.5 * (last.gap.abs() + sight.gap.abs() - (node.s - last_node.s));
                 let matters = least < found.min_gap.max(0.0) || last.gap < 0.0 || sight.gap < 0.0;
@@ -339,7 +338,7 @@ impl Scanner {
                 if let Some((right, left, line)) = slopes.filter(|_| matters) {
                     let search = Search { world, part, span: &spans[last_node.span], line };
                     let ends = ((last_node.s, right), (node.s, left));
-                    if let Some(ends) = search.bracket(ends, (last.bend, sight.bend)) {
+                    if let Some(ends) = search.bracket(ends, [(&last_node.at, &was), (&node.at, &foot)]) {
                         search.run(ends, found);
                     }
                 }
@@ -382,10 +381,15 @@ impl Search<'_> {
 
     /// Where the slope changes from falling to rising. Under a large force the gap may fall, rise and fall again between two
     /// nodes: a slope of one sign that comes nearer to zero at both ends, by its own changes there, is looked at in between.
-    fn bracket(&self, (first, last): (Sloped, Sloped), (bend, last_bend): (f64, f64)) -> Option<(Sloped, Sloped)> {
+    fn bracket(&self, (first, last): (Sloped, Sloped), seen: [(&Section, &Foot); 2]) -> Option<(Sloped, Sloped)> {
         if first.1 < 0.0 && last.1 >= 0.0 {
             return Some((first, last));
         }
+        let curved = seen.map(|(at, foot)| at.kappa.abs() + foot.curvature.abs());
+        if first.1.abs().min(last.1.abs()) > (last.0 - first.0) * curved[0].max(curved[1]) {
+            return None;
+        }
+        let [bend, last_bend] = seen.map(|(at, foot)| bend(at, foot));
         let (falls, rises) = (first.1 < 0.0 && last.1 < 0.0, first.1 >= 0.0 && last.1 >= 0.0);
         let dips = (falls && bend > 0.0 && last_bend < 0.0) || (rises && bend < 0.0 && last_bend > 0.0);
         if !dips {
@@ -492,6 +496,12 @@ fn slope(at: &Section, foot: &Foot) -> f64 {
     (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
 }
 
+/// Change of the slope of the gap along the rod.
+fn bend(at: &Section, foot: &Foot) -> f64 {
+    let cos = (at.phi - foot.alpha).cos();
+    cos * (foot.curvature * cos / (1.0 + foot.curvature * foot.gap) - at.kappa)
+}
+
 /// Whether the rod goes through a part between two of its nodes, from one side to the other: through something thin, that is
 /// behind it again at the next node.
 fn pierces(was: &Foot, foot: &Foot) -> bool {
@@ -512,9 +522,7 @@ fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuratio
     let gap = if foot.interior { foot.gap } else { foot.gap.abs() };
     let line = (foot.curvature == 0.0).then(|| -(node.at.phi - foot.alpha).sin());
     let left = slope(&node.at, foot);
-    let cos = (node.at.phi - foot.alpha).cos();
-    let bend = cos * (foot.curvature * cos / (1.0 + foot.curvature * foot.gap) - node.at.kappa);
-    let mut sight = Sight { gap, left, right: left, bend, interior: foot.interior, contact: false, line };
+    let mut sight = Sight { gap, left, right: left, interior: foot.interior, contact: false, line };
     if let Some(j) = node.contact
         && configuration.contacts[j].stretch == part.stretch
         && world.holds(part, configuration.t(j))
