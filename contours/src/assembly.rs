@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::angle::wrapped;
 use crate::crossing::{self, Crossing};
-use crate::joint::wrapped;
 use crate::piece::Piece;
 use crate::{Contour, ContourError, Frame, Range};
 

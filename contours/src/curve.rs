@@ -1,13 +1,12 @@
 //! The curve of a function of one parameter.
 
-use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
 use crate::jet::{Jet, variable};
 use crate::search::{self, Probe};
 use crate::vector::{cross, dot};
-use crate::{Closest, Contour, ContourError, Frame, Range};
+use crate::{Closest, Contour, ContourError, Frame, Range, angle};
 
 /// Cells of the range in which the direction is followed, as many as the default search takes.
 const CELLS: usize = 96;
@@ -103,7 +102,7 @@ impl Curve {
         let ([t_before, before], [t_after, after]) = (self.angles[after - 1], self.angles[after]);
         let share = ((t - t_before) / (t_after - t_before)).clamp(0.0, 1.0);
         let near = before + share * (after - before);
-        angle + TAU * ((near - angle) / TAU).round()
+        angle::near(angle, near)
     }
 }
 
@@ -210,6 +209,8 @@ impl<F: Fn(f64) -> [[f64; 2]; 3]> Follow<'_, F> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::{DualNum, EllipticArc};
 

@@ -5,6 +5,11 @@ pub(crate) fn between(p: [f64; 2], q: [f64; 2], t: f64) -> [f64; 2] {
     [0, 1].map(|k| p[k] * (1.0 - t) + q[k] * t)
 }
 
+/// `p + s q`.
+pub(crate) fn plus(p: [f64; 2], s: f64, q: [f64; 2]) -> [f64; 2] {
+    [p[0] + s * q[0], p[1] + s * q[1]]
+}
+
 pub(crate) fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }

@@ -1,7 +1,7 @@
 //! What holds at the ends of a spline.
 
-use super::cubic::{minus, plus};
 use crate::ContourError;
+use crate::vector::{minus, plus};
 
 /// What holds at the ends of a spline through points.
 ///

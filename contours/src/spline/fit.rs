@@ -1,10 +1,10 @@
 //! The spline through given points.
 
-use super::cubic::{minus, plus};
 use super::end::direction;
 use super::keys::Keys;
 use super::{Spline, SplineEnd};
 use crate::ContourError;
+use crate::vector::{minus, plus};
 
 /// A closed curve's last point counts as the first one given again if it is no farther away, relative to the way around.
 const CLOSED: f64 = 1e-9;
@@ -177,9 +177,9 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cubic::dot;
     use super::*;
     use crate::Contour;
+    use crate::vector::dot;
 
     /// Unevenly spaced points of a curve that is nowhere straight.
     fn wiggle(count: u32) -> Vec<[f64; 2]> {

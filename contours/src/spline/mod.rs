@@ -2,27 +2,24 @@
 
 mod arc_length;
 mod chords;
-mod cubic;
 mod cuts;
 mod end;
 mod fit;
 mod keys;
-mod nearest;
 mod smooth;
 
-use std::f64::consts::TAU;
 use std::ops::Range as Span;
 
 use serde::{Deserialize, Serialize, Serializer};
 
 pub use end::SplineEnd;
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::cubic::nearest;
+use crate::vector::{cross, dot};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle};
 use arc_length::lengths;
 use chords::Chords;
-use cubic::{cross, dot};
 use keys::Keys;
-use nearest::nearest;
 
 /// The turn at a point that counts as none, rad: that of a smooth joint of a composite.
 const SMOOTH: f64 = 1e-9;
@@ -143,7 +140,7 @@ fn angles(keys: &Keys) -> Result<Vec<f64>, ContourError> {
         let [first, _, last] = cubic.sides().map(|side| dot(side, side).sqrt());
         let scale = cubic.control.iter().flatten().fold(0.0_f64, |scale, side| scale.max(side.abs()));
         if let Some((expected, rounding)) = before {
-            angle += TAU * ((expected - angle) / TAU).round();
+            angle = angle::near(angle, expected);
             let turn = angle - expected;
             if turn.abs() > SMOOTH + rounding + ROUNDING * scale / first {
                 return Err(ContourError::Kink { key: index + 1, turn });

@@ -1,9 +1,9 @@
 //! The smoothest spline that passes noisy points as closely as they are known.
 
-use super::cubic::{dot, minus, plus};
 use super::fit::{interpolant, knots};
 use super::{Spline, SplineEnd};
 use crate::ContourError;
+use crate::vector::{dot, minus, plus};
 
 /// Weight of the bending beside the rest, relative, below which rounding begins to spoil the system: the curve then is
 /// smooth over a thousand points or so.
