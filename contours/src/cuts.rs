@@ -73,6 +73,13 @@ pub(crate) fn by_turn<C: Contour + ?Sized>(shape: &C, range: Range, bends: &[f64
     cuts
 }
 
+/// The cuts of a shape travelled the other way, by `-t`, whose cuts these are.
+pub(crate) fn backwards(mut cuts: Vec<f64>) -> Vec<f64> {
+    cuts.reverse();
+    cuts.iter_mut().for_each(|cut| *cut = -*cut);
+    cuts
+}
+
 /// How many arcs of at most a right angle make up a turn (rad).
 pub(crate) fn arcs(turn: f64) -> usize {
     (turn.abs() / FRAC_PI_2 * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST) as usize

@@ -62,6 +62,11 @@ impl Range {
         Self { from: self.from + offset, to: self.to + offset }
     }
 
+    /// The range travelled the other way, by `-t`.
+    pub(crate) fn backwards(&self) -> Self {
+        Self { from: -self.to, to: -self.from }
+    }
+
     /// A finite part of the range: itself if finite, else at most `width` from its finite end, or from 0.
     ///
     /// ```
