@@ -2,7 +2,7 @@
 
 use crate::cubic::{Cubic, nearest, roots};
 use crate::vector::{between, cross, dot, minus, scaled};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, cuts};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check, cuts};
 
 /// Smallest speed accepted, relative to the largest: below it the curve turns round within 1e-6 of its length, and
 /// nothing that bends can follow.
@@ -48,13 +48,9 @@ impl Bezier {
     /// vanishes somewhere, or falls below 1e-6 of the largest: a cusp, or an end whose first two (last two) control points
     /// coincide. There the curvature is infinite. A straight line so written is a [`Line`](crate::Line).
     pub fn new(control: [[f64; 2]; 4]) -> Result<Self, ContourError> {
-        for [x, y] in control {
-            for (what, value) in [("x of a control point", x), ("y of a control point", y)] {
-                if !value.is_finite() {
-                    return Err(ContourError::NotFinite { what, value });
-                }
-            }
-        }
+        check::finite(
+            control.into_iter().flat_map(|[x, y]| [("x of a control point", x), ("y of a control point", y)]),
+        )?;
         let [x, y] = minus(control[1], control[0]);
         let curve = Self { control, start: y.atan2(x) };
         match curve.standstill() {

@@ -2,10 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::search::CELLS;
 use crate::{Contour, Range};
-
-/// Cells of the range in which inflections are looked for, as many as for the closest point.
-const CELLS: usize = 96;
 
 /// Angle (rad) that a whole range turns at the rate of a sample whose sign counts for nothing: a straight contour has
 /// only rounding there.
@@ -87,7 +85,7 @@ pub(crate) fn arcs(turn: f64) -> usize {
 
 /// The last parameter between `low` and `high` where `before` holds, of a condition that holds from `low` on and from
 /// some parameter on no more.
-fn last_where(low: f64, high: f64, before: impl Fn(f64) -> bool) -> f64 {
+pub(crate) fn last_where(low: f64, high: f64, before: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (low, high);
     for _ in 0..STEPS {
         let middle = 0.5 * (low + high);

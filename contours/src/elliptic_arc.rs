@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::span::Span;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, ellipse};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, ellipse};
 
 /// Smallest distance of a cut from an end of the range, relative to the angles: nearer ones are the end itself, rounded.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -58,7 +58,7 @@ impl EllipticArc {
         to_angle: f64,
     ) -> Result<Self, ContourError> {
         let [first, second] = ["the ellipse's first radius", "the ellipse's second radius"];
-        for (what, value) in [
+        check::finite([
             ("x of the ellipse's centre", center[0]),
             ("y of the ellipse's centre", center[1]),
             (first, radii[0]),
@@ -66,16 +66,9 @@ impl EllipticArc {
             ("the ellipse's rotation", rotation),
             ("the elliptic arc's first angle", from_angle),
             ("the elliptic arc's last angle", to_angle),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
-        for (what, value) in [(first, radii[0]), (second, radii[1])] {
-            if value <= 0.0 {
-                return Err(ContourError::NotPositive { what, value });
-            }
-        }
+        ])?;
+        check::positive(first, radii[0])?;
+        check::positive(second, radii[1])?;
         let (sin, cos) = rotation.sin_cos();
         let span = Span::new("the elliptic arc", from_angle, to_angle)?;
         Ok(Self { center, radii, rotation, axis: [cos, sin], span })

@@ -30,6 +30,7 @@ mod assembly;
 mod bezier;
 mod bounds;
 mod carry;
+mod check;
 mod circular_arc;
 mod closest;
 mod composite;

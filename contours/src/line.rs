@@ -1,6 +1,6 @@
 //! The straight line from one point to another.
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.
 ///
@@ -38,17 +38,13 @@ impl Line {
     pub fn new(from: [f64; 2], to: [f64; 2]) -> Result<Self, ContourError> {
         let line = Self { from, to };
         let (length, _) = line.measured();
-        for (what, value) in [
+        check::finite([
             ("x of the line's first point", from[0]),
             ("y of the line's first point", from[1]),
             ("x of the line's second point", to[0]),
             ("y of the line's second point", to[1]),
             ("the line's length", length),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
+        ])?;
         // The square of a shorter length has lost digits.
         if length * length < f64::MIN_POSITIVE {
             return Err(ContourError::SamePoint { x: from[0], y: from[1] });

@@ -1,6 +1,6 @@
 //! The parabola, the object of Merker et al. 2021.
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// Steps after which Newton's iteration gives up; from its starts it takes 2 to 6.
 const STEPS: usize = 64;
@@ -47,15 +47,11 @@ impl Parabola {
     ///
     /// [`ContourError::NotFinite`] for a number that is not finite.
     pub fn new(vertex: [f64; 2], coefficient: f64) -> Result<Self, ContourError> {
-        for (what, value) in [
+        check::finite([
             ("x of the parabola's vertex", vertex[0]),
             ("y of the parabola's vertex", vertex[1]),
             ("the parabola's coefficient", coefficient),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
+        ])?;
         Ok(Self { vertex, coefficient, range: Range::ALL })
     }
 

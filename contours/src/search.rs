@@ -3,8 +3,8 @@
 use crate::vector::dot;
 use crate::{Bounds, Closest, Contour, Range};
 
-/// Cells of a finite range: 96 cells of a full circle turn by less than 4 degrees each.
-const CELLS: usize = 96;
+/// Cells of a finite range in which anything is looked for: 96 cells of a full circle turn by less than 4 degrees each.
+pub(crate) const CELLS: usize = 96;
 
 /// Fewest cells of a part of a finite range: one alone would not see a minimum between two maxima at its ends.
 const FEWEST: usize = 2;

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::index::Index;
+use crate::vector::{cross, minus};
 use crate::{Bounds, Composite, Frame, Part, Range, StretchKind};
 
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.
@@ -214,14 +215,6 @@ fn next_piece(contour: &Composite, stretch: usize) -> Option<usize> {
 
 fn point(frame: Frame) -> [f64; 2] {
     [frame.x, frame.y]
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Sums and products of plane vectors.
+//! Sums, products and distances of plane vectors.
 
 /// From `p` to `q` by the fraction `t`; both come out exactly.
 pub(crate) fn between(p: [f64; 2], q: [f64; 2], t: f64) -> [f64; 2] {
@@ -20,6 +20,12 @@ pub(crate) fn scaled(factor: f64, [x, y]: [f64; 2]) -> [f64; 2] {
 
 pub(crate) fn dot(p: [f64; 2], q: [f64; 2]) -> f64 {
     p[0] * q[0] + p[1] * q[1]
+}
+
+/// The distance between two points, without overflow.
+pub(crate) fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    let [x, y] = minus(q, p);
+    x.hypot(y)
 }
 
 /// Positive where `q` is to the left of `p`.

@@ -14,15 +14,13 @@ use serde::{Deserialize, Serialize, Serializer};
 
 pub use end::SplineEnd;
 
+use crate::assembly::SMOOTH;
 use crate::cubic::nearest;
 use crate::vector::{cross, dot};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check};
 use arc_length::lengths;
 use chords::Chords;
 use keys::Keys;
-
-/// The turn at a point that counts as none, rad: that of a smooth joint of a composite.
-const SMOOTH: f64 = 1e-9;
 
 /// Rounding of a handle, relative to the coordinates.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -97,10 +95,7 @@ impl Spline {
         let count = keys.len() - 1;
         let angles = angles(&keys)?;
         let lengths = lengths((0..count).map(|index| keys.cubic(index)));
-        let value = lengths[count];
-        if !value.is_finite() {
-            return Err(ContourError::NotFinite { what: "the length of the spline", value });
-        }
+        check::finite([("the length of the spline", lengths[count])])?;
         let chords = Chords::new(count, |index| keys.cubic(index));
         let boxes = (0..count).map(|index| keys.cubic(index).bounds(0.0, 1.0));
         let bounds = boxes.fold(Bounds::EMPTY, |bounds, one| bounds.union(one));
