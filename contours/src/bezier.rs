@@ -146,15 +146,14 @@ impl Contour for Bezier {
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let range = Range::UNIT.within(range);
-        let inside = |t: f64| range.from < t && t < range.to;
         let (mut best, mut least) = (range.from, f64::INFINITY);
         nearest(&self.cubic(), range.from, range.to, [x, y], &mut |t, square| {
             // A foot as near as an end wins: its gap is the projection, which keeps its digits.
-            if square < least || (square == least && inside(t)) {
+            if square < least || (square == least && range.is_interior(t)) {
                 (best, least) = (t, square);
             }
         });
-        Closest::new(best, self.frame(best), inside(best), x, y)
+        Closest::new(best, self.frame(best), range.is_interior(best), x, y)
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
@@ -172,8 +171,7 @@ impl Contour for Bezier {
     /// The inflections, and between them as many cuts as it takes at equal angles.
     fn cuts(&self, range: Range) -> Vec<f64> {
         let range = Range::UNIT.within(range);
-        let inside = |t: &f64| range.from < *t && *t < range.to;
-        let bends: Vec<f64> = self.cubic().velocity().inflections().filter(inside).collect();
+        let bends: Vec<f64> = self.cubic().velocity().inflections().filter(|&t| range.is_interior(t)).collect();
         cuts::by_turn(self, range, &bends)
     }
 }

@@ -96,7 +96,7 @@ impl Contour for CircularArc {
         } else {
             self.radius * self.span.travelled(dy.atan2(dx), self.angles(range))
         };
-        if range.from < t && t < range.to {
+        if range.is_interior(t) {
             let gap = self.span.sign() * (dx.hypot(dy) - self.radius);
             return Closest { t, gap, frame: self.frame(t), interior: true };
         }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::closest::gap;
 use crate::span::Span;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, ellipse};
 
@@ -123,12 +124,7 @@ impl EllipticArc {
         let (dx, dy) = (px - a * cos, py - b * sin);
         // On the outward normal, without alpha and the rotation: shorter and more exact.
         let outside = self.span.sign() * (dx * (b * cos / frame.speed) + dy * (a * sin / frame.speed));
-        let gap = match (interior, outside < 0.0) {
-            (true, _) => outside,
-            (false, false) => dx.hypot(dy),
-            (false, true) => -dx.hypot(dy),
-        };
-        Closest { t, gap, frame, interior }
+        Closest { t, gap: gap(interior, outside, [dx, dy]), frame, interior }
     }
 
     /// Where the feet of a point along the axes are passed, by the angle travelled in `range`: the nearest point of the
@@ -161,7 +157,7 @@ impl Contour for EllipticArc {
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let range = self.range().within(range);
         let point = self.inward(x, y);
-        let inside = |t: &f64| range.from < *t && *t < range.to;
+        let inside = |t: &f64| range.is_interior(*t);
         if let Some(t) = self.foot(point, range, false).filter(inside) {
             return self.closest_at(t, true, point);
         }

@@ -1,5 +1,6 @@
 //! The straight line from one point to another.
 
+use crate::closest::gap;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.
@@ -97,14 +98,9 @@ impl Contour for Line {
             foot = length + ahead;
         }
         let outside = dx * sin - dy * cos;
-        let interior = range.from < foot && foot < range.to;
+        let interior = range.is_interior(foot);
         let t = range.clamp(foot);
-        let gap = if interior {
-            outside
-        } else {
-            let distance = (foot - t).hypot(outside);
-            if outside < 0.0 { -distance } else { distance }
-        };
+        let gap = gap(interior, outside, [foot - t, outside]);
         Closest { t, gap, frame: self.frame_along(t, length, [cos, sin]), interior }
     }
 

@@ -1,5 +1,6 @@
 //! The parabola, the object of Merker et al. 2021.
 
+use crate::closest::gap;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// Steps after which Newton's iteration gives up; from its starts it takes 2 to 6.
@@ -107,7 +108,7 @@ impl Parabola {
                 }
             }
             if range.contains(other) && far(other) < far(best.0) {
-                best = (other, other > range.from && other < range.to);
+                best = (other, range.is_interior(other));
             }
         }
         best
@@ -134,7 +135,7 @@ impl Contour for Parabola {
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let (px, py) = (x - self.vertex[0], y - self.vertex[1]);
         let t = nearest(self.coefficient, px, py);
-        let (t, interior) = if range.from < t && t < range.to {
+        let (t, interior) = if range.is_interior(t) {
             (t, true)
         } else if range.contains(t) || t.is_nan() {
             (t, false)
@@ -145,14 +146,7 @@ impl Contour for Parabola {
         // From the coordinates relative to the vertex, without the sine and cosine of alpha: shorter and more exact.
         let (dx, dy) = (px - t, py - self.coefficient * t * t);
         let outside = (dx * 2.0 * self.coefficient * t - dy) / frame.speed;
-        let gap = if interior {
-            outside
-        } else if outside < 0.0 {
-            -dx.hypot(dy)
-        } else {
-            dx.hypot(dy)
-        };
-        Closest { t, gap, frame, interior }
+        Closest { t, gap: gap(interior, outside, [dx, dy]), frame, interior }
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {

@@ -36,6 +36,11 @@ impl Range {
         self.from <= t && t <= self.to
     }
 
+    /// Whether `t` lies between the ends, neither of which counts.
+    pub(crate) fn is_interior(&self, t: f64) -> bool {
+        self.from < t && t < self.to
+    }
+
     /// The number of the range that is nearest to `t`. Unlike [`f64::clamp`] it accepts any ends.
     pub fn clamp(&self, t: f64) -> f64 {
         t.max(self.from).min(self.to)

@@ -199,7 +199,7 @@ impl Contour for Spline {
             });
             least.sqrt()
         });
-        Closest::new(best, self.frame(best), range.from < best && best < range.to, x, y)
+        Closest::new(best, self.frame(best), range.is_interior(best), x, y)
     }
 
     fn bounds(&self) -> Bounds {
