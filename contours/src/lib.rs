@@ -55,6 +55,7 @@ mod joint;
 mod line;
 mod motion;
 mod moved;
+mod newton;
 mod parabola;
 mod part;
 mod piece;

@@ -2,15 +2,13 @@
 
 use super::Cubic;
 use crate::vector::{dot, minus};
+use crate::{Range, newton};
 
 /// Rounding of a slope, relative to the square of the largest distance it is made of.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Times a part with several stationary points is halved: those that stay together are one to rounding.
 const HALVINGS: u32 = 50;
-
-/// Largest number of steps of one refinement; bisection alone reaches rounding in about 60.
-const STEPS: usize = 80;
 
 /// Calls `look` with the fraction and the squared distance of every local minimum of the distance between `point` and the
 /// cubic's part between two fractions, and of some other points of the part, its ends first.
@@ -44,8 +42,14 @@ fn search(part: &Cubic, halvings: u32, look: &mut impl FnMut(f64, f64)) {
     // An end that is itself a root to rounding does not bracket another, unless the slope only rises.
     if rises || (changes == 1 && sure(&slopes[0]) && sure(&slopes[5])) {
         if slopes[0] < 0.0 && slopes[5] > 0.0 {
-            let s = refine(&Cubic::unit(part.control), slopes[0] / (slopes[0] - slopes[5]));
-            let place = part.point(s);
+            let along = Cubic::unit(part.control).velocity();
+            let secant = slopes[0] / (slopes[0] - slopes[5]);
+            let mut place = [0.0; 2];
+            let s = newton::zero(Range::UNIT, secant, f64::EPSILON, |s| {
+                place = part.point(s);
+                let velocity = along.at(s);
+                [dot(place, velocity), dot(velocity, velocity) + dot(place, along.rate(s))]
+            });
             look(part.from + s * part.width, dot(place, place));
         }
         return;
@@ -57,38 +61,6 @@ fn search(part: &Cubic, halvings: u32, look: &mut impl FnMut(f64, f64)) {
         search(&left, halvings - 1, look);
         search(&right, halvings - 1, look);
     }
-}
-
-/// The zero of the slope between the ends, from which on it is positive, to rounding.
-fn refine(seen: &Cubic, start: f64) -> f64 {
-    let along = seen.velocity();
-    let (mut low, mut high, mut s) = (0.0, 1.0, start);
-    let mut step_before = 1.0_f64;
-    for _ in 0..STEPS {
-        let (place, velocity) = (seen.point(s), along.at(s));
-        let slope = dot(place, velocity);
-        if slope < 0.0 {
-            low = s;
-        } else {
-            high = s;
-        }
-        let mut step = -slope / (dot(velocity, velocity) + dot(place, along.rate(s)));
-        let mut next = s + step;
-        // Newton only while it stays inside and converges faster than halving would.
-        if !(next > low && next < high && step.abs() <= 0.5 * step_before.abs()) {
-            if slope == 0.0 {
-                break;
-            }
-            next = 0.5 * (low + high);
-            step = next - s;
-        }
-        s = next;
-        if step.abs() <= f64::EPSILON || high - low <= f64::EPSILON {
-            break;
-        }
-        step_before = step;
-    }
-    s
 }
 
 /// A third of `r . dr/ds` in Bernstein form for a cubic with these control points, and what is rounding beside it.
