@@ -36,8 +36,8 @@ impl Closest {
     }
 }
 
-/// The gap of a point that is `outside` along the outward normal of its closest one: that in the interior; else the length
-/// of the way between the two with the side of the tangent, on which itself counts as outside.
+/// The gap of a point that is `outside` along the outward normal of its closest one: in the interior that, else the
+/// length of the way between the two, with the side of the tangent as its sign; the tangent itself is outside.
 pub(crate) fn gap(interior: bool, outside: f64, [dx, dy]: [f64; 2]) -> f64 {
     match (interior, outside < 0.0) {
         (true, _) => outside,

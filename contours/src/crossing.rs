@@ -122,8 +122,8 @@ impl Walk<'_> {
     }
 }
 
-/// Newton's iteration on `r1(places[0]) = r2(places[1])`, as long as it brings the two points together: how far apart they
-/// are then, and the places.
+/// Newton's iteration on `r1(places[0]) = r2(places[1])`, as long as it brings the two points together: how far apart
+/// they are then, and the places.
 pub(crate) fn brought_together(
     places: [f64; 2],
     ranges: [Range; 2],

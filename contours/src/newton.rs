@@ -5,8 +5,8 @@ use crate::Range;
 /// Largest number of steps; bisection alone reaches rounding in about 60.
 const STEPS: usize = 80;
 
-/// The zero, to `resolution`, of a function that is negative where the range begins and not where it ends. `function` gives
-/// value and derivative; it is called with `start`, a place in the range, and at last with the zero.
+/// The zero, to `resolution`, of a function that is negative where the range begins and not where it ends. `function`
+/// gives value and derivative; it is called with `start`, a place in the range, and at last with the zero.
 pub(crate) fn zero(range: Range, start: f64, resolution: f64, mut function: impl FnMut(f64) -> [f64; 2]) -> f64 {
     let Range { from: mut low, to: mut high } = range;
     let mut t = start;

@@ -10,12 +10,12 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Times a part with several stationary points is halved: those that stay together are one to rounding.
 const HALVINGS: u32 = 50;
 
-/// Calls `look` with the fraction and the squared distance of every local minimum of the distance between `point` and the
-/// cubic's part between two fractions, and of some other points of the part, its ends first.
+/// Calls `look` with the fraction and the squared distance of every local minimum of the distance between `point` and
+/// the cubic's part between two fractions, and of some other points of the part, its ends first.
 ///
-/// `(r - p) . dr/ds` is a polynomial of degree 5. Its Bernstein coefficients have at least as many changes of sign as it
-/// has roots: with one change, or where they only rise, the root is bracketed and found to rounding, else the part is
-/// halved. No minimum is missed.
+/// `(r - p) . dr/ds` is a polynomial of degree 5. Its Bernstein coefficients have at least as many changes of sign as
+/// it has roots: with one change, or where they only rise, the root is bracketed and found to rounding, else the part
+/// is halved. No minimum is missed.
 pub(crate) fn nearest(cubic: &Cubic, from: f64, to: f64, point: [f64; 2], look: &mut impl FnMut(f64, f64)) {
     let part = Cubic { control: cubic.part(from, to).map(|corner| minus(corner, point)), from, width: to - from };
     look(from, dot(part.control[0], part.control[0]));
