@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::angle::wrapped;
 use crate::crossing::{self, Crossing};
-use crate::joint::wrapped;
 use crate::piece::Piece;
 use crate::{Contour, ContourError, Frame, Range};
 
@@ -12,7 +12,7 @@ use crate::{Contour, ContourError, Frame, Range};
 const MEETING: f64 = 1e-9;
 
 /// Largest turn, rad, that is still a smooth joint: what a break computed in double precision leaves between tangents.
-const SMOOTH: f64 = 1e-9;
+pub(crate) const SMOOTH: f64 = 1e-9;
 
 /// The shapes as pieces, whole.
 pub(crate) fn whole(shapes: Vec<Box<dyn Contour>>) -> Vec<Piece> {

@@ -1,8 +1,8 @@
 //! The cubic Bezier curve.
 
-use crate::cubic::Cubic;
-use crate::vector::{cross, dot, scaled};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, cuts};
+use crate::cubic::{Cubic, nearest, roots};
+use crate::vector::{between, cross, dot, minus, scaled};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check, cuts};
 
 /// Smallest speed accepted, relative to the largest: below it the curve turns round within 1e-6 of its length, and
 /// nothing that bends can follow.
@@ -20,7 +20,7 @@ const THIRDS: usize = 40;
 /// 5 whose roots they are is isolated by the signs of its Bernstein coefficients, so none is missed, and refined to
 /// rounding. The bounds are exact, and so are the cuts at inflections.
 ///
-/// Alpha is continuous along the whole curve, loops included, and beyond its ends.
+/// Alpha starts between -pi and pi and is continuous along the whole curve, loops included, and beyond its ends.
 ///
 /// ```
 /// use rod_contours::{Bezier, Contour};
@@ -34,9 +34,9 @@ const THIRDS: usize = 40;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bezier {
-    cubic: Cubic,
-    /// A direction whose opposite the tangent never has: alpha is its angle plus that from it to the tangent.
-    ahead: [f64; 2],
+    control: [[f64; 2]; 4],
+    /// The tangent angle at the start, rad.
+    start: f64,
 }
 
 impl Bezier {
@@ -48,19 +48,15 @@ impl Bezier {
     /// vanishes somewhere, or falls below 1e-6 of the largest: a cusp, or an end whose first two (last two) control points
     /// coincide. There the curvature is infinite. A straight line so written is a [`Line`](crate::Line).
     pub fn new(control: [[f64; 2]; 4]) -> Result<Self, ContourError> {
-        for [x, y] in control {
-            for (what, value) in [("x of a control point", x), ("y of a control point", y)] {
-                if !value.is_finite() {
-                    return Err(ContourError::NotFinite { what, value });
-                }
-            }
+        check::finite(
+            control.into_iter().flat_map(|[x, y]| [("x of a control point", x), ("y of a control point", y)]),
+        )?;
+        let [x, y] = minus(control[1], control[0]);
+        let curve = Self { control, start: y.atan2(x) };
+        match curve.standstill() {
+            Some(t) => Err(ContourError::Standstill { what: "the Bezier curve", t }),
+            None => Ok(curve),
         }
-        let mut curve = Self { cubic: Cubic(control), ahead: [0.0; 2] };
-        if let Some(t) = curve.standstill() {
-            return Err(ContourError::Standstill { what: "the Bezier curve", t });
-        }
-        curve.ahead = curve.never_backwards();
-        Ok(curve)
     }
 
     /// The quadratic curve with these control points, lengths, as a cubic one.
@@ -86,11 +82,23 @@ impl Bezier {
 
     /// The control points, lengths.
     pub fn control(&self) -> [[f64; 2]; 4] {
-        self.cubic.0
+        self.control
+    }
+
+    fn cubic(&self) -> Cubic {
+        Cubic::unit(self.control)
+    }
+
+    /// Point, first and second derivative; both ends come out exactly.
+    fn derivatives(&self, t: f64) -> [[f64; 2]; 3] {
+        let cubic = self.cubic();
+        let [u, v, w] = cubic.sides().map(|side| scaled(3.0, side));
+        let (uv, vw) = (between(u, v, t), between(v, w, t));
+        [cubic.blossom([t; 3]), between(uv, vw, t), scaled(2.0, minus(vw, uv))]
     }
 
     fn speed(&self, t: f64) -> f64 {
-        let [_, [dx, dy], _] = self.cubic.derivatives(t);
+        let [_, [dx, dy], _] = self.derivatives(t);
         dx.hypot(dy)
     }
 
@@ -121,39 +129,16 @@ impl Bezier {
         }
         None
     }
-
-    /// A direction whose opposite the tangent never has.
-    ///
-    /// Where the tangent stays within a right angle of the mean direction of the ends it is that one, as always on a
-    /// quadratic curve. Else the derivative is a parabola in its own plane, and the line through the origin along its axis meets it once, ahead of the origin or behind: the ray
-    /// to the other side is never met.
-    fn never_backwards(&self) -> [f64; 2] {
-        let controls = self.cubic.hodograph();
-        let unit = |[x, y]: [f64; 2]| scaled(1.0 / x.hypot(y), [x, y]);
-        let ([x, y], [last_x, last_y]) = (unit(controls[0]), unit(controls[2]));
-        let mean = [x + last_x, y + last_y];
-        if controls.iter().all(|&control| dot(control, mean) > 0.0) {
-            return mean;
-        }
-        let [axis, linear, constant] = self.cubic.powers();
-        let (slope, offset) = (cross(axis, linear), cross(axis, constant));
-        // The projection on the axis of where they meet, times the square of `slope`.
-        let met = dot(axis, axis) * offset * offset - dot(axis, linear) * offset * slope
-            + dot(axis, constant) * slope * slope;
-        if met >= 0.0 { axis } else { scaled(-1.0, axis) }
-    }
 }
 
 impl Contour for Bezier {
     fn frame(&self, t: f64) -> Frame {
-        let [[x, y], velocity, acceleration] = self.cubic.derivatives(t);
+        let [[x, y], velocity, acceleration] = self.derivatives(t);
         let square = dot(velocity, velocity);
-        let [ahead_x, ahead_y] = self.ahead;
-        let turned = cross(self.ahead, velocity).atan2(dot(self.ahead, velocity));
         Frame {
             x,
             y,
-            alpha: ahead_y.atan2(ahead_x) + turned,
+            alpha: angle::near(velocity[1].atan2(velocity[0]), self.start + self.cubic().velocity().turned(t)),
             speed: square.sqrt(),
             turning: cross(velocity, acceleration) / square,
         }
@@ -161,58 +146,34 @@ impl Contour for Bezier {
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let range = Range::UNIT.within(range);
-        let point = [x, y];
-        let distance = |t: f64| {
-            let [place, ..] = self.cubic.derivatives(t);
-            (place[0] - x).hypot(place[1] - y)
-        };
-        let mut best = (range.from, distance(range.from), false);
-        let last = distance(range.to);
-        if last < best.1 {
-            best = (range.to, last, false);
-        }
-        self.cubic.minima(range, point, |t| {
-            let distance = distance(t);
+        let (mut best, mut least) = (range.from, f64::INFINITY);
+        nearest(&self.cubic(), range.from, range.to, [x, y], &mut |t, square| {
             // A foot as near as an end wins: its gap is the projection, which keeps its digits.
-            if distance <= best.1 && range.from < t && t < range.to {
-                best = (t, distance, true);
+            if square < least || (square == least && range.is_interior(t)) {
+                (best, least) = (t, square);
             }
         });
-        let (t, _, interior) = best;
-        Closest::new(t, self.frame(t), interior, x, y)
+        Closest::new(best, self.frame(best), range.is_interior(best), x, y)
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
         let range = Range::UNIT.within(range);
-        let [square, linear, constant] = self.cubic.powers();
-        let mut bounds = Bounds::EMPTY;
-        let turns = [0, 1].map(|k| roots(square[k], linear[k], constant[k]));
-        for t in [range.from, range.to].into_iter().chain(turns.into_iter().flatten()) {
-            if range.contains(t) {
-                let [[x, y], ..] = self.cubic.derivatives(t);
-                bounds = bounds.with(x, y);
-            }
-        }
-        bounds
+        let velocity = self.cubic().velocity();
+        let turns = [0, 1].map(|k| roots(velocity.square[k], velocity.linear[k], velocity.start[k]));
+        [range.from, range.to]
+            .into_iter()
+            .chain(turns.into_iter().flatten())
+            .filter(|&t| range.contains(t))
+            .map(|t| self.cubic().blossom([t; 3]))
+            .fold(Bounds::EMPTY, |bounds, [x, y]| bounds.with(x, y))
     }
 
     /// The inflections, and between them as many cuts as it takes at equal angles.
     fn cuts(&self, range: Range) -> Vec<f64> {
         let range = Range::UNIT.within(range);
-        let [square, linear, constant] = self.cubic.powers();
-        // The cross product of first and second derivative.
-        let mut bends = roots(cross(linear, square), 2.0 * cross(constant, square), cross(constant, linear));
-        bends.sort_by(f64::total_cmp);
-        let inside: Vec<f64> = bends.into_iter().filter(|&t| range.from < t && t < range.to).collect();
-        cuts::by_turn(self, range, &inside)
+        let bends: Vec<f64> = self.cubic().velocity().inflections().filter(|&t| range.is_interior(t)).collect();
+        cuts::by_turn(self, range, &bends)
     }
-}
-
-/// The real roots of `a t^2 + b t + c`; what is no root is not a number.
-fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
-    let root = (b * b - 4.0 * a * c).sqrt();
-    let sum = -0.5 * (b + if b < 0.0 { -root } else { root });
-    [sum / a, c / sum]
 }
 
 #[cfg(test)]
@@ -259,6 +220,27 @@ mod tests {
             assert!(continuity(&straight) < 1e-14);
             assert!(straight.cuts(Range::UNIT).len() <= 2);
         }
+    }
+
+    #[test]
+    fn alpha_is_continuous_far_beyond_the_ends() {
+        for k in 0..64 {
+            let (sin, cos) = (f64::from(k) * 0.1).sin_cos();
+            for control in
+                [[[0.0, 0.0], [3.0, 2.0], [-2.0, 2.0], [1.0, 0.0]], [[0.0, 0.0], [1.0, 0.0], [1.7, 0.4], [2.0, 1.0]]]
+            {
+                let curve = Bezier::new(control.map(|[x, y]| [x * cos - y * sin, x * sin + y * cos])).unwrap();
+                let alpha = |k: i32| curve.frame(f64::from(k) * 1e-3).alpha;
+                assert!((-9000..9000).all(|k| (alpha(k + 1) - alpha(k)).abs() < 0.1));
+            }
+        }
+    }
+
+    #[test]
+    fn both_ends_come_out_exactly() {
+        let control = [[0.1, 0.2], [1.3, 3.7], [2.9, -3.1], [3.3, 0.7]];
+        let curve = Bezier::new(control).unwrap();
+        assert_eq!([0.0, 1.0].map(|t| curve.derivatives(t)[0]), [control[0], control[3]]);
     }
 
     #[test]

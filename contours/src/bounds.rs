@@ -61,17 +61,20 @@ impl Bounds {
 
     /// Distance of the point `(x, y)` from the box, a length; 0 inside.
     pub fn distance(&self, x: f64, y: f64) -> f64 {
-        let dx = (self.min[0] - x).max(x - self.max[0]).max(0.0);
-        let dy = (self.min[1] - y).max(y - self.max[1]).max(0.0);
+        let [dx, dy] = self.away(x, y);
         // One of the two is 0 for most points: no root then.
         if dx == 0.0 || dy == 0.0 { dx + dy } else { (dx * dx + dy * dy).sqrt() }
     }
 
     /// The square of [`distance`](Self::distance).
     pub(crate) fn square(&self, x: f64, y: f64) -> f64 {
-        let dx = (self.min[0] - x).max(x - self.max[0]).max(0.0);
-        let dy = (self.min[1] - y).max(y - self.max[1]).max(0.0);
+        let [dx, dy] = self.away(x, y);
         dx * dx + dy * dy
+    }
+
+    /// How far the point is beyond the sides, along x and along y.
+    fn away(&self, x: f64, y: f64) -> [f64; 2] {
+        [(self.min[0] - x).max(x - self.max[0]).max(0.0), (self.min[1] - y).max(y - self.max[1]).max(0.0)]
     }
 }
 

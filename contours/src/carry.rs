@@ -1,7 +1,7 @@
 //! Moving and reversing a whole contour.
 
 use crate::piece::Piece;
-use crate::{Composite, ContourError, Motion, Moved, Range, Reversed};
+use crate::{Composite, ContourError, Motion, Moved, Reversed};
 
 impl Composite {
     /// The contour after a motion: every piece [`Moved`], the joints between them as they were.
@@ -31,7 +31,7 @@ impl Composite {
         let joints: Vec<f64> = pieces.iter().map(Piece::turn).collect();
         let moved = |piece: Piece| -> Result<Piece, ContourError> {
             let Piece { range, offset, turns, .. } = piece;
-            let range = if motion.mirror { backwards(range) } else { range };
+            let range = if motion.mirror { range.backwards() } else { range };
             let mut moved = Piece::new(Box::new(Moved::new(piece.shape, motion)?), range);
             (moved.offset, moved.turns) = if motion.mirror { (-offset, -turns) } else { (offset, turns) };
             Ok(moved)
@@ -60,7 +60,7 @@ impl Composite {
         let (pieces, turns) = self.taken_apart();
         let joints = pieces.iter().map(|piece| -piece.turn()).collect();
         let reversed = |piece: Piece| {
-            let mut reversed = Piece::new(Box::new(Reversed::new(piece.shape)), backwards(piece.range));
+            let mut reversed = Piece::new(Box::new(Reversed::new(piece.shape)), piece.range.backwards());
             (reversed.offset, reversed.turns) = (-piece.offset, piece.turns);
             reversed
         };
@@ -68,10 +68,6 @@ impl Composite {
         join(&mut pieces, &joints_backwards(joints));
         Self::laid_out(pieces, -turns)
     }
-}
-
-fn backwards(range: Range) -> Range {
-    Range { from: -range.to, to: -range.from }
 }
 
 /// The turns after each piece, seen the other way: the last one is that of the closed contour's end either way.

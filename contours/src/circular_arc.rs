@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::span::Span;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, cuts};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, cuts};
 
 /// An arc of a circle, from one polar angle (seen from the centre) to another.
 ///
@@ -43,20 +43,14 @@ impl CircularArc {
     /// [`ContourError::NotFinite`] for a number that is not finite, [`ContourError::NotPositive`] for a radius that is not
     /// positive, [`ContourError::ArcAngle`] for angles that are the same or more than a full turn apart.
     pub fn new(center: [f64; 2], radius: f64, from_angle: f64, to_angle: f64) -> Result<Self, ContourError> {
-        for (what, value) in [
+        check::finite([
             ("x of the arc's centre", center[0]),
             ("y of the arc's centre", center[1]),
             ("the arc's radius", radius),
             ("the arc's first angle", from_angle),
             ("the arc's last angle", to_angle),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
-        if radius <= 0.0 {
-            return Err(ContourError::NotPositive { what: "the arc's radius", value: radius });
-        }
+        ])?;
+        check::positive("the arc's radius", radius)?;
         Ok(Self { center, radius, span: Span::new("the arc", from_angle, to_angle)? })
     }
 
@@ -102,7 +96,7 @@ impl Contour for CircularArc {
         } else {
             self.radius * self.span.travelled(dy.atan2(dx), self.angles(range))
         };
-        if range.from < t && t < range.to {
+        if range.is_interior(t) {
             let gap = self.span.sign() * (dx.hypot(dy) - self.radius);
             return Closest { t, gap, frame: self.frame(t), interior: true };
         }

@@ -32,14 +32,18 @@ impl Closest {
     /// ```
     pub fn new(t: f64, frame: Frame, interior: bool, x: f64, y: f64) -> Self {
         let (ahead, outside) = frame.local(x, y);
-        let gap = if interior { outside } else { ahead.hypot(outside).copysign(side(outside)) };
-        Self { t, gap, frame, interior }
+        Self { t, gap: gap(interior, outside, [ahead, outside]), frame, interior }
     }
 }
 
-/// The side as a sign; on the tangent itself counts as outside, whatever the sign of the zero.
-fn side(outside: f64) -> f64 {
-    if outside < 0.0 { -1.0 } else { 1.0 }
+/// The gap of a point that is `outside` along the outward normal of its closest one: in the interior that, else the
+/// length of the way between the two, with the side of the tangent as its sign; the tangent itself is outside.
+pub(crate) fn gap(interior: bool, outside: f64, [dx, dy]: [f64; 2]) -> f64 {
+    match (interior, outside < 0.0) {
+        (true, _) => outside,
+        (false, false) => dx.hypot(dy),
+        (false, true) => -dx.hypot(dy),
+    }
 }
 
 #[cfg(test)]

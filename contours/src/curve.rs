@@ -1,16 +1,12 @@
 //! The curve of a function of one parameter.
 
-use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
 use crate::jet::{Jet, variable};
-use crate::search::{self, Probe};
+use crate::search::{self, CELLS, Probe};
 use crate::vector::{cross, dot};
-use crate::{Closest, Contour, ContourError, Frame, Range};
-
-/// Cells of the range in which the direction is followed, as many as the default search takes.
-const CELLS: usize = 96;
+use crate::{Closest, Contour, ContourError, Frame, Range, angle, check};
 
 /// Halvings of a cell in which the direction turns fast, before it counts as a jump.
 const HALVINGS: u32 = 30;
@@ -72,15 +68,9 @@ impl Curve {
         range: Range,
         derivatives: impl Fn(f64) -> [[f64; 2]; 3] + Send + Sync + 'static,
     ) -> Result<Self, ContourError> {
+        check::range("the curve's parameter", range)?;
         let Range { from, to } = range;
-        if from.is_nan() || to.is_nan() || from >= to {
-            return Err(ContourError::EmptyRange { what: "the curve's parameter", from, to });
-        }
-        for (what, value) in [("the start of the curve's parameter", from), ("the end of the curve's parameter", to)] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
+        check::finite([("the start of the curve's parameter", from), ("the end of the curve's parameter", to)])?;
         let mut follow = Follow { derivatives: &derivatives, largest: 0.0, found: Vec::new() };
         let mut left = follow.start(from)?;
         for cell in 1..=CELLS {
@@ -103,7 +93,7 @@ impl Curve {
         let ([t_before, before], [t_after, after]) = (self.angles[after - 1], self.angles[after]);
         let share = ((t - t_before) / (t_after - t_before)).clamp(0.0, 1.0);
         let near = before + share * (after - before);
-        angle + TAU * ((near - angle) / TAU).round()
+        angle::near(angle, near)
     }
 }
 
@@ -167,11 +157,7 @@ impl<F: Fn(f64) -> [[f64; 2]; 3]> Follow<'_, F> {
             (["dx/dt", "dy/dt"], velocity),
             (["the second derivative of x", "the second derivative of y"], acceleration),
         ] {
-            for (what, value) in what.into_iter().zip(pair) {
-                if !value.is_finite() {
-                    return Err(ContourError::NotFiniteAt { what, t, value });
-                }
-            }
+            check::finite_at(t, what.into_iter().zip(pair))?;
         }
         let speed = velocity[0].hypot(velocity[1]);
         if speed == 0.0 {
@@ -210,6 +196,8 @@ impl<F: Fn(f64) -> [[f64; 2]; 3]> Follow<'_, F> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::{DualNum, EllipticArc};
 

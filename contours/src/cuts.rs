@@ -2,10 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::search::CELLS;
 use crate::{Contour, Range};
-
-/// Cells of the range in which inflections are looked for, as many as for the closest point.
-const CELLS: usize = 96;
 
 /// Angle (rad) that a whole range turns at the rate of a sample whose sign counts for nothing: a straight contour has
 /// only rounding there.
@@ -73,6 +71,13 @@ pub(crate) fn by_turn<C: Contour + ?Sized>(shape: &C, range: Range, bends: &[f64
     cuts
 }
 
+/// The cuts of a shape travelled the other way, by `-t`, whose cuts these are.
+pub(crate) fn backwards(mut cuts: Vec<f64>) -> Vec<f64> {
+    cuts.reverse();
+    cuts.iter_mut().for_each(|cut| *cut = -*cut);
+    cuts
+}
+
 /// How many arcs of at most a right angle make up a turn (rad).
 pub(crate) fn arcs(turn: f64) -> usize {
     (turn.abs() / FRAC_PI_2 * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST) as usize
@@ -80,7 +85,7 @@ pub(crate) fn arcs(turn: f64) -> usize {
 
 /// The last parameter between `low` and `high` where `before` holds, of a condition that holds from `low` on and from
 /// some parameter on no more.
-fn last_where(low: f64, high: f64, before: impl Fn(f64) -> bool) -> f64 {
+pub(crate) fn last_where(low: f64, high: f64, before: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (low, high);
     for _ in 0..STEPS {
         let middle = 0.5 * (low + high);

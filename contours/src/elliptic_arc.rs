@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::closest::gap;
 use crate::span::Span;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, ellipse};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, ellipse};
 
 /// Smallest distance of a cut from an end of the range, relative to the angles: nearer ones are the end itself, rounded.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -58,7 +59,7 @@ impl EllipticArc {
         to_angle: f64,
     ) -> Result<Self, ContourError> {
         let [first, second] = ["the ellipse's first radius", "the ellipse's second radius"];
-        for (what, value) in [
+        check::finite([
             ("x of the ellipse's centre", center[0]),
             ("y of the ellipse's centre", center[1]),
             (first, radii[0]),
@@ -66,16 +67,9 @@ impl EllipticArc {
             ("the ellipse's rotation", rotation),
             ("the elliptic arc's first angle", from_angle),
             ("the elliptic arc's last angle", to_angle),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
-        for (what, value) in [(first, radii[0]), (second, radii[1])] {
-            if value <= 0.0 {
-                return Err(ContourError::NotPositive { what, value });
-            }
-        }
+        ])?;
+        check::positive(first, radii[0])?;
+        check::positive(second, radii[1])?;
         let (sin, cos) = rotation.sin_cos();
         let span = Span::new("the elliptic arc", from_angle, to_angle)?;
         Ok(Self { center, radii, rotation, axis: [cos, sin], span })
@@ -130,12 +124,7 @@ impl EllipticArc {
         let (dx, dy) = (px - a * cos, py - b * sin);
         // On the outward normal, without alpha and the rotation: shorter and more exact.
         let outside = self.span.sign() * (dx * (b * cos / frame.speed) + dy * (a * sin / frame.speed));
-        let gap = match (interior, outside < 0.0) {
-            (true, _) => outside,
-            (false, false) => dx.hypot(dy),
-            (false, true) => -dx.hypot(dy),
-        };
-        Closest { t, gap, frame, interior }
+        Closest { t, gap: gap(interior, outside, [dx, dy]), frame, interior }
     }
 
     /// Where the feet of a point along the axes are passed, by the angle travelled in `range`: the nearest point of the
@@ -168,7 +157,7 @@ impl Contour for EllipticArc {
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let range = self.range().within(range);
         let point = self.inward(x, y);
-        let inside = |t: &f64| range.from < *t && *t < range.to;
+        let inside = |t: &f64| range.is_interior(*t);
         if let Some(t) = self.foot(point, range, false).filter(inside) {
             return self.closest_at(t, true, point);
         }

@@ -4,11 +4,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::jet::{Jet, variable};
-use crate::search::{self, Probe};
-use crate::{Closest, Contour, ContourError, Frame, Range};
-
-/// Parameters at which a new graph is checked, as many as the default search looks at on a finite range.
-const SAMPLES: usize = 96;
+use crate::search::{self, CELLS, Probe};
+use crate::{Closest, Contour, ContourError, Frame, Range, check};
 
 /// g, g' and g'' at x.
 type Derivatives = dyn Fn(f64) -> [f64; 3] + Send + Sync;
@@ -61,18 +58,11 @@ impl Graph {
         range: Range,
         derivatives: impl Fn(f64) -> [f64; 3] + Send + Sync + 'static,
     ) -> Result<Self, ContourError> {
-        let Range { from, to } = range;
-        if from.is_nan() || to.is_nan() || from >= to {
-            return Err(ContourError::EmptyRange { what: "x of the graph", from, to });
-        }
-        for sample in 0..=SAMPLES {
-            let t = range.at(sample as f64 / SAMPLES as f64);
+        check::range("x of the graph", range)?;
+        for cell in 0..=CELLS {
+            let t = range.at(cell as f64 / CELLS as f64);
             let [value, first, second] = derivatives(t);
-            for (what, value) in [("g", value), ("g'", first), ("g''", second)] {
-                if !value.is_finite() {
-                    return Err(ContourError::NotFiniteAt { what, t, value });
-                }
-            }
+            check::finite_at(t, [("g", value), ("g'", first), ("g''", second)])?;
         }
         Ok(Self { range, derivatives: Arc::new(derivatives) })
     }

@@ -1,7 +1,6 @@
 //! The point where two pieces meet at an angle.
 
-use std::f64::consts::{PI, TAU};
-
+use crate::angle::wrapped;
 use crate::{Bounds, Closest, Frame, Range};
 
 /// A vertex: the point stands still while alpha runs from one tangent to the other.
@@ -62,11 +61,6 @@ impl Joint {
             interior: range.contains(t),
         }
     }
-}
-
-/// The same angle between -pi and pi, rad.
-pub(crate) fn wrapped(angle: f64) -> f64 {
-    if angle.abs() <= PI { angle } else { angle - TAU * (angle / TAU).round() }
 }
 
 #[cfg(test)]

@@ -25,10 +25,12 @@
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod angle;
 mod assembly;
 mod bezier;
 mod bounds;
 mod carry;
+mod check;
 mod circular_arc;
 mod closest;
 mod composite;
@@ -53,6 +55,7 @@ mod joint;
 mod line;
 mod motion;
 mod moved;
+mod newton;
 mod parabola;
 mod part;
 mod piece;

@@ -1,6 +1,7 @@
 //! The straight line from one point to another.
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::closest::gap;
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.
 ///
@@ -38,17 +39,13 @@ impl Line {
     pub fn new(from: [f64; 2], to: [f64; 2]) -> Result<Self, ContourError> {
         let line = Self { from, to };
         let (length, _) = line.measured();
-        for (what, value) in [
+        check::finite([
             ("x of the line's first point", from[0]),
             ("y of the line's first point", from[1]),
             ("x of the line's second point", to[0]),
             ("y of the line's second point", to[1]),
             ("the line's length", length),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
+        ])?;
         // The square of a shorter length has lost digits.
         if length * length < f64::MIN_POSITIVE {
             return Err(ContourError::SamePoint { x: from[0], y: from[1] });
@@ -101,14 +98,9 @@ impl Contour for Line {
             foot = length + ahead;
         }
         let outside = dx * sin - dy * cos;
-        let interior = range.from < foot && foot < range.to;
+        let interior = range.is_interior(foot);
         let t = range.clamp(foot);
-        let gap = if interior {
-            outside
-        } else {
-            let distance = (foot - t).hypot(outside);
-            if outside < 0.0 { -distance } else { distance }
-        };
+        let gap = gap(interior, outside, [foot - t, outside]);
         Closest { t, gap, frame: self.frame_along(t, length, [cos, sin]), interior }
     }
 

@@ -1,6 +1,6 @@
 //! Rotation, translation, scaling and mirroring of the plane.
 
-use crate::ContourError;
+use crate::{ContourError, check};
 
 /// A similarity of the plane: `r' = translation + scale R(rotation) M r`, where M maps `y` to `-y` if `mirror` is set.
 ///
@@ -87,19 +87,13 @@ impl Motion {
 
     /// Whether all numbers are finite and the scale positive.
     pub(crate) fn checked(self) -> Result<Self, ContourError> {
-        for (what, value) in [
+        check::finite([
             ("the motion's rotation", self.rotation),
             ("x of the motion's translation", self.translation[0]),
             ("y of the motion's translation", self.translation[1]),
             ("the motion's scale", self.scale),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
-        if self.scale <= 0.0 {
-            return Err(ContourError::NotPositive { what: "the motion's scale", value: self.scale });
-        }
+        ])?;
+        check::positive("the motion's scale", self.scale)?;
         Ok(self)
     }
 }

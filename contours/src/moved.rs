@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Motion, Range};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Motion, Range, cuts};
 
 /// A shape after a [`Motion`].
 ///
@@ -56,7 +56,7 @@ impl<C: Contour> Moved<C> {
 
     /// A range of the shape as one of the moved shape, and the other way round.
     fn turned(&self, range: Range) -> Range {
-        if self.motion.mirror { Range { from: -range.to, to: -range.from } } else { range }
+        if self.motion.mirror { range.backwards() } else { range }
     }
 
     /// A parameter of the shape as one of the moved shape, and the other way round.
@@ -80,10 +80,10 @@ impl<C: Contour> Moved<C> {
     }
 
     fn moved_bounds(&self, bounds: Bounds) -> Bounds {
-        let Bounds { min, max } = bounds;
-        if !min.into_iter().chain(max).all(f64::is_finite) {
+        if !bounds.is_finite() {
             return Bounds::ALL;
         }
+        let Bounds { min, max } = bounds;
         [[min[0], min[1]], [min[0], max[1]], [max[0], min[1]], [max[0], max[1]]]
             .into_iter()
             .map(|corner| self.motion.apply_with(self.axis, corner))
@@ -124,12 +124,8 @@ impl<C: Contour> Contour for Moved<C> {
     }
 
     fn cuts(&self, range: Range) -> Vec<f64> {
-        let mut cuts = self.shape.cuts(self.turned(range));
-        if self.motion.mirror {
-            cuts.reverse();
-            cuts.iter_mut().for_each(|cut| *cut = -*cut);
-        }
-        cuts
+        let cuts = self.shape.cuts(self.turned(range));
+        if self.motion.mirror { cuts::backwards(cuts) } else { cuts }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The parabola, the object of Merker et al. 2021.
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::closest::gap;
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// Steps after which Newton's iteration gives up; from its starts it takes 2 to 6.
 const STEPS: usize = 64;
@@ -47,15 +48,11 @@ impl Parabola {
     ///
     /// [`ContourError::NotFinite`] for a number that is not finite.
     pub fn new(vertex: [f64; 2], coefficient: f64) -> Result<Self, ContourError> {
-        for (what, value) in [
+        check::finite([
             ("x of the parabola's vertex", vertex[0]),
             ("y of the parabola's vertex", vertex[1]),
             ("the parabola's coefficient", coefficient),
-        ] {
-            if !value.is_finite() {
-                return Err(ContourError::NotFinite { what, value });
-            }
-        }
+        ])?;
         Ok(Self { vertex, coefficient, range: Range::ALL })
     }
 
@@ -111,7 +108,7 @@ impl Parabola {
                 }
             }
             if range.contains(other) && far(other) < far(best.0) {
-                best = (other, other > range.from && other < range.to);
+                best = (other, range.is_interior(other));
             }
         }
         best
@@ -138,7 +135,7 @@ impl Contour for Parabola {
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let (px, py) = (x - self.vertex[0], y - self.vertex[1]);
         let t = nearest(self.coefficient, px, py);
-        let (t, interior) = if range.from < t && t < range.to {
+        let (t, interior) = if range.is_interior(t) {
             (t, true)
         } else if range.contains(t) || t.is_nan() {
             (t, false)
@@ -149,14 +146,7 @@ impl Contour for Parabola {
         // From the coordinates relative to the vertex, without the sine and cosine of alpha: shorter and more exact.
         let (dx, dy) = (px - t, py - self.coefficient * t * t);
         let outside = (dx * 2.0 * self.coefficient * t - dy) / frame.speed;
-        let gap = if interior {
-            outside
-        } else if outside < 0.0 {
-            -dx.hypot(dy)
-        } else {
-            dx.hypot(dy)
-        };
-        Closest { t, gap, frame, interior }
+        Closest { t, gap: gap(interior, outside, [dx, dy]), frame, interior }
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {

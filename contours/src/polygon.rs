@@ -1,6 +1,7 @@
 //! Contours of straight edges.
 
-use crate::{Composite, Contour, ContourError, Line};
+use crate::vector::distance;
+use crate::{Composite, Contour, ContourError, Line, check};
 
 /// A last point counts as the first one given again if it is no farther away, relative to the way around.
 const CLOSED: f64 = 1e-9;
@@ -67,19 +68,19 @@ impl Composite {
     }
 }
 
+/// Whether the last point is the first one given again.
+pub(crate) fn comes_back(points: &[[f64; 2]]) -> bool {
+    let [first, .., last] = *points else { return false };
+    let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
+    distance(first, last) <= CLOSED * around
+}
+
 /// The edges from point to point, and back to the first one if they are closed.
 pub(crate) fn edges(points: &[[f64; 2]], closed: bool) -> Result<Vec<Box<dyn Contour>>, ContourError> {
-    for (index, &[x, y]) in points.iter().enumerate() {
-        if !(x.is_finite() && y.is_finite()) {
-            return Err(ContourError::PointNotFinite { point: index + 1, x, y });
-        }
-    }
+    check::points(points)?;
     let mut corners = points.to_vec();
-    if closed && let [first, .., last] = *points {
-        let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
-        if distance(first, last) <= CLOSED * around {
-            corners.pop();
-        }
+    if closed && comes_back(points) {
+        corners.pop();
     }
     let (what, needed) = if closed { ("a polygon", 3) } else { ("a polyline", 2) };
     if let Some(index) = points.windows(2).position(|pair| pair[0] == pair[1]) {
@@ -111,10 +112,6 @@ fn of_edges(edges: Vec<Box<dyn Contour>>) -> Result<Composite, ContourError> {
     };
     let contour = Composite::new(edges).map_err(named)?;
     contour.simple().map_err(named)
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
 #[cfg(test)]

@@ -36,6 +36,11 @@ impl Range {
         self.from <= t && t <= self.to
     }
 
+    /// Whether `t` lies between the ends, neither of which counts.
+    pub(crate) fn is_interior(&self, t: f64) -> bool {
+        self.from < t && t < self.to
+    }
+
     /// The number of the range that is nearest to `t`. Unlike [`f64::clamp`] it accepts any ends.
     pub fn clamp(&self, t: f64) -> f64 {
         t.max(self.from).min(self.to)
@@ -60,6 +65,11 @@ impl Range {
     /// The range moved by `offset`.
     pub fn shifted(&self, offset: f64) -> Self {
         Self { from: self.from + offset, to: self.to + offset }
+    }
+
+    /// The range travelled the other way, by `-t`.
+    pub(crate) fn backwards(&self) -> Self {
+        Self { from: -self.to, to: -self.from }
     }
 
     /// A finite part of the range: itself if finite, else at most `width` from its finite end, or from 0.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::{Bounds, Closest, Contour, Frame, Range};
+use crate::{Bounds, Closest, Contour, Frame, Range, cuts};
 
 /// The same curve travelled the other way, by `-t`: solid and outside are exchanged.
 ///
@@ -43,17 +43,13 @@ fn reversed_frame(frame: Frame) -> Frame {
     Frame { alpha: frame.alpha + PI, turning: -frame.turning, ..frame }
 }
 
-fn reversed_range(range: Range) -> Range {
-    Range { from: -range.to, to: -range.from }
-}
-
 impl<C: Contour> Contour for Reversed<C> {
     fn frame(&self, t: f64) -> Frame {
         reversed_frame(self.shape.frame(-t))
     }
 
     fn range(&self) -> Range {
-        reversed_range(self.shape.range())
+        self.shape.range().backwards()
     }
 
     fn closest(&self, x: f64, y: f64) -> Closest {
@@ -61,7 +57,7 @@ impl<C: Contour> Contour for Reversed<C> {
     }
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        Self::turned(self.shape.closest_in(reversed_range(range), x, y), x, y)
+        Self::turned(self.shape.closest_in(range.backwards(), x, y), x, y)
     }
 
     fn bounds(&self) -> Bounds {
@@ -69,14 +65,11 @@ impl<C: Contour> Contour for Reversed<C> {
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
-        self.shape.bounds_in(reversed_range(range))
+        self.shape.bounds_in(range.backwards())
     }
 
     fn cuts(&self, range: Range) -> Vec<f64> {
-        let mut cuts = self.shape.cuts(reversed_range(range));
-        cuts.reverse();
-        cuts.iter_mut().for_each(|cut| *cut = -*cut);
-        cuts
+        cuts::backwards(self.shape.cuts(range.backwards()))
     }
 }
 

@@ -1,10 +1,10 @@
 //! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
 
 use crate::vector::dot;
-use crate::{Bounds, Closest, Contour, Range};
+use crate::{Bounds, Closest, Contour, Range, newton};
 
-/// Cells of a finite range: 96 cells of a full circle turn by less than 4 degrees each.
-const CELLS: usize = 96;
+/// Cells of a finite range in which anything is looked for: 96 cells of a full circle turn by less than 4 degrees each.
+pub(crate) const CELLS: usize = 96;
 
 /// Fewest cells of a part of a finite range: one alone would not see a minimum between two maxima at its ends.
 const FEWEST: usize = 2;
@@ -14,9 +14,6 @@ const CELLS_INFINITE: usize = 512;
 
 /// Steps towards the extremum of the slope within a cell; one that they do not show is too flat to matter.
 const DIP_STEPS: usize = 12;
-
-/// Largest number of steps of one refinement; bisection alone reaches rounding in about 60.
-const STEPS: usize = 80;
 
 /// A sample of the contour, seen from the point whose closest point is wanted.
 #[derive(Clone, Copy)]
@@ -136,32 +133,14 @@ fn falls_then_rises(probe: impl Fn(f64) -> Probe, left: Probe, right: Probe) -> 
 
 /// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
 fn refine(probe: impl Fn(f64) -> Probe, low: Probe, high: Probe) -> Probe {
-    let (mut low, mut high) = (low, high);
     let resolution = f64::EPSILON * low.t.abs().max(high.t.abs());
     let mut here = if -low.slope < high.slope { low } else { high };
-    let mut step_before = high.t - low.t;
-    for _ in 0..STEPS {
-        let mut step = -here.slope / here.rate;
-        let mut t = here.t + step;
-        // Newton only while it stays inside and converges faster than halving would.
-        if !(t > low.t && t < high.t && step.abs() <= 0.5 * step_before.abs()) {
-            t = 0.5 * (low.t + high.t);
-            step = t - here.t;
+    newton::zero(Range { from: low.t, to: high.t }, here.t, resolution, |t| {
+        if t != here.t {
+            here = probe(t);
         }
-        if t == here.t {
-            break;
-        }
-        here = probe(t);
-        if here.slope < 0.0 {
-            low = here;
-        } else {
-            high = here;
-        }
-        if here.slope == 0.0 || step.abs() <= resolution || high.t - low.t <= resolution {
-            break;
-        }
-        step_before = step;
-    }
+        [here.slope, here.rate]
+    });
     here
 }
 

@@ -2,7 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::crossing::brought_together;
 use crate::index::Index;
+use crate::vector::{cross, minus};
 use crate::{Bounds, Composite, Frame, Part, Range, StretchKind};
 
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.
@@ -27,9 +29,6 @@ const SLACK: f64 = 1e-9;
 
 /// Largest distance of the two points of a crossing, relative to the coordinates.
 const TOGETHER: f64 = 1e-9;
-
-/// Steps of Newton's iteration from the crossing of two chords to that of their arcs; it takes 2 to 5.
-const STEPS: usize = 16;
 
 /// A place where a contour crosses itself, or touches itself at an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,32 +143,12 @@ impl Chord {
         self.refined(other, [at(self, shares[0]), at(other, shares[1])], contour)
     }
 
-    /// Newton's iteration on `r(first) = r(second)`; none where it does not lead to a crossing near by.
-    fn refined(&self, other: &Self, mut places: [f64; 2], contour: &Composite) -> Option<SelfCrossing> {
+    /// The crossing near these places; none where Newton's iteration does not lead to one.
+    fn refined(&self, other: &Self, places: [f64; 2], contour: &Composite) -> Option<SelfCrossing> {
         let chords = [self, other];
         let frames = |places: [f64; 2]| [0, 1].map(|side| contour.own_frame(chords[side].stretch, places[side]));
-        let mut best = (f64::INFINITY, places);
-        for _ in 0..STEPS {
-            let [one, two] = frames(places);
-            let distance = one.distance(two.x, two.y);
-            if distance >= best.0 {
-                break;
-            }
-            best = (distance, places);
-            let apart = [two.x - one.x, two.y - one.y];
-            let (one_sin, one_cos) = one.alpha.sin_cos();
-            let (two_sin, two_cos) = two.alpha.sin_cos();
-            let sine = one_cos * two_sin - one_sin * two_cos;
-            let steps = [
-                cross(apart, [two_cos, two_sin]) / (sine * one.speed),
-                cross(apart, [one_cos, one_sin]) / (sine * two.speed),
-            ];
-            for side in 0..2 {
-                let own = contour.own_range(chords[side].stretch);
-                places[side] = own.clamp(places[side] + steps[side]);
-            }
-        }
-        let (distance, places) = best;
+        let ranges = chords.map(|chord| contour.own_range(chord.stretch));
+        let (distance, places) = brought_together(places, ranges, frames);
         let [one, two] = frames(places);
         let scale = one.x.abs().max(one.y.abs()).max(self.range.length() * one.speed);
         let near = |side: usize| {
@@ -214,14 +193,6 @@ fn next_piece(contour: &Composite, stretch: usize) -> Option<usize> {
 
 fn point(frame: Frame) -> [f64; 2] {
     [frame.x, frame.y]
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 #[cfg(test)]

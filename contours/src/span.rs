@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::{ContourError, Range};
+use crate::{ContourError, Range, angle};
 
 /// How far beyond a full turn an arc may go, relative to its angles: `from + TAU` is rounded.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -48,9 +48,7 @@ impl Span {
     /// How far (rad) one has travelled at the angle, of all the times it is passed the one nearest to the middle of
     /// `range`, at most half a turn away from it.
     pub fn travelled(&self, angle: f64, range: Range) -> f64 {
-        let travelled = self.sign() * (angle - self.from);
-        let middle = 0.5 * (range.from + range.to);
-        travelled - TAU * ((travelled - middle) / TAU).round()
+        angle::near(self.sign() * (angle - self.from), 0.5 * (range.from + range.to))
     }
 
     /// Whether the angle is passed within `range`, by the angle travelled.

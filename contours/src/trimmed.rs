@@ -1,6 +1,6 @@
 //! A part of a shape.
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// The part of a shape in a range of its parameter, which it keeps.
 ///
@@ -27,10 +27,8 @@ impl<C: Contour> Trimmed<C> {
     /// [`ContourError::EmptyRange`] unless the range's start is less than its end (NaN included),
     /// [`ContourError::NotWithin`] for a range that leaves that of the shape.
     pub fn new(shape: C, range: Range) -> Result<Self, ContourError> {
+        check::range("the part of the shape", range)?;
         let Range { from, to } = range;
-        if from.is_nan() || to.is_nan() || from >= to {
-            return Err(ContourError::EmptyRange { what: "the part of the shape", from, to });
-        }
         let whole = shape.range();
         if !(whole.contains(from) && whole.contains(to)) {
             return Err(ContourError::NotWithin { from, to, start: whole.from, end: whole.to });

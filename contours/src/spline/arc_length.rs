@@ -1,7 +1,8 @@
 //! How long a spline is.
 
 use super::Spline;
-use super::cubic::{Cubic, Velocity, dot};
+use crate::cubic::{Cubic, Velocity};
+use crate::vector::dot;
 
 /// Nodes and weights of the Gauss-Legendre rule with 8 nodes on -1 to 1, symmetric about 0 (Abramowitz and Stegun,
 /// table 25.4).

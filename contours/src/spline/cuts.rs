@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::Spline;
+use crate::cuts::last_where;
 use crate::{Contour, Range};
 
 /// Cubics of an arc, so that its box stays small.
@@ -11,9 +12,6 @@ const CUBICS: usize = 4;
 /// An angle, rad, by which a curve may turn back within an arc: what rounding makes of a straight line is less, and so is
 /// the turn at a joint that counts as smooth.
 const STRAIGHT: f64 = 1e-9;
-
-/// Halvings that find where an angle is reached, to rounding.
-const HALVINGS: u32 = 60;
 
 impl Spline {
     /// Parameters inside the range, in order, that part it into simple arcs: without an inflection inside, turning by a
@@ -93,15 +91,6 @@ impl Spline {
     /// The last parameter between the two at which the tangent has not yet turned by more than a right angle.
     fn right_angle(&self, from: f64, to: f64) -> f64 {
         let start = self.frame(from).alpha;
-        let (mut low, mut high) = (from, to);
-        for _ in 0..HALVINGS {
-            let middle = low.midpoint(high);
-            if (self.frame(middle).alpha - start).abs() <= FRAC_PI_2 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        low
+        last_where(from, to, |t| (self.frame(t).alpha - start).abs() <= FRAC_PI_2)
     }
 }

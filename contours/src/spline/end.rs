@@ -1,7 +1,7 @@
 //! What holds at the ends of a spline.
 
-use super::cubic::{minus, plus};
-use crate::ContourError;
+use crate::vector::{minus, plus};
+use crate::{ContourError, check};
 
 /// What holds at the ends of a spline through points.
 ///
@@ -40,10 +40,7 @@ impl SplineEnd {
     pub(super) fn check(&self) -> Result<(), ContourError> {
         let Self::Clamped { from, to } = *self else { return Ok(()) };
         let angles = [("the tangent angle at the spline's start", from), ("the tangent angle at the spline's end", to)];
-        match angles.into_iter().find_map(|(what, angle)| Some((what, angle.filter(|angle| !angle.is_finite())?))) {
-            Some((what, value)) => Err(ContourError::NotFinite { what, value }),
-            None => Ok(()),
-        }
+        check::finite(angles.into_iter().filter_map(|(what, angle)| Some((what, angle?))))
     }
 }
 

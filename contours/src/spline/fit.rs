@@ -1,13 +1,11 @@
 //! The spline through given points.
 
-use super::cubic::{minus, plus};
 use super::end::direction;
 use super::keys::Keys;
 use super::{Spline, SplineEnd};
-use crate::ContourError;
-
-/// A closed curve's last point counts as the first one given again if it is no farther away, relative to the way around.
-const CLOSED: f64 = 1e-9;
+use crate::polygon::comes_back;
+use crate::vector::{distance, minus, plus};
+use crate::{ContourError, check};
 
 impl Spline {
     /// The cubic spline through these points (lengths), in their order, with continuous direction and curvature.
@@ -51,12 +49,10 @@ impl Spline {
 
 /// Makes the last point the first one: in its place where it is the same to rounding, else after it.
 fn close(points: &mut Vec<[f64; 2]>) {
-    let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return };
-    let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
-    if points.len() > 1 && distance(first, last) <= CLOSED * around {
+    if comes_back(points) {
         points.pop();
     }
-    points.push(first);
+    points.extend(points.first().copied());
 }
 
 /// The length of the polygon up to each point.
@@ -64,10 +60,7 @@ pub(super) fn knots(points: &[[f64; 2]]) -> Result<Vec<f64>, ContourError> {
     if points.len() < 2 {
         return Err(ContourError::TooFewPoints { what: "a spline", count: points.len(), needed: 2 });
     }
-    let bad = |&(_, point): &(usize, &[f64; 2])| !(point[0].is_finite() && point[1].is_finite());
-    if let Some((index, &[x, y])) = points.iter().enumerate().find(bad) {
-        return Err(ContourError::PointNotFinite { point: index + 1, x, y });
-    }
+    check::points(points)?;
     let mut knots = vec![0.0];
     let mut t = 0.0;
     for (index, pair) in points.windows(2).enumerate() {
@@ -169,17 +162,11 @@ fn solve_around(mut rows: Vec<Row>) -> Vec<[f64; 3]> {
     solution
 }
 
-/// The distance between two points, without overflow.
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let way = minus(b, a);
-    way[0].hypot(way[1])
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::cubic::dot;
     use super::*;
     use crate::Contour;
+    use crate::vector::dot;
 
     /// Unevenly spaced points of a curve that is nowhere straight.
     fn wiggle(count: u32) -> Vec<[f64; 2]> {

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use splines::{Interpolate, Interpolation, Key};
 
-use super::cubic::Cubic;
 use crate::ContourError;
+use crate::cubic::Cubic;
 
 /// Points of a spline with their parameters and the two Bezier handles of each, 64 bytes a point.
 #[derive(Clone, Debug, Deserialize, Serialize)]

@@ -2,30 +2,25 @@
 
 mod arc_length;
 mod chords;
-mod cubic;
 mod cuts;
 mod end;
 mod fit;
 mod keys;
-mod nearest;
 mod smooth;
 
-use std::f64::consts::TAU;
 use std::ops::Range as Span;
 
 use serde::{Deserialize, Serialize, Serializer};
 
 pub use end::SplineEnd;
 
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range};
+use crate::assembly::SMOOTH;
+use crate::cubic::nearest;
+use crate::vector::{cross, dot};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check};
 use arc_length::lengths;
 use chords::Chords;
-use cubic::{cross, dot};
 use keys::Keys;
-use nearest::nearest;
-
-/// The turn at a point that counts as none, rad: that of a smooth joint of a composite.
-const SMOOTH: f64 = 1e-9;
 
 /// Rounding of a handle, relative to the coordinates.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -100,10 +95,7 @@ impl Spline {
         let count = keys.len() - 1;
         let angles = angles(&keys)?;
         let lengths = lengths((0..count).map(|index| keys.cubic(index)));
-        let value = lengths[count];
-        if !value.is_finite() {
-            return Err(ContourError::NotFinite { what: "the length of the spline", value });
-        }
+        check::finite([("the length of the spline", lengths[count])])?;
         let chords = Chords::new(count, |index| keys.cubic(index));
         let boxes = (0..count).map(|index| keys.cubic(index).bounds(0.0, 1.0));
         let bounds = boxes.fold(Bounds::EMPTY, |bounds, one| bounds.union(one));
@@ -143,7 +135,7 @@ fn angles(keys: &Keys) -> Result<Vec<f64>, ContourError> {
         let [first, _, last] = cubic.sides().map(|side| dot(side, side).sqrt());
         let scale = cubic.control.iter().flatten().fold(0.0_f64, |scale, side| scale.max(side.abs()));
         if let Some((expected, rounding)) = before {
-            angle += TAU * ((expected - angle) / TAU).round();
+            angle = angle::near(angle, expected);
             let turn = angle - expected;
             if turn.abs() > SMOOTH + rounding + ROUNDING * scale / first {
                 return Err(ContourError::Kink { key: index + 1, turn });
@@ -207,7 +199,7 @@ impl Contour for Spline {
             });
             least.sqrt()
         });
-        Closest::new(best, self.frame(best), range.from < best && best < range.to, x, y)
+        Closest::new(best, self.frame(best), range.is_interior(best), x, y)
     }
 
     fn bounds(&self) -> Bounds {

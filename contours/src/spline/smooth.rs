@@ -1,9 +1,9 @@
 //! The smoothest spline that passes noisy points as closely as they are known.
 
-use super::cubic::{dot, minus, plus};
 use super::fit::{interpolant, knots};
 use super::{Spline, SplineEnd};
-use crate::ContourError;
+use crate::vector::{dot, minus, plus};
+use crate::{ContourError, check};
 
 /// Weight of the bending beside the rest, relative, below which rounding begins to spoil the system: the curve then is
 /// smooth over a thousand points or so.
@@ -41,9 +41,7 @@ impl Spline {
     /// ```
     pub fn smoothing(points: &[[f64; 2]], sigma: f64) -> Result<Self, ContourError> {
         let what = "the noise of the spline's points";
-        if !sigma.is_finite() {
-            return Err(ContourError::NotFinite { what, value: sigma });
-        }
+        check::finite([(what, sigma)])?;
         if sigma < 0.0 {
             return Err(ContourError::Negative { what, value: sigma });
         }
