@@ -70,14 +70,8 @@ fn badness(b: &Break, configuration: &Configuration) -> f64 {
 fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -> Configuration {
     match b {
         Break::Release(j) => configuration.remove(j),
-        Break::Border(j, upwards) if configuration.is_tip(j) => {
-            match slid(&configuration, j, upwards, &corrector.world) {
-                Some(slid) => configuration = slid,
-                None => configuration.remove(j),
-            }
-        }
-        Break::Border(j, upwards) => match corrector.world.neighbour(configuration.contacts[j].stretch, upwards) {
-            Some(next) => configuration = onto_neighbour(configuration, j, upwards, next, &corrector.world),
+        Break::Border(j, upwards) => match slid(&configuration, j, upwards, &corrector.world) {
+            Some(slid) => configuration = slid,
             None => configuration.remove(j),
         },
         Break::TipToTangent(angle) => configuration = as_tangent(configuration, angle),
@@ -88,9 +82,11 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
     configuration
 }
 
-/// The tip moved over an end of its piece: onto the next stretch, or over the corner there onto the piece beyond.
+/// Contact j moved over an end of its stretch: onto the next one, or, where it is the tip's, over the corner there onto the
+/// piece beyond. None where the contour ends.
 fn slid(configuration: &Configuration, j: usize, upwards: bool, world: &World<'_>) -> Option<Configuration> {
-    beyond_corner(configuration.clone(), world).or_else(|| {
+    let over = configuration.is_tip(j).then(|| beyond_corner(configuration.clone(), world)).flatten();
+    over.or_else(|| {
         let next = world.neighbour(configuration.contacts[j].stretch, upwards)?;
         Some(onto_neighbour(configuration.clone(), j, upwards, next, world))
     })

@@ -1,0 +1,151 @@
+//! Where a rod comes to rest: overdamped descent of the bending energy under unilateral contact.
+//!
+//! The rod is a chain of rigid links with a spring in each joint (inextensible by construction). Each step is implicit: it
+//! minimises the energy after the step plus the distance gone, in the metric of the springs (a rod with internal,
+//! Kelvin-Voigt damping), under the linearised gaps of all nodes and of corners to links, which is a small quadratic
+//! programme. The result is good to the square of a link's length: enough to see which contacts there are.
+
+mod cluster;
+mod near;
+mod programme;
+
+use crate::configuration::Configuration;
+use crate::path::ClampPath;
+use crate::world::World;
+use cluster::{Cluster, clusters, contacts};
+use near::{Near, near};
+use programme::programme;
+use rod_core::{Pose, advance};
+use smallvec::{SmallVec, smallvec};
+
+/// Number of links.
+const LINKS: usize = 64;
+/// Length of a link.
+const LINK: f64 = 1.0 / LINKS as f64;
+/// Longest way of a node in one step: gaps are taken to be linear over it.
+const LONGEST_MOVE: f64 = 0.04;
+/// Gaps beyond this are out of reach of the longest step.
+const REACH: f64 = 2.0 * LONGEST_MOVE;
+/// A step that moves no node further than this has arrived.
+const ARRIVED: f64 = 2e-5;
+/// Most steps.
+const MOST_STEPS: usize = 400;
+/// Time step over the damping time: the unconstrained shape loses half of its bend in a step of 1.
+const TIME_STEP: f64 = 1.0;
+/// Deepest penetration taken back in one step.
+const DEEPEST_PUSH: f64 = 0.03;
+/// How far walls give way to a unit of force where they leave the chain no other way.
+const YIELDING: f64 = 1e-5;
+
+/// Ends of the links, the clamp first.
+type Nodes = [[f64; 2]; LINKS + 1];
+
+/// A chain of links in the contour's world.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    pub clamp: Pose,
+    /// Turning angle of each joint; the first is between clamp and first link.
+    joints: [f64; LINKS],
+}
+
+impl Chain {
+    /// A straight chain, but for the slight bend (radians over its length) without which it could not buckle.
+    pub fn straight(clamp: Pose, bend: f64) -> Self {
+        Self { clamp, joints: [bend * LINK; LINKS] }
+    }
+
+    /// The shape of the rod in `configuration`, on another clamp.
+    pub fn of(world: &World<'_>, path: &ClampPath, configuration: &Configuration, clamp: Pose) -> Self {
+        let spans = configuration.spans(world, path);
+        let phi = |s: f64| {
+            let span = spans[spans.partition_point(|span| span.s <= s).saturating_sub(1)];
+            advance(&span.start, span.a, span.b, s - span.s).phi
+        };
+        let mut before = path.at(configuration.tau()).phi;
+        let joints = std::array::from_fn(|i| {
+            let here = phi((i as f64 + 0.5) * LINK);
+            let joint = here - before;
+            before = here;
+            joint
+        });
+        Self { clamp, joints }
+    }
+
+    /// Stiffness of a joint: a full link between two links, half a link between clamp and first one.
+    fn stiffness(i: usize) -> f64 {
+        if i == 0 { 2.0 / LINK } else { 1.0 / LINK }
+    }
+
+    /// Ends of the links, the clamp first, and the angle of each link.
+    fn nodes(&self) -> (Nodes, [f64; LINKS]) {
+        let (mut nodes, mut angles) = ([[self.clamp.x, self.clamp.y]; LINKS + 1], [0.0; LINKS]);
+        let mut phi = self.clamp.phi;
+        for i in 0..LINKS {
+            phi += self.joints[i];
+            angles[i] = phi;
+            let (sin, cos) = phi.sin_cos();
+            nodes[i + 1] = [nodes[i][0] + LINK * cos, nodes[i][1] + LINK * sin];
+        }
+        (nodes, angles)
+    }
+
+    /// One implicit step under the gaps smaller than `reach`: how far it moved the chain, and the force at each near node.
+    /// None where the programme failed.
+    fn step(&mut self, world: &World<'_>, time_step: f64, reach: f64) -> Option<(f64, Vec<(Near, f64)>)> {
+        let (nodes, angles) = self.nodes();
+        let near = near(world, &nodes, &angles, reach);
+        let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
+        loop {
+            let solved = programme(self, &nodes, &near, time_step, push, 0.0);
+            let (change, forces) = solved.or_else(|| programme(self, &nodes, &near, time_step, push, YIELDING))?;
+            let mut moved = self.clone();
+            for (joint, change) in moved.joints.iter_mut().zip(&change) {
+                *joint += change;
+            }
+            let (after, _) = moved.nodes();
+            let way = nodes.iter().zip(&after).map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1])).fold(0.0, f64::max);
+            if way <= 0.75 * reach || time_step < 1e-4 {
+                *self = moved;
+                return Some((way, near.into_iter().zip(forces).collect()));
+            }
+            if reach < REACH {
+                return self.step(world, time_step, REACH);
+            }
+            time_step *= (LONGEST_MOVE / way).min(0.5);
+            push *= 0.5;
+        }
+    }
+
+    /// Lets the chain come to rest, and gives the contacts it then has as guesses for the boundary-value problem at `tau`, the
+    /// likeliest first. What is pressed all along a few links is one contact, or, on a contour that follows the rod, one at
+    /// either end.
+    pub fn settle(&mut self, world: &World<'_>, tau: f64) -> SmallVec<[Configuration; 2]> {
+        let Some(forces) = self.come_to_rest(world) else { return SmallVec::new() };
+        let clusters = clusters(forces);
+        let mut guesses = smallvec![contacts(self, world, &clusters, tau)];
+        if clusters.iter().any(Cluster::is_wide) {
+            let parted: Vec<_> = clusters.iter().flat_map(Cluster::ends).collect();
+            guesses.push(contacts(self, world, &parted, tau));
+        }
+        guesses
+    }
+
+    /// The force at each near node of the chain come to rest.
+    fn come_to_rest(&mut self, world: &World<'_>) -> Option<Vec<(Near, f64)>> {
+        let (mut time_step, mut reach) = (TIME_STEP, REACH);
+        for _ in 0..MOST_STEPS {
+            let (way, forces) = self.step(world, time_step, reach)?;
+            // what a slow chain cannot get to costs it nothing
+            reach = (8.0 * way).clamp(0.25 * REACH, REACH);
+            let inside = forces.iter().any(|(near, _)| near.gap < -0.5 * LINK);
+            if way < ARRIVED && !inside {
+                return Some(forces);
+            }
+            // slow motion is far from everything that could be missed
+            if way < 0.25 * LONGEST_MOVE {
+                time_step = (2.0 * time_step).min(1e3);
+            }
+        }
+        None
+    }
+}

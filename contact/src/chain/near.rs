@@ -1,0 +1,76 @@
+//! What of the chain could meet a contour within a step.
+
+use super::{LINK, LINKS, Nodes, REACH};
+use crate::corner::Corner;
+use crate::world::World;
+use rod_contours::{Bounds, Part, StretchKind};
+use rod_core::Section;
+
+/// A point of the chain near the contour: a node, or the point of a link that is next to a corner.
+pub(super) struct Near {
+    /// Arc length, in links.
+    pub s: f64,
+    /// The point.
+    pub x: f64,
+    pub y: f64,
+    pub stretch: usize,
+    pub gap: f64,
+    pub alpha: f64,
+}
+
+/// What could meet a contour within a step that moves nothing further than `reach`: nodes, and links at corners.
+pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reach: f64) -> Vec<Near> {
+    let mut near = Vec::new();
+    for (link, &[x, y]) in nodes[1..].iter().enumerate() {
+        world.parts_near(Bounds::EMPTY.with(x, y).grown(REACH), |part| {
+            near.extend(match world.kind(part.stretch) {
+                // what holds the tip in a notch are the two pieces that end there
+                StretchKind::Notch { .. } => None,
+                StretchKind::Corner { .. } => {
+                    let [x, y] = nodes[link];
+                    at_corner(world, part.stretch, link, &Section { x, y, phi: angles[link], kappa: 0.0 }, reach)
+                }
+                StretchKind::Piece(_) => at_piece(world, part, (link + 1, x, y), reach),
+            });
+        });
+    }
+    near
+}
+
+/// A node next to a part of a piece.
+fn at_piece(world: &World<'_>, part: Part, (node, x, y): (usize, f64, f64), reach: f64) -> Option<Near> {
+    let stretch = part.stretch;
+    let foot = world.foot_in(part, x, y);
+    if foot.gap > reach || foot.gap < -REACH {
+        return None;
+    }
+    let at = |gap| Near { s: node as f64, x, y, stretch, gap, alpha: foot.alpha };
+    if world.ends_in_notch(stretch, &foot) {
+        // beyond its end a piece goes on as its tangent
+        return Some(at((x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos()));
+    }
+    let outside = foot.gap >= -1e-9 || world.goes_through(stretch, &foot, x, y);
+    (foot.interior && outside).then(|| at(foot.gap))
+}
+
+/// A link (its number, and where it starts) next to a corner that it may come to lie on.
+fn at_corner(world: &World<'_>, stretch: usize, link: usize, start: &Section, reach: f64) -> Option<Near> {
+    let corner = Corner::new(world, stretch);
+    let (sin, cos) = start.phi.sin_cos();
+    let way = (corner.x - start.x) * cos + (corner.y - start.y) * sin;
+    if !(0.0..LINK).contains(&way) {
+        return None;
+    }
+    let at = Section { x: start.x + way * cos, y: start.y + way * sin, ..*start };
+    let passing = corner.passing(&at).filter(|passing| passing.gap.abs() <= reach)?;
+    let s = link as f64 + way / LINK;
+    let rest = (s * LINK, (LINKS as f64 - s) * LINK);
+    (passing.gap >= -1e-9 || corner.is_cut(world, &at, &passing, rest)).then_some(Near {
+        s,
+        x: at.x,
+        y: at.y,
+        stretch,
+        gap: passing.gap,
+        alpha: passing.alpha,
+    })
+}
