@@ -89,78 +89,68 @@ impl Stepper<'_> {
     /// One step from `from` towards the pose `target`, at most there.
     pub fn step(&mut self, from: &Point, target: f64) -> Result<Step, StopReason> {
         while self.h >= SHORTEST_STEP {
-            let Some((next, report, length)) = self.predict_and_correct(from, target) else {
-                continue;
-            };
-            let tangent = self.corrector.last_tangent(&next);
-            if tangent.cosine(&from.tangent) < LEAST_COSINE {
-                self.shorten();
-                continue;
+            match self.attempt(from, target)? {
+                Some(step) => return Ok(step),
+                None => self.h *= 0.5,
             }
-            let scan = self.scan(&next);
-            if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
-                // something else may come before
-                if length < SHORT {
-                    return Err(StopReason::ClampInside);
-                }
-                self.shorten();
-                continue;
-            }
-            // no point of a free rod has gone further than the smallest gap was: it came around an end
-            if next.count() == 0 && scan.min_gap < -DEEPEST && length * self.fastest() <= from.scan.min_gap {
-                return Err(StopReason::EndOfContour);
-            }
-            if scan.has_swept_over_an_end(&from.scan) {
-                if length < SHORT {
-                    return Err(StopReason::EndOfContour);
-                }
-                self.shorten();
-                continue;
-            }
-            match self.first_transition(from, &next, &scan, &tangent, length) {
-                Ok(None) if scan.min_gap > -DEEPEST => {}
-                Ok(None) => {
-                    self.shorten();
-                    continue;
-                }
-                Ok(Some(step)) => return Ok(step),
-                Err(NoTransition::EndOfContour) if length < SHORT => return Err(StopReason::EndOfContour),
-                Err(_) => {
-                    self.shorten();
-                    continue;
-                }
-            }
-            let stable = self.is_stable(&next);
-            if !stable {
-                if length > PROBE {
-                    self.shorten();
-                    continue;
-                }
-                match wraps(&self.corrector.world, &self.corrector.path, &next) {
-                    Some(last) if last + 1 == next.count() => {
-                        let parted = parted(&mut self.corrector, &from.configuration).map(Box::new);
-                        return Ok(
-                            parted.map_or_else(|| Step::Ended(Box::new(from.configuration.clone())), Step::Changed)
-                        );
-                    }
-                    Some(_) => return Err(StopReason::LineContact),
-                    None => {}
-                }
-                // Mostly the fold is just ahead, and known better than the loss of stability is.
-                let fold = self.fold_ahead(from);
-                return Ok(Step::Ended(Box::new(fold.unwrap_or_else(|| from.configuration.clone()))));
-            }
-            if let Some(transition) = self.runs_together(&next, &tangent) {
-                return Ok(Step::Changed(Box::new(transition)));
-            }
-            if report.iterations <= 2 {
-                self.h = (2.0 * self.h).min(LONGEST_STEP);
-            }
-            let quality = Quality::new(&report, stable);
-            return Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })));
         }
         // Behind the end of an open contour there is no telling inside from outside.
         Err(if from.scan.is_by_an_end() { StopReason::EndOfContour } else { StopReason::StepTooSmall })
+    }
+
+    /// A step of the present length. None: it was too long, a shorter one meets something before.
+    fn attempt(&mut self, from: &Point, target: f64) -> Result<Option<Step>, StopReason> {
+        let Some((next, report, length)) = self.predict_and_correct(from, target) else { return Ok(None) };
+        let tangent = self.corrector.last_tangent(&next);
+        if tangent.cosine(&from.tangent) < LEAST_COSINE {
+            return Ok(None);
+        }
+        let too_long_or = |reason| if length < SHORT { Err(reason) } else { Ok(None) };
+        let scan = self.scan(&next);
+        if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
+            return too_long_or(StopReason::ClampInside);
+        }
+        // No point of a free rod has gone further than the smallest gap was: it came around an end.
+        let is_open = !self.corrector.world.open_ends().is_empty();
+        let is_free = next.count() == 0 && length * self.fastest() <= from.scan.min_gap;
+        if is_open && is_free && scan.min_gap < -DEEPEST {
+            return Err(StopReason::EndOfContour);
+        }
+        if scan.has_swept_over_an_end(&from.scan) {
+            return too_long_or(StopReason::EndOfContour);
+        }
+        match self.first_transition(from, &next, &scan, &tangent, length) {
+            Ok(None) if scan.min_gap > -DEEPEST => {}
+            Ok(None) => return Ok(None),
+            Ok(Some(step)) => return Ok(Some(step)),
+            Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
+            Err(NoTransition::NotLocated) => return Ok(None),
+        }
+        if !self.is_stable(&next) {
+            return if length > PROBE { Ok(None) } else { self.end(from, &next).map(Some) };
+        }
+        if let Some(transition) = self.runs_together(&next, &tangent) {
+            return Ok(Some(Step::Changed(Box::new(transition))));
+        }
+        if report.iterations <= 2 {
+            self.h = (2.0 * self.h).min(LONGEST_STEP);
+        }
+        let quality = Quality::new(&report, true);
+        Ok(Some(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent }))))
+    }
+
+    /// The end of the branch at `from`, from where `next`, just beyond, is not stable.
+    fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
+        let here = || Step::Ended(Box::new(from.configuration.clone()));
+        match wraps(&self.corrector.world, &self.corrector.path, next) {
+            Some(last) if last + 1 == next.count() => {
+                let parted = parted(&mut self.corrector, &from.configuration).map(Box::new);
+                Ok(parted.map_or_else(here, Step::Changed))
+            }
+            Some(_) => Err(StopReason::LineContact),
+            // Mostly the fold is just ahead, and known better than the loss of stability is.
+            None => Ok(self.fold_ahead(from).map(Box::new).map_or_else(here, Step::Ended)),
+        }
     }
 
     /// The last two contacts run together, if they are about to.
@@ -168,10 +158,6 @@ impl Stepper<'_> {
         let j = next.count().checked_sub(2).filter(|_| !next.ends_at_tip())?;
         let closes = tangent.direction[3 * j + 5] < tangent.direction[3 * j + 2];
         closes.then(|| run_together(&mut self.corrector, next)).flatten()
-    }
-
-    fn shorten(&mut self) {
-        self.h *= 0.5;
     }
 
     /// The next point of the branch, by the tangent and Newton's method: at `target` where it is near enough, else a step of
@@ -207,7 +193,6 @@ impl Stepper<'_> {
             || !ordered(&self.corrector.world, &next)
             || off > LARGEST_CORRECTION * length + 1e-9
         {
-            self.shorten();
             return None;
         }
         if !land && next.tau() > target {
@@ -220,7 +205,6 @@ impl Stepper<'_> {
             let length = tangent.along(&next.z, &configuration.z);
             if !report.status.is_solved() || !ordered(&self.corrector.world, &next) || !(0.0..=reach).contains(&length)
             {
-                self.shorten();
                 return None;
             }
             land = true;
