@@ -75,6 +75,18 @@ pub(super) fn stroke(
     Ok(area.draw(&PathElement::new(points, style))?)
 }
 
+/// Draws the axes of a chart: about so many numbers on each, and what they are called.
+pub(super) fn axes(
+    chart: &mut Chart<'_, '_>,
+    numbers: (usize, usize),
+    (x, y): (&str, &str),
+) -> Result<(), FigureError> {
+    let letters = ("sans-serif", BODY);
+    let mut mesh = chart.configure_mesh();
+    mesh.disable_mesh().x_labels(numbers.0).y_labels(numbers.1).x_label_formatter(&tick).y_label_formatter(&tick);
+    Ok(mesh.label_style(letters).axis_desc_style(letters).x_desc(x).y_desc(y).draw()?)
+}
+
 /// A number on an axis, as short as it can be.
 pub(super) fn tick(value: &f64) -> String {
     // Ticks are multiples of a step like 0.05 with the last bits off, and -0.

@@ -1,24 +1,20 @@
 //! The contour and the shapes of the rod along a scan.
 
-use super::canvas::{Area, BODY, Chart, FigureError, span, tick, width, write};
+use super::canvas::{Area, BODY, Chart, FigureError, span, width, write};
 use super::labels::Labels;
 use super::outline;
 use super::palette::{INK, MUTED, colour};
+use super::plane::Window;
 use crate::{Interval, Scan};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::Range;
 use vibrissa::{Bounds, EventKind, Frame, Phase, Rod, RodError, State};
 
 /// Most shapes drawn, besides those at transitions.
 const MOST: usize = 60;
 /// Points on a shape.
 const POINTS: usize = 60;
-/// Room for the numbers and names of the axes, pixels: left, below.
-const LEFT: u32 = 120;
-const BELOW: u32 = 80;
-const MARGIN: u32 = 16;
 
 type Curve = Vec<(f64, f64)>;
 
@@ -42,30 +38,14 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     let clamps = [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way));
     let seen = shapes.iter().map(|(curve, _)| curve).chain(&transitions).flatten().copied();
     let seen: Curve = seen.chain(clamps.map(|pose| (1e3 * pose.x, 1e3 * pose.y))).collect();
-    let (x, y) = window(area, &seen);
-    let mut chart = ChartBuilder::on(area)
-        .margin(MARGIN)
-        .set_label_area_size(LabelAreaPosition::Left, LEFT)
-        .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
-        .build_cartesian_2d(x.clone(), y.clone())?;
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .x_labels(12)
-        .y_labels(12)
-        .x_label_formatter(&tick)
-        .y_label_formatter(&tick)
-        .label_style(("sans-serif", BODY))
-        .axis_desc_style(("sans-serif", BODY))
-        .x_desc("x in mm")
-        .y_desc("y in mm")
-        .draw()?;
+    let window = window(area, &seen);
+    let mut chart = window.chart(area, (12, 12))?;
     chart.draw_series(shapes.into_iter().map(|(curve, style)| PathElement::new(curve, style)))?;
     chart.draw_series(transitions.into_iter().map(|curve| PathElement::new(curve, INK.stroke_width(3))))?;
     for curve in landings {
         chart.draw_series(DashedLineSeries::new(curve, 14, 10, INK.stroke_width(3)))?;
     }
-    draw_contour(&mut chart, scan, (x, y))?;
+    draw_contour(&mut chart, scan, &window)?;
     name_phases(root, &chart, scan, &intervals)
 }
 
@@ -74,23 +54,18 @@ fn curve(state: &State, rod: &Rod) -> Result<Curve, RodError> {
     Ok(state.elastica(rod)?.sample(POINTS).map(|section| (1e3 * section.x, 1e3 * section.y)).collect())
 }
 
-/// Ranges of x and y (mm) that show all points, a millimetre as long on both axes.
-fn window(area: &Area<'_>, points: &[(f64, f64)]) -> (Range<f64>, Range<f64>) {
+/// A window on all points (mm).
+fn window(area: &Area<'_>, points: &[(f64, f64)]) -> Window {
     let (width, height) = area.dim_in_pixel();
-    let width = f64::from(width.saturating_sub(LEFT + 2 * MARGIN).max(1));
-    let height = f64::from(height.saturating_sub(BELOW + 2 * MARGIN).max(1));
+    let (beside, below) = Window::TRIMMINGS;
+    let plot = (f64::from(width.saturating_sub(beside).max(1)), f64::from(height.saturating_sub(below).max(1)));
     let x = span(points.iter().map(|point| point.0), 0.06);
     let y = span(points.iter().map(|point| point.1), 0.12);
-    let scale = ((x.end - x.start) / width).max((y.end - y.start) / height);
-    let about = |range: &Range<f64>, length: f64| {
-        let middle = 0.5 * (range.start + range.end);
-        middle - 0.5 * length..middle + 0.5 * length
-    };
-    (about(&x, scale * width), about(&y, scale * height))
+    Window::of(&x, &y, plot)
 }
 
 /// The contour with short strokes into the solid.
-fn draw_contour(chart: &mut Chart<'_, '_>, scan: &Scan, (x, y): (Range<f64>, Range<f64>)) -> Result<(), FigureError> {
+fn draw_contour(chart: &mut Chart<'_, '_>, scan: &Scan, Window { x, y, .. }: &Window) -> Result<(), FigureError> {
     let window = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     let distance = 0.016 * (x.end - x.start);
     for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, window)) {

@@ -10,6 +10,7 @@ mod elasticae;
 mod labels;
 mod outline;
 mod palette;
+mod plane;
 mod profile;
 mod sweep;
 mod trace;

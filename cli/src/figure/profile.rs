@@ -1,7 +1,8 @@
 //! Contours, drawn with the side on which the solid is.
 
-use super::canvas::{BODY, FigureError, TITLE, span, svg, tick, write};
+use super::canvas::{FigureError, TITLE, span, svg, write};
 use super::palette::{INK, MUTED};
+use super::plane::Window;
 use crate::Profile;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
@@ -11,11 +12,8 @@ use std::ops::Range;
 /// Width of the picture and bounds of its height, pixels.
 const WIDTH: u32 = 1200;
 const HEIGHT: Range<f64> = 420.0..1500.0;
-/// Room for the numbers and names of the axes, for the title, and around, pixels.
-const LEFT: u32 = 120;
-const BELOW: u32 = 80;
+/// Room for the title, pixels.
 const HEAD: u32 = 70;
-const MARGIN: u32 = 16;
 /// Distance of the strokes into the solid, and their length, pixels.
 const APART: f64 = 22.0;
 const STROKE: f64 = 20.0;
@@ -33,32 +31,15 @@ pub(crate) fn profile(name: &str, profiles: &[Profile]) -> Result<String, Figure
     let all = || profiles.iter().flat_map(|profile| &profile.points);
     let x = span(all().map(|point| 1e3 * point.x), 0.06);
     let y = span(all().map(|point| 1e3 * point.y), 0.06);
-    let plot = f64::from(WIDTH - LEFT - 2 * MARGIN);
-    let trimmings = f64::from(BELOW + 2 * MARGIN + HEAD);
+    let (beside, below) = Window::TRIMMINGS;
+    let (plot, trimmings) = (f64::from(WIDTH - beside), f64::from(below + HEAD));
     let height = (plot * (y.end - y.start) / (x.end - x.start) + trimmings).clamp(HEIGHT.start, HEIGHT.end).round();
-    // mm per pixel, the same both ways.
-    let scale = ((x.end - x.start) / plot).max((y.end - y.start) / (height - trimmings));
-    let (x, y) = (about(x, scale * plot), about(y, scale * (height - trimmings)));
+    let window = Window::of(&x, &y, (plot, height - trimmings));
+    let scale = window.scale;
     svg((WIDTH, height as u32), |root| {
         let (head, body) = root.split_vertically(HEAD);
         write(&head, name, (24, 36), HPos::Left, TITLE, INK)?;
-        let mut chart = ChartBuilder::on(&body)
-            .margin(MARGIN)
-            .set_label_area_size(LabelAreaPosition::Left, LEFT)
-            .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
-            .build_cartesian_2d(x, y)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .x_labels(12)
-            .y_labels(10)
-            .x_label_formatter(&tick)
-            .y_label_formatter(&tick)
-            .label_style(("sans-serif", BODY))
-            .axis_desc_style(("sans-serif", BODY))
-            .x_desc("x in mm")
-            .y_desc("y in mm")
-            .draw()?;
+        let mut chart = window.chart(&body, (12, 10))?;
         for profile in profiles {
             let line = visible(profile, FINEST * scale);
             chart.draw_series(
@@ -71,12 +52,6 @@ pub(crate) fn profile(name: &str, profiles: &[Profile]) -> Result<String, Figure
         }
         Ok(())
     })
-}
-
-/// A range of this length about the middle of another one.
-fn about(range: Range<f64>, length: f64) -> Range<f64> {
-    let middle = 0.5 * (range.start + range.end);
-    middle - 0.5 * length..middle + 0.5 * length
 }
 
 /// The points (mm) that a reader can tell apart: those `finest` (mm) from the last one, and all that stand at the end of a chord
