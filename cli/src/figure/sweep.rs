@@ -28,10 +28,8 @@ pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
 }
 
 fn title(scan: &Scan) -> String {
-    let cycle = scan.cycle();
-    let name = cycle.name().map(|name| format!(" ({name})")).unwrap_or_default();
     let stop = if scan.outcome.stop.is_some() { ", stopped early" } else { "" };
-    format!("{}: phases {cycle}{name}{stop}", scan.scene.name)
+    format!("{}: phases {}{stop}", scan.scene.name, scan.cycle().titled())
 }
 
 /// A row of line samples and what they mean.
