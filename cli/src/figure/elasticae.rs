@@ -26,15 +26,9 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     for state in scan.outcome.states.iter().step_by(every) {
         shapes.push((curve(state, rod)?, colour(state.phase()).stroke_width(2)));
     }
-    let (mut transitions, mut landings) = (Vec::new(), Vec::new());
-    for event in &scan.outcome.events {
-        if event.kind != EventKind::Piece {
-            transitions.push(curve(&event.before, rod)?);
-        }
-        if event.kind == EventKind::Snap {
-            landings.push(curve(&event.after, rod)?);
-        }
-    }
+    let (before, after) = transitions(&intervals);
+    let curves = |states: Vec<&State>| states.into_iter().map(|state| curve(state, rod)).collect::<Result<Vec<_>, _>>();
+    let (transitions, landings) = (curves(before)?, curves(after)?);
     let clamps = [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way));
     let seen = shapes.iter().map(|(curve, _)| curve).chain(&transitions).flatten().copied();
     let seen: Curve = seen.chain(clamps.map(|pose| (1e3 * pose.x, 1e3 * pose.y))).collect();
@@ -47,6 +41,17 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     }
     draw_contour(&mut chart, scan, &window)?;
     name_phases(root, &chart, scan, &intervals)
+}
+
+/// The states before all transitions, and those after snaps. A slip within a phase is none, here as along the reactions: on a
+/// fine polygon there is one at each vertex.
+fn transitions<'a>(intervals: &[Interval<'a>]) -> (Vec<&'a State>, Vec<&'a State>) {
+    let before = intervals.iter().filter(|interval| interval.end.is_some());
+    let after = intervals.windows(2).filter(|pair| pair[0].end == Some(EventKind::Snap));
+    (
+        before.filter_map(|interval| interval.states.last().copied()).collect(),
+        after.filter_map(|pair| pair[1].states.first().copied()).collect(),
+    )
 }
 
 /// The shape of the rod in mm.
@@ -124,4 +129,24 @@ fn name_phases(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::intervals;
+    use crate::sample::{event, outcome, path};
+
+    #[test]
+    fn slips_and_new_pieces_within_a_phase_are_no_transitions() {
+        use EventKind::{FirstContact, Piece, Slip, Snap, SnapOff};
+        let within = [(2.0, Slip), (3.0, Piece), (4.0, Slip)].map(|(x, kind)| event(x, "A", "A", kind));
+        let mut events = vec![event(1.0, "free", "A", FirstContact)];
+        events.extend(within);
+        events.extend([event(5.0, "A", "A", Snap), event(6.0, "A", "free", SnapOff)]);
+        let outcome = outcome(&[(0.0, "free"), (2.5, "A"), (5.5, "A"), (7.0, "free")], events);
+        let (before, after) = transitions(&intervals(&path(), &outcome));
+        let places = |states: Vec<&State>| states.iter().map(|state| state.pose.x).collect::<Vec<_>>();
+        assert_eq!((places(before), places(after)), (vec![1.0, 5.0, 6.0], vec![5.0]));
+    }
 }

@@ -34,10 +34,11 @@ fn title(scan: &Scan) -> String {
 
 /// A row of line samples and what they mean.
 fn legend(area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
+    let intervals = scan.intervals();
     let mut phases: Vec<Phase> = Vec::new();
-    for state in &scan.outcome.states {
-        if !phases.contains(&state.phase()) {
-            phases.push(state.phase());
+    for interval in &intervals {
+        if !phases.contains(&interval.phase) {
+            phases.push(interval.phase);
         }
     }
     let (y, sample) = (88, 44);
@@ -56,10 +57,10 @@ fn legend(area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
         let name = if phase == Phase::FREE { "free".to_owned() } else { format!("phase {phase}") };
         entry(&name, colour(phase).stroke_width(5), false)?;
     }
-    if !scan.outcome.events.is_empty() {
+    if intervals.len() > 1 {
         entry("at a transition", INK.stroke_width(3), false)?;
     }
-    if scan.outcome.events.iter().any(|event| event.kind == EventKind::Snap) {
+    if intervals.iter().any(|interval| interval.end == Some(EventKind::Snap)) {
         entry("after a snap", INK.stroke_width(3), true)?;
     }
     Ok(())
