@@ -4,10 +4,12 @@
 
 mod abscissa;
 mod canvas;
+mod contour;
 mod criterion;
 mod cycles;
 mod elasticae;
 mod labels;
+mod line;
 mod outline;
 mod palette;
 mod plane;

@@ -23,9 +23,12 @@ impl Window {
     /// Width and height (pixels) that axes take beside their plot.
     pub const TRIMMINGS: (u32, u32) = (LEFT + 2 * MARGIN, BELOW + 2 * MARGIN);
 
-    /// Shows at least these ranges (mm), in the middle of a plot of this width and height (pixels).
-    pub fn of(x: &Range<f64>, y: &Range<f64>, (width, height): (f64, f64)) -> Self {
-        let scale = ((x.end - x.start) / width).max((y.end - y.start) / height);
+    /// Shows these ranges (mm) in the middle of a plot of this width and height, with at least so much room beside and
+    /// above (pixels).
+    pub fn of(x: &Range<f64>, y: &Range<f64>, (width, height): (f64, f64), room: (f64, f64)) -> Self {
+        let scale =
+            |range: &Range<f64>, length: f64, room: f64| (range.end - range.start) / (length - 2.0 * room).max(1.0);
+        let scale = scale(x, width, room.0).max(scale(y, height, room.1));
         Self { x: about(x, scale * width), y: about(y, scale * height), scale }
     }
 
