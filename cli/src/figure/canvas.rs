@@ -61,9 +61,16 @@ pub(super) fn write(
     Ok(area.draw(&Text::new(text.to_owned(), at, style))?)
 }
 
-/// About how wide a text is, pixels. Nothing here knows the reader's font: capitals of common ones are no wider.
+/// About how wide a text is, pixels. Nothing here knows the reader's font: common ones are no wider.
 pub(super) fn width(text: &str, size: u32) -> i32 {
-    (0.62 * f64::from(size) * text.chars().count() as f64).ceil() as i32
+    // A font of one em has lines 1.24 em high, which is the size by which it is called here.
+    let em = f64::from(size) / 1.24;
+    let letter = |letter: char| match letter {
+        ' ' => 0.35,
+        _ if letter.is_uppercase() => 0.72,
+        _ => 0.64,
+    };
+    (em * text.chars().map(letter).sum::<f64>()).ceil() as i32
 }
 
 /// A straight or broken line in pixels.

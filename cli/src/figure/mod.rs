@@ -9,6 +9,7 @@ mod criterion;
 mod cycles;
 mod elasticae;
 mod labels;
+mod legend;
 mod line;
 mod outline;
 mod palette;
