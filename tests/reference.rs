@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::bumps::{Bump, golden};
+use common::bumps::Bump;
+use common::golden::golden;
 use common::{OBJECTS, Scene, close};
 use serde_json::Value;
 use vibrissa::{

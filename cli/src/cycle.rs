@@ -31,6 +31,11 @@ impl Cycle {
         let phases = self.to_string();
         CYCLES.iter().find(|(_, cycle)| *cycle == phases).map(|(name, _)| *name)
     }
+
+    /// The phases, and the name if there is one, as in `A B BB B A (C1)`.
+    pub(crate) fn titled(&self) -> String {
+        self.name().map_or_else(|| self.to_string(), |name| format!("{self} ({name})"))
+    }
 }
 
 impl fmt::Display for Cycle {

@@ -7,10 +7,8 @@ use crate::{Paper, Scan};
 impl Scan {
     /// A line on the phases, one on each thing a user should know, and the table of events.
     pub fn report(&self) -> String {
-        let cycle = self.cycle();
-        let name = cycle.name().map(|name| format!(" ({name})")).unwrap_or_default();
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
-        let mut text = format!("{}: {cycle}{name}; {states} states, {events} events\n", self.scene.name);
+        let mut text = format!("{}: {}; {states} states, {events} events\n", self.scene.name, self.cycle().titled());
         if let (Some(limit), Some(most)) = (self.scene.rod.yield_stress(), self.largest_stress())
             && most > limit
         {

@@ -1,6 +1,7 @@
 //! Random scenes, read as scene files, swept, and every state judged without the solver.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod common;
 mod random;
 
 use random::generator::{Generated, scene};

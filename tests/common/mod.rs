@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 pub mod bumps;
+pub mod golden;
 pub mod judge;
 
 use bumps::Bumps;

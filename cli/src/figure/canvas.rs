@@ -61,9 +61,16 @@ pub(super) fn write(
     Ok(area.draw(&Text::new(text.to_owned(), at, style))?)
 }
 
-/// About how wide a text is, pixels. Nothing here knows the reader's font: capitals of common ones are no wider.
+/// About how wide a text is, pixels. Nothing here knows the reader's font: common ones are no wider.
 pub(super) fn width(text: &str, size: u32) -> i32 {
-    (0.62 * f64::from(size) * text.chars().count() as f64).ceil() as i32
+    // A font of one em has lines 1.24 em high, which is the size by which it is called here.
+    let em = f64::from(size) / 1.24;
+    let letter = |letter: char| match letter {
+        ' ' => 0.35,
+        _ if letter.is_uppercase() => 0.72,
+        _ => 0.64,
+    };
+    (em * text.chars().map(letter).sum::<f64>()).ceil() as i32
 }
 
 /// A straight or broken line in pixels.
@@ -73,6 +80,18 @@ pub(super) fn stroke(
     style: impl Into<ShapeStyle>,
 ) -> Result<(), FigureError> {
     Ok(area.draw(&PathElement::new(points, style))?)
+}
+
+/// Draws the axes of a chart: about so many numbers on each, and what they are called.
+pub(super) fn axes(
+    chart: &mut Chart<'_, '_>,
+    numbers: (usize, usize),
+    (x, y): (&str, &str),
+) -> Result<(), FigureError> {
+    let letters = ("sans-serif", BODY);
+    let mut mesh = chart.configure_mesh();
+    mesh.disable_mesh().x_labels(numbers.0).y_labels(numbers.1).x_label_formatter(&tick).y_label_formatter(&tick);
+    Ok(mesh.label_style(letters).axis_desc_style(letters).x_desc(x).y_desc(y).draw()?)
 }
 
 /// A number on an axis, as short as it can be.

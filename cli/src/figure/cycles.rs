@@ -1,6 +1,6 @@
 //! The phases of the nine scans by object and distance (Merker et al. 2021, fig. 8a).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, stroke, svg, width, write};
+use super::canvas::{Area, BODY, FigureError, TITLE, stroke, svg, tick, width, write};
 use super::labels::Labels;
 use super::palette::{FAINT, INK, MUTED, colour, ink_on};
 use crate::cycle::CYCLES;
@@ -97,8 +97,7 @@ fn axis(root: &Area<'_>, x: i32, y: i32) -> Result<(), FigureError> {
     for place in [-80, -40, 0, 40, 80] {
         let at = across(x, f64::from(place));
         stroke(root, vec![(at, y), (at, y + 10)], INK)?;
-        let text = place.to_string().replace('-', "\u{2212}");
-        write(root, &text, (at, y + 28), HPos::Center, BODY, INK)?;
+        write(root, &tick(&f64::from(place)), (at, y + 28), HPos::Center, BODY, INK)?;
     }
     write(root, "x0 in mm", (x + CELL.0 / 2, y + 66), HPos::Center, BODY, INK)
 }

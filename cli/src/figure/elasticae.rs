@@ -1,24 +1,27 @@
 //! The contour and the shapes of the rod along a scan.
 
-use super::canvas::{Area, BODY, Chart, FigureError, span, tick, width, write};
+use super::canvas::{Area, BODY, Chart, FigureError, span, width, write};
+use super::contour;
 use super::labels::Labels;
+use super::line::thinned;
 use super::outline;
-use super::palette::{INK, MUTED, colour};
+use super::palette::{INK, colour};
+use super::plane::Window;
 use crate::{Interval, Scan};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::Range;
-use vibrissa::{Bounds, EventKind, Frame, Phase, Rod, RodError, State};
+use vibrissa::{Bounds, EventKind, Phase, Rod, RodError, State};
 
 /// Most shapes drawn, besides those at transitions.
 const MOST: usize = 60;
 /// Points on a shape.
-const POINTS: usize = 60;
-/// Room for the numbers and names of the axes, pixels: left, below.
-const LEFT: u32 = 120;
-const BELOW: u32 = 80;
-const MARGIN: u32 = 16;
+const POINTS: usize = 200;
+/// Room beside and above the shapes, for the names of phases, pixels.
+const ROOM: (f64, f64) = (50.0, 90.0);
+
+/// From this cosine between the rod at its clamp and the path on, the clamp moves along the rod.
+const LENGTHWISE: f64 = 0.8;
 
 type Curve = Vec<(f64, f64)>;
 
@@ -30,43 +33,37 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     for state in scan.outcome.states.iter().step_by(every) {
         shapes.push((curve(state, rod)?, colour(state.phase()).stroke_width(2)));
     }
-    let (mut transitions, mut landings) = (Vec::new(), Vec::new());
-    for event in &scan.outcome.events {
-        if event.kind != EventKind::Piece {
-            transitions.push(curve(&event.before, rod)?);
-        }
-        if event.kind == EventKind::Snap {
-            landings.push(curve(&event.after, rod)?);
-        }
-    }
+    let (before, after) = transitions(&intervals);
+    let curves = |states: Vec<&State>| states.into_iter().map(|state| curve(state, rod)).collect::<Result<Vec<_>, _>>();
+    let (transitions, landings) = (curves(before)?, curves(after)?);
     let clamps = [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way));
     let seen = shapes.iter().map(|(curve, _)| curve).chain(&transitions).flatten().copied();
     let seen: Curve = seen.chain(clamps.map(|pose| (1e3 * pose.x, 1e3 * pose.y))).collect();
-    let (x, y) = window(area, &seen);
-    let mut chart = ChartBuilder::on(area)
-        .margin(MARGIN)
-        .set_label_area_size(LabelAreaPosition::Left, LEFT)
-        .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
-        .build_cartesian_2d(x.clone(), y.clone())?;
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .x_labels(12)
-        .y_labels(12)
-        .x_label_formatter(&tick)
-        .y_label_formatter(&tick)
-        .label_style(("sans-serif", BODY))
-        .axis_desc_style(("sans-serif", BODY))
-        .x_desc("x in mm")
-        .y_desc("y in mm")
-        .draw()?;
-    chart.draw_series(shapes.into_iter().map(|(curve, style)| PathElement::new(curve, style)))?;
-    chart.draw_series(transitions.into_iter().map(|curve| PathElement::new(curve, INK.stroke_width(3))))?;
+    let window = window(area, &seen);
+    let mut chart = window.chart(area, (12, 12))?;
+    let line = |curve: Curve| thinned(curve, (window.scale, window.scale));
+    chart.draw_series(shapes.into_iter().map(|(curve, style)| PathElement::new(line(curve), style)))?;
+    chart.draw_series(transitions.into_iter().map(|curve| PathElement::new(line(curve), INK.stroke_width(3))))?;
     for curve in landings {
-        chart.draw_series(DashedLineSeries::new(curve, 14, 10, INK.stroke_width(3)))?;
+        chart.draw_series(DashedLineSeries::new(line(curve), 14, 10, INK.stroke_width(3)))?;
     }
-    draw_contour(&mut chart, scan, (x, y))?;
+    let Window { x, y, .. } = &window;
+    let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
+    for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, bounds)) {
+        contour::draw(&mut chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
+    }
     name_phases(root, &chart, scan, &intervals)
+}
+
+/// The states before all transitions, and those after snaps. A slip within a phase is none, here as along the
+/// reactions: on a fine polygon there is one at each vertex.
+fn transitions<'a>(intervals: &[Interval<'a>]) -> (Vec<&'a State>, Vec<&'a State>) {
+    let before = intervals.iter().filter(|interval| interval.end.is_some());
+    let after = intervals.windows(2).filter(|pair| pair[0].end == Some(EventKind::Snap));
+    (
+        before.filter_map(|interval| interval.states.last().copied()).collect(),
+        after.filter_map(|pair| pair[1].states.first().copied()).collect(),
+    )
 }
 
 /// The shape of the rod in mm.
@@ -74,50 +71,34 @@ fn curve(state: &State, rod: &Rod) -> Result<Curve, RodError> {
     Ok(state.elastica(rod)?.sample(POINTS).map(|section| (1e3 * section.x, 1e3 * section.y)).collect())
 }
 
-/// Ranges of x and y (mm) that show all points, a millimetre as long on both axes.
-fn window(area: &Area<'_>, points: &[(f64, f64)]) -> (Range<f64>, Range<f64>) {
+/// A window on all points (mm).
+fn window(area: &Area<'_>, points: &[(f64, f64)]) -> Window {
     let (width, height) = area.dim_in_pixel();
-    let width = f64::from(width.saturating_sub(LEFT + 2 * MARGIN).max(1));
-    let height = f64::from(height.saturating_sub(BELOW + 2 * MARGIN).max(1));
-    let x = span(points.iter().map(|point| point.0), 0.06);
-    let y = span(points.iter().map(|point| point.1), 0.12);
-    let scale = ((x.end - x.start) / width).max((y.end - y.start) / height);
-    let about = |range: &Range<f64>, length: f64| {
-        let middle = 0.5 * (range.start + range.end);
-        middle - 0.5 * length..middle + 0.5 * length
-    };
-    (about(&x, scale * width), about(&y, scale * height))
+    let (beside, below) = Window::TRIMMINGS;
+    let plot = (f64::from(width.saturating_sub(beside).max(1)), f64::from(height.saturating_sub(below).max(1)));
+    let x = span(points.iter().map(|point| point.0), 0.0);
+    let y = span(points.iter().map(|point| point.1), 0.0);
+    Window::of(&x, &y, plot, ROOM)
 }
 
-/// The contour with short strokes into the solid.
-fn draw_contour(chart: &mut Chart<'_, '_>, scan: &Scan, (x, y): (Range<f64>, Range<f64>)) -> Result<(), FigureError> {
-    let window = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
-    let distance = 0.016 * (x.end - x.start);
-    for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, window)) {
-        let mut since = distance;
-        for (frame, next) in part.iter().zip(&part[1..]) {
-            since += 1e3 * (next.x - frame.x).hypot(next.y - frame.y);
-            let hatch = hatch(frame, distance);
-            if since >= distance && window.contains(1e-3 * hatch[1].0, 1e-3 * hatch[1].1) {
-                chart.draw_series([PathElement::new(hatch, MUTED.stroke_width(2))])?;
-                since = 0.0;
-            }
-        }
-        let points = part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y));
-        chart.draw_series(LineSeries::new(points, INK.stroke_width(5)))?;
-    }
-    Ok(())
-}
-
-/// A stroke (mm) from the contour into the solid, slanted backwards.
-fn hatch(frame: &Frame, length: f64) -> Curve {
-    let (sin, cos) = (frame.alpha + 0.75 * PI).sin_cos();
-    let (x, y) = (1e3 * frame.x, 1e3 * frame.y);
-    vec![(x, y), (x + length * cos, y + length * sin)]
-}
-
-/// Writes each phase behind the clamp, in the middle of its interval; where the clamp only turns, off the tip and the
+/// Where the name of an interval goes (m), and the direction (rad) in which it keeps off: behind the clamp, in the
+/// middle of the interval; where the clamp moves along the rod, beside it; where it only turns, off the tip and the
 /// solid.
+fn place(scan: &Scan, interval: &Interval<'_>, middle: &State) -> Result<((f64, f64), f64), RodError> {
+    let (path, from, to) = (&scan.scene.path, interval.from, interval.to);
+    if path.turns_only() {
+        let rod = middle.elastica(&scan.scene.rod)?;
+        let tip = rod.at(rod.length());
+        return Ok(((tip.x, tip.y), middle.contacts.last().map_or(tip.phi, |contact| contact.alpha - FRAC_PI_2)));
+    }
+    let (rate, phi) = (path.rate(), 0.5 * (from.phi + to.phi));
+    let lengthwise = (rate.x * phi.cos() + rate.y * phi.sin()).abs() > LENGTHWISE;
+    // Where m0z is positive the rod bends to the right at its clamp.
+    let away = if lengthwise { FRAC_PI_2.copysign(middle.reactions.m0z) } else { PI };
+    Ok(((0.5 * (from.x + to.x), 0.5 * (from.y + to.y)), phi + away))
+}
+
+/// Writes each phase where it was.
 fn name_phases(
     root: &Area<'_>,
     chart: &Chart<'_, '_>,
@@ -126,21 +107,14 @@ fn name_phases(
 ) -> Result<(), FigureError> {
     let mut labels = Labels::default();
     for interval in intervals.iter().filter(|interval| interval.phase != Phase::FREE) {
-        let (from, to) = (interval.from, interval.to);
-        let middle = (500.0 * (from.x + to.x), 500.0 * (from.y + to.y));
-        let ((x, y), away) = match interval.middle() {
-            Some(state) if scan.scene.path.turns_only() => {
-                let elastica = state.elastica(&scan.scene.rod)?;
-                let tip = elastica.at(elastica.length());
-                let away = state.contacts.last().map_or(tip.phi, |contact| contact.alpha - FRAC_PI_2);
-                (chart.backend_coord(&(1e3 * tip.x, 1e3 * tip.y)), away)
-            }
-            _ => (chart.backend_coord(&middle), 0.5 * (from.phi + to.phi) + PI),
-        };
-        let (sin, cos) = away.sin_cos();
-        let places = [22.0, 48.0, 74.0].map(|d| (x + (d * cos) as i32, y - (d * sin) as i32));
+        let Some(middle) = interval.middle() else { continue };
+        let ((x, y), away) = place(scan, interval, middle)?;
+        let (x, y) = chart.backend_coord(&(1e3 * x, 1e3 * y));
         let name = interval.phase.to_string();
         let size = (width(&name, BODY) + 4, BODY as i32 + 2);
+        let (sin, cos) = away.sin_cos();
+        let beside = 0.5 * f64::from(size.0) * cos;
+        let places = [22.0, 48.0, 74.0].map(|d| (x + (d * cos + beside) as i32, y - (d * sin) as i32));
         if let Some(place) = labels.place(places, size) {
             // Shapes may pass behind it.
             let corners = [-1, 1].map(|side| (place.0 + side * size.0 / 2, place.1 + side * size.1 / 2));
@@ -149,4 +123,24 @@ fn name_phases(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::intervals;
+    use crate::sample::{event, outcome, path};
+
+    #[test]
+    fn slips_and_new_pieces_within_a_phase_are_no_transitions() {
+        use EventKind::{FirstContact, Piece, Slip, Snap, SnapOff};
+        let within = [(2.0, Slip), (3.0, Piece), (4.0, Slip)].map(|(x, kind)| event(x, "A", "A", kind));
+        let mut events = vec![event(1.0, "free", "A", FirstContact)];
+        events.extend(within);
+        events.extend([event(5.0, "A", "A", Snap), event(6.0, "A", "free", SnapOff)]);
+        let outcome = outcome(&[(0.0, "free"), (2.5, "A"), (5.5, "A"), (7.0, "free")], events);
+        let (before, after) = transitions(&intervals(&path(), &outcome));
+        let places = |states: Vec<&State>| states.iter().map(|state| state.pose.x).collect::<Vec<_>>();
+        assert_eq!((places(before), places(after)), (vec![1.0, 5.0, 6.0], vec![5.0]));
+    }
 }

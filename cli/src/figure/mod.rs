@@ -4,12 +4,16 @@
 
 mod abscissa;
 mod canvas;
+mod contour;
 mod criterion;
 mod cycles;
 mod elasticae;
 mod labels;
+mod legend;
+mod line;
 mod outline;
 mod palette;
+mod plane;
 mod profile;
 mod sweep;
 mod trace;

@@ -1,70 +1,46 @@
 //! The figure of a sweep: shapes on the left, reactions on the right (Merker et al. 2021, fig. 4).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, stroke, svg, width, write};
+use super::canvas::{Area, FigureError, TITLE, svg, width, write};
 use super::elasticae;
-use super::palette::{INK, colour};
+use super::legend::Legend;
+use super::palette::INK;
 use super::trace::{self, Quantity, Trace};
 use crate::Scan;
-use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
-use vibrissa::{EventKind, Phase};
 
 const SIZE: (u32, u32) = (2000, 1080);
-/// Rows of pixels for the title and the legend.
-const HEAD: u32 = 120;
+/// Rows of pixels for the title, between the legend and the plots, and room at the left and right edge.
+const HEAD: u32 = 71;
+const GAP: u32 = 15;
+const EDGE: i32 = 24;
 /// Columns of pixels for the shapes.
 const LEFT: u32 = 1080;
 
 /// Draws a sweep.
 pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
+    let legend = Legend::of(&scan.intervals(), SIZE.0 as i32 - 2 * EDGE);
     svg(SIZE, |root| {
-        let (head, body) = root.split_vertically(HEAD);
+        let (head, body) = root.split_vertically(HEAD + legend.height() + GAP);
         let (left, right) = body.split_horizontally(LEFT);
-        write(&head, &title(scan), (24, 36), HPos::Left, TITLE, INK)?;
-        legend(&head, scan)?;
+        write(&head, &title(scan), (EDGE, 36), HPos::Left, TITLE, INK)?;
+        legend.draw(&head, (EDGE, HEAD))?;
         elasticae::draw(root, &left, scan)?;
         reactions(root, &right, scan)
     })
 }
 
+/// The name of the scene and its phases, as many as there is room for.
 fn title(scan: &Scan) -> String {
-    let cycle = scan.cycle();
-    let name = cycle.name().map(|name| format!(" ({name})")).unwrap_or_default();
     let stop = if scan.outcome.stop.is_some() { ", stopped early" } else { "" };
-    format!("{}: phases {cycle}{name}{stop}", scan.scene.name)
-}
-
-/// A row of line samples and what they mean.
-fn legend(area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
-    let mut phases: Vec<Phase> = Vec::new();
-    for state in &scan.outcome.states {
-        if !phases.contains(&state.phase()) {
-            phases.push(state.phase());
-        }
+    let start = format!("{}: phases ", scan.scene.name);
+    let fits = |title: &String| width(title, TITLE) <= SIZE.0 as i32 - 2 * EDGE;
+    let whole = format!("{start}{}{stop}", scan.cycle().titled());
+    if fits(&whole) {
+        return whole;
     }
-    let (y, sample) = (88, 44);
-    let mut x = 24;
-    let mut entry = |name: &str, style: ShapeStyle, dashed: bool| -> Result<(), FigureError> {
-        let parts = if dashed { vec![(0, 14), (24, 38)] } else { vec![(0, sample)] };
-        for (from, to) in parts {
-            stroke(area, vec![(x + from, y), (x + to, y)], style)?;
-        }
-        write(area, name, (x + sample + 10, y), HPos::Left, BODY, INK)?;
-        x += sample + 10 + width(name, BODY) + 24;
-        Ok(())
-    };
-    entry("contour", INK.stroke_width(6), false)?;
-    for phase in phases {
-        let name = if phase == Phase::FREE { "free".to_owned() } else { format!("phase {phase}") };
-        entry(&name, colour(phase).stroke_width(5), false)?;
-    }
-    if !scan.outcome.events.is_empty() {
-        entry("at a transition", INK.stroke_width(3), false)?;
-    }
-    if scan.outcome.events.iter().any(|event| event.kind == EventKind::Snap) {
-        entry("after a snap", INK.stroke_width(3), true)?;
-    }
-    Ok(())
+    let phases = scan.cycle().to_string();
+    let shorter = phases.match_indices(' ').map(|(end, _)| format!("{start}{} …{stop}", &phases[..end]));
+    shorter.take_while(fits).last().unwrap_or(start)
 }
 
 /// The three reactions above each other.
@@ -84,4 +60,22 @@ fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), Figure
         rest = below;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use crate::sample::{event, outcome};
+    use vibrissa::EventKind;
+
+    #[test]
+    fn a_title_too_long_loses_its_last_phases() {
+        let scene = Scene::parse("O1_q40.toml".as_ref(), include_str!("../../../scenes/O1_q40.toml")).unwrap();
+        let names = ["A", "B", "BA", "BB"].repeat(30);
+        let events = names.windows(2).map(|pair| event(1.0, pair[0], pair[1], EventKind::Touch)).collect();
+        let title = title(&Scan { scene, outcome: outcome(&[(0.0, "A")], events) });
+        assert!(title.starts_with("O1_q40: phases A B BA BB A") && title.ends_with(" …"), "{title}");
+        assert!((1500..SIZE.0 as i32).contains(&width(&title, TITLE)), "{}", width(&title, TITLE));
+    }
 }

@@ -1,7 +1,7 @@
 //! One quantity along a scan, with its phases.
 
 use super::abscissa::Abscissa;
-use super::canvas::{Area, BODY, Chart, FigureError, span, tick, width, write};
+use super::canvas::{Area, BODY, Chart, FigureError, axes, span, width, write};
 use super::labels::Labels;
 use super::palette::{FAINT, INK, colour};
 use crate::{Interval, Scan};
@@ -58,19 +58,8 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Resul
         .set_label_area_size(LabelAreaPosition::Left, LEFT)
         .set_label_area_size(LabelAreaPosition::Bottom, if trace.foot { BELOW } else { 0 })
         .build_cartesian_2d(trace.across.clone(), up.clone())?;
-    chart
-        .configure_mesh()
-        .disable_x_mesh()
-        .disable_y_mesh()
-        .x_labels(12)
-        .y_labels(5)
-        .x_label_formatter(&tick)
-        .y_label_formatter(&tick)
-        .label_style(("sans-serif", BODY))
-        .axis_desc_style(("sans-serif", BODY))
-        .x_desc(if trace.foot { abscissa.label(&trace.scan.scene.path) } else { String::new() })
-        .y_desc(trace.name)
-        .draw()?;
+    let foot = if trace.foot { abscissa.label(&trace.scan.scene.path) } else { String::new() };
+    axes(&mut chart, (12, 5), (&foot, trace.name))?;
     chart.draw_series([PathElement::new(vec![(trace.across.start, 0.0), (trace.across.end, 0.0)], FAINT)])?;
     for interval in &intervals {
         let points = interval.states.iter().map(|state| (abscissa.value(state.pose), (trace.quantity)(state)));

@@ -47,13 +47,19 @@ impl Scan {
     /// # Errors
     /// Those of `out`.
     pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(out);
-        table.write_record(CSV_COLUMNS)?;
-        for state in &self.outcome.states {
-            table.serialize(csv_row(state))?;
-        }
-        table.flush()
+        write_csv(out, &CSV_COLUMNS, self.outcome.states.iter().map(csv_row))
     }
+}
+
+fn write_csv(
+    out: &mut dyn Write,
+    columns: &[&str],
+    rows: impl IntoIterator<Item = impl serde::Serialize>,
+) -> io::Result<()> {
+    let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(out);
+    table.write_record(columns)?;
+    rows.into_iter().try_for_each(|row| table.serialize(row))?;
+    table.flush()
 }
 
 fn json_line(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {

@@ -1,6 +1,6 @@
 //! The files of a contour.
 
-use super::{OutputError, Staged};
+use super::{OutputError, Staged, write_csv};
 use crate::{Error, Profile, figure};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -30,13 +30,11 @@ pub fn write_profiles(name: &str, profiles: &[Profile], out: &Path) -> Result<Pa
 
 /// One point a row, SI units and radians.
 fn write_table(profiles: &[Profile], out: &mut dyn Write) -> io::Result<()> {
-    let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(out);
-    table.write_record(COLUMNS)?;
-    for profile in profiles {
-        for point in &profile.points {
+    let rows = profiles.iter().flat_map(|profile| {
+        profile.points.iter().map(|point| {
             let crate::ProfilePoint { x, y, tangent_angle, curvature, arc_length } = *point;
-            table.serialize((x, y, tangent_angle, curvature, arc_length, profile.object))?;
-        }
-    }
-    table.flush()
+            (x, y, tangent_angle, curvature, arc_length, profile.object)
+        })
+    });
+    write_csv(out, &COLUMNS, rows)
 }

@@ -1,7 +1,12 @@
-//! The command, run as a user runs it.
+//! The command, run as a user runs it, and a judge of sweeps that shares no code with the solver.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod case;
+#[path = "../../../tests/common/golden.rs"]
+pub mod golden;
 pub mod judge;
+pub mod outline;
+pub mod rod;
 
 use std::path::Path;
 use std::process::{Command, Output};

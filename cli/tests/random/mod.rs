@@ -1,12 +1,8 @@
-//! Random scenes as scene files, and a judge of what comes out that shares no code with the solver.
-#![allow(dead_code, reason = "the two tests take what they need")]
+//! Random scenes as scene files, and what came of them.
 
 pub mod dice;
 pub mod generator;
-pub mod judge;
-pub mod outline;
 pub mod report;
-pub mod rod;
 pub mod shapes;
 pub mod sweep;
 pub mod ways;

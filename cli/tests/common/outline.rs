@@ -9,7 +9,7 @@ const TURN: f64 = 0.08;
 const CHORD: f64 = 0.04;
 /// A contour that goes on for ever is looked at up to here.
 const FAR: f64 = 6.0;
-/// Segments of a box.
+/// Fewest segments of a box.
 const BOXED: usize = 8;
 
 /// A piece of an object.
@@ -19,6 +19,8 @@ pub struct Strip {
     pub piece: usize,
     nodes: Vec<Node>,
     boxes: Vec<[f64; 4]>,
+    /// Segments of a box: few in each of few boxes.
+    boxed: usize,
     /// What is at its first and at its last point.
     ends: [End; 2],
 }
@@ -122,9 +124,10 @@ impl<'a> Outline<'a> {
                 [b[0].min(n.x), b[1].min(n.y), b[2].max(n.x), b[3].max(n.y)]
             })
         };
-        let boxes = (0..nodes.len() - 1).step_by(BOXED).map(|i| bounds(&nodes[i..=(i + BOXED).min(nodes.len() - 1)]));
+        let boxed = nodes.len().isqrt().max(BOXED);
+        let boxes = (0..nodes.len() - 1).step_by(boxed).map(|i| bounds(&nodes[i..=(i + boxed).min(nodes.len() - 1)]));
         let boxes = boxes.collect();
-        self.strips.push(Strip { stretch, piece, nodes, boxes, ends });
+        self.strips.push(Strip { stretch, piece, nodes, boxes, boxed, ends });
     }
 
     fn node(&self, stretch: usize, u: f64) -> Node {
@@ -156,7 +159,10 @@ impl<'a> Outline<'a> {
     pub fn foot(&self, x: f64, y: f64) -> Foot {
         // How far an arc may be from its chord, and then some: CHORD * TURN / 8.
         const OFF: f64 = 1e-3;
-        let mut least = f64::INFINITY;
+        // no box is farther than the farthest of its corners
+        let boxes = self.strips.iter().flat_map(|strip| &strip.boxes);
+        let farthest = |b: &[f64; 4]| (x - b[0]).max(b[2] - x).hypot((y - b[1]).max(b[3] - y));
+        let mut least = boxes.map(farthest).fold(f64::INFINITY, f64::min);
         for strip in &self.strips {
             for (k, bounds) in strip.boxes.iter().enumerate() {
                 if box_distance(bounds, x, y) < least {
@@ -263,10 +269,14 @@ impl<'a> Outline<'a> {
             return None;
         }
         let mut inside = self.contour.is_cavity();
-        for pair in self.strips.iter().flat_map(|strip| strip.nodes.windows(2)) {
-            let (a, b) = (pair[0], pair[1]);
-            if (a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                inside = !inside;
+        for strip in &self.strips {
+            let met = |b: &[f64; 4]| b[1] <= y && y <= b[3] && x <= b[2];
+            let boxes = strip.boxes.iter().enumerate().filter(|(_, b)| met(b));
+            for pair in boxes.flat_map(|(k, _)| segments(strip, k)) {
+                let (a, b) = (pair[0], pair[1]);
+                if (a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) {
+                    inside = !inside;
+                }
             }
         }
         Some(inside)
@@ -296,8 +306,8 @@ impl<'a> Outline<'a> {
 }
 
 fn segments(strip: &Strip, k: usize) -> impl Iterator<Item = &[Node]> {
-    let from = k * BOXED;
-    strip.nodes[from..=(from + BOXED).min(strip.nodes.len() - 1)].windows(2)
+    let from = k * strip.boxed;
+    strip.nodes[from..=(from + strip.boxed).min(strip.nodes.len() - 1)].windows(2)
 }
 
 fn box_distance(b: &[f64; 4], x: f64, y: f64) -> f64 {

@@ -1,5 +1,7 @@
-//! Whether a reported state is an equilibrium, from its numbers and the outline alone.
+//! Whether a reported state is an equilibrium of its scene, from its numbers and the outlines alone: any shapes, any
+//! number of objects, on either side of the rod.
 
+use super::golden::golden;
 use super::outline::{End, Outline, Vertex, wrapped};
 use super::rod::{At, Load, Rod};
 use std::f64::consts::PI;
@@ -13,8 +15,11 @@ pub struct Bad {
     pub off: f64,
 }
 
-/// What everything must hold to.
-const TOLERANCE: f64 = 1e-8;
+/// What everything must hold to; forces and moments, this times one plus the contact forces.
+pub const TOLERANCE: f64 = 1e-9;
+/// The same for the direction of a force: the nearest point is known to rounding of the coordinates, its angle to that
+/// over the radius.
+const ANGLE: f64 = 1e-8;
 /// Shortest way between two points of the rod that are looked at.
 const FINE: f64 = 2e-3;
 
@@ -25,8 +30,9 @@ pub struct Case<'a> {
     /// Contact points.
     pub points: Vec<[f64; 2]>,
     pub rod: Rod,
-    /// What the rod's own sensitivity leaves of the tolerance.
-    pub tolerance: f64,
+    tolerance: f64,
+    /// Length of the rod, m.
+    length: f64,
     total: f64,
     reactions: [f64; 3],
 }
@@ -42,26 +48,30 @@ impl<'a> Case<'a> {
         let reactions = [r.f0x / f, r.f0y / f, r.m0z / units.moment];
         let total = loads.iter().map(|load| load.force.abs()).sum::<f64>();
         let clamp = At { x: state.pose.x / l, y: state.pose.y / l, phi: state.pose.phi, kappa: -reactions[2] };
-        let force = (reactions[1], -reactions[0]);
-        let rod = Rod::new(clamp, force, &loads);
-        // numbers known to 1e-12 of their size determine the rod no better than this
-        let nudge = 1e-12 * (1.0 + total);
+        let rod = Rod::new(clamp, force(&reactions), &loads);
+        Self { state, loads, points, rod, tolerance: TOLERANCE, length: l, total, reactions }
+    }
+
+    /// The same to a tolerance that numbers known to 1e-12 of their size can meet, where the rod is sensitive to them.
+    pub fn allowing_for_sensitivity(self) -> Self {
+        let nudge = 1e-12 * (1.0 + self.total);
+        let (clamp, force) = (self.rod.at(0.0), force(&self.reactions));
         let mut off: f64 = 0.0;
         for [k, a, b] in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
             let clamp = At { kappa: clamp.kappa + k * nudge, ..clamp };
-            let other = Rod::new(clamp, (force.0 + a * nudge, force.1 + b * nudge), &loads);
+            let other = Rod::new(clamp, (force.0 + a * nudge, force.1 + b * nudge), &self.loads);
             for s in [0.25, 0.5, 0.75, 1.0] {
-                let (p, q) = (rod.at(s), other.at(s));
+                let (p, q) = (self.rod.at(s), other.at(s));
                 off = off.max((p.x - q.x).hypot(p.y - q.y)).max((p.phi - q.phi).abs());
             }
         }
-        let tolerance = TOLERANCE.max(100.0 * off);
-        Self { state, loads, points, rod, tolerance, total, reactions }
+        Self { tolerance: TOLERANCE.max(100.0 * off), ..self }
     }
 
     /// Everything that falls short.
     pub fn judge(&self, outlines: &[Outline<'_>]) -> Vec<Bad> {
         let mut bad = Vec::new();
+        self.certified(&mut bad);
         self.balance(&mut bad);
         self.lies_on_contacts(&mut bad);
         for (j, contact) in self.state.contacts.iter().enumerate() {
@@ -76,6 +86,13 @@ impl<'a> Case<'a> {
         bad
     }
 
+    /// The certificate says that it is one.
+    fn certified(&self, bad: &mut Vec<Bad>) {
+        let certificate = &self.state.certificate;
+        need(bad, "a residual is left", certificate.residual, 1e-10);
+        need(bad, "the certificate knows of a penetration", -certificate.min_gap / self.length, TOLERANCE);
+    }
+
     fn balance(&self, bad: &mut Vec<Bad>) {
         let tolerance = TOLERANCE * (1.0 + self.total);
         let [mut fx, mut fy, mut m] = self.reactions;
@@ -85,7 +102,7 @@ impl<'a> Case<'a> {
             fx += load.force * sin;
             fy -= load.force * cos;
             m -= load.force * ((x - pose.x) * cos + (y - pose.y) * sin);
-            need(bad, "a contact pulls", -load.force, 1e-9 * (1.0 + self.total));
+            need(bad, "a contact pulls", -load.force, 1e-11);
         }
         need(bad, "the forces do not balance", fx.hypot(fy), tolerance);
         need(bad, "the moments do not balance", m.abs(), tolerance);
@@ -96,8 +113,7 @@ impl<'a> Case<'a> {
         let mut before = 0.0;
         let last = self.loads.len().saturating_sub(1);
         for (j, (load, [x, y])) in self.loads.iter().zip(&self.points).enumerate() {
-            // two that meet in a notch are one there but for rounding
-            if !(load.s > before - 1e-12 && load.s <= 1.0 + 1e-12) {
+            if !(load.s > before && load.s <= 1.0 + 1e-12) {
                 bad.push(Bad { what: "contacts out of order", off: load.s - before });
             }
             before = load.s;
@@ -128,21 +144,21 @@ impl<'a> Case<'a> {
                     return bad.push(Bad { what: "no such piece", off: 1.0 });
                 };
                 let foot = outline.foot_on(strip, x, y);
-                need(bad, "a contact is off the contour", foot.gap.abs(), 1e-9);
+                need(bad, "a contact is off the contour", foot.gap.abs(), TOLERANCE);
                 let off = wrapped(alpha - foot.alpha).abs();
                 let on_vertex = vertex.filter(|v| (v.x - x).hypot(v.y - y) < 1e-9);
                 // at the end of a piece, within its joint
-                if off > 1e-7 && on_vertex.is_some_and(|v| inside(v, alpha) < 1e-7) {
+                if off > ANGLE && on_vertex.is_some_and(|v| inside(v, alpha) < ANGLE) {
                     return bad.push(Bad { what: "the tip rests on a corner", off: contact.force });
                 }
-                need(bad, "a force is not normal", off, 1e-7);
+                need(bad, "a force is not normal", off, ANGLE);
             }
             ContactKind::Corner | ContactKind::Notch => {
                 let Some(vertex) = vertex.filter(|v| (v.turn > 0.0) == (contact.kind == ContactKind::Corner)) else {
                     return bad.push(Bad { what: "no such corner or notch", off: 1.0 });
                 };
-                need(bad, "a contact is off its vertex", (vertex.x - x).hypot(vertex.y - y), 1e-9);
-                need(bad, "a force is outside its cone", inside(vertex, alpha), 1e-7);
+                need(bad, "a contact is off its vertex", (vertex.x - x).hypot(vertex.y - y), TOLERANCE);
+                need(bad, "a force is outside its cone", inside(vertex, alpha), ANGLE);
             }
         }
     }
@@ -162,27 +178,28 @@ impl<'a> Case<'a> {
             let at = self.rod.at(s);
             outline.foot(at.x, at.y)
         };
-        let mut places: Vec<(f64, f64)> = Vec::new();
+        let (mut places, mut points): (Vec<(f64, f64)>, Vec<At>) = (Vec::new(), Vec::new());
         // behind an open contour a rod that came round its end is not inside
         let (mut inside, mut s) = (false, 0.0);
         let (mut least, mut unsure) = (f64::INFINITY, false);
         let mut before: Option<(f64, f64)> = None;
         loop {
-            let foot = look(s);
+            let at = self.rod.at(s);
+            let foot = outline.foot(at.x, at.y);
             let jumps = before.is_some_and(|(was_s, was)| was.abs() + foot.gap.abs() > 1.01 * (s - was_s) + 1e-9);
             match before {
                 None => inside = foot.gap < 0.0,
                 Some((_, was)) if (was < 0.0) != (foot.gap < 0.0) && !jumps => inside = foot.gap < 0.0,
                 Some(_) => {}
             }
-            let closed = outline.encloses(self.rod.at(s).x, self.rod.at(s).y);
-            if let Some(closed) = closed {
+            if let Some(closed) = outline.encloses(at.x, at.y) {
                 unsure |= foot.gap.abs() > 2e-3 && closed != (foot.gap < 0.0);
                 inside = foot.gap < 0.0;
             }
             let gap = if inside { -foot.gap.abs() } else { foot.gap.abs() };
             least = least.min(gap);
             places.push((s, gap));
+            points.push(at);
             before = Some((s, foot.gap));
             if s >= 1.0 {
                 break;
@@ -195,18 +212,15 @@ impl<'a> Case<'a> {
             let lower = |other: Option<(f64, f64)>| other.is_none_or(|(_, g)| g >= gap);
             if gap < FINE && gap > -FINE && lower(left) && lower(right) {
                 let (from, to) = (left.map_or(s, |p| p.0), right.map_or(s, |p| p.0));
-                least = least.min(golden(from, to, |s| look(s).gap));
+                least = least.min(look(golden(from, to, |s| look(s).gap)).gap);
             }
         }
         // what is too sharp to be seen from the rod
         for vertex in outline.vertices.iter().filter(|v| v.turn > 0.0) {
-            let distance = |(s, _): &(f64, f64)| {
-                let at = self.rod.at(*s);
-                (at.x - vertex.x).hypot(at.y - vertex.y)
-            };
-            let nearest = places.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
-            if distance(nearest) < 0.05 {
-                let mut s = nearest.0;
+            let distances = points.iter().map(|at| (at.x - vertex.x).hypot(at.y - vertex.y)).enumerate();
+            let (nearest, distance) = distances.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            if distance < 0.05 {
+                let mut s = places[nearest].0;
                 for _ in 0..8 {
                     let at = self.rod.at(s);
                     let (sin, cos) = at.phi.sin_cos();
@@ -222,6 +236,11 @@ impl<'a> Case<'a> {
     }
 }
 
+/// The force (A, B) in the rod at its clamp.
+fn force([f0x, f0y, _]: &[f64; 3]) -> (f64, f64) {
+    (*f0y, -f0x)
+}
+
 /// How far an angle is outside of the cone of a vertex.
 fn inside(vertex: &Vertex, alpha: f64) -> f64 {
     let half = 0.5 * vertex.turn;
@@ -232,23 +251,4 @@ fn need(bad: &mut Vec<Bad>, what: &'static str, off: f64, tolerance: f64) {
     if off > tolerance || off.is_nan() {
         bad.push(Bad { what, off });
     }
-}
-
-/// The minimum of `f` between `a` and `b`.
-fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.381_966_011_250_105_1;
-    let (mut u, mut v) = (a + SHARE * (b - a), b - SHARE * (b - a));
-    let (mut at_u, mut at_v) = (f(u), f(v));
-    for _ in 0..35 {
-        if at_u < at_v {
-            (b, v, at_v) = (v, u, at_u);
-            u = a + SHARE * (b - a);
-            at_u = f(u);
-        } else {
-            (a, u, at_u) = (u, v, at_v);
-            v = b - SHARE * (b - a);
-            at_v = f(v);
-        }
-    }
-    at_u.min(at_v)
 }

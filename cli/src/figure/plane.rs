@@ -1,0 +1,51 @@
+//! A part of the plane with axes in mm, a millimetre as long on both.
+
+use super::canvas::{Area, Chart, FigureError, axes};
+use plotters::prelude::*;
+use std::ops::Range;
+
+/// Room for the numbers and names of the axes, and around, pixels.
+const LEFT: u32 = 120;
+const BELOW: u32 = 80;
+const MARGIN: u32 = 16;
+
+/// What is seen.
+pub(super) struct Window {
+    /// mm
+    pub x: Range<f64>,
+    /// mm
+    pub y: Range<f64>,
+    /// mm per pixel
+    pub scale: f64,
+}
+
+impl Window {
+    /// Width and height (pixels) that axes take beside their plot.
+    pub const TRIMMINGS: (u32, u32) = (LEFT + 2 * MARGIN, BELOW + 2 * MARGIN);
+
+    /// Shows these ranges (mm) in the middle of a plot of this width and height, with at least so much room beside and
+    /// above (pixels).
+    pub fn of(x: &Range<f64>, y: &Range<f64>, (width, height): (f64, f64), room: (f64, f64)) -> Self {
+        let scale =
+            |range: &Range<f64>, length: f64, room: f64| (range.end - range.start) / (length - 2.0 * room).max(1.0);
+        let scale = scale(x, width, room.0).max(scale(y, height, room.1));
+        Self { x: about(x, scale * width), y: about(y, scale * height), scale }
+    }
+
+    /// Its axes, which fill `area`, with about so many numbers on x and y.
+    pub fn chart<'a, 'b>(&self, area: &Area<'b>, numbers: (usize, usize)) -> Result<Chart<'a, 'b>, FigureError> {
+        let mut chart = ChartBuilder::on(area)
+            .margin(MARGIN)
+            .set_label_area_size(LabelAreaPosition::Left, LEFT)
+            .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
+            .build_cartesian_2d(self.x.clone(), self.y.clone())?;
+        axes(&mut chart, numbers, ("x in mm", "y in mm"))?;
+        Ok(chart)
+    }
+}
+
+/// A range of this length about the middle of another one.
+fn about(range: &Range<f64>, length: f64) -> Range<f64> {
+    let middle = 0.5 * (range.start + range.end);
+    middle - 0.5 * length..middle + 0.5 * length
+}
