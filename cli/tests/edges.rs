@@ -4,6 +4,7 @@
 mod common;
 
 use common::judge::judge;
+use vibrissa::EventKind;
 use vibrissa_cli::{Scan, Scene};
 
 /// Centre at the origin, sides of 40 mm. Side angles: 0 and 90 degrees, and every multiple of 60, plus the rotation.
@@ -76,4 +77,33 @@ fn clamps_that_turn() {
         }
     }
     assert_none(&faults(&paths));
+}
+
+/// Sides and vertices met head-on, some exactly.
+#[test]
+fn pushed_along_the_rod() {
+    let mut paths = Vec::new();
+    for angle in [60.0, 90.0, 120.0_f64] {
+        for aside in [0.0, 0.004, -0.013] {
+            let (sin, cos) = angle.to_radians().sin_cos();
+            let at = |back: f64| format!("[{:?}, {:?}]", -back * cos - aside * sin, -back * sin + aside * cos);
+            let path = format!("from = {}\nto = {}\nangle = {angle:?}\nstep = 2e-3\n", at(0.15), at(0.09));
+            paths.push((format!("along {angle} degrees, {aside} aside"), path));
+        }
+    }
+    assert_none(&faults(&paths));
+}
+
+/// A rod pushed against a wall at a right angle carries Euler's load, and buckles: both at the pose where it meets the wall.
+#[test]
+fn a_column_buckles_at_eulers_load() {
+    let path = "from = [0.004, -0.15]\nto = [0.004, -0.11]\nangle = 90.0\nstep = 2e-3\n";
+    let (name, points) = SHAPES[0];
+    let scan = Scan::run(scene(name, points, 0.0, path)).unwrap();
+    judge(&scan.scene, &scan.outcome).unwrap();
+    let buckled = scan.outcome.events.iter().find(|event| event.kind == EventKind::Snap).unwrap();
+    let load = buckled.after.contacts[0].force / scan.scene.rod.units().force;
+    let euler = std::f64::consts::PI.powi(2) / 4.0;
+    assert!((load - euler).abs() < 1e-3 * euler, "{load}");
+    assert!((buckled.pose().y + 0.12).abs() < 1e-9, "{buckled:?}");
 }

@@ -1,6 +1,9 @@
 //! Defects that were, each with the scene that showed it.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod common;
+
+use common::judge::judge;
 use std::path::Path;
 use vibrissa_cli::{Scan, Scene};
 
@@ -22,4 +25,18 @@ fn no_contact_is_beyond_the_tip() {
         event.before.elastica(&scan.scene.rod).unwrap();
         event.after.elastica(&scan.scene.rod).unwrap();
     }
+}
+
+/// Sweeps that stopped early: a tip at the very height of a corner, rods pushed against sides and vertices, contacts that come
+/// between others.
+#[test]
+fn sweeps_that_stopped_go_through() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/mended");
+    let mut seen = 0;
+    for file in std::fs::read_dir(folder).unwrap() {
+        let scan = Scan::run(Scene::read(&file.unwrap().path()).unwrap()).unwrap();
+        judge(&scan.scene, &scan.outcome).unwrap();
+        seen += 1;
+    }
+    assert!(seen >= 9);
 }

@@ -183,7 +183,8 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
                 modes_at(configuration.s(j) * scale, &mut eta);
                 let kappa = offset.cos() * spans[j + 1].start.kappa;
                 let divisor = w - v * kappa;
-                if lies_flat(w, kappa, j + 1 == n) {
+                // in a notch the tip may be behind it, at the same place
+                if lies_flat(w, kappa, j + 1 == n || configuration.s(j) == 1.0) {
                     q.add(PENALTY, &eta, &eta);
                     continue;
                 }

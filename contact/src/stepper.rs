@@ -303,8 +303,10 @@ impl Stepper<'_> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        // the next transition may follow closely
-        [1.0, 1e-2, 1e-4].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
+        // the next transition may follow closely, but not at once
+        point.tangent.by_tau() > 0.0
+            && !runs_off(point)
+            && [1.0, 1e-2, 1e-4].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
     }
 
     fn holds_ahead(&mut self, point: &Point, way: f64) -> bool {
@@ -321,6 +323,13 @@ impl Stepper<'_> {
         breaks(&self.corrector, &probe, &scan, |_| holds = false);
         holds && self.is_stable(&probe)
     }
+}
+
+/// Whether the last contact, which is at s = 1, is about to leave the rod.
+fn runs_off(Point { configuration, tangent, .. }: &Point) -> bool {
+    configuration.count().checked_sub(1).is_some_and(|j| {
+        !configuration.is_tip(j) && configuration.s(j) > 1.0 - AT_ONCE && tangent.direction[3 * j + 2] > 0.0
+    })
 }
 
 fn ordered_or_new(configuration: &Configuration) -> bool {

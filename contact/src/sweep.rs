@@ -12,7 +12,7 @@ use crate::path::ClampPath;
 use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
 use crate::state::State;
 use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
-use crate::transition::beyond_corner;
+use crate::transition::{Transition, beside_corner, beyond_corner};
 use crate::world::World;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
@@ -168,14 +168,21 @@ impl<'a> Sweep<'a> {
             Step::Moved(next) => Ok(*next),
             Step::Changed(transition) => {
                 self.count_crowd(transition.after.tau())?;
-                let after = self.stepper.point(transition.after);
+                let Transition { kind, before, after, .. } = *transition;
+                // a corner at the very tip is none
+                let beside = beside_corner(&after, &self.stepper.corrector);
                 self.stepper.h = FIRST_STEP;
-                if after.tangent.by_tau() > 0.0 && self.stepper.goes_on(&after) {
-                    let before = self.stepper.point(transition.before);
-                    self.announce(transition.kind, &before, &after);
-                    Ok(after)
-                } else {
-                    self.snap(transition.before)
+                let goes_on = std::iter::once(after).chain(beside).find_map(|after| {
+                    let after = self.stepper.point(after);
+                    self.stepper.goes_on(&after).then_some(after)
+                });
+                match goes_on {
+                    Some(after) => {
+                        let before = self.stepper.point(before);
+                        self.announce(kind, &before, &after);
+                        Ok(after)
+                    }
+                    None => self.snap(before),
                 }
             }
             Step::Ended(last) => {
@@ -217,18 +224,24 @@ impl<'a> Sweep<'a> {
     /// which needs no descent to find.
     fn slip(&mut self, last: &Configuration) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let from = corrector.world.support(last.contacts.last()?.stretch, last.t(last.count() - 1));
+        let here = last.contacts.last()?.stretch;
+        let from = corrector.world.support(here, last.t(last.count() - 1));
         let guess = beyond_corner(last.clone(), &corrector.world)?;
         let landed = settle(corrector, scanner, guess)?;
         let tip = landed.count().checked_sub(1).filter(|_| landed.ends_at_tip() && landed.count() == last.count())?;
         let to = corrector.world.support(landed.contacts[tip].stretch, landed.t(tip));
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
-        (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way).then_some(landed)
+        let slips = landed.contacts[tip].stretch != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
+        slips.then_some(landed)
     }
 
     fn jumped(&mut self, last: Configuration, landed: Configuration) -> Point {
-        let kind = if landed.count() == 0 { EventKind::SnapOff } else { EventKind::Snap };
+        let kind = match (last.count(), landed.count()) {
+            (0, _) => EventKind::FirstContact,
+            (_, 0) => EventKind::SnapOff,
+            _ => EventKind::Snap,
+        };
         self.landed(kind, last, landed)
     }
 
@@ -244,6 +257,8 @@ impl<'a> Sweep<'a> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let clamp = corrector.path.at(tau + kick);
         let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
+        // head-on, a straight rod gives to either side
+        chain.bend_if_straight(BENDS[0]);
         let guesses = chain.settle(&corrector.world, tau + kick);
         let beyond = guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess));
         let elsewhere = |found: Configuration| Some(found).filter(|found| !same(found, last));

@@ -238,6 +238,25 @@ pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>)
     Some(configuration)
 }
 
+/// The last contact, new on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.
+pub(crate) fn beside_corner(configuration: &Configuration, corrector: &Corrector<'_>) -> SmallVec<[Configuration; 2]> {
+    let world = &corrector.world;
+    let is_new = |j: usize| !configuration.is_tip(j) && configuration.force(j).abs() < FORCE_TOLERANCE;
+    let at_tip = |j: usize| (configuration.s(j) - 1.0).abs() < BEYOND_END;
+    let on_corner = |j: usize| world.is_corner(configuration.contacts[j].stretch);
+    let last = configuration.count().checked_sub(1).filter(|j| is_new(*j) && at_tip(*j) && on_corner(*j));
+    let Some(last) = last else { return SmallVec::new() };
+    let corner = configuration.contacts[last].stretch;
+    let pieces = [false, true].into_iter().filter_map(|after| Some((world.neighbour(corner, after)?, after)));
+    let on_piece = |(piece, after): (usize, bool)| {
+        let mut beside = as_tip(configuration.clone(), corrector);
+        beside.contacts[last].stretch = piece;
+        beside.z[3 * last] = world.border(piece, !after);
+        beside
+    };
+    pieces.map(on_piece).collect()
+}
+
 /// The last contact, tangential at s = 1, as a contact of the tip.
 pub(crate) fn as_tip(mut configuration: Configuration, corrector: &Corrector<'_>) -> Configuration {
     let last = configuration.count() - 1;

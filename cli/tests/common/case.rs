@@ -113,7 +113,9 @@ impl<'a> Case<'a> {
         let mut before = 0.0;
         let last = self.loads.len().saturating_sub(1);
         for (j, (load, [x, y])) in self.loads.iter().zip(&self.points).enumerate() {
-            if !(load.s > before && load.s <= 1.0 + 1e-12) {
+            // where a rod in a notch lies down on a wall, both forces are at the tip
+            let in_notch = j == last && j > 0 && self.state.contacts[j].kind == ContactKind::Tip && before == 1.0;
+            if !((load.s > before || (in_notch && load.s == before)) && load.s <= 1.0 + 1e-12) {
                 bad.push(Bad { what: "contacts out of order", off: load.s - before });
             }
             before = load.s;

@@ -37,6 +37,9 @@ const DEEPEST_PUSH: f64 = 0.03;
 /// How far walls give way to a unit of force where they leave the chain no other way.
 const YIELDING: f64 = 1e-5;
 
+/// Turns of a joint below this are what rounding leaves of none.
+const STRAIGHT: f64 = 1e-9;
+
 /// Ends of the links, the clamp first.
 type Nodes = [[f64; 2]; LINKS + 1];
 
@@ -69,6 +72,13 @@ impl Chain {
             joint
         });
         Self { clamp, joints }
+    }
+
+    /// Bends a straight chain (radians over its length): else it could not buckle.
+    pub fn bend_if_straight(&mut self, bend: f64) {
+        if self.joints.iter().all(|joint| joint.abs() < STRAIGHT) {
+            self.joints = [bend * LINK; LINKS];
+        }
     }
 
     /// Stiffness of a joint: a full link between two links, half a link between clamp and first one.
