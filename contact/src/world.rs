@@ -1,6 +1,6 @@
 //! The objects as the rod sees them: in lengths of the rod.
 
-use rod_contours::{Bounds, Composite, Contour, Frame, Part, Range, StretchKind};
+use rod_contours::{Bounds, Composite, Contour, Frame, Index, Part, Range, StretchKind};
 use rod_core::Support;
 use smallvec::SmallVec;
 
@@ -14,6 +14,8 @@ const SKIN: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub(crate) struct World<'a> {
     objects: &'a [Composite],
+    /// The objects by their bounds.
+    index: Index,
     /// Number of each object's first stretch.
     first: SmallVec<[usize; 4]>,
     ends: SmallVec<[(f64, f64); 2]>,
@@ -50,7 +52,9 @@ impl<'a> World<'a> {
             [from, to].into_iter().filter(|t| t.is_finite()).map(|t| object.frame(t))
         });
         let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
-        Self { objects, first: first.collect(), ends, skin: SKIN, length }
+        let index =
+            Index::new(objects.iter().map(|object| if is_bounded(object) { object.bounds() } else { Bounds::ALL }));
+        Self { objects, index, first: first.collect(), ends, skin: SKIN, length }
     }
 
     /// The number of the object that a stretch belongs to.
@@ -172,9 +176,10 @@ impl<'a> World<'a> {
     pub fn parts_near(&self, bounds: Bounds, mut visit: impl FnMut(Part)) {
         let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
         let bounds = Bounds { min: scaled(bounds.min), max: scaled(bounds.max) };
-        for (object, first) in self.objects.iter().zip(&self.first) {
-            object.parts_near(bounds, |part| visit(Part { stretch: first + part.stretch, ..part }));
-        }
+        self.index.meeting(bounds, &mut |object| {
+            let first = self.first[object];
+            self.objects[object].parts_near(bounds, |part| visit(Part { stretch: first + part.stretch, ..part }));
+        });
     }
 
     /// A box around a part.
@@ -194,15 +199,14 @@ impl<'a> World<'a> {
     /// Signed distance of a point from the nearest object: negative inside any of them.
     pub fn gap(&self, x: f64, y: f64) -> f64 {
         let (x, y) = (x * self.length, y * self.length);
-        let least = self.objects.iter().fold(f64::INFINITY, |least, object| {
-            // Most of many objects are farther away than what has been found; only of those that are closed the solid is
-            // within the bounds.
-            let is_bounded = object.is_closed() && !object.is_cavity();
-            if is_bounded && object.bounds().distance(x, y) > least.max(0.0) {
-                least
-            } else {
-                least.min(object.gap(x, y))
+        let mut least = f64::INFINITY;
+        self.index.nearest(x, y, &mut |object| {
+            let object = &self.objects[object];
+            // most of many objects are farther away than what has been found
+            if !is_bounded(object) || object.bounds().distance(x, y) <= least.max(0.0) {
+                least = least.min(object.gap(x, y));
             }
+            least.max(0.0)
         });
         least / self.length
     }
@@ -267,4 +271,9 @@ impl<'a> World<'a> {
             StretchKind::Corner { before } | StretchKind::Notch { before } => before,
         }
     }
+}
+
+/// Whether the solid is within the bounds of its contour.
+fn is_bounded(object: &Composite) -> bool {
+    object.is_closed() && !object.is_cavity()
 }

@@ -12,13 +12,23 @@ const FAN: usize = 4;
 /// Room for rounding, relative to the distance squared: a box that touches its item can come out just beyond it.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Items by their boxes, and where they are many the boxes around each [`FAN`] of them, around each [`FAN`] of those, and
-/// so on up to one.
+/// Items by their boxes, and where they are many (more than 16) the boxes around each four of them, around each four of
+/// those, and so on up to one: the parts of a contour, or many objects.
 ///
 /// The items keep their order: what follows each other along a contour is together in space as well. An order by place
 /// alone would pack different waves of a long wavy line together.
-#[derive(Debug)]
-pub(crate) struct Index {
+///
+/// ```
+/// use rod_contours::{Bounds, Index};
+///
+/// let row = (0..100).map(|k| Bounds { min: [k as f64, 0.0], max: [k as f64 + 0.5, 1.0] });
+/// let index = Index::new(row);
+/// let mut near = Vec::new();
+/// index.meeting(Bounds { min: [41.2, 0.0], max: [42.1, 2.0] }, &mut |k| near.push(k));
+/// assert_eq!(near, [41, 42]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Index {
     count: usize,
     /// The boxes of the items, then those of each further level; nothing where there are few.
     boxes: Vec<Bounds>,
@@ -46,6 +56,7 @@ impl<F: FnMut(usize) -> f64> Nearest<'_, F> {
 }
 
 impl Index {
+    /// The index of items with these boxes.
     pub fn new(items: impl ExactSizeIterator<Item = Bounds>) -> Self {
         let count = items.len();
         if count <= FEW {

@@ -82,6 +82,7 @@ pub use elliptic_arc::EllipticArc;
 pub use error::ContourError;
 pub use frame::Frame;
 pub use graph::Graph;
+pub use index::Index;
 pub use jet::{DualNum, Jet};
 pub use line::Line;
 pub use motion::Motion;
