@@ -201,12 +201,19 @@ impl<'a> Sweep<'a> {
     fn snap(&mut self, last: Configuration) -> Result<Point, StopReason> {
         let tau = last.tau();
         if let Some(landed) = self.slip(&last) {
+            let landed = self.stepper.point(landed);
             return Ok(self.landed(EventKind::Slip, last, landed));
         }
         let mut beyond = None;
         for kick in KICK {
             match self.land(&last, tau, kick) {
-                Some(landed) if landed.tau() == tau => return Ok(self.jumped(last, landed)),
+                Some(landed) if landed.tau() == tau => {
+                    // one that does not hold further on would only lead back
+                    let landed = self.stepper.point(landed);
+                    if self.stepper.goes_on(&landed) {
+                        return Ok(self.jumped(last, landed));
+                    }
+                }
                 Some(landed) => beyond = beyond.or(Some(landed)),
                 None => {}
             }
@@ -214,7 +221,10 @@ impl<'a> Sweep<'a> {
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to rest in
         // the descent, but could be free, will be.
         match beyond.or_else(|| self.free(tau)) {
-            Some(landed) => Ok(self.jumped(last, landed)),
+            Some(landed) => {
+                let landed = self.stepper.point(landed);
+                Ok(self.jumped(last, landed))
+            }
             None if is_at_inflection(&self.stepper.corrector.world, &last) => Err(StopReason::LineContact),
             None => Err(StopReason::NoLanding),
         }
@@ -236,8 +246,8 @@ impl<'a> Sweep<'a> {
         slips.then_some(landed)
     }
 
-    fn jumped(&mut self, last: Configuration, landed: Configuration) -> Point {
-        let kind = match (last.count(), landed.count()) {
+    fn jumped(&mut self, last: Configuration, landed: Point) -> Point {
+        let kind = match (last.count(), landed.configuration.count()) {
             (0, _) => EventKind::FirstContact,
             (_, 0) => EventKind::SnapOff,
             _ => EventKind::Snap,
@@ -245,11 +255,11 @@ impl<'a> Sweep<'a> {
         self.landed(kind, last, landed)
     }
 
-    fn landed(&mut self, kind: EventKind, last: Configuration, landed: Configuration) -> Point {
-        let (before, after) = (self.stepper.point(last), self.stepper.point(landed));
-        self.announce(kind, &before, &after);
+    fn landed(&mut self, kind: EventKind, last: Configuration, landed: Point) -> Point {
+        let before = self.stepper.point(last);
+        self.announce(kind, &before, &landed);
         self.stepper.h = FIRST_STEP;
-        after
+        landed
     }
 
     /// Where the rod lands from `last`, whose clamp is at `tau`: found `kick` beyond, and brought back to `tau` if it can be.

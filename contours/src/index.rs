@@ -3,7 +3,7 @@
 use crate::Bounds;
 
 /// Up to so many items are all looked at: that costs less than to ask which ones are near.
-const FEW: usize = 16;
+const FEW: usize = 6;
 
 /// Boxes within one box of the next level: with fewer of them the levels above take more memory, with more of them more
 /// boxes are compared.
@@ -12,7 +12,7 @@ const FAN: usize = 4;
 /// Room for rounding, relative to the distance squared: a box that touches its item can come out just beyond it.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Items by their boxes, and where they are many (more than 16) the boxes around each four of them, around each four of
+/// Items by their boxes, and where they are many the boxes around each four of them, around each four of
 /// those, and so on up to one: the parts of a contour, or many objects.
 ///
 /// The items keep their order: what follows each other along a contour is together in space as well. An order by place
