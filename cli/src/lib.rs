@@ -1,5 +1,5 @@
-//! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep and of contours, the
-//! nine scans of the paper and the reports on them.
+//! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep and of
+//! contours, the nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod cycle;

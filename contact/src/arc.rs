@@ -38,8 +38,8 @@ impl Arc {
         self.ends.grown(self.error + 0.125 * self.kappa.abs() * self.chord * self.chord)
     }
 
-    /// Whether it may come nearer than `reach` to a part of a contour in `bounds`, whose box its own one meets, or may have gone
-    /// through it: `alpha` is about the part's tangent angle.
+    /// Whether it may come nearer than `reach` to a part of a contour in `bounds`, whose box its own one meets, or may
+    /// have gone through it: `alpha` is about the part's tangent angle.
     pub fn comes_near(&self, bounds: &Bounds, reach: f64, alpha: impl FnOnce() -> f64) -> bool {
         if self.along == (0.0, 0.0) || !bounds.is_finite() {
             return true;

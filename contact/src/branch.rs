@@ -137,8 +137,9 @@ impl<'a> Corrector<'a> {
         self.correct(configuration, Condition::Fixed { index, value: tau })
     }
 
-    /// The tangent of the branch at `configuration`, in the direction in which the condition's row grows (with the pose fixed
-    /// towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its equations.
+    /// The tangent of the branch at `configuration`, in the direction in which the condition's row grows (with the pose
+    /// fixed towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its
+    /// equations.
     pub fn inspect(&mut self, configuration: &Configuration, condition: Condition<'_>) -> (Tangent, SolveReport) {
         let system = bordered(&self.world, &self.path, &configuration.contacts, condition);
         let mut z = configuration.z.clone();

@@ -18,8 +18,8 @@ pub(crate) struct Held {
 /// Unknowns of the boundary-value problem, three a contact, and the path parameter behind them.
 pub(crate) type Unknowns = SmallVec<[f64; 25]>;
 
-/// Contacts from the clamp to the tip, and z = (t_1, f_1, s_1, ..., tau), where the last third of a tip contact is the slope
-/// angle instead of the arc length.
+/// Contacts from the clamp to the tip, and z = (t_1, f_1, s_1, ..., tau), where the last third of a tip contact is the
+/// slope angle instead of the arc length.
 #[derive(Clone, Debug)]
 pub(crate) struct Configuration {
     pub contacts: SmallVec<[Held; 8]>,

@@ -38,7 +38,8 @@ impl Corner {
         Self { x: at.x, y: at.y, alpha: at.alpha, half: 0.5 * range.length(), middle }
     }
 
-    /// How a rod runs by whose point nearest to the vertex is `at`; none where it could not lie on the vertex in that direction.
+    /// How a rod runs by whose point nearest to the vertex is `at`; none where it could not lie on the vertex in that
+    /// direction.
     pub fn passing(&self, at: &Section) -> Option<Passing> {
         let lean = (at.phi - self.alpha) - PI * ((at.phi - self.alpha) / PI).round();
         let (sin, cos) = (self.alpha + lean).sin_cos();
@@ -47,9 +48,9 @@ impl Corner {
         (lean.abs() <= self.half + PARALLEL).then_some(Passing { gap, alpha: self.alpha + lean, t })
     }
 
-    /// Whether the rod, on the wrong side of the vertex, goes through the solid there, and does not just run along the far side of
-    /// the object. It is told by the point where the rod crosses the line that halves the solid's angle: that point is inside
-    /// by about the sine of half the angle. `ahead` and `behind` is how far the rod goes on.
+    /// Whether the rod, on the wrong side of the vertex, goes through the solid there, and does not just run along the
+    /// far side of the object. It is told by the point where the rod crosses the line that halves the solid's angle:
+    /// that point is inside by about the sine of half the angle. `ahead` and `behind` is how far the rod goes on.
     pub fn is_cut(&self, world: &World<'_>, at: &Section, passing: &Passing, (behind, ahead): (f64, f64)) -> bool {
         let along = -passing.gap / (passing.alpha - self.alpha).cos().max(PARALLEL);
         let (sin, cos) = self.alpha.sin_cos();

@@ -23,8 +23,9 @@ pub struct Equilibrium {
     pub report: SolveReport,
 }
 
-/// The equilibrium of `rod` on `objects` (one [`Composite`] or a list of them) with its clamp at `pose` (m, radians), held by exactly the contacts of `guess`: of
-/// each its object, piece and kind are kept; force, arc length and position are where the solve starts.
+/// The equilibrium of `rod` on `objects` (one [`Composite`] or a list of them) with its clamp at `pose` (m, radians),
+/// held by exactly the contacts of `guess`: of each its object, piece and kind are kept; force, arc length and position
+/// are where the solve starts.
 ///
 /// Nothing is added to the contact set or taken from it: that is what a [`Sweep`](crate::Sweep) does.
 ///

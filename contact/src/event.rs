@@ -10,8 +10,8 @@ use std::fmt;
 pub enum EventKind {
     /// The free rod meets the contour.
     FirstContact,
-    /// A rod in contact meets the contour at one more place, or its last contact, at an inflection of the contour, parts into
-    /// two.
+    /// A rod in contact meets the contour at one more place, or its last contact, at an inflection of the contour,
+    /// parts into two.
     Touch,
     /// A contact lets go, or two run together at an inflection of the contour.
     Release,
@@ -50,12 +50,12 @@ impl fmt::Display for EventKind {
 pub struct Event {
     /// What happened.
     pub kind: EventKind,
-    /// The last state before. At a snap or slip it is the one where the equilibrium ended; otherwise it equals `after` up to the contact of zero
-    /// force that comes or goes.
+    /// The last state before. At a snap or slip it is the one where the equilibrium ended; otherwise it equals `after`
+    /// up to the contact of zero force that comes or goes.
     pub before: State,
-    /// The first state after, at the same pose of the clamp, or at most 0.05 lengths of the rod further along the path: after
-    /// a snap whose new branch starts only beyond the fold, where it starts, and at an inflection of the contour, where the
-    /// two contacts are (were) 0.01 lengths of the rod apart. Poses to report in between have no state.
+    /// The first state after, at the same pose of the clamp, or at most 0.05 lengths of the rod further along the path:
+    /// after a snap whose new branch starts only beyond the fold, where it starts, and at an inflection of the contour,
+    /// where the two contacts are (were) 0.01 lengths of the rod apart. Poses to report in between have no state.
     pub after: State,
 }
 

@@ -36,7 +36,8 @@ pub(crate) fn locate_fold(
             .map(|(slope, _)| slope)
             .ok_or(RodError::NoRoot { what: "fold", reason: "lost the branch".into() })
     };
-    // The caller's slopes come from Jacobians that are one correction old: an end may be just on the other side of the fold.
+    // The caller's slopes come from Jacobians that are one correction old: an end may be just on the other side of the
+    // fold.
     let first = BEYOND.into_iter().map(|d| -d * whole).find(|d| point(*d).is_some_and(|(slope, _)| slope > 0.0))?;
     let last =
         BEYOND.into_iter().map(|d| (1.0 + d) * whole).find(|d| point(*d).is_some_and(|(slope, _)| slope < 0.0))?;

@@ -1,10 +1,10 @@
 //! The last contact at an inflection of the contour, where one contact parts into two or two run together.
 //!
-//! Behind its last contact the rod is straight, so that the contour is convex there. Where the contact comes to an inflection,
-//! with the concave part on the clamp's side, it cannot go on. The contour is y = c x^3 + d x^4 there, and so is the rod to the
-//! leading order: what holds it are two contacts a small distance l apart, the one nearer to the tip with the force 6 c (the
-//! rate of the contour's curvature) and at a distance of order l^2 from the inflection. That needs d < 0 where the solid is
-//! at y < 0 and c > 0; else the rod snaps.
+//! Behind its last contact the rod is straight, so that the contour is convex there. Where the contact comes to an
+//! inflection, with the concave part on the clamp's side, it cannot go on. The contour is y = c x^3 + d x^4 there, and
+//! so is the rod to the leading order: what holds it are two contacts a small distance l apart, the one nearer to the
+//! tip with the force 6 c (the rate of the contour's curvature) and at a distance of order l^2 from the inflection.
+//! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps.
 
 use crate::branch::Corrector;
 use crate::configuration::{Configuration, Held};
@@ -16,7 +16,7 @@ use rod_contours::StretchKind;
 use rod_core::{Hold, find_root};
 
 /// Distance at which two contacts are told apart. Their forces are known to the rounding of its third power.
-pub(crate) const APART: f64 = 0.01;
+const APART: f64 = 0.01;
 
 /// Distances tried where the two contacts do not stay as close as that.
 const FARTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
@@ -30,8 +30,8 @@ const LONGEST_WAY: f64 = 0.05;
 /// How far from the inflection the one contact is that the two have run into.
 const CONVEX: f64 = 1e-4;
 
-/// An inflection: its parameter, the rate of the contour's curvature along the rod's length, and the change of the parameter
-/// along it.
+/// An inflection: its parameter, the rate of the contour's curvature along the rod's length, and the change of the
+/// parameter along it.
 struct Inflection {
     t: f64,
     rate: f64,
@@ -61,8 +61,8 @@ fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Opt
     Some(Inflection { t, rate, by_s })
 }
 
-/// Whether the last contact is at an inflection. A rod that finds no other place there follows the contour, as every elastica
-/// does a cubic spline to the leading order.
+/// Whether the last contact is at an inflection. A rod that finds no other place there follows the contour, as every
+/// elastica does a cubic spline to the leading order.
 pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration) -> bool {
     let last = configuration.count().checked_sub(1);
     last.is_some_and(|j| {
@@ -71,8 +71,8 @@ pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration)
     })
 }
 
-/// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is at the
-/// inflection, and after it the two as soon as they can be told apart.
+/// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is
+/// at the inflection, and after it the two as soon as they can be told apart.
 pub(crate) fn parted(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {
     let j = from.count().checked_sub(1)?;
     let Inflection { t, rate, by_s } = inflection(&corrector.world, from, j)?;

@@ -12,8 +12,8 @@ use crate::world::World;
 /// Most repairs of one guess.
 const MOST_REPAIRS: usize = 12;
 
-/// Mends `guess` at its own pose until it is an equilibrium that holds (nothing is broken, and it is stable); none where that
-/// does not come about.
+/// Mends `guess` at its own pose until it is an equilibrium that holds (nothing is broken, and it is stable); none
+/// where that does not come about.
 pub(crate) fn settle(
     corrector: &mut Corrector<'_>,
     scanner: &mut Scanner,

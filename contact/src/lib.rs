@@ -1,7 +1,8 @@
 //! A flexible rod against a rigid, frictionless contour: which contacts there are, how they move, and what the clamp feels.
 //!
-//! [`Sweep`] takes a [`Rod`](rod_core::Rod) along a [`ClampPath`] past one or more [`Composite`](rod_contours::Composite) contours and hands
-//! out states and events as they come; [`equilibrium`] solves for one pose and one given contact set. Units are SI.
+//! [`Sweep`] takes a [`Rod`](rod_core::Rod) along a [`ClampPath`] past one or more
+//! [`Composite`](rod_contours::Composite) contours and hands out states and events as they come; [`equilibrium`] solves
+//! for one pose and one given contact set. Units are SI.
 //!
 //! ```
 //! use rod_contact::{ClampPath, EventKind, Sweep};
@@ -18,11 +19,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! How it works: a contact set turns the rod into a multi-point boundary-value problem ([`MultiPoint`](rod_core::MultiPoint)).
-//! The path parameter joins its unknowns, and one linear condition picks a point of the branch: a pose, a step of
-//! pseudo-arclength, or a transition, whose defining unknown (a force that vanishes, an arc length of 1, a border) is held
-//! fixed, so that each transition is located to the accuracy of any other solve. At a fold, or where no contact set goes on,
-//! an overdamped chain of links finds where the rod lands.
+//! How it works: a contact set turns the rod into a multi-point boundary-value problem
+//! ([`MultiPoint`](rod_core::MultiPoint)). The path parameter joins its unknowns, and one linear condition picks a
+//! point of the branch: a pose, a step of pseudo-arclength, or a transition, whose defining unknown (a force that
+//! vanishes, an arc length of 1, a border) is held fixed, so that each transition is located to the accuracy of any
+//! other solve. At a fold, or where no contact set goes on, an overdamped chain of links finds where the rod lands.
 //!
 //! This crate knows nothing of sensors, files or reconstruction.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]

@@ -37,7 +37,8 @@ pub(crate) fn lying_angle(world: &World<'_>, configuration: &Configuration, wall
     edge(world, notch, wall).1 + PI * (angle / PI).round()
 }
 
-/// The tip in a notch, lying on `wall`, as two contacts: tangential on `wall`, still at s = 1, and the tip on the other wall.
+/// The tip in a notch, lying on `wall`, as two contacts: tangential on `wall`, still at s = 1, and the tip on the other
+/// wall.
 pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usize) -> Configuration {
     let mut parted = configuration.clone();
     let last = configuration.count() - 1;

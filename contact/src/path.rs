@@ -25,7 +25,8 @@ pub struct ClampPath {
 }
 
 impl ClampPath {
-    /// The path from one pose of the clamp to another (m, m, radians). The angle is followed as given, whole turns included.
+    /// The path from one pose of the clamp to another (m, m, radians). The angle is followed as given, whole turns
+    /// included.
     ///
     /// # Errors
     /// [`ContactError::NotFinite`], or [`ContactError::NoPath`] where the two poses are the same.

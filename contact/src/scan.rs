@@ -10,13 +10,14 @@ use rod_core::{Hold, Section, advance, walk};
 use smallvec::SmallVec;
 
 /// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
-/// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could matter.
+/// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could
+/// matter.
 const SPACING: f64 = 1.0 / 32.0;
 
-const SMALLEST_SPACING: f64 = 1.0 / 512.0;
-
-/// Largest distance between them in the elastica's own wavelength: in units of the square root of EI over the force.
+/// Largest distance between them in the elastica's own wavelength, in units of the square root of EI over the force; and
+/// the smallest one, whatever the force.
 const LARGEST_PHASE: f64 = 0.5;
+const SMALLEST_SPACING: f64 = 1.0 / 512.0;
 
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
@@ -238,9 +239,9 @@ impl Scanner {
         }
     }
 
-    /// A rod lies on a corner with a slope angle between those of the two pieces. So it goes through where it runs by the
-    /// vertex in such a direction, on the side of the solid, and the solid is there: from a sharp corner it may have cut off the
-    /// tip without coming nearer to it than outside.
+    /// A rod lies on a corner with a slope angle between those of the two pieces. So it goes through where it runs by
+    /// the vertex in such a direction, on the side of the solid, and the solid is there: from a sharp corner it may
+    /// have cut off the tip without coming nearer to it than outside.
     fn scan_corner(
         &self,
         world: &World<'_>,
@@ -379,8 +380,9 @@ impl Search<'_> {
         (if self.line { -(at.phi - foot.alpha).sin() } else { slope(&at, &foot) }, at, foot)
     }
 
-    /// Where the slope changes from falling to rising. Under a large force the gap may fall, rise and fall again between two
-    /// nodes: a slope of one sign that comes nearer to zero at both ends, by its own changes there, is looked at in between.
+    /// Where the slope changes from falling to rising. Under a large force the gap may fall, rise and fall again
+    /// between two nodes: a slope of one sign that comes nearer to zero at both ends, by its own changes there, is
+    /// looked at in between.
     fn bracket(&self, (first, last): (Sloped, Sloped), seen: [(&Section, &Foot); 2]) -> Option<(Sloped, Sloped)> {
         if first.1 < 0.0 && last.1 >= 0.0 {
             return Some((first, last));
@@ -406,7 +408,8 @@ impl Search<'_> {
 
     /// The smallest gap between two points, where its slope changes sign.
     fn run(&self, (mut lo, mut hi): (Sloped, Sloped), found: &mut Scan) {
-        // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of s give all of its own
+        // regula falsi, the slope at the end that stays halved each time; the gap is stationary, so half the digits of
+        // s give all of its own
         let mut s = 0.5 * (lo.0 + hi.0);
         let mut best = self.look(s);
         for _ in 0..40 {
@@ -453,7 +456,8 @@ fn next_beyond(nodes: &[Node], mut i: usize, safe: f64) -> usize {
     i
 }
 
-/// Where between two nodes the rod runs by a point: the arc length, and the section; (r - point) . tangent is given at both.
+/// Where between two nodes the rod runs by a point: the arc length, and the section; (r - point) . tangent is given at
+/// both.
 fn pass(spans: &[Span], nodes: (&Node, &Node), point: (f64, f64), before: f64, after: f64) -> (f64, Section) {
     let span = &spans[nodes.0.span];
     let mut s = nodes.0.s + (nodes.1.s - nodes.0.s) * before / (before - after);
@@ -502,15 +506,15 @@ fn bend(at: &Section, foot: &Foot) -> f64 {
     cos * (foot.curvature * cos / (1.0 + foot.curvature * foot.gap) - at.kappa)
 }
 
-/// Whether the rod goes through a part between two of its nodes, from one side to the other: through something thin, that is
-/// behind it again at the next node.
+/// Whether the rod goes through a part between two of its nodes, from one side to the other: through something thin,
+/// that is behind it again at the next node.
 fn pierces(was: &Foot, foot: &Foot) -> bool {
     let sides = was.gap.min(foot.gap) < -PARALLEL && was.gap.max(foot.gap) > PARALLEL;
     sides && was.interior && foot.interior && (was.alpha - foot.alpha).cos() > LEAST_COSINE
 }
 
-/// Whether the foot is a perpendicular one; where the contour goes on smoothly beyond the part and rounding decides which of the
-/// two it is on, for both.
+/// Whether the foot is a perpendicular one; where the contour goes on smoothly beyond the part and rounding decides
+/// which of the two it is on, for both.
 fn is_square(world: &World<'_>, stretch: usize, at: &Section, foot: &Foot) -> bool {
     let (sin, cos) = foot.alpha.sin_cos();
     let square = ((at.x - foot.x) * cos + (at.y - foot.y) * sin).abs() < PARALLEL;

@@ -10,8 +10,9 @@
 //! (2 w eta u - w kappa' u^2 - v eta^2) / (w - v kappa') where the rod is tangential, with u the shift of the rod's point
 //! along the contour, kappa' the rod's curvature in the contour's sense, k = w / v the contour's curvature (dr/dt = v,
 //! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
-//! -|eta|^(3/2), so that eta is held. The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first modes of a free
-//! cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a Cholesky factor.
+//! -|eta|^(3/2), so that eta is held. The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first
+//! modes of a free cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
+//! Cholesky factor.
 
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;

@@ -46,7 +46,8 @@ pub struct Certificate {
     pub min_gap: f64,
     /// Smallest contact force, N; infinite where there is none.
     pub min_force: f64,
-    /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi) along a segment plus its jump, dimensionless.
+    /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi) along a segment plus its jump,
+    /// dimensionless.
     pub first_integral: f64,
     /// Whether the equilibrium is stable: positive second variation of the energy under the contacts.
     pub stable: bool,

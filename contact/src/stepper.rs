@@ -15,7 +15,8 @@ use smallvec::SmallVec;
 
 /// A step so short that what it ends in is where it ends.
 const SHORT: f64 = 1e-3;
-/// Longest step in arclength of the branch (lengths, angles, relative forces), and in the path parameter of a rod in contact.
+/// Longest step in arclength of the branch (lengths, angles, relative forces), and in the path parameter of a rod in
+/// contact.
 const LONGEST_STEP: f64 = 0.3;
 const LONGEST_WAY: f64 = 0.05;
 /// First step on a new branch.
@@ -160,8 +161,8 @@ impl Stepper<'_> {
         closes.then(|| run_together(&mut self.corrector, next)).flatten()
     }
 
-    /// The next point of the branch, by the tangent and Newton's method: at `target` where it is near enough, else a step of
-    /// pseudo-arclength. None: the step was too long.
+    /// The next point of the branch, by the tangent and Newton's method: at `target` where it is near enough, else a
+    /// step of pseudo-arclength. None: the step was too long.
     fn predict_and_correct(&mut self, from: &Point, target: f64) -> Option<(Configuration, SolveReport, f64)> {
         let Point { configuration, tangent, scan, .. } = from;
         let tau = configuration.tau();
@@ -266,7 +267,8 @@ impl Stepper<'_> {
         breaks(&self.corrector, next, scan, |b| broken.push(b));
         let slack = 1e-9 + 1e-6 * length;
         let mut first: Option<(f64, Step)> = None;
-        // A straight rod comes to lie on a straight edge everywhere at once: what holds it then is the point next to the clamp.
+        // A straight rod comes to lie on a straight edge everywhere at once: what holds it then is the point next to
+        // the clamp.
         broken.sort_by(|a, b| a.s().total_cmp(&b.s()));
         for b in broken {
             let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;

@@ -75,9 +75,9 @@ impl<'a> Sweep<'a> {
     /// A sweep of `rod` along `path` past `objects` (m): one [`Composite`], or a list of them. States are reported at 0,
     /// `step`, 2 `step`, ... of the path's parameter (m, or radians where the clamp only turns).
     ///
-    /// A start in contact has the shape that a sweep from further back along the same line would have brought there. Where
-    /// there is none, it is one that the clamp turned, or moved sideways, into its first pose would have brought; and where there is
-    /// none either, the straight rod is let go into contact.
+    /// A start in contact has the shape that a sweep from further back along the same line would have brought there.
+    /// Where there is none, it is one that the clamp turned, or moved sideways, into its first pose would have brought;
+    /// and where there is none either, the straight rod is let go into contact.
     ///
     /// # Errors
     /// [`ContactError::Step`].
@@ -218,8 +218,8 @@ impl<'a> Sweep<'a> {
                 None => {}
             }
         }
-        // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to rest in
-        // the descent, but could be free, will be.
+        // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
+        // rest in the descent, but could be free, will be.
         match beyond.or_else(|| self.free(tau)) {
             Some(landed) => {
                 let landed = self.stepper.point(landed);
@@ -262,7 +262,8 @@ impl<'a> Sweep<'a> {
         landed
     }
 
-    /// Where the rod lands from `last`, whose clamp is at `tau`: found `kick` beyond, and brought back to `tau` if it can be.
+    /// Where the rod lands from `last`, whose clamp is at `tau`: found `kick` beyond, and brought back to `tau` if it
+    /// can be.
     fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let clamp = corrector.path.at(tau + kick);
@@ -303,8 +304,8 @@ impl<'a> Sweep<'a> {
         Ok(self.stepper.point(start))
     }
 
-    /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where, further
-    /// back, it is free.
+    /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
+    /// further back, it is free.
     fn brought_by(&mut self, way: ClampPath) -> Option<Configuration> {
         self.stepper.corrector.path = way;
         let farthest = if way.turns_only() { PI } else { BACK.0 };

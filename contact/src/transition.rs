@@ -80,8 +80,8 @@ pub(crate) fn breaks(
             visit(Break::TangentToTip);
         }
     }
-    // a tip that has gone over goes through the contour just before it, and a contact that has left its stretch lies on the next
-    // one: not touches of their own
+    // a tip that has gone over goes through the contour just before it, and a contact that has left its stretch lies on
+    // the next one: not touches of their own
     for crossing in scan
         .crossings
         .iter()
@@ -204,8 +204,8 @@ pub(crate) fn on(
     if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
 }
 
-/// Contact j moved over the border of its stretch to where `next` begins. The angle of a closed contour jumps by whole turns
-/// where it begins anew.
+/// Contact j moved over the border of its stretch to where `next` begins. The angle of a closed contour jumps by whole
+/// turns where it begins anew.
 pub(crate) fn onto_neighbour(
     mut configuration: Configuration,
     j: usize,

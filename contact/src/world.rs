@@ -4,13 +4,13 @@ use rod_contours::{Bounds, Composite, Contour, Frame, Index, Part, Range, Stretc
 use rod_core::Support;
 use smallvec::SmallVec;
 
-/// Depth to which a rod that has come there may be in the solid behind an open contour: further than a step of the sweep takes
-/// any point of it.
+/// Depth to which a rod that has come there may be in the solid behind an open contour: further than a step of the
+/// sweep takes any point of it.
 const SKIN: f64 = 0.1;
 
-/// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that of its
-/// shape over the rod's length, or the angle turned at a joint), so that nothing is lost to an offset, however small the rod
-/// is.
+/// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that
+/// of its shape over the rod's length, or the angle turned at a joint), so that nothing is lost to an offset, however
+/// small the rod is.
 #[derive(Clone, Debug)]
 pub(crate) struct World<'a> {
     objects: &'a [Composite],
@@ -90,8 +90,8 @@ impl<'a> World<'a> {
         Some(self.first[object] + stretch)
     }
 
-    /// Length of the contour's parameter that counts as 1 here: of pieces the rod's length, of joints, which are measured by
-    /// angle, 1.
+    /// Length of the contour's parameter that counts as 1 here: of pieces the rod's length, of joints, which are
+    /// measured by angle, 1.
     fn unit(&self, (object, own): (&Composite, usize)) -> f64 {
         if matches!(object.kind(own), StretchKind::Piece(_)) { self.length } else { 1.0 }
     }
@@ -171,8 +171,8 @@ impl<'a> World<'a> {
         self.objects.len() <= 2 && self.objects.iter().all(Composite::is_small)
     }
 
-    /// Calls `visit` with all parts of all contours that meet `bounds`, and perhaps with others near by. Their ranges stay in
-    /// the contours' unit, so that they come back to the contour as they are.
+    /// Calls `visit` with all parts of all contours that meet `bounds`, and perhaps with others near by. Their ranges
+    /// stay in the contours' unit, so that they come back to the contour as they are.
     pub fn parts_near(&self, bounds: Bounds, mut visit: impl FnMut(Part)) {
         let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
         let bounds = Bounds { min: scaled(bounds.min), max: scaled(bounds.max) };
@@ -211,9 +211,9 @@ impl<'a> World<'a> {
         least / self.length
     }
 
-    /// Whether a point with a negative gap to `foot`, the closest point of a part of a stretch, is inside the solid, and there
-    /// nearest to that part: what lies behind one part may be outside of the object or nearer to another part, whose gap it then
-    /// is. What is deep behind an open contour came there around an end of it.
+    /// Whether a point with a negative gap to `foot`, the closest point of a part of a stretch, is inside the solid,
+    /// and there nearest to that part: what lies behind one part may be outside of the object or nearer to another
+    /// part, whose gap it then is. What is deep behind an open contour came there around an end of it.
     pub fn goes_through(&self, stretch: usize, foot: &Foot, x: f64, y: f64) -> bool {
         foot.gap < 0.0
             && foot.gap >= self.gap(x, y) * (1.0 + 1e-6) - 1e-14

@@ -7,8 +7,8 @@ use crate::crossing::{self, Crossing};
 use crate::piece::Piece;
 use crate::{Contour, ContourError, Frame, Range};
 
-/// Largest distance between the ends of consecutive pieces, relative to the largest coordinate of [`Piece::scale`]: room for
-/// breaks typed to ten digits, far below anything mechanical.
+/// Largest distance between the ends of consecutive pieces, relative to the largest coordinate of [`Piece::scale`]:
+/// room for breaks typed to ten digits, far below anything mechanical.
 const MEETING: f64 = 1e-9;
 
 /// Largest turn, rad, that is still a smooth joint: what a break computed in double precision leaves between tangents.
@@ -49,8 +49,8 @@ pub(crate) fn crossing(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, Cont
     Ok(pieces)
 }
 
-/// Checks that consecutive ends meet, and sets the pieces' offsets, whole turns and the joints between them. Returns how many
-/// turns the contour takes if its end meets its start, 0 if it does not.
+/// Checks that consecutive ends meet, and sets the pieces' offsets, whole turns and the joints between them. Returns
+/// how many turns the contour takes if its end meets its start, 0 if it does not.
 pub(crate) fn placed(pieces: &mut [Piece]) -> Result<i32, ContourError> {
     if pieces.is_empty() {
         return Err(ContourError::Empty);

@@ -44,9 +44,9 @@ impl Bezier {
     ///
     /// # Errors
     ///
-    /// [`ContourError::NotFinite`] for a coordinate that is not finite; [`ContourError::Standstill`] for a curve whose speed
-    /// vanishes somewhere, or falls below 1e-6 of the largest: a cusp, or an end whose first two (last two) control points
-    /// coincide. There the curvature is infinite. A straight line so written is a [`Line`](crate::Line).
+    /// [`ContourError::NotFinite`] for a coordinate that is not finite; [`ContourError::Standstill`] for a curve whose
+    /// speed vanishes somewhere, or falls below 1e-6 of the largest: a cusp, or an end whose first two (last two)
+    /// control points coincide. There the curvature is infinite. A straight line so written is a [`Line`](crate::Line).
     pub fn new(control: [[f64; 2]; 4]) -> Result<Self, ContourError> {
         check::finite(
             control.into_iter().flat_map(|[x, y]| [("x of a control point", x), ("y of a control point", y)]),

@@ -170,8 +170,8 @@ impl Composite {
         (!joint).then(|| (piece, t - self.pieces[piece].offset))
     }
 
-    /// The range of one stretch in its own parameter, free of the rounding that an offset brings: that of the piece's shape,
-    /// or the angle turned at a joint, from 0.
+    /// The range of one stretch in its own parameter, free of the rounding that an offset brings: that of the piece's
+    /// shape, or the angle turned at a joint, from 0.
     pub fn own_range(&self, stretch: usize) -> Range {
         match self.at(stretch) {
             At::Piece(piece) => piece.range,

@@ -50,8 +50,8 @@ impl Curve {
     ///
     /// [`ContourError::EmptyRange`] unless the range's start is less than its end (NaN included),
     /// [`ContourError::NotFinite`] for a range that goes on for ever. At the samples described above:
-    /// [`ContourError::NotFiniteAt`] for a coordinate or a derivative that is not finite, [`ContourError::Standstill`] for a
-    /// speed that is 0 or less than 1e-9 of the largest, [`ContourError::Jump`] for a direction that jumps.
+    /// [`ContourError::NotFiniteAt`] for a coordinate or a derivative that is not finite, [`ContourError::Standstill`]
+    /// for a speed that is 0 or less than 1e-9 of the largest, [`ContourError::Jump`] for a direction that jumps.
     pub fn new(range: Range, r: impl Fn(Jet) -> [Jet; 2] + Send + Sync + 'static) -> Result<Self, ContourError> {
         Self::with_derivatives(range, move |t| {
             let [x, y] = r(variable(t));

@@ -1,9 +1,10 @@
 //! The points of a whole ellipse that are nearest to a given one.
 //!
-//! The ellipse has half axes 1 (along x) and `ratio` (along y, from 0 to 1) here, and the point lies in the first quadrant;
-//! everything else follows by symmetry. With the normal `r = p + lambda n` and `w = lambda + ratio^2` the foot is
-//! `(cos e, sin e) = (x / (w + 1 - ratio^2), ratio y / w)`, where w is a root of `cos^2 e + sin^2 e = 1`. The sum is convex
-//! on either side of `w = 0`, so Newton's iteration from the side where it exceeds 1 runs up to the root without passing it.
+//! The ellipse has half axes 1 (along x) and `ratio` (along y, from 0 to 1) here, and the point lies in the first
+//! quadrant; everything else follows by symmetry. With the normal `r = p + lambda n` and `w = lambda + ratio^2` the
+//! foot is `(cos e, sin e) = (x / (w + 1 - ratio^2), ratio y / w)`, where w is a root of `cos^2 e + sin^2 e = 1`. The
+//! sum is convex on either side of `w = 0`, so Newton's iteration from the side where it exceeds 1 runs up to the root
+//! without passing it.
 
 /// Steps after which the iteration gives up. The nearest point takes 4 to 10; near a centre of curvature, where two of
 /// them merge, it loses its speed and each step halves what remains.

@@ -163,8 +163,8 @@ impl Contour for Parabola {
 
 /// The parameter of the nearest point of the whole parabola `y = c x^2` to `(px, py)`.
 ///
-/// By symmetry with q = |px| only. There the slope f = 2 c^2 t^3 + (1 - 2 c py) t - q is convex in t > 0 and f(0) <= 0, so Newton's iteration falls
-/// monotonically to the root from any upper bound of it.
+/// By symmetry with q = |px| only. There the slope f = 2 c^2 t^3 + (1 - 2 c py) t - q is convex in t > 0 and f(0) <= 0,
+/// so Newton's iteration falls monotonically to the root from any upper bound of it.
 fn nearest(c: f64, px: f64, py: f64) -> f64 {
     let q = px.abs();
     let (a, b) = (2.0 * c * c, 1.0 - 2.0 * c * py);

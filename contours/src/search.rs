@@ -134,7 +134,8 @@ fn falls_then_rises(probe: impl Fn(f64) -> Probe, left: Probe, right: Probe) -> 
 /// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
 fn refine(probe: impl Fn(f64) -> Probe, low: Probe, high: Probe) -> Probe {
     let resolution = f64::EPSILON * low.t.abs().max(high.t.abs());
-    let mut here = if -low.slope < high.slope { low } else { high };
+    // A slope of zero at the end of a cell may be a maximum's, behind the minimum.
+    let mut here = if -low.slope < high.slope || high.slope == 0.0 { low } else { high };
     newton::zero(Range { from: low.t, to: high.t }, here.t, resolution, |t| {
         if t != here.t {
             here = probe(t);
@@ -168,6 +169,18 @@ pub(crate) fn bounds<C: Contour + ?Sized>(shape: &C, range: Range) -> Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Graph;
+
+    #[test]
+    fn a_maximum_at_the_end_of_a_cell_does_not_hide_the_minimum() {
+        // From just beyond the centre of curvature the vertex is a maximum, between two minima at x^2 = e.
+        let parabola = Graph::new(Range { from: -1.0, to: 0.0 }, |x| x * x).unwrap();
+        for e in [1e-6, 1e-5, 1e-4] {
+            let closest = parabola.closest(0.0, 0.5 + e);
+            assert!((closest.gap.abs() - (0.25 + e).sqrt()).abs() < 1e-15, "{e}: {closest:?}");
+            assert!((closest.t.abs() - e.sqrt()).abs() < 1e-9, "{e}: {closest:?}");
+        }
+    }
 
     #[test]
     fn parts_get_their_share_of_the_cells() {

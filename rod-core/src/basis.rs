@@ -27,7 +27,8 @@ const SERIES_REACH: f64 = 3.2e-3;
 /// No segment needs more halvings than this: beyond, P or M is not finite in any useful sense.
 const MOST_HALVINGS: u32 = 64;
 
-/// Below this C or D is doubled by the formula that keeps its relative error, above by the one that keeps its distance to 1.
+/// Below this C or D is doubled by the formula that keeps its relative error, above by the one that keeps its distance
+/// to 1.
 const STEEP: f64 = 0.7;
 
 /// Basis functions at arc length `s` for P = `p` and M = P + `excess`: halve `s` until the series is exact, then double

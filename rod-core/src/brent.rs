@@ -19,8 +19,9 @@ pub struct Root {
 /// spent on functions that defeat interpolation.
 const MOST_ITERATIONS: u64 = 200;
 
-/// A root of `f` between `from` and `to`, where `f` has opposite signs, within `tolerance` / 2 of a change of sign (absolute;
-/// 0 asks for all digits: the rounding of the root, 4.4e-16 of it, is added). `what` names the function in errors.
+/// A root of `f` between `from` and `to`, where `f` has opposite signs, within `tolerance` / 2 of a change of sign
+/// (absolute; 0 asks for all digits: the rounding of the root, 4.4e-16 of it, is added). `what` names the function in
+/// errors.
 ///
 /// Of several roots it finds one, and which one depends on the bracket.
 ///

@@ -27,7 +27,8 @@ pub struct Load {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elastica {
     units: Units,
-    /// Dimensionless: arc length and section where each segment starts, and the force (A, B) along it. The last one is free.
+    /// Dimensionless: arc length and section where each segment starts, and the force (A, B) along it. The last one is
+    /// free.
     pub(crate) segments: Vec<Segment>,
 }
 
@@ -107,9 +108,9 @@ impl Elastica {
         self.segments.iter().zip(&self.segments[1..])
     }
 
-    /// Bending energy 1/2 int E I kappa^2 ds, in J for SI units. kappa^2 / 2 = A sin phi - B cos phi + constant along a segment,
-    /// and the integrals of sin phi and cos phi are the differences of position: no segment is evaluated again. Exact but
-    /// for rounding, about 1e-15 of the sum of |A|, |B| and kappa^2.
+    /// Bending energy 1/2 int E I kappa^2 ds, in J for SI units. kappa^2 / 2 = A sin phi - B cos phi + constant along a
+    /// segment, and the integrals of sin phi and cos phi are the differences of position: no segment is evaluated
+    /// again. Exact but for rounding, about 1e-15 of the sum of |A|, |B| and kappa^2.
     pub fn bending_energy(&self) -> f64 {
         let loaded: f64 = self
             .loaded()
@@ -127,8 +128,8 @@ impl Elastica {
     /// Largest |kappa| along the rod, in 1/m for SI units: what bends a wire past its yield stress
     /// ([`Rod::bending_stress`](crate::Rod::bending_stress)). Exact but for rounding, and no segment is evaluated again.
     ///
-    /// It is at the end of a segment or where the rod runs along the stable direction of the pendulum, phi = atan2(B, A) + pi / 2:
-    /// there kappa^2 / 4 = M.
+    /// It is at the end of a segment or where the rod runs along the stable direction of the pendulum, phi = atan2(B,
+    /// A) + pi / 2: there kappa^2 / 4 = M.
     pub fn largest_curvature(&self) -> f64 {
         let inside = self.loaded().map(|(segment, next)| segment.largest_curvature_inside(next).unwrap_or(0.0));
         let ends = self.segments.iter().map(|segment| segment.start.kappa.abs());

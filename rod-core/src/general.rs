@@ -10,8 +10,8 @@ use crate::segment::Section;
 use crate::units::Units;
 
 /// The elastica of a clamped rod of any kind under n point forces: what [`Elastica`](crate::Elastica) is to the uniform
-/// rod, at the price of its [`Propagator`]. All quantities share the [`Units`] given, which those of a rod with the reference
-/// stiffness are.
+/// rod, at the price of its [`Propagator`]. All quantities share the [`Units`] given, which those of a rod with the
+/// reference stiffness are.
 ///
 /// ```
 /// use rod_core::{GeneralElastica, Load, Method, Ode, Pose, Units};

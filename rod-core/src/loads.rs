@@ -8,12 +8,12 @@ use crate::propagator::{ClosedForm, Cut, Propagator};
 use crate::units::Units;
 
 impl Elastica {
-    /// The elastica of a rod clamped at `pose` under `loads` of fixed magnitude and direction, ordered from clamp to tip, and
-    /// how its moment m0z at the clamp was found: the root, the moment left at the last load, the iterations.
+    /// The elastica of a rod clamped at `pose` under `loads` of fixed magnitude and direction, ordered from clamp to
+    /// tip, and how its moment m0z at the clamp was found: the root, the moment left at the last load, the iterations.
     ///
-    /// The solution is unique where the force ahead, hypot(A, B), stays below pi^2 / 4 E I / L^2 along the rod, whatever its
-    /// direction: the energy is convex there. Beyond, a rod that buckles has several; one of them is found, not
-    /// necessarily the stable one. The moment left is zero to rounding.
+    /// The solution is unique where the force ahead, hypot(A, B), stays below pi^2 / 4 E I / L^2 along the rod,
+    /// whatever its direction: the energy is convex there. Beyond, a rod that buckles has several; one of them is
+    /// found, not necessarily the stable one. The moment left is zero to rounding.
     ///
     /// ```
     /// use rod_core::{Elastica, Load, Pose, Units};

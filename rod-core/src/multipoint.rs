@@ -7,12 +7,12 @@
 //! t_j  parameter of the support's curve,   f_j  force,   s_j  arc length   (at the tip: the slope angle phi(1) instead)
 //! ```
 //!
-//! Segment j runs backwards from support j to support j - 1 (or the clamp). Its start is known from the unknowns alone: the
-//! position and angle of the support, the force (A, B) as the sum over all supports ahead, and the curvature by moment
-//! balance, kappa_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
-//! kappa(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3 equations
-//! a support (Merker et al. 2021, eq. 14 to 17 are n = 1 and 2). The segments are independent given the unknowns: no error
-//! grows from one to the next.
+//! Segment j runs backwards from support j to support j - 1 (or the clamp). Its start is known from the unknowns alone:
+//! the position and angle of the support, the force (A, B) as the sum over all supports ahead, and the curvature by
+//! moment balance, kappa_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
+//! kappa(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3
+//! equations a support (Merker et al. 2021, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
+//! unknowns: no error grows from one to the next.
 
 use crate::newton::System;
 use crate::pose::Pose;
@@ -38,8 +38,8 @@ pub struct Support {
 /// How a support holds the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
-    /// Tangentially: slope angle = alpha + `offset`, a whole multiple of pi (odd where the rod runs against the sense of the
-    /// curve, 2 pi and more where it has coiled).
+    /// Tangentially: slope angle = alpha + `offset`, a whole multiple of pi (odd where the rod runs against the sense
+    /// of the curve, 2 pi and more where it has coiled).
     Tangent {
         /// Slope angle minus tangent angle, radians.
         offset: f64,
@@ -135,8 +135,8 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         nodes
     }
 
-    /// Writes the residual (3 a support) and, where asked for, the Jacobian into the leading 3n x 3n block of a column-major
-    /// matrix with `stride` rows.
+    /// Writes the residual (3 a support) and, where asked for, the Jacobian into the leading 3n x 3n block of a
+    /// column-major matrix with `stride` rows.
     pub fn evaluate_into(&self, u: &[f64], residual: &mut [f64], jacobian: Option<(&mut [f64], usize)>) {
         let nodes = self.nodes(u);
         match jacobian {

@@ -25,8 +25,9 @@ pub trait System {
 /// When to stop, and when to give up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {
-    /// Largest error of the solution that is left, in the weighted maximum norm. The default, 1e-13, is what rounding leaves
-    /// of a well-conditioned problem; an ill-conditioned one ends as [`SolveStatus::Stalled`] at what rounding allows.
+    /// Largest error of the solution that is left, in the weighted maximum norm. The default, 1e-13, is what rounding
+    /// leaves of a well-conditioned problem; an ill-conditioned one ends as [`SolveStatus::Stalled`] at what rounding
+    /// allows.
     pub tolerance: f64,
     /// Largest number of steps (Jacobians).
     pub max_iterations: u32,

@@ -1,7 +1,7 @@
 //! One segment between two contacts, exactly: the elastica under a constant force.
 //!
-//! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2021, eq. 10), a pendulum arc. It is
-//! evaluated by the addition theorem of its flow, without any case distinction.
+//! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2021, eq. 10), a pendulum arc.
+//! It is evaluated by the addition theorem of its flow, without any case distinction.
 
 use crate::basis::{Basis, basis};
 use crate::dual::Dual;
@@ -203,8 +203,8 @@ impl<T: Scalar> Arc<T> {
 
     /// End of the segment in the frame of its start.
     ///
-    /// With a = sin(delta / 2), b = cos(delta / 2) the flow's addition theorem gives a, b, q at the end; products are grouped
-    /// so that a and b appear only with a factor P, which keeps every term bounded and smooth where P vanishes.
+    /// With a = sin(delta / 2), b = cos(delta / 2) the flow's addition theorem gives a, b, q at the end; products are
+    /// grouped so that a and b appear only with a factor P, which keeps every term bounded and smooth where P vanishes.
     /// In the half angle, C + V w stands for 1 - V P sin^2(delta / 2): close to the separatrix all of it is small, and
     /// the sum does not cancel.
     #[inline(always)]

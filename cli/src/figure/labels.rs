@@ -10,8 +10,8 @@ pub(super) struct Labels {
 }
 
 impl Labels {
-    /// The first of several places (the middle of the text) where a text of this size is free, which it takes; none where all
-    /// are taken.
+    /// The first of several places (the middle of the text) where a text of this size is free, which it takes; none
+    /// where all are taken.
     pub fn place(
         &mut self,
         places: impl IntoIterator<Item = (i32, i32)>,

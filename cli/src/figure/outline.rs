@@ -26,8 +26,8 @@ pub(super) fn visible(contour: &Composite, window: Bounds) -> Vec<Vec<Frame>> {
     parts
 }
 
-/// The part of a stretch's range that can be seen: all of it, or, where it goes on for ever, as far as it takes to leave the
-/// window for good.
+/// The part of a stretch's range that can be seen: all of it, or, where it goes on for ever, as far as it takes to
+/// leave the window for good.
 fn reachable(contour: &Composite, index: usize, window: Bounds, diagonal: f64) -> Range {
     let range = contour.stretch(index).range;
     if range.is_finite() {

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 /// The columns of contour.csv.
 const COLUMNS: [&str; 6] = ["x", "y", "tangent_angle", "curvature", "arc_length", "object"];
 
-/// Writes the points of contours to the CSV file `out`, and a drawing of them beside it, with the extension svg, whose name is
-/// returned. Neither appears before both are complete.
+/// Writes the points of contours to the CSV file `out`, and a drawing of them beside it, with the extension svg, whose
+/// name is returned. Neither appears before both are complete.
 ///
 /// # Errors
 /// [`Error::Output`], [`Error::Figure`].

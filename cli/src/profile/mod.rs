@@ -76,8 +76,8 @@ impl Scene {
     /// The contours of all objects, or of one (by its number, from 1), as points so close together that no chord is farther
     /// than `tolerance` (m, by default 1e-6 of the rod's length) from the contour.
     ///
-    /// A piece that goes on for ever ends 1.5 lengths of the rod from the clamp's path. At a corner or notch two points stand
-    /// 1e-9 of the rod's length before and behind the vertex, so that each has one direction.
+    /// A piece that goes on for ever ends 1.5 lengths of the rod from the clamp's path. At a corner or notch two points
+    /// stand 1e-9 of the rod's length before and behind the vertex, so that each has one direction.
     ///
     /// # Errors
     /// [`ProfileError`].

@@ -181,8 +181,8 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// How far the contour can be from the chord between two of its points, m, where it bends one way: the height of the triangle
-/// of the chord and both tangents.
+/// How far the contour can be from the chord between two of its points, m, where it bends one way: the height of the
+/// triangle of the chord and both tangents.
 fn off_chord(from: Frame, middle: Frame, to: Frame) -> f64 {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let length = dx.hypot(dy);

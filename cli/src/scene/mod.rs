@@ -1,7 +1,8 @@
 //! Scenes: a rod, objects and the way the clamp goes, read from a TOML file.
 //!
-//! Four steps, one file each: `document` is the file as written, `shape` its pieces of contour, `object` puts these together
-//! and where they stand, and `check` turns the rest into what the library takes. Whatever is wrong becomes a [`SceneError`] that points into the file.
+//! Four steps, one file each: `document` is the file as written, `shape` its pieces of contour, `object` puts these
+//! together and where they stand, and `check` turns the rest into what the library takes. Whatever is wrong becomes a
+//! [`SceneError`] that points into the file.
 
 mod check;
 mod document;
@@ -41,8 +42,8 @@ impl Scene {
         Self::parse(file, &text)
     }
 
-    /// The scene in a text. `file` names it, in messages and as a whole; it is not opened, but the files that the text names
-    /// are: relative ones are looked for in the directory of `file`.
+    /// The scene in a text. `file` names it, in messages and as a whole; it is not opened, but the files that the text
+    /// names are: relative ones are looked for in the directory of `file`.
     ///
     /// ```
     /// use vibrissa_cli::Scene;

@@ -110,8 +110,8 @@ struct Origin {
     count: usize,
 }
 
-/// The number of the piece to be blamed, and of the other one, where there is one: the library counts from 1. Of two that do not
-/// fit it is the second one that was put in the wrong place.
+/// The number of the piece to be blamed, and of the other one, where there is one: the library counts from 1. Of two
+/// that do not fit it is the second one that was put in the wrong place.
 fn blamed(error: &ContourError) -> (Option<usize>, Option<usize>) {
     match *error {
         ContourError::NoCrossing { piece, next, .. } | ContourError::Apart { piece, next, .. } => {

@@ -126,9 +126,9 @@ impl Chain {
         }
     }
 
-    /// Lets the chain come to rest, and gives the contacts it then has as guesses for the boundary-value problem at `tau`, the
-    /// likeliest first. What is pressed all along a few links is one contact, or, on a contour that follows the rod, one at
-    /// either end.
+    /// Lets the chain come to rest, and gives the contacts it then has as guesses for the boundary-value problem at
+    /// `tau`, the likeliest first. What is pressed all along a few links is one contact, or, on a contour that follows
+    /// the rod, one at either end.
     pub fn settle(&mut self, world: &World<'_>, tau: f64) -> SmallVec<[Configuration; 2]> {
         let Some(forces) = self.come_to_rest(world) else { return SmallVec::new() };
         let clusters = clusters(forces);

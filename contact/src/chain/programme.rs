@@ -8,8 +8,8 @@ use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, Nonnegat
 /// Change d of the joints, force at each near node.
 ///
 /// Minimise 1/2 d' D d + q' d subject to A d <= b with a diagonal D, solved by its dual in the forces, which are few:
-/// minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f over f >= 0, then d = -D^-1 (q + A' f). Walls between which, linearised,
-/// there is no room are let give way by `yielding` a unit of force: A d <= b + yielding f.
+/// minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f over f >= 0, then d = -D^-1 (q + A' f). Walls between which,
+/// linearised, there is no room are let give way by `yielding` a unit of force: A d <= b + yielding f.
 pub(super) fn programme(
     chain: &Chain,
     nodes: &Nodes,

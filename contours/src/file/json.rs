@@ -39,7 +39,8 @@ pub fn shapes(file: &Path) -> Result<Vec<Shape>, FileError> {
 ///
 /// # Errors
 ///
-/// Those of [`shapes`], [`FileError::Shape`] with the number of the shape, [`FileError::Contour`] where they cannot be joined.
+/// Those of [`shapes`], [`FileError::Shape`] with the number of the shape, [`FileError::Contour`] where they cannot be
+/// joined.
 pub fn contour(file: &Path) -> Result<Composite, FileError> {
     let directory = file.parent().unwrap_or("".as_ref());
     let mut pieces = Pieces::new();

@@ -12,9 +12,9 @@ const TINY: f64 = 1e-10;
 /// The contours of an SVG path's data (the attribute `d`), one for each subpath: the pieces of each in order, for
 /// [`Composite::new`](crate::Composite::new).
 ///
-/// One unit of the drawing is `scale` long, y is turned round, so that the picture stays upright, and a closed subpath is made
-/// to run counterclockwise, with the solid inside. Lines become [`Line`], Bezier curves [`Bezier`]; arcs become Bezier curves
-/// that leave the arc by less than 3e-4 of its radius.
+/// One unit of the drawing is `scale` long, y is turned round, so that the picture stays upright, and a closed subpath
+/// is made to run counterclockwise, with the solid inside. Lines become [`Line`], Bezier curves [`Bezier`]; arcs become
+/// Bezier curves that leave the arc by less than 3e-4 of its radius.
 ///
 /// ```
 /// use rod_contours::{Composite, Contour, file};

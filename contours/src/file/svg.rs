@@ -19,8 +19,8 @@ use super::{FileError, SvgError};
 ///
 /// # Errors
 ///
-/// [`FileError::Unreadable`], [`FileError::Malformed`], or [`FileError::Svg`] for no path, several without an id, none of this
-/// id, or a transform.
+/// [`FileError::Unreadable`], [`FileError::Malformed`], or [`FileError::Svg`] for no path, several without an id, none
+/// of this id, or a transform.
 pub fn data(file: &Path, id: Option<&str>) -> Result<String, FileError> {
     let text = super::text(file)?;
     // Drawing programs write a document type, which has no part in the drawing.

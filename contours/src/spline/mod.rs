@@ -37,9 +37,9 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// range ends where the first and last points are, for a closed curve as well: there `interior` is false at the point where
 /// it closes.
 ///
-/// A spline is serialised as a list of the keys of the crate `splines` (version 5, `Interpolation::StrokeBezier`: parameter,
-/// point, handle before and handle after), and read from such a list as long as its keys are in order, finite and smooth.
-/// Floating-point numbers that survive the format give back the same spline to the last bit.
+/// A spline is serialised as a list of the keys of the crate `splines` (version 5, `Interpolation::StrokeBezier`:
+/// parameter, point, handle before and handle after), and read from such a list as long as its keys are in order,
+/// finite and smooth. Floating-point numbers that survive the format give back the same spline to the last bit.
 ///
 /// ```
 /// use rod_contours::{Contour, Spline, SplineEnd};
