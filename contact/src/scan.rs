@@ -359,7 +359,6 @@ impl Scanner {
 }
 
 /// The search of the smallest gap to a part between two neighbouring nodes of a span of the rod.
-#[derive(Clone, Copy)]
 struct Search<'a> {
     world: &'a World<'a>,
     part: Part,

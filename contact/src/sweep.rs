@@ -270,18 +270,16 @@ impl<'a> Sweep<'a> {
         let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(BENDS[0]);
-        let guesses = chain.settle(&corrector.world, tau + kick);
-        let beyond = guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess));
-        let elsewhere = |found: Configuration| Some(found).filter(|found| !same(found, last));
+        let beyond = rest(&mut chain, corrector, scanner, tau + kick, |_| true);
+        let elsewhere = |found: &Configuration| !same(found, last);
         let back = beyond.as_ref().and_then(|beyond| {
             let mut back = beyond.clone();
             back.set_tau(tau);
-            settle(corrector, scanner, back).and_then(elsewhere)
+            settle(corrector, scanner, back).filter(elsewhere)
         });
         let back = back.or_else(|| {
             chain.clamp = corrector.path.at(tau);
-            let guesses = chain.settle(&corrector.world, tau);
-            guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).and_then(elsewhere))
+            rest(&mut chain, corrector, scanner, tau, elsewhere)
         });
         back.or(beyond)
     }
@@ -337,9 +335,7 @@ impl<'a> Sweep<'a> {
     fn let_go(&mut self) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         BENDS.into_iter().find_map(|bend| {
-            let mut chain = Chain::straight(corrector.path.at(0.0), bend);
-            let guesses = chain.settle(&corrector.world, 0.0);
-            guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess))
+            rest(&mut Chain::straight(corrector.path.at(0.0), bend), corrector, scanner, 0.0, |_| true)
         })
     }
 
@@ -368,6 +364,18 @@ impl<'a> Sweep<'a> {
         let unit = if corrector.path.turns_only() { 1.0 } else { length };
         Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: tau * unit, reason }
     }
+}
+
+/// The first acceptable equilibrium of those where the chain comes to rest, with its clamp at `tau`.
+fn rest(
+    chain: &mut Chain,
+    corrector: &mut Corrector<'_>,
+    scanner: &mut Scanner,
+    tau: f64,
+    accept: impl Fn(&Configuration) -> bool,
+) -> Option<Configuration> {
+    let guesses = chain.settle(&corrector.world, tau);
+    guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
 }
 
 /// Whether two configurations at one pose are the same equilibrium.

@@ -77,7 +77,7 @@ impl Chain {
     /// Bends a straight chain (radians over its length): else it could not buckle.
     pub fn bend_if_straight(&mut self, bend: f64) {
         if self.joints.iter().all(|joint| joint.abs() < STRAIGHT) {
-            self.joints = [bend * LINK; LINKS];
+            *self = Self::straight(self.clamp, bend);
         }
     }
 
