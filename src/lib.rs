@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 // Not as `core`: that would hide Rust's own from whoever imports everything.
-pub use {rod_contact, rod_contours, rod_core};
+pub use {rod_contact, rod_contours, rod_core, rod_reconstruct};
 
 #[doc(inline)]
 pub use rod_contact::*;
@@ -9,3 +9,5 @@ pub use rod_contact::*;
 pub use rod_contours::*;
 #[doc(inline)]
 pub use rod_core::*;
+#[doc(inline)]
+pub use rod_reconstruct::*;

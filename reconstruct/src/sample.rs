@@ -1,0 +1,29 @@
+//! What is known of one instant of a scan.
+
+use rod_core::{Pose, Reactions};
+
+/// Where the clamp was and what it felt, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time, s, where it is known.
+    pub t: Option<f64>,
+    /// The clamp.
+    pub pose: Pose,
+    /// What it felt.
+    pub reactions: Reactions,
+    /// Standard deviations of the reactions, where the sensor tells them.
+    pub sigma: Option<Reactions>,
+}
+
+impl Sample {
+    /// A sample without time and standard deviations.
+    ///
+    /// ```
+    /// use rod_core::{Pose, Reactions};
+    /// let free = rod_reconstruct::Sample::new(Pose { x: 0.0, y: 0.0, phi: 1.5 }, Reactions::default());
+    /// assert!(free.t.is_none() && free.sigma.is_none());
+    /// ```
+    pub fn new(pose: Pose, reactions: Reactions) -> Self {
+        Self { t: None, pose, reactions, sigma: None }
+    }
+}

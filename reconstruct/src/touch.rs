@@ -1,0 +1,31 @@
+//! A contact point found from reactions.
+
+use nalgebra::Matrix2;
+
+/// Where the rod touches the object, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Arc length along the rod, m.
+    pub s: f64,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Tangent angle of the contour, radians, in (-pi, pi], the solid on its left: the force on the rod is force (sin alpha,
+    /// -cos alpha).
+    pub alpha: f64,
+    /// Contact force, N, >= 0.
+    pub force: f64,
+    /// Covariance of the position (x, y), m^2; zero where nothing is known of the noise.
+    pub covariance: Matrix2<f64>,
+}
+
+impl Touch {
+    /// Standard deviation of the position across the contour, m: what displaces the contour, where an error along it
+    /// does not.
+    pub fn sigma_normal(&self) -> f64 {
+        let (sin, cos) = self.alpha.sin_cos();
+        let c = &self.covariance;
+        (sin * sin * c[(0, 0)] - 2.0 * sin * cos * c[(0, 1)] + cos * cos * c[(1, 1)]).max(0.0).sqrt()
+    }
+}
