@@ -1,5 +1,6 @@
 //! The shape of a rod under any number of point forces.
 
+use crate::agm::agm;
 use crate::error::{RodError, finite};
 use crate::loads::{clamp_cut, forces_ahead, march};
 use crate::pose::{Pose, Reactions};
@@ -164,15 +165,6 @@ impl Segment {
         let swings_back = length * p.sqrt() >= PI && excess < 0.0 && length >= PI / agm(p.sqrt(), (-excess).sqrt());
         (passes || swings_back).then(|| 2.0 * (p + excess).max(0.0).sqrt())
     }
-}
-
-/// Arithmetic-geometric mean: half the period of the pendulum is pi / agm(sqrt P, sqrt (P - M)).
-fn agm(mut a: f64, mut g: f64) -> f64 {
-    // converges quadratically: from any ratio above 1e-8 this many steps exhaust the digits
-    for _ in 0..8 {
-        (a, g) = (0.5 * (a + g), (a * g).sqrt());
-    }
-    a
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //!
 //! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts.
 //! - [`advance`], [`advance_with_sensitivities`], [`walk`]: one segment between two contacts in closed form.
+//! - [`inflection`]: where a segment is straight.
 //! - [`Elastica`]: the whole rod under any number of forces. [`GeneralElastica`] and [`Propagator`]: the same through the closed
 //!   form or through differential equations ([`Ode`]), the way for rods that vary along their length.
 //! - [`MultiPoint`]: the boundary-value problem of a rod on any number of supports, with its exact Jacobian.
@@ -15,6 +16,7 @@
 //! This crate knows no contours: supports are whatever implements [`Supports`].
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod agm;
 mod argmin_newton;
 mod basis;
 mod brent;
@@ -22,6 +24,7 @@ mod dual;
 mod elastica;
 mod error;
 mod general;
+mod inflection;
 mod linear;
 mod loads;
 mod multipoint;
@@ -41,6 +44,7 @@ pub use dual::Dual;
 pub use elastica::{Elastica, Load};
 pub use error::RodError;
 pub use general::GeneralElastica;
+pub use inflection::inflection;
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
 pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
 pub use ode::{Method, Ode};
