@@ -6,10 +6,18 @@
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod beyond;
+mod envelope;
+mod fit;
+mod known;
+#[cfg(test)]
+mod explore;
 mod label;
 mod sample;
+mod single;
 mod touch;
 
 pub use label::Label;
 pub use sample::Sample;
+pub use single::{NoContact, single};
 pub use touch::Touch;

@@ -1,6 +1,7 @@
 //! A contact point found from reactions.
 
 use nalgebra::Matrix2;
+use rod_core::Units;
 
 /// Where the rod touches the object, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +22,19 @@ pub struct Touch {
 }
 
 impl Touch {
+    /// In SI units, from dimensionless.
+    pub(crate) fn in_units(self, units: Units) -> Self {
+        let Units { length, force, .. } = units;
+        Self {
+            s: self.s * length,
+            x: self.x * length,
+            y: self.y * length,
+            alpha: self.alpha,
+            force: self.force * force,
+            covariance: self.covariance * (length * length),
+        }
+    }
+
     /// Standard deviation of the position across the contour, m: what displaces the contour, where an error along it
     /// does not.
     pub fn sigma_normal(&self) -> f64 {

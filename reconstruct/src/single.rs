@@ -1,0 +1,128 @@
+//! One contact from one sample: the rod, followed from its clamp to where it is straight (Will 2014; Merker et al. 2021,
+//! section 3), in closed form and with exact derivatives.
+
+use crate::known::{Clamp, spread};
+use crate::touch::Touch;
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix4x3, Vector2, Vector3};
+use rod_core::{Pose, Reactions, Rod, Section, inflection};
+
+/// How far beyond the tip, in lengths of the rod, or how much against the phase criterion, dimensionless, is rounding.
+const SLACK: f64 = 1e-9;
+/// How many standard deviations are noise.
+const SIGMAS: f64 = 4.0;
+
+/// Why no single contact can have caused what the clamp felt. Not a failure: an answer, with what there is of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoContact {
+    /// The clamp carries no force beyond the noise.
+    #[error("no force: the rod is free")]
+    Free,
+    /// The curvature keeps its sign however long the rod: no place is free of moment.
+    #[error("the moment vanishes nowhere along the rod")]
+    NoMomentZero,
+    /// The moment vanishes beyond the tip only, at the point given.
+    #[error("the moment vanishes at {} m, beyond the tip", .0.s)]
+    BeyondTip(Touch),
+    /// The rod at the point given leaves the object instead of pressing on it: the contact would have to pull.
+    #[error("the contact at {} m would pull at the rod", .0.s)]
+    Pulling(Touch),
+    /// Pose, reactions or covariance are no numbers.
+    #[error("pose and reactions are not finite numbers")]
+    NotFinite,
+}
+
+/// The contact that bends `rod`, clamped at `pose` (m, radians), so that its clamp feels `reactions` (N, N m), if a single
+/// one does: position, arc length, tangent angle of the contour and force, and the covariance of the position that follows
+/// from the `covariance` of (f0x, f0y, m0z), in N^2, N^2 m, N^2 m^2; zero where that is not known.
+///
+/// A = f0y, B = -f0x, kappa(0) = -m0z; the contact is where the curvature vanishes first, alpha = atan2(B, A) (Merker et
+/// al. 2021, eq. 10 and 18). Exact but for rounding: of reactions exact to rounding the point is too, 1e-13 of the rod's
+/// length unless the force almost vanishes. No allocation.
+///
+/// ```
+/// use nalgebra::Matrix3;
+/// use rod_core::{Elastica, Load, Pose, Rod};
+/// let rod = Rod::new(0.1, 6.3e-4)?; // m, N m^2
+/// let clamp = Pose { x: 0.0, y: 0.0, phi: 1.5 };
+/// let bent = Elastica::under_loads(rod.units(), clamp, &[Load { s: 0.08, force: 0.02, alpha: 1.2 }])?.0;
+/// let found = rod_reconstruct::single(&rod, clamp, bent.reactions(), &Matrix3::zeros())?;
+/// assert!((found.s - 0.08).abs() < 1e-14 && (found.x - bent.at(0.08).x).abs() < 1e-15);
+/// assert!((found.alpha - 1.2).abs() < 1e-13 && (found.force - 0.02).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`NoContact`], which is as good an answer: no single contact fits, and why.
+pub fn single(rod: &Rod, pose: Pose, reactions: Reactions, covariance: &Matrix3<f64>) -> Result<Touch, NoContact> {
+    let units = rod.units();
+    let clamp = Clamp::new(units, pose, reactions);
+    let unit = Matrix3::from_diagonal(&Vector3::new(units.force, units.force, units.moment).map(f64::recip));
+    let covariance = unit * covariance * unit;
+    if !(clamp.is_finite() && covariance.iter().all(|v| v.is_finite())) {
+        return Err(NoContact::NotFinite);
+    }
+    let found = MomentZero::of(&clamp, &covariance)?;
+    let touch = found.touch(&covariance).in_units(units);
+    let beyond = SIGMAS * spread(&found.s_by_reactions.transpose(), &covariance).x.sqrt() + SLACK;
+    if found.s > 1.0 + beyond {
+        return Err(NoContact::BeyondTip(touch));
+    }
+    let (k, gradient) = clamp.criterion();
+    let excess = SIGMAS * spread(&gradient.transpose(), &covariance).x.sqrt() + SLACK * (1.0 + found.force);
+    if k > excess { Err(NoContact::Pulling(touch)) } else { Ok(touch) }
+}
+
+/// Where the moment vanishes first, dimensionless, with derivatives by the reactions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MomentZero {
+    pub s: f64,
+    pub section: Section,
+    pub force: f64,
+    /// Tangent angle of the contour.
+    pub alpha: f64,
+    pub s_by_reactions: Vector3<f64>,
+    /// Of (x, y, phi) at this point, which moves along the rod.
+    pub by_reactions: nalgebra::Matrix3<f64>,
+    /// Of the section at this arc length.
+    pub at_s: Matrix4x3<f64>,
+}
+
+impl MomentZero {
+    /// Of a rod whose reactions have this covariance: within it they may be none.
+    pub fn of(clamp: &Clamp, covariance: &Matrix3<f64>) -> Result<Self, NoContact> {
+        let [a, b] = clamp.force();
+        let force = a.hypot(b);
+        let noise = |i: usize| SIGMAS * covariance[(i, i)].max(0.0).sqrt();
+        let r = &clamp.reactions;
+        if (0..3).all(|i| r[i].abs() <= noise(i)) {
+            return Err(NoContact::Free);
+        }
+        let start = clamp.section();
+        let s = inflection(&start, a, b).ok_or(NoContact::NoMomentZero)?;
+        let (section, gradient) = clamp.gradient_at(s);
+        let kappa_by_s = gradient.by_s[3];
+        if kappa_by_s == 0.0 || !section.x.is_finite() {
+            return Err(NoContact::NoMomentZero);
+        }
+        let at_s = gradient.by_reactions;
+        let s_by_reactions = -at_s.row(3).transpose() / kappa_by_s;
+        let slide = Vector3::new(gradient.by_s[0], gradient.by_s[1], gradient.by_s[2]);
+        let by_reactions = at_s.fixed_rows::<3>(0) + slide * s_by_reactions.transpose();
+        Ok(Self { s, section, force, alpha: b.atan2(a), s_by_reactions, by_reactions, at_s })
+    }
+
+    /// The contact there, dimensionless.
+    pub fn touch(&self, covariance: &Matrix3<f64>) -> Touch {
+        let jacobian: Matrix2x3<f64> = self.by_reactions.fixed_rows::<2>(0).into_owned();
+        let Section { x, y, .. } = self.section;
+        let covariance: Matrix2<f64> = spread(&jacobian, covariance);
+        Touch { s: self.s, x, y, alpha: self.alpha, force: self.force, covariance }
+    }
+
+    /// Normal of the contour there, into the solid.
+    pub fn normal(&self) -> Vector2<f64> {
+        let (sin, cos) = self.alpha.sin_cos();
+        Vector2::new(-sin, cos)
+    }
+}
