@@ -8,8 +8,11 @@ use std::ops::Range;
 const LEAST: usize = 8;
 /// By how much a window grows while the cubic still fits.
 const GROWTH: f64 = 1.5;
-/// How far, in standard deviations of itself, the residual sum may exceed the noise before the cubic is called unfit.
-const EXCESS: f64 = 3.0;
+/// How far, in standard deviations of themselves, the residual sum and the terms of order 4 and 5 may exceed the noise
+/// before the cubic is called unfit. The terms see a bias long before the sum does. Many windows are tried: a smaller number
+/// would call one unfit by chance.
+const EXCESS: f64 = 5.0;
+const BIAS: f64 = 4.5;
 
 /// A scan, dimensionless: path parameter (strictly increasing), clamp poses and reactions.
 #[derive(Clone, Debug, Default)]
@@ -98,18 +101,26 @@ impl Fit {
         let normal = Matrix4::from_fn(|i, j| powers[i + j]);
         let inverse = normal.cholesky()?.inverse();
         let mut coefficients = inverse * sums;
-        let mut residuals = Vector3::zeros();
+        let (mut residuals, mut fourth, mut fifth) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
         for (tau, clamp) in tau.iter().zip(&track.clamps[window.clone()]) {
             let t = (tau - centre) / half;
             let basis = Vector4::new(1.0, t, t * t, t * t * t);
             let fitted = coefficients.fixed_columns::<3>(3).tr_mul(&basis);
             let off = clamp.reactions - reference.fixed_rows::<3>(3) - fitted;
             residuals += off.component_mul(&off);
+            // Legendre's polynomials: orthogonal to the cubic, as the residuals are
+            let t2 = t * t;
+            fourth += off * ((35.0 * t2 - 30.0) * t2 + 3.0);
+            fifth += off * (((63.0 * t2 - 70.0) * t2 + 15.0) * t);
         }
         let freedom = tau.len() as f64 - 4.0;
         let found = residuals / freedom;
         let limit = |c: usize| noise.variance[c] * (1.0 + EXCESS * (2.0 * noise.long_run[c] / freedom).sqrt());
-        let fits = (0..3).all(|c| found[c] <= limit(c));
+        let biased = |c: usize| {
+            let scale = (noise.variance[c] * noise.long_run[c] * tau.len() as f64).sqrt() * 8.0;
+            fourth[c].abs() > BIAS * scale / 9.0_f64.sqrt() || fifth[c].abs() > BIAS * scale / 11.0_f64.sqrt()
+        };
+        let fits = (0..3).all(|c| found[c] <= limit(c) && !biased(c));
         for (c, value) in reference.iter().enumerate() {
             coefficients[(0, c)] += value;
         }
@@ -131,11 +142,13 @@ impl Fit {
         };
         let mut half = LEAST.min(most);
         let mut best = Self::through(track, window(half), noise)?.0;
+        let mut narrower = None;
         while half < most && best.window.len() < part.len() {
             half = ((half as f64 * GROWTH).ceil() as usize).min(most);
             match Self::through(track, window(half), noise) {
-                Some((wider, true)) => best = wider,
-                _ => break,
+                Some((wider, true)) => narrower = Some(std::mem::replace(&mut best, wider)),
+                // The last that passed may be biased by as much as its noise; a step back the bias is a sixth.
+                _ => return Some(narrower.unwrap_or(best)),
             }
         }
         Some(best)

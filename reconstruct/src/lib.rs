@@ -8,11 +8,12 @@
 
 mod beyond;
 mod envelope;
-mod fit;
-mod known;
 #[cfg(test)]
 mod explore;
+mod fit;
+mod known;
 mod label;
+mod phases;
 mod sample;
 mod single;
 mod touch;

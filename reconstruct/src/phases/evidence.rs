@@ -1,0 +1,169 @@
+//! What a place of the scan says for and against each phase.
+
+use crate::fit::Estimate;
+use crate::known::Clamp;
+use crate::label::Label;
+use crate::single::{MomentZero, NoContact};
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+/// Rounding and what a solver leaves, dimensionless, in the criterion, the arc length and the reactions.
+const FLOOR: f64 = 1e-9;
+/// Sine of the angle between the way of the point and its tangent that is taken for none: what the rates of clean
+/// data leave where the reactions steepen.
+const SINE: f64 = 1e-6;
+/// Standard deviation of the arc length, and of the force in parts of itself, from which on the length and tangent criteria say
+/// nothing: they are not linear in the noise any more.
+const BLUR: f64 = 0.05;
+/// Standard deviation of a reaction below which its noise moves the tangent criterion by its rate alone.
+const NOISY: f64 = 1e-7;
+/// Least log-likelihood of a phase at one place: one bad place must not outweigh all others.
+const LEAST: f64 = -40.0;
+/// How far the quantities spread where a phase does not bind them: forces, criterion, arc length and normal speed.
+const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.3];
+
+/// A quantity that a phase requires to vanish, and its standard deviation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quantity {
+    /// Its value.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+}
+
+impl Quantity {
+    /// Nothing is known of it.
+    pub const UNKNOWN: Self = Self { value: 0.0, sigma: f64::INFINITY };
+
+    fn new(value: f64, variance: f64, floor: f64) -> Self {
+        Self { value, sigma: (variance + floor * floor).sqrt() }
+    }
+
+    /// Value over standard deviation.
+    pub fn z(&self) -> f64 {
+        self.value / self.sigma
+    }
+
+    /// Log of the odds of "it vanishes" against "it is spread about 0 by so much": none where the noise is wider.
+    fn vanishes(&self, spread: f64) -> f64 {
+        if self.sigma.is_infinite() {
+            return 0.0;
+        }
+        let wide = self.sigma.hypot(spread);
+        (wide / self.sigma).ln() - 0.5 * (self.z() * self.z() - (self.value / wide).powi(2))
+    }
+
+    /// Log of about the probability that it is not positive.
+    fn not_positive(&self) -> f64 {
+        let z = self.z().max(0.0);
+        -0.5 * z * z
+    }
+}
+
+/// The criteria at one place of a scan, dimensionless (lengths in L, forces in EI/L^2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evidence {
+    /// The reactions f0x, f0y, m0z: all 0 where the rod is free.
+    pub force: [Quantity; 3],
+    /// Phase criterion K = m0z^2 - 2 (f0y sin phi0 + f0x cos phi0): 0 where the last contact is tangential (Merker et al.
+    /// 2021, eq. 20), negative where it is at the tip.
+    pub criterion: Quantity,
+    /// Length criterion: arc length to where the moment vanishes, less 1: 0 where the tip alone is in contact.
+    pub length: Quantity,
+    /// Tangent criterion: speed, across its own tangent, of the point that a single contact would have, per way of the
+    /// clamp: 0 where a single contact there is; at a vertex too, where the point stands still.
+    pub tangent: Quantity,
+}
+
+impl Evidence {
+    /// The criteria where the reactions and their rates are these.
+    pub(crate) fn of(estimate: &Estimate) -> Self {
+        let none = Vector3::zeros();
+        let found = MomentZero::of(&estimate.clamp, &Matrix3::zeros());
+        let tangent = found.as_ref().map_or(Quantity::UNKNOWN, |found| tangent(estimate, found));
+        Self::new(&estimate.clamp, found, tangent, |gradient| estimate.variance(gradient, &none))
+    }
+
+    /// The criteria of one sample with noise of this variance; no rates, hence no tangent criterion.
+    pub(crate) fn of_sample(clamp: &Clamp, variance: &Vector3<f64>) -> Self {
+        let found = MomentZero::of(clamp, &Matrix3::zeros());
+        Self::new(clamp, found, Quantity::UNKNOWN, |gradient| gradient.component_mul(gradient).dot(variance))
+    }
+
+    fn new(
+        clamp: &Clamp,
+        found: Result<MomentZero, NoContact>,
+        tangent: Quantity,
+        variance: impl Fn(&Vector3<f64>) -> f64,
+    ) -> Self {
+        let (k, by_reactions) = clamp.criterion();
+        let size = 1.0 + clamp.reactions.norm();
+        let length = match found {
+            Ok(found) => {
+                Quantity::new(found.s - 1.0, variance(&found.s_by_reactions), FLOOR * (1.0 + 1.0 / found.force))
+            }
+            Err(NoContact::NoMomentZero) => Quantity { value: f64::INFINITY, sigma: 1.0 },
+            Err(_) => Quantity::UNKNOWN,
+        };
+        let unit = |c: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == c)));
+        let mut evidence = Self {
+            force: [0, 1, 2].map(|c| Quantity::new(clamp.reactions[c], variance(&unit(c)), FLOOR)),
+            criterion: Quantity::new(k, variance(&by_reactions), FLOOR * size),
+            length,
+            tangent,
+        };
+        let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
+        let size = force.norm();
+        if evidence.length.sigma > BLUR || variance(&(force / size)).sqrt() > BLUR * size {
+            (evidence.length, evidence.tangent) = (Quantity::UNKNOWN, Quantity::UNKNOWN);
+        }
+        evidence
+    }
+
+    /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.
+    pub(crate) fn scores(&self) -> [f64; 5] {
+        let [force, criterion, length, tangent] = SPREAD;
+        let free = self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>();
+        let (tip, touch) = (self.criterion.not_positive(), self.criterion.vanishes(criterion));
+        let single = self.tangent.vanishes(tangent);
+        Label::ALL.map(|label| {
+            let score = match label {
+                Label::Free => free,
+                Label::A => tip + self.length.vanishes(length) + single,
+                Label::B => touch + self.length.not_positive() + single,
+                Label::BA => tip,
+                Label::BB => touch,
+            };
+            score.max(LEAST)
+        })
+    }
+}
+
+/// The normal speed of the point of the moment zero, and its standard deviation.
+fn tangent(estimate: &Estimate, found: &MomentZero) -> Quantity {
+    let speed = |clamp: &Clamp, found: &MomentZero| {
+        let (_, gradient) = clamp.gradient_at(found.s);
+        let rate = gradient.rate(&estimate.rate);
+        // the point slides along the rod so that the curvature there stays 0
+        let slide = -rate[3] / gradient.by_s[3];
+        let velocity = Vector2::new(rate[0] + gradient.by_s[0] * slide, rate[1] + gradient.by_s[1] * slide);
+        (found.normal().dot(&velocity), velocity.norm())
+    };
+    let (value, size) = speed(&estimate.clamp, found);
+    let by_rate: Vector3<f64> = found.by_reactions.fixed_rows::<2>(0).tr_mul(&found.normal());
+    // How it depends on the reactions themselves matters in noise only: a difference over one standard deviation, which is
+    // what the noise does.
+    let covariance = estimate.covariance();
+    let by_value = Vector3::from_fn(|c, _| {
+        let step = covariance[(c, c)].sqrt();
+        if step < NOISY {
+            return 0.0;
+        }
+        let mut clamp = estimate.clamp;
+        clamp.reactions[c] += step;
+        MomentZero::of(&clamp, &Matrix3::zeros())
+            .map_or(f64::INFINITY, |found| (speed(&clamp, &found).0 - value) / step)
+    });
+    let floor = FLOOR * (1.0 + 10.0 / found.force) + SINE * size;
+    let tangent = Quantity::new(value, estimate.variance(&by_value, &by_rate), floor);
+    if tangent.sigma.is_finite() { tangent } else { Quantity::UNKNOWN }
+}

@@ -1,0 +1,10 @@
+//! Contact phases from the reactions of a scan.
+
+mod automaton;
+mod border;
+mod evidence;
+mod identify;
+
+pub(crate) use automaton::Break;
+pub use evidence::{Evidence, Quantity};
+pub(crate) use identify::{Identified, identify};
