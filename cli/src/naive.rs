@@ -10,8 +10,8 @@ pub(crate) const STEP: f64 = 2.5e-4;
 /// beyond the tip: 0.22 of the length at most in the nine scans.
 const REACH: f64 = 1.5;
 const STEPS: usize = 300;
-/// The ends of a step are moved outwards by so much: where the moment vanishes at one of them (at the tip, say), rounding
-/// may put it on either side.
+/// The ends of a step are moved outwards by so much: where the moment vanishes at one of them (at the tip, say),
+/// rounding may put it on either side.
 const SLACK: f64 = 1e-9;
 
 /// A contact point as the reactions of a single contact would have it, m.

@@ -86,8 +86,8 @@ impl Paper {
         self.scans.iter().find(|scan| scan.object == object && scan.distance == distance)
     }
 
-    /// Writes the files of each scan into a folder of its own, and beside the folders the figures of all scans: phase cycles
-    /// and transitions, phase criterion, goodness of fit, contact points at one distance and at all three.
+    /// Writes the files of each scan into a folder of its own, and beside the folders the figures of all scans: phase
+    /// cycles and transitions, phase criterion, goodness of fit, contact points at one distance and at all three.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].

@@ -65,7 +65,8 @@ pub(crate) fn goodness(scans: &[Naive<'_>]) -> Result<String, FigureError> {
         let text =
             format!("areas from {LEAST} for the smallest ({:.5}) to 1 for the largest ({:.5})", range.0, range.1);
         write(root, &text, (24, size.1 - FOOT + 60), HPos::Left, BODY, MUTED)?;
-        let text = "white noise alone: the fit is worst where a reaction varies least; friction and the dynamics of snaps are not in it";
+        let text =
+            "white noise alone, no friction, no dynamics of snaps: the fit is worst where a reaction varies least";
         write(root, text, (24, size.1 - FOOT + 100), HPos::Left, BODY, MUTED)
     })
 }
@@ -84,7 +85,7 @@ fn heading(root: &Area<'_>) -> Result<(), FigureError> {
     let title = "Goodness of fit 1 − |x − r|² / |r − mean r|² (NMSE) between clean and noisy reactions";
     write(root, title, (24, 36), HPos::Left, TITLE, INK)?;
     let text = format!(
-        "simulated noise in place of the experiment: white, standard deviations {:.1} mN and {:.2} mN m, a sample every {:.2} mm in contact",
+        "simulated noise in place of the experiment: white, σ = {:.1} mN and {:.2} mN m, every {:.2} mm in contact",
         1e3 * NOISE.f0x,
         1e3 * NOISE.m0z,
         1e3 * STEP,

@@ -6,12 +6,13 @@ use std::ops::AddAssign;
 
 /// Counts of samples by their true phase and the one found.
 ///
-/// Collected from pairs (truth, found); matrices of several scans add up. Shares are between 0 and 1, and none where there
-/// is nothing to share.
+/// Collected from pairs (truth, found); matrices of several scans add up. Shares are between 0 and 1, and none where
+/// there is nothing to share.
 ///
 /// ```
 /// use rod_reconstruct::{Label, compare::Confusion};
-/// let confusion: Confusion = [(Label::A, Label::A), (Label::BA, Label::BB), (Label::B, Label::BB)].into_iter().collect();
+/// let pairs = [(Label::A, Label::A), (Label::BA, Label::BB), (Label::B, Label::BB)];
+/// let confusion: Confusion = pairs.into_iter().collect();
 /// assert_eq!(confusion.accuracy(), Some(1.0 / 3.0));
 /// assert_eq!(confusion.several_recall(), Some(1.0)); // BA was taken for BB: several contacts in both
 /// assert_eq!(confusion.single_kept(), Some(0.5)); // B was taken for BB: a good point lost
@@ -64,8 +65,8 @@ impl Confusion {
         share(self.sum(|truth, found| truth.several() && found.several()), self.sum(|_, found| found.several()))
     }
 
-    /// Share of the samples with a single contact (A, B) that were found to have one, whichever: the good points that are
-    /// kept.
+    /// Share of the samples with a single contact (A, B) that were found to have one, whichever: the good points that
+    /// are kept.
     pub fn single_kept(&self) -> Option<f64> {
         let single = |label: Label| matches!(label, Label::A | Label::B);
         share(self.sum(|truth, found| single(truth) && single(found)), self.sum(|truth, _| single(truth)))
@@ -109,7 +110,8 @@ const NAME: usize = 14;
 const COUNT: usize = 9;
 const SHARE: usize = 11;
 
-/// A table: a row for each true phase, a column for each found one, recall and precision at the edges, the summary below.
+/// A table: a row for each true phase, a column for each found one, recall and precision at the edges, the summary
+/// below.
 impl fmt::Display for Confusion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:<NAME$}", "truth \\ found")?;

@@ -41,7 +41,8 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// Of these signed distances. A share p of them lies below the p (n - 1)-th in order, interpolated between neighbours.
+    /// Of these signed distances. What a share p of n distances does not exceed is number p (n - 1) of them in order,
+    /// counted from 0 and interpolated between neighbours.
     ///
     /// None without distances, and where one of them is not finite.
     ///
@@ -73,7 +74,7 @@ impl Deviation {
     }
 }
 
-/// The value below which this share of them lies; they are in order and there is at least one.
+/// The value that this share of them does not exceed; they are in order and there is at least one.
 fn quantile(ordered: &[f64], share: f64) -> f64 {
     let last = ordered.len() - 1;
     let place = share * last as f64;

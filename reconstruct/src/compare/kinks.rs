@@ -41,9 +41,10 @@ pub struct KinkScore {
 impl KinkScore {
     /// Kinks found at these positions against those that are there, in m (or any other unit, the same for all).
     ///
-    /// Each is matched at most once: first the pair that is nearest, then the nearest of the rest, and so on, as long as
-    /// they are at most `margin` apart. Of pairs equally far apart the one with the smaller true, then the smaller found
-    /// position comes first, so that the order of the lists does not matter. Positions that are not finite match nothing.
+    /// Each is matched at most once: first the pair that is nearest, then the nearest of the rest, and so on, as long
+    /// as they are at most `margin` apart. Of pairs equally far apart the one with the smaller true, then the smaller
+    /// found position comes first, so that the order of the lists does not matter. Positions that are not finite match
+    /// nothing.
     pub fn of(found: &[f64], truth: &[f64], margin: f64) -> Self {
         let mut pairs: Vec<(usize, usize)> = (0..truth.len())
             .flat_map(|i| (0..found.len()).map(move |j| (i, j)))
