@@ -7,7 +7,7 @@ use vibrissa::{Pose, Reactions, Rod, Section, State, Sweep, advance, find_root, 
 /// Clamp travel between the states that are turned back, m: a quarter of what is reported, for dense rows of points.
 pub(crate) const STEP: f64 = 2.5e-4;
 /// How far along the rod a contact is looked for, in its length, and in how many steps. Two contacts may look like one
-/// beyond the tip: 0.22 of the length at most in the nine scans.
+/// beyond the tip; those of the nine scans are all found.
 const REACH: f64 = 1.5;
 const STEPS: usize = 300;
 /// The ends of a step are moved outwards by so much: where the moment vanishes at one of them (at the tip, say),
