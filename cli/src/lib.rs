@@ -6,6 +6,8 @@ mod cycle;
 mod error;
 mod figure;
 mod interval;
+mod naive;
+mod noise;
 mod output;
 mod paper;
 mod profile;

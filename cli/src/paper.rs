@@ -1,5 +1,6 @@
 //! The nine scans of Merker et al. (2021): three objects at three distances.
 
+use crate::naive::Naive;
 use crate::{Error, Scan, Scene, Staged, figure};
 use rayon::prelude::*;
 use std::path::Path;
@@ -85,16 +86,24 @@ impl Paper {
         self.scans.iter().find(|scan| scan.object == object && scan.distance == distance)
     }
 
-    /// Writes the files of each scan into a folder of its own, phase_cycles.svg and criterion.svg beside them.
+    /// Writes the files of each scan into a folder of its own, and beside the folders the figures of all scans: phase
+    /// cycles and transitions, phase criterion, goodness of fit, contact points at one distance and at all three.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
     pub fn write(&self, staged: &Staged) -> Result<(), Error> {
         self.scans.par_iter().try_for_each(|scan| scan.scan.write(staged, Path::new(&scan.scan.scene.name)))?;
-        let middle: Vec<&Scan> = self.scans.iter().filter(|scan| scan.distance == 40).map(|scan| &scan.scan).collect();
-        for (name, figure) in
-            [("phase_cycles.svg", figure::cycles(self)?), ("criterion.svg", figure::criterion(&middle)?)]
-        {
+        let naive: Vec<Naive<'_>> = self.scans.par_iter().map(Naive::of).collect::<Result<_, Error>>()?;
+        let middle: Vec<&Naive<'_>> = naive.iter().filter(|scan| scan.scan.distance == 40).collect();
+        let middle_scans: Vec<&Scan> = middle.iter().map(|scan| &scan.scan.scan).collect();
+        for (name, figure) in [
+            ("goodness_of_fit.svg", figure::goodness(&naive)?),
+            ("contact_points.svg", figure::contact_points(&middle)?),
+            ("criterion.svg", figure::criterion(&middle_scans)?),
+            ("phase_cycles.svg", figure::cycles(self)?),
+            ("phase_diagram.svg", figure::transitions(self.scans.iter().map(|scan| &scan.scan))?),
+            ("distances.svg", figure::distances(&naive)?),
+        ] {
             staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
         }
         Ok(())

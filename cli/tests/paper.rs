@@ -5,6 +5,7 @@ mod common;
 
 use common::{complaint, vibrissa};
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn the_nine_scans_give_the_phases_of_the_paper() {
@@ -36,4 +37,44 @@ fn the_nine_scans_give_the_phases_of_the_paper() {
     assert_eq!(cycles.matches(", as in the paper").count(), 9);
     let criterion = fs::read_to_string(out.join("criterion.svg")).unwrap();
     assert!(["O1_q40", "O2_q40", "O3_q40"].iter().all(|name| criterion.contains(name)));
+
+    let goodness = texts(&out.join("goodness_of_fit.svg"));
+    assert!(goodness.iter().any(|text| text.starts_with("simulated noise in place of the experiment")), "{goodness:?}");
+    let fits: Vec<f64> = goodness.iter().filter_map(|text| text.parse().ok()).collect();
+    assert_eq!(fits.len(), 27);
+    assert!(fits.iter().all(|fit| (0.99..1.0).contains(fit)), "{fits:?}");
+
+    let points = texts(&out.join("contact_points.svg"));
+    for object in ["O1, q = 40 mm", "O2, q = 40 mm", "O3, q = 40 mm", "true contour", "x in mm", "y in mm"] {
+        assert!(points.iter().any(|text| text == object), "{object} is not in {points:?}");
+    }
+    let errors: Vec<f64> = points.iter().filter_map(|text| number_between(text, "contact, ", " mm with two")).collect();
+    assert!(errors.len() == 3 && errors.iter().all(|error| (4.0..7.0).contains(error)), "{errors:?}");
+    let clean = points.iter().filter_map(|text| number_between(text, "largest error ", " mm with one"));
+    assert!(clean.filter(|error| *error < 1e-9).count() == 3, "{points:?}");
+
+    let diagram = texts(&out.join("phase_diagram.svg"));
+    assert!(["free", "A", "B", "BA", "BB"].iter().all(|phase| diagram.iter().any(|text| text == phase)), "{diagram:?}");
+    let mut counts: Vec<u32> = diagram.iter().filter_map(|text| text.parse().ok()).collect();
+    counts.sort_unstable();
+    // The steps of three cycles C1, two C2, four C3: free A, A free, A B, B A, B BB, BB B, BB BA, BA B, and A BA, of
+    // which one is a touch and three are snaps.
+    assert_eq!(counts, [1, 2, 3, 3, 5, 6, 9, 9, 9, 13]);
+
+    let distances = texts(&out.join("distances.svg"));
+    for text in ["q = 20 mm", "q = 40 mm", "q = 60 mm", "(a) O1", "(f) O3", "y − y0 in mm", "y in mm"] {
+        assert!(distances.iter().any(|found| found == text), "{text} is not in {distances:?}");
+    }
+}
+
+/// The texts of a drawing, in order.
+fn texts(file: &Path) -> Vec<String> {
+    let drawing = fs::read_to_string(file).unwrap();
+    let texts = drawing.split("<text").skip(1).map(|text| text.split_once('>').unwrap().1.split_once('<').unwrap().0);
+    texts.map(|text| text.trim().to_owned()).collect()
+}
+
+/// The number between two parts of a text.
+fn number_between(text: &str, before: &str, after: &str) -> Option<f64> {
+    text.split_once(before)?.1.split_once(after)?.0.parse().ok()
 }

@@ -32,6 +32,17 @@ pub enum NoContact {
     NotFinite,
 }
 
+impl NoContact {
+    /// The point where the moment vanishes all the same, if it does: what a reconstruction that knows single contacts only would
+    /// take for the contact.
+    pub fn touch(&self) -> Option<Touch> {
+        match self {
+            Self::BeyondTip(touch) | Self::Pulling(touch) => Some(*touch),
+            _ => None,
+        }
+    }
+}
+
 /// The contact that bends `rod`, clamped at `pose` (m, radians), so that its clamp feels `reactions` (N, N m), if a single
 /// one does: position, arc length, tangent angle of the contour and force, and the covariance of the position that follows
 /// from the `covariance` of (f0x, f0y, m0z), in N^2, N^2 m, N^2 m^2; zero where that is not known.

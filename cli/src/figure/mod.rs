@@ -4,10 +4,14 @@
 
 mod abscissa;
 mod canvas;
+mod cloud;
+mod contact_points;
 mod contour;
 mod criterion;
 mod cycles;
+mod distances;
 mod elasticae;
+mod goodness;
 mod labels;
 mod legend;
 mod line;
@@ -17,9 +21,14 @@ mod plane;
 mod profile;
 mod sweep;
 mod trace;
+mod transitions;
 
 pub use canvas::FigureError;
+pub(crate) use contact_points::contact_points;
 pub(crate) use criterion::criterion;
 pub(crate) use cycles::cycles;
+pub(crate) use distances::distances;
+pub(crate) use goodness::goodness;
 pub(crate) use profile::profile;
 pub(crate) use sweep::sweep;
+pub(crate) use transitions::transitions;

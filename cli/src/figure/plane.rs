@@ -34,12 +34,22 @@ impl Window {
 
     /// Its axes, which fill `area`, with about so many numbers on x and y.
     pub fn chart<'a, 'b>(&self, area: &Area<'b>, numbers: (usize, usize)) -> Result<Chart<'a, 'b>, FigureError> {
+        self.chart_called(area, numbers, ("x in mm", "y in mm"))
+    }
+
+    /// The same with other names for x and y.
+    pub fn chart_called<'a, 'b>(
+        &self,
+        area: &Area<'b>,
+        numbers: (usize, usize),
+        names: (&str, &str),
+    ) -> Result<Chart<'a, 'b>, FigureError> {
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
             .set_label_area_size(LabelAreaPosition::Left, LEFT)
             .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
             .build_cartesian_2d(self.x.clone(), self.y.clone())?;
-        axes(&mut chart, numbers, ("x in mm", "y in mm"))?;
+        axes(&mut chart, numbers, names)?;
         Ok(chart)
     }
 }
