@@ -1,7 +1,8 @@
 use crate::envelope::touches;
-use crate::fit::{Fit, Noise, Track};
+use crate::fit::{Fit, Noise};
 use crate::known::Clamp;
 use crate::single::MomentZero;
+use crate::track::Track;
 use nalgebra::{Matrix3, Vector3};
 use rod_contact::{ClampPath, Item, State, Sweep};
 use rod_contours::{Composite, Parabola};
@@ -352,6 +353,114 @@ fn identification() {
                 events
                     .iter()
                     .map(|e| format!("{:.5} {}", e.0, e.1.split(' ').nth(1).unwrap()))
+                    .collect::<Vec<_>>()
+                    .join(" ")
+            );
+        }
+    }
+}
+
+#[test]
+#[ignore]
+fn whole() {
+    let sigma: f64 = std::env::var("SIGMA").unwrap_or("0".into()).parse().unwrap();
+    let rho: f64 = std::env::var("RHO").unwrap_or("0".into()).parse().unwrap();
+    let mut seed: u64 = std::env::var("SEED").unwrap_or("1".into()).parse().unwrap();
+    use rod_contours::Contour;
+    let rod = Rod::new(1.0, 1.0).unwrap();
+    for o in 0..3 {
+        for q in [0.2, 0.4, 0.6] {
+            let (states, events, object) = scan(o, q, 2e-5);
+            let mut gauss = || {
+                let mut s = 0.0;
+                for _ in 0..12 {
+                    seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                    s += (seed >> 11) as f64 / (1u64 << 53) as f64;
+                }
+                s - 6.0
+            };
+            let mut ar = Vector3::zeros();
+            let samples: Vec<crate::Sample> = states
+                .iter()
+                .map(|s| {
+                    ar = ar * rho
+                        + Vector3::new(gauss() * 0.04, gauss() * 0.04, gauss() * 0.0095) * f64::sqrt(1.0 - rho * rho);
+                    let mut r = s.reactions;
+                    r.f0x += ar.x * sigma;
+                    r.f0y += ar.y * sigma;
+                    r.m0z += ar.z * sigma;
+                    crate::Sample::new(s.pose, r)
+                })
+                .collect();
+            let t0 = std::time::Instant::now();
+            let found = crate::reconstruct(&rod, &samples, &crate::Settings::default()).unwrap();
+            let el = t0.elapsed();
+            let (mut wrong, mut several, mut none) = (0, 0, 0);
+            let mut errors = vec![];
+            let mut worst = (0.0, 0);
+            for (i, (r, st)) in found.readings.iter().zip(&states).enumerate() {
+                let p = st.phase();
+                let truth = crate::Label::of(p.contacts, p.tip);
+                if truth != r.label {
+                    wrong += 1;
+                    if truth.several() != r.label.several() {
+                        several += 1
+                    }
+                }
+                if !r.label.several()
+                    && !truth.several()
+                    && r.label != crate::Label::Free
+                    && truth != crate::Label::Free
+                {
+                    match r.touch {
+                        Ok(t) => {
+                            let e = object.closest(t.x, t.y).gap.abs();
+                            if e > worst.0 {
+                                worst = (e, i)
+                            }
+                            errors.push(e)
+                        }
+                        Err(_) => none += 1,
+                    }
+                }
+            }
+            errors.sort_by(f64::total_cmp);
+            let n = errors.len();
+            println!(
+                "O{o} q{q} wrong {wrong} ({:.3} %) several {several} none {none} | points med {:.1e} 95 {:.1e} max {:.1e} at {:.4} | noise {:.1e} {:.2} {:.2} m {:.1e} | {el:?}",
+                100.0 * wrong as f64 / states.len() as f64,
+                errors[n / 2],
+                errors[n * 95 / 100],
+                errors[n - 1],
+                0.8 - states[worst.1].pose.x,
+                found.noise[0].sigma,
+                found.noise[0].lag1,
+                found.noise[0].long_run,
+                found.noise[2].sigma
+            );
+            println!(
+                "   {}",
+                found
+                    .runs
+                    .iter()
+                    .map(|(r, l)| format!("{l}@{:.5}", 0.8 - states[*r].pose.x))
+                    .collect::<Vec<_>>()
+                    .join(" ")
+            );
+            println!(
+                "   {}",
+                events
+                    .iter()
+                    .map(|e| format!("{:.5} {}", e.0, e.1.split(' ').nth(1).unwrap()))
+                    .collect::<Vec<_>>()
+                    .join(" ")
+            );
+            println!(
+                "   kinks {}",
+                found
+                    .kinks
+                    .iter()
+                    .map(|k| format!("{:.5} ({:?} {:.0})", k.tau, k.kind, k.score))
                     .collect::<Vec<_>>()
                     .join(" ")
             );

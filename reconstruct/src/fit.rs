@@ -1,9 +1,13 @@
 //! Local cubics through the reactions: values, rates and their covariance, from a part of a scan without transitions.
 
 use crate::known::Clamp;
+use crate::noise_estimate::ChannelNoise;
+use crate::track::Track;
 use nalgebra::{Matrix4, SMatrix, Vector3, Vector4};
 use std::ops::Range;
 
+/// Least standard deviation of a sample, dimensionless: what solver and file leave of it.
+const ROUNDING: f64 = 1e-13;
 /// Samples on both sides of a place that the smallest window takes.
 const LEAST: usize = 8;
 /// By how much a window grows while the cubic still fits.
@@ -14,19 +18,22 @@ const GROWTH: f64 = 1.5;
 const EXCESS: f64 = 5.0;
 const BIAS: f64 = 4.5;
 
-/// A scan, dimensionless: path parameter (strictly increasing), clamp poses and reactions.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Track {
-    pub tau: Vec<f64>,
-    pub clamps: Vec<Clamp>,
-}
-
 /// Noise of one sample, dimensionless: variance, and by how much that of long means exceeds what independent samples
 /// would give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Noise {
     pub variance: Vector3<f64>,
     pub long_run: Vector3<f64>,
+}
+
+impl Noise {
+    /// From what is known of each channel. Rounding stays.
+    pub fn new(channels: &[ChannelNoise; 3]) -> Self {
+        Self {
+            variance: Vector3::from_fn(|c, _| channels[c].sigma.max(ROUNDING).powi(2)),
+            long_run: Vector3::from_fn(|c, _| channels[c].long_run.max(1.0)),
+        }
+    }
 }
 
 /// A cubic through the samples of a window.

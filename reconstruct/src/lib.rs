@@ -8,19 +8,29 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod beyond;
+mod bound;
 pub mod compare;
 mod envelope;
 #[cfg(test)]
 mod explore;
 mod fit;
+pub mod kink;
 mod known;
 mod label;
+pub mod noise_estimate;
 mod phases;
+mod reconstruction;
 mod sample;
+mod several;
 mod single;
 mod touch;
+mod track;
 
 pub use label::Label;
+pub use phases::{Basis, Evidence, Quantity};
+pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
 pub use sample::Sample;
+pub use several::Unresolved;
 pub use single::{NoContact, single};
 pub use touch::Touch;
+pub use track::Fault;

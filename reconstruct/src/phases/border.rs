@@ -1,8 +1,9 @@
 //! Where A and B meet: the one transition at which the reactions hardly break.
 
 use super::evidence::Evidence;
-use crate::fit::{Noise, Track};
+use crate::fit::Noise;
 use crate::known::Clamp;
+use crate::track::Track;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use std::ops::Range;
 

@@ -5,6 +5,8 @@ use crate::known::Clamp;
 use crate::label::Label;
 use crate::single::{MomentZero, NoContact};
 use nalgebra::{Matrix3, Vector2, Vector3};
+use serde::Serialize;
+use std::fmt;
 
 /// Rounding and what a solver leaves, dimensionless, in the criterion, the arc length and the reactions.
 const FLOOR: f64 = 1e-9;
@@ -56,6 +58,34 @@ impl Quantity {
     fn not_positive(&self) -> f64 {
         let z = self.z().max(0.0);
         -0.5 * z * z
+    }
+}
+
+/// What a label rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Basis {
+    /// The size of the reactions.
+    Force,
+    /// The phase criterion K (Merker et al. 2021, eq. 20).
+    Criterion,
+    /// The arc length to where the moment vanishes.
+    Length,
+    /// The direction in which the reconstructed point moves.
+    Tangent,
+    /// Kinks and the phase diagram: what lies before and after.
+    Diagram,
+}
+
+impl fmt::Display for Basis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Force => "force",
+            Self::Criterion => "criterion",
+            Self::Length => "length",
+            Self::Tangent => "tangent",
+            Self::Diagram => "diagram",
+        })
     }
 }
 
@@ -119,22 +149,39 @@ impl Evidence {
         evidence
     }
 
-    /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.
-    pub(crate) fn scores(&self) -> [f64; 5] {
+    /// What each criterion says of a label: logs of likelihoods, up to constants common to all labels.
+    fn terms(&self, label: Label) -> [(Basis, f64); 4] {
         let [force, criterion, length, tangent] = SPREAD;
-        let free = self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>();
         let (tip, touch) = (self.criterion.not_positive(), self.criterion.vanishes(criterion));
         let single = self.tangent.vanishes(tangent);
-        Label::ALL.map(|label| {
-            let score = match label {
-                Label::Free => free,
-                Label::A => tip + self.length.vanishes(length) + single,
-                Label::B => touch + self.length.not_positive() + single,
-                Label::BA => tip,
-                Label::BB => touch,
-            };
-            score.max(LEAST)
-        })
+        let [free, k, s, v] = match label {
+            Label::Free => [self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>(), 0.0, 0.0, 0.0],
+            Label::A => [0.0, tip, self.length.vanishes(length), single],
+            Label::B => [0.0, touch, self.length.not_positive(), single],
+            Label::BA => [0.0, tip, 0.0, 0.0],
+            Label::BB => [0.0, touch, 0.0, 0.0],
+        };
+        [(Basis::Force, free), (Basis::Criterion, k), (Basis::Length, s), (Basis::Tangent, v)]
+    }
+
+    /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.
+    pub(crate) fn scores(&self) -> [f64; 5] {
+        Label::ALL.map(|label| self.terms(label).iter().map(|term| term.1).sum::<f64>().max(LEAST))
+    }
+
+    /// What speaks for this label against the next best: one of the criteria, or, where these hardly tell the two apart,
+    /// what lies before and after.
+    pub fn basis(&self, label: Label) -> Basis {
+        let scores = self.scores();
+        let others = Label::ALL.into_iter().filter(|other| *other != label);
+        let Some(other) = others.max_by(|u, v| scores[*u as usize].total_cmp(&scores[*v as usize])) else {
+            return Basis::Diagram;
+        };
+        let gains = self.terms(label).into_iter().zip(self.terms(other)).map(|(own, their)| (own.0, own.1 - their.1));
+        match gains.max_by(|u, v| u.1.total_cmp(&v.1)) {
+            Some((basis, gain)) if gain > 1.0 && scores[label as usize] >= scores[other as usize] => basis,
+            _ => Basis::Diagram,
+        }
     }
 }
 

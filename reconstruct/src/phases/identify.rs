@@ -3,8 +3,9 @@
 use super::automaton::{Break, Place, likeliest};
 use super::border::border;
 use super::evidence::Evidence;
-use crate::fit::{Fit, Noise, Track};
+use crate::fit::{Fit, Noise};
 use crate::label::Label;
+use crate::track::Track;
 use std::ops::Range;
 
 /// A cubic has four coefficients: a window tells about three independent rates.

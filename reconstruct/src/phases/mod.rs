@@ -6,5 +6,5 @@ mod evidence;
 mod identify;
 
 pub(crate) use automaton::Break;
-pub use evidence::{Evidence, Quantity};
+pub use evidence::{Basis, Evidence, Quantity};
 pub(crate) use identify::{Identified, identify};

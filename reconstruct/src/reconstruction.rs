@@ -1,0 +1,335 @@
+//! A whole scan: labels, contact points, and where there are none, why.
+
+use crate::bound::bound;
+use crate::fit::Noise;
+use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
+use crate::label::Label;
+use crate::noise_estimate::{ChannelNoise, estimate};
+use crate::phases::{Break, Evidence, Identified, identify};
+use crate::sample::Sample;
+use crate::several::{Limits, Neighbour, Piece, Unresolved, resolve};
+use crate::single::NoContact;
+use crate::touch::Touch;
+use crate::track::{Fault, Track};
+use nalgebra::Matrix3;
+use rod_core::{Rod, Units};
+
+/// Fewest usable samples of a scan.
+const FEWEST: usize = 20;
+/// Standard deviation of a reaction, dimensionless, below which the samples themselves are better than a fit through
+/// them.
+const CLEAN: f64 = 1e-9;
+
+/// How a scan is reconstructed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Noise of f0x, f0y (N) and m0z (N m), where it is known better than from the scan itself.
+    pub noise: Option<[ChannelNoise; 3]>,
+    /// False alarms per scan that the search for kinks may give.
+    pub false_alarms: f64,
+    /// Largest standard deviation of a contact point across the contour, in lengths of the rod: beyond, there is none.
+    pub largest_sigma: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { noise: None, false_alarms: KinkOptions::default().false_alarms, largest_sigma: 0.02 }
+    }
+}
+
+/// Why a scan cannot be reconstructed at all.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReconstructError {
+    /// Too few samples.
+    #[error(
+        "{usable} usable samples of {samples}, expected at least {fewest}: along one path, each beyond the one before"
+    )]
+    TooFew {
+        /// How many there are of use.
+        usable: usize,
+        /// How many there are.
+        samples: usize,
+        /// The least number.
+        fewest: usize,
+    },
+    /// A setting that is none.
+    #[error("{what} is {value}, expected a positive, finite number")]
+    Setting {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// Why there is no contact point.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Reason {
+    /// The rod touches nothing.
+    #[error("the rod is free")]
+    Free,
+    /// The sample is of no use.
+    #[error("{0}")]
+    Fault(#[from] Fault),
+    /// No single contact fits, though the label says there is one.
+    #[error("{0}")]
+    NoContact(#[from] NoContact),
+    /// The point is known no better than this, m.
+    #[error("the point is uncertain by {sigma:.1e} m across the contour")]
+    TooNoisy {
+        /// Standard deviation across the contour, m.
+        sigma: f64,
+    },
+    /// Of several contacts this one is not resolved.
+    #[error("several contacts: {0}")]
+    Several(#[from] Unresolved),
+}
+
+/// The answer to one sample, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// The phase.
+    pub label: Label,
+    /// By how much the probability of the label exceeds that of the next best one, 0 to 1.
+    pub margin: f64,
+    /// The contact, or the first of several.
+    pub touch: Result<Touch, Reason>,
+    /// The second of several; none where the label is of a single contact or none.
+    pub second: Option<Result<Touch, Reason>>,
+    /// Where its evidence is.
+    place: usize,
+}
+
+/// What a scan says of the object.
+#[derive(Clone, Debug)]
+pub struct Reconstruction {
+    /// One a sample, in order.
+    pub readings: Vec<Reading>,
+    /// Runs of samples with one label: the number of the first sample, and the label.
+    pub runs: Vec<(usize, Label)>,
+    /// Kinks and jumps of the reactions: number of the first sample after each.
+    pub kinks: Vec<Kink>,
+    /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
+    pub noise: [ChannelNoise; 3],
+    evidence: Vec<Evidence>,
+}
+
+impl Reconstruction {
+    /// The criteria about a sample, dimensionless; none for one that is of no use.
+    pub fn evidence(&self, sample: usize) -> Option<&Evidence> {
+        self.readings.get(sample).and_then(|reading| self.evidence.get(reading.place))
+    }
+}
+
+/// Tells from the reactions of a scan alone in which phase each sample was and where the rod touched the object. The samples
+/// go along one path of the clamp; those that are no numbers, repeat a pose or turn back are left out, with the reason.
+///
+/// Kinks and jumps cut the scan into parts; in each, local cubics give reactions and their rates with covariance; the
+/// criteria from them (phase criterion, length, tangent: see [`Evidence`]) and the phase diagram of Merker et al. (2021,
+/// fig. 8b) give the labels; single contacts follow in closed form, several by the envelope of the scan.
+///
+/// Accuracy: of noise-free samples single contact points are exact to 1e-11 of the rod's length. In noise, each comes with
+/// its covariance.
+///
+/// # Errors
+/// [`ReconstructError`].
+pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
+    for (what, value) in [("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(ReconstructError::Setting { what, value });
+        }
+    }
+    let units = rod.units();
+    let (track, places) = Track::new(rod, samples);
+    if track.len() < FEWEST {
+        return Err(ReconstructError::TooFew { usable: track.len(), samples: samples.len(), fewest: FEWEST });
+    }
+    let channels = [0, 1, 2].map(|c| track.clamps.iter().map(|clamp| clamp.reactions[c]).collect::<Vec<f64>>());
+    let size = [units.force, units.force, units.moment];
+    let found = match settings.noise {
+        Some(noise) => std::array::from_fn(|c| ChannelNoise { sigma: noise[c].sigma / size[c], ..noise[c] }),
+        None => noise_of(&track, &channels, samples, size),
+    };
+    let [f0x, f0y, m0z] = &channels;
+    let options = KinkOptions { false_alarms: settings.false_alarms, ..KinkOptions::default() };
+    let kinks = find_kinks(&track.tau, [f0x, f0y, m0z], &found, options);
+    let noise = Noise::new(&found);
+    let breaks: Vec<Break> = kinks
+        .iter()
+        .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
+        .collect();
+    let identified = identify(&track, &noise, &breaks);
+    let usable = Answers { track: &track, noise: &noise, identified: &identified, units, settings }.all(&breaks);
+
+    let mut numbers = Vec::with_capacity(track.len());
+    let mut readings = Vec::with_capacity(samples.len());
+    for (number, place) in places.iter().enumerate() {
+        match place {
+            Ok(index) => {
+                numbers.push(number);
+                readings.push(usable[*index]);
+            }
+            Err(fault) => {
+                let label = readings.last().map_or(Label::Free, |before: &Reading| before.label);
+                let touch = Err(Reason::Fault(*fault));
+                readings.push(Reading { label, margin: 0.0, touch, second: None, place: usize::MAX });
+            }
+        }
+    }
+    let runs =
+        identified.runs.iter().filter(|run| !run.0.is_empty()).map(|run| (numbers[run.0.start], run.1)).collect();
+    let slope = |kink: &Kink, c: usize| if kink.kind == KinkKind::Kink { size[c] / units.length } else { size[c] };
+    let in_units = |kink: &Kink| Kink {
+        tau: kink.tau * units.length,
+        sigma_tau: kink.sigma_tau * units.length,
+        next: numbers[kink.next.min(numbers.len() - 1)],
+        change: std::array::from_fn(|c| kink.change[c] * slope(kink, c)),
+        sigma: std::array::from_fn(|c| kink.sigma[c] * slope(kink, c)),
+        ..*kink
+    };
+    Ok(Reconstruction {
+        readings,
+        runs,
+        kinks: kinks.iter().map(in_units).collect(),
+        noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
+        evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
+    })
+}
+
+/// The noise of the samples: what the sensor says of itself, where it does, with the correlation that the scan shows.
+fn noise_of(track: &Track, channels: &[Vec<f64>; 3], samples: &[Sample], size: [f64; 3]) -> [ChannelNoise; 3] {
+    let told: Option<Vec<_>> = samples.iter().map(|sample| sample.sigma).collect();
+    std::array::from_fn(|c| {
+        let found = estimate(&track.tau, &channels[c]);
+        let told = told.as_ref().filter(|told| !told.is_empty()).map(|told| {
+            let squares =
+                told.iter().map(|sigma| [sigma.f0x, sigma.f0y, sigma.m0z][c].powi(2)).filter(|v| v.is_finite());
+            (squares.sum::<f64>() / told.len() as f64).sqrt() / size[c]
+        });
+        ChannelNoise { sigma: told.unwrap_or(found.sigma), ..found }
+    })
+}
+
+struct Answers<'a> {
+    track: &'a Track,
+    noise: &'a Noise,
+    identified: &'a Identified,
+    units: Units,
+    settings: &'a Settings,
+}
+
+impl Answers<'_> {
+    /// The answers to all usable samples.
+    fn all(&self, breaks: &[Break]) -> Vec<Reading> {
+        let mut readings = Vec::with_capacity(self.track.len());
+        let runs = &self.identified.runs;
+        let mut next = 0;
+        while next < runs.len() {
+            if runs[next].1.several() {
+                let many = runs[next..].iter().take_while(|run| run.1.several()).count();
+                self.several(next..next + many, breaks, &mut readings);
+                next += many;
+            } else {
+                let (range, label) = runs[next].clone();
+                let mut nodes = Nearest::new(self, label, range.start);
+                readings.extend(range.map(|index| self.single(&mut nodes, index, label)));
+                next += 1;
+            }
+        }
+        readings
+    }
+
+    fn reading(&self, nodes: &mut Nearest<'_>, index: usize, label: Label, touch: Result<Touch, Reason>) -> Reading {
+        let place = nodes.of(index);
+        let margin = match self.identified.labels[place] {
+            (found, margin) if found == label => margin,
+            _ => 0.0,
+        };
+        Reading { label, margin, touch, second: None, place }
+    }
+
+    fn single(&self, nodes: &mut Nearest<'_>, index: usize, label: Label) -> Reading {
+        if label == Label::Free {
+            return self.reading(nodes, index, label, Err(Reason::Free));
+        }
+        let (clamp, covariance) = if self.noise.variance.max() < CLEAN * CLEAN {
+            (self.track.clamps[index], Matrix3::from_diagonal(&self.noise.variance))
+        } else {
+            let estimate = self.identified.nodes[nodes.of(index)].fit.at(self.track.tau[index]);
+            (estimate.clamp, estimate.covariance())
+        };
+        let touch = bound(&clamp, &covariance, label).map_err(Reason::NoContact).and_then(|touch| self.sure(touch));
+        self.reading(nodes, index, label, touch)
+    }
+
+    /// The point in SI units, if it is known well enough.
+    fn sure(&self, touch: Touch) -> Result<Touch, Reason> {
+        let sigma = touch.sigma_normal();
+        let touch = touch.in_units(self.units);
+        if sigma <= self.settings.largest_sigma {
+            Ok(touch)
+        } else {
+            Err(Reason::TooNoisy { sigma: sigma * self.units.length })
+        }
+    }
+
+    /// A series of runs with several contacts.
+    fn several(&self, series: std::ops::Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
+        let runs = &self.identified.runs;
+        let pieces: Vec<Piece> =
+            runs[series.clone()].iter().map(|(range, label)| Piece { range: range.clone(), label: *label }).collect();
+        // a phase on the other side of a jump tells nothing of this one
+        let jumps = |index: usize| breaks.iter().any(|here| here.jump && here.index == index);
+        let neighbour = |run: Option<&(std::ops::Range<usize>, Label)>, border: usize| {
+            let (range, label) = run.filter(|run| run.1 != Label::Free && !jumps(border))?;
+            Some(Neighbour { range: range.clone(), label: *label })
+        };
+        let before =
+            neighbour(series.start.checked_sub(1).and_then(|index| runs.get(index)), runs[series.start].0.start);
+        let after = neighbour(runs.get(series.end), runs[series.end - 1].0.end);
+        let pairs = resolve(self.track, self.noise, &pieces, before, after, &Limits::default());
+        let mut pairs = pairs.into_iter();
+        for Piece { range, label } in pieces {
+            let mut nodes = Nearest::new(self, label, range.start);
+            for (index, pair) in range.zip(pairs.by_ref()) {
+                let sure = |found: Result<Touch, Unresolved>| {
+                    found.map_err(Reason::Several).and_then(|touch| self.sure(touch))
+                };
+                let reading = self.reading(&mut nodes, index, label, sure(pair.first));
+                readings.push(Reading { second: Some(sure(pair.second)), ..reading });
+            }
+        }
+    }
+}
+
+/// The nearest place of a label, for samples in order.
+struct Nearest<'a> {
+    identified: &'a Identified,
+    label: Label,
+    at: usize,
+}
+
+impl<'a> Nearest<'a> {
+    /// For samples from `start` on.
+    fn new(answers: &Answers<'a>, label: Label, start: usize) -> Self {
+        let nodes = &answers.identified.nodes;
+        let at = nodes.partition_point(|node| node.index < start).min(nodes.len().saturating_sub(1));
+        Self { identified: answers.identified, label, at }
+    }
+
+    fn of(&mut self, index: usize) -> usize {
+        let (nodes, labels) = (&self.identified.nodes, &self.identified.labels);
+        let off = |at: usize| (labels[at].0 != self.label, nodes[at].index.abs_diff(index));
+        // Places of other labels may lie between: go on as long as it gets nearer.
+        let mut look = self.at;
+        while look + 1 < nodes.len() && nodes[look].index <= index {
+            look += 1;
+            if off(look) < off(self.at) {
+                self.at = look;
+            }
+        }
+        self.at
+    }
+}
