@@ -15,6 +15,7 @@ mod sample;
 mod scan;
 mod scene;
 mod table;
+mod toml_file;
 
 pub use cycle::Cycle;
 pub use error::Error;
@@ -24,4 +25,5 @@ pub use output::{OutputError, Staged, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub use scan::Scan;
-pub use scene::{Invalid, Scene, SceneError};
+pub use scene::Scene;
+pub use toml_file::{Invalid, SceneError};

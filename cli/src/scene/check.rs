@@ -1,7 +1,8 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, RodTable, SweepTable};
-use super::{Fault, Scene, object};
+use super::{Scene, object};
+use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
