@@ -1,15 +1,18 @@
 //! From what the clamp feels back to the object: contact points, contact phases, contours.
 //!
 //! - [`Sample`]: clamp pose and reactions at one instant; [`Label`]: in which contact phase it was.
+//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings.
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod label;
+mod noise;
 mod sample;
 mod touch;
 
 pub use label::Label;
+pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use sample::Sample;
 pub use touch::Touch;
