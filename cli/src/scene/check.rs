@@ -21,7 +21,7 @@ pub(super) fn scene(name: String, document: Document, directory: &Path) -> Resul
     Ok(Scene { name, rod, objects, path, step })
 }
 
-fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
+pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
     let RodTable { length, diameter, youngs_modulus, bending_stiffness, yield_stress } = table.get_ref();
     let fields = [
         ("length", Some(length)),

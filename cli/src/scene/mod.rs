@@ -7,7 +7,10 @@
 mod check;
 mod document;
 mod object;
+mod rod;
 mod shape;
+
+pub use rod::read_rod;
 
 use crate::SceneError;
 use crate::toml_file;

@@ -103,6 +103,18 @@ fn field_at(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
     best.map(|(_, path)| path)
 }
 
+/// Where the value of a field stands, given its path as in `sweep.from` or `crosstalk[1][3]`.
+pub(crate) fn place_of(table: &DeTable<'_>, path: &str) -> Option<Range<usize>> {
+    let mut found = None;
+    // The key is seen before the value.
+    visit(table, "", &mut |place, seen| {
+        if seen == path {
+            found = Some(place);
+        }
+    });
+    found
+}
+
 /// Calls `seen` with the span and path of every key and every value.
 fn visit(table: &DeTable<'_>, path: &str, seen: &mut impl FnMut(Range<usize>, &str)) {
     for (key, value) in table {

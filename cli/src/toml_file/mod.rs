@@ -2,7 +2,7 @@
 
 mod error;
 
-pub(crate) use error::Fault;
+pub(crate) use error::{Fault, place_of};
 pub use error::{Invalid, SceneError};
 
 use std::path::Path;
