@@ -1,13 +1,13 @@
 //! Why a command fails.
 
-use crate::{FigureError, OutputError, ProfileError, SceneError};
+use crate::{FigureError, OutputError, ProfileError, RecordingError, SceneError};
 use vibrissa::ContactError;
 
 /// Why a command fails.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene.
+    /// The scene, or another TOML file.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Scene(#[from] SceneError),
@@ -17,6 +17,9 @@ pub enum Error {
     /// What is asked of its contours.
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// A recording.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] FigureError),
