@@ -1,7 +1,7 @@
 //! Why a command fails.
 
-use crate::{FigureError, OutputError, ProfileError, RecordingError, SceneError};
-use vibrissa::ContactError;
+use crate::{FigureError, OutputError, ProfileError, RecordingError, SceneError, SimulationError};
+use vibrissa::{ContactError, NoiseError};
 
 /// Why a command fails.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -17,6 +17,12 @@ pub enum Error {
     /// What is asked of its contours.
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// A noise model.
+    #[error(transparent)]
+    Noise(#[from] NoiseError),
+    /// How a recording is to be made.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
     /// A recording.
     #[error(transparent)]
     Recording(#[from] RecordingError),

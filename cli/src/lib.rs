@@ -16,6 +16,7 @@ mod report;
 mod sample;
 mod scan;
 mod scene;
+mod simulation;
 mod table;
 mod toml_file;
 
@@ -30,4 +31,5 @@ pub use profile::{Profile, ProfileError, ProfilePoint};
 pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
+pub use simulation::{Simulated, Simulation, SimulationError};
 pub use toml_file::{Invalid, SceneError};

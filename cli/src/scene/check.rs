@@ -9,7 +9,7 @@ use toml::Spanned;
 use vibrissa::{ClampPath, ContactError, Pose, Rod, RodError};
 
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
-const MOST_STATES: f64 = 1e6;
+pub(crate) const MOST_STATES: f64 = 1e6;
 
 /// Files that the objects name are looked for in `directory`.
 pub(super) fn scene(name: String, document: Document, directory: &Path) -> Result<Scene, Fault> {

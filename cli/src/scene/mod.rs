@@ -10,6 +10,7 @@ mod object;
 mod rod;
 mod shape;
 
+pub(crate) use check::MOST_STATES;
 pub use rod::read_rod;
 
 use crate::SceneError;
