@@ -40,7 +40,7 @@ pub enum Command {
         #[arg(long, value_name = "N")]
         object: Option<usize>,
     },
-    /// Write what a sensor at the clamp would record along the sweep of a scene (CSV: t,x0,y0,phi0,f0x,f0y,m0z; SI units)
+    /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
     Simulate(Simulate),
     /// Run the nine scans of Merker et al. (2021) and compare their phases with the paper's
     Paper {

@@ -7,8 +7,8 @@ use std::path::Path;
 use toml::de::{DeTable, Deserializer};
 use vibrissa::{NoiseError, NoiseModel};
 
-/// The noise model in a TOML file, SI units: any of the tables `gain`, `offset`, `white`, `ar1`, `random_walk`, `quantum`,
-/// `dropout` and the matrix `crosstalk`, as [`NoiseModel`] has them.
+/// The noise model in a TOML file, SI units: any of the tables `gain`, `offset`, `white`, `ar1`, `random_walk`,
+/// `quantum`, `dropout` and the matrix `crosstalk`, as [`NoiseModel`] has them.
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, or is no noise model.

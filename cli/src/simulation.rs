@@ -81,9 +81,9 @@ pub enum SimulationError {
 }
 
 impl Simulation {
-    /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which appears
-    /// when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked for. The time
-    /// counts from the start of the path. Poses that a snap jumps over have no sample.
+    /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which
+    /// appears when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked
+    /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample.
     ///
     /// The memory it takes does not grow with the number of samples.
     ///

@@ -1,4 +1,4 @@
-//! Every fault of a recording is answered with its file and line, the value and what was expected, and what can be used is.
+//! Every fault of a recording is answered with its file and line, the value and what was expected.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use vibrissa::{Pose, Rod};

@@ -22,13 +22,13 @@ pub type Row = Result<Sample, RowFault>;
 /// What a clamp felt along its way, SI units.
 ///
 /// The file is CSV, separated by commas, with the columns x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N m) in any order,
-/// perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m), the standard deviations. Empty lines and
-/// lines that start with # are no rows.
+/// perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m), the standard deviations. Empty lines
+/// and lines that start with # are no rows.
 ///
-/// The clamp must go on: a row with the pose of the last usable one, or one that turns back, cannot be used. Distances of
-/// poses are those of (x, y, L phi), and no movement is one of less than 1e-12 L. The direction is that of the last rows; a
-/// pose farther away than twice the whole way before it starts a new direction, so that a clamp that trembled before it set
-/// off costs its trembling only.
+/// The clamp must go on: a row with the pose of the last usable one, or one that turns back, cannot be used. Distances
+/// of poses are those of (x, y, L phi), and no movement is one of less than 1e-12 L. The direction is that of the last
+/// rows; a pose farther away than twice the whole way before it starts a new direction, so that a clamp that trembled
+/// before it set off costs its trembling only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// Where it was read from.

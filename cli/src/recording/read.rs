@@ -8,7 +8,7 @@ use csv::ByteRecord;
 use std::path::Path;
 use vibrissa::Rod;
 
-/// Fewer samples than this are no scan: not even one curve could be laid through them and leave something to judge it by.
+/// Fewer samples than this are no scan: a curve through them would leave nothing to judge it by.
 const FEWEST: usize = 10;
 
 impl Recording {
@@ -115,7 +115,7 @@ impl<'a> Lines<'a> {
         Self { text, at: 0, line: 1 }
     }
 
-    /// Line of the next record, from 1. The reader's own count is that of the end of the record before, blank lines before it.
+    /// Line of the next record, from 1. The reader's own count leaves out the blank lines just before it.
     fn of(&mut self, record: &ByteRecord) -> u64 {
         let start = record.position().map_or(0, |position| position.byte() as usize).min(self.text.len());
         let blank = self.text[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();

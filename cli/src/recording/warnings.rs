@@ -8,8 +8,8 @@ use std::mem::{Discriminant, discriminant};
 const MOST_LINES: usize = 5;
 
 impl Recording {
-    /// A line for each kind of fault, with the file, the first lines where it is, and how many there are; for a time that
-    /// does not grow; and for columns that are not looked at.
+    /// A line for each kind of fault, with the file, the first lines where it is, and how many there are; for a time
+    /// that does not grow; and for columns that are not looked at.
     pub fn warnings(&self) -> Vec<String> {
         let file = self.file.display();
         let mut warnings = Vec::new();

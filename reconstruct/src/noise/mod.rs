@@ -1,7 +1,7 @@
 //! Simulated sensors: what becomes of true reactions on their way into a recording.
 //!
-//! `model` says what is wrong with a sensor, `file` how that is written down, `generator` does it to one sample after the
-//! other.
+//! `model` says what is wrong with a sensor, `file` how that is written down, `generator` does it to one sample after
+//! the other.
 
 mod error;
 mod file;

@@ -13,12 +13,12 @@ use rod_core::Reactions;
 /// 3. rounded to whole multiples of the quantum,
 /// 4. or it is lost in a dropout.
 ///
-/// White noise and AR(1) are stationary from the first sample on; the walk starts from zero there. All of them go on, and so
-/// does the walk, while samples are lost. Correlation, walk and dropouts count samples, not seconds: a walk of w per square
-/// root of a second has steps of w / sqrt(rate).
+/// White noise and AR(1) are stationary from the first sample on; the walk starts from zero there. All of them go on
+/// while samples are lost. Correlation, walk and dropouts count samples, not seconds: a walk of w per square root of a
+/// second has steps of w / sqrt(rate).
 ///
-/// It deserialises from tables of the same names ([`white`](Self::white) and so on) with the channels as fields; `force` in
-/// place of `f0x` and `f0y` stands for both.
+/// It deserialises from tables of the same names ([`white`](Self::white) and so on) with the channels as fields;
+/// `force` in place of `f0x` and `f0y` stands for both.
 ///
 /// ```
 /// use rod_core::Reactions;
@@ -39,8 +39,8 @@ use rod_core::Reactions;
 pub struct NoiseModel {
     /// Relative error of the gain: 0.01 reads 1 % too much.
     pub gain: Reactions,
-    /// What each channel (row) takes from each (column), both in the order f0x, f0y, m0z. Forces take from the moment in
-    /// 1/m, the moment from forces in m, the others have no unit.
+    /// What each channel (row) takes from each (column), both in the order f0x, f0y, m0z. Forces take from the moment
+    /// in 1/m, the moment from forces in m, the others have no unit.
     pub crosstalk: [[f64; 3]; 3],
     /// What is read without a load, N and N m.
     pub offset: Reactions,
@@ -70,14 +70,14 @@ pub struct Ar1 {
 pub struct Dropout {
     /// Chance of a sample to be lost: the share of lost samples in the long run, from 0 to below 1.
     pub probability: f64,
-    /// Mean number of samples lost in a row, at least 1 and at least probability / (1 - probability), for between two gaps
-    /// one sample arrives. None: each is lost or not on its own.
+    /// Mean number of samples lost in a row, at least 1 and at least probability / (1 - probability), for between two
+    /// gaps one sample arrives. None: each is lost or not on its own.
     pub mean_length: Option<f64>,
 }
 
 impl NoiseModel {
-    /// The model at work, on its first sample. The same seed gives the same noise; each part of the model has a stream of
-    /// random numbers of its own, so that the noise of one does not depend on whether the others are there.
+    /// The model at work, on its first sample. The same seed gives the same noise; each part of the model has a stream
+    /// of random numbers of its own, so that the noise of one does not depend on whether the others are there.
     ///
     /// # Errors
     /// [`NoiseError`] as of [`check`](Self::check).
@@ -86,8 +86,8 @@ impl NoiseModel {
         Ok(NoiseGenerator::new(self, seed))
     }
 
-    /// Standard deviation of one reading (N, N m) about what gain, crosstalk and offset make of the truth: of white and AR(1)
-    /// noise together with the quantum's q / sqrt(12). The random walk, which has none, is left out.
+    /// Standard deviation of one reading (N, N m) about what gain, crosstalk and offset make of the truth: of white and
+    /// AR(1) noise together with the quantum's q / sqrt(12). The random walk, which has none, is left out.
     ///
     /// ```
     /// use rod_core::Reactions;
