@@ -111,6 +111,28 @@ fn the_pose_is_known_where_only_the_reactions_are_not() {
 }
 
 #[test]
+fn lines_are_those_of_an_editor() {
+    for end in ["\n", "\r\n"] {
+        let mut lines = vec!["# a comment", "", HEADER, "", ""];
+        let rows: Vec<String> =
+            (0..20).map(|k| format!("{k},0,0,0,0,{}", if k % 7 == 3 { "?" } else { "0" })).collect();
+        for (k, row) in rows.iter().enumerate() {
+            lines.push(row);
+            // Blank lines and comments, also right before rows with faults.
+            lines.extend(match k {
+                2 => vec!["", "# one", ""],
+                9 => vec!["   ", ""],
+                _ => vec![],
+            });
+        }
+        let recording = parse(&lines.join(end)).unwrap();
+        let found: Vec<u64> = recording.faults().map(|fault| fault.line).collect();
+        let expected: Vec<u64> = (1..).zip(&lines).filter(|(_, line)| line.ends_with('?')).map(|(k, _)| k).collect();
+        assert_eq!((found.len(), found), (3, expected));
+    }
+}
+
+#[test]
 fn rows_of_another_length() {
     leaves_out(7, "75,-0.04,1.5", "the number of cells is 3, expected 6");
     leaves_out(7, "75,-0,04,1,5,0,1", "the number of cells is 7, expected 6");
