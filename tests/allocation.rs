@@ -8,8 +8,8 @@ use common::Scene;
 use std::collections::BTreeMap;
 use std::hint::black_box;
 use vibrissa::{
-    ContactKind, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Section, State, Support, Supports, advance,
-    advance_with_sensitivities, solve, walk,
+    Ar1, ContactKind, Dropout, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, NoiseModel, Pose, Reactions, Section,
+    State, Support, Supports, advance, advance_with_sensitivities, solve, walk,
 };
 
 #[test]
@@ -106,4 +106,25 @@ fn warm_started_solves_do_not_allocate() {
         *solved.entry(before.phase().to_string()).or_default() += 1;
     }
     assert_eq!(solved.keys().collect::<Vec<_>>(), ["A", "B", "BA", "BB"], "{solved:?}");
+}
+
+#[test]
+fn a_noisy_sensor_does_not_allocate() {
+    let all = Reactions { f0x: 1.0, f0y: 1.0, m0z: 1.0 };
+    let model = NoiseModel {
+        gain: all,
+        white: all,
+        ar1: Ar1 { sigma: all, correlation: 0.5 },
+        random_walk: all,
+        quantum: all,
+        dropout: Dropout { probability: 0.1, mean_length: Some(2.0) },
+        ..NoiseModel::default()
+    };
+    let mut sensor = model.generator(0).unwrap();
+    let counted = measure(|| {
+        for _ in 0..1000 {
+            black_box(sensor.sample(black_box(all)));
+        }
+    });
+    assert_eq!(counted.count_total, 0);
 }

@@ -1,6 +1,6 @@
 //! The command line.
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// A thin elastic rod swept along an object: contact phases, transitions and clamp reactions.
@@ -40,10 +40,37 @@ pub enum Command {
         #[arg(long, value_name = "N")]
         object: Option<usize>,
     },
+    /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
+    Simulate(Simulate),
     /// Run the nine scans of Merker et al. (2021) and compare their phases with the paper's
     Paper {
         /// Directory of the results
         #[arg(long, value_name = "DIR", default_value = "out")]
         out: PathBuf,
     },
+}
+
+/// A recording to be made.
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// The scene, a TOML file; its step is not used
+    pub scene: PathBuf,
+    /// The noise of the sensor, a TOML file [default: a sensor that reads the truth]
+    #[arg(long, value_name = "FILE")]
+    pub noise: Option<PathBuf>,
+    /// Samples in a second; there is one every speed / rate of the clamp's way
+    #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
+    pub rate: f64,
+    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
+    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
+    pub speed: f64,
+    /// Seed of the noise: the same one gives the same recording
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Write the standard deviations of white and AR(1) noise and the quantum, too: sigma_f0x,sigma_f0y,sigma_m0z
+    #[arg(long)]
+    pub sigmas: bool,
+    /// The CSV file [default: out/<name of the scene>/recording.csv]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }

@@ -1,13 +1,13 @@
 //! Why a command fails.
 
-use crate::{FigureError, OutputError, ProfileError, SceneError};
-use vibrissa::ContactError;
+use crate::{FigureError, OutputError, ProfileError, RecordingError, SceneError, SimulationError};
+use vibrissa::{ContactError, NoiseError};
 
 /// Why a command fails.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene.
+    /// The scene, or another TOML file.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Scene(#[from] SceneError),
@@ -17,6 +17,15 @@ pub enum Error {
     /// What is asked of its contours.
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// A noise model.
+    #[error(transparent)]
+    Noise(#[from] NoiseError),
+    /// How a recording is to be made.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// A recording.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] FigureError),

@@ -1,5 +1,5 @@
 //! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep and of
-//! contours, the nine scans of the paper and the reports on them.
+//! contours, recordings, the nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod cycle;
@@ -7,23 +7,30 @@ mod error;
 mod figure;
 mod interval;
 mod naive;
-mod noise;
+mod noise_file;
 mod output;
 mod paper;
 mod profile;
+mod recording;
 mod report;
 #[cfg(test)]
 mod sample;
 mod scan;
 mod scene;
+mod simulation;
 mod table;
+mod toml_file;
 
 pub use cycle::Cycle;
 pub use error::Error;
 pub use figure::FigureError;
 pub use interval::Interval;
+pub use noise_file::read_noise;
 pub use output::{OutputError, Staged, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
+pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
-pub use scene::{Invalid, Scene, SceneError};
+pub use scene::{Scene, read_rod};
+pub use simulation::{Simulated, Simulation, SimulationError};
+pub use toml_file::{Invalid, SceneError};

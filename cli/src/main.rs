@@ -2,13 +2,14 @@
 
 mod arguments;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, Simulate};
 use clap::Parser;
 use indicatif::ProgressBar;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use vibrissa_cli::{Error, Paper, Scan, Scene, Staged, write_profiles};
+use vibrissa::{NoiseModel, Stop};
+use vibrissa_cli::{Error, Paper, Scan, Scene, Simulated, Simulation, Staged, read_noise, write_profiles};
 
 /// A sweep stopped early, or is not what the paper found.
 const UNFINISHED: u8 = 2;
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
+        Command::Simulate(arguments) => simulate(arguments),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| {
@@ -56,6 +58,18 @@ fn contour(
     Ok(ExitCode::SUCCESS)
 }
 
+fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
+    let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
+    let scene = Scene::read(&scene)?;
+    let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
+    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
+    let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
+    let Simulated { samples, lost, stop } = simulation.write(&out)?;
+    let name = &simulation.scene.name;
+    say(&format!("{name}: {samples} samples, {lost} lost in dropouts\nwritten to {}\n", out.display()));
+    Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(name, &stop)))
+}
+
 fn paper(out: &Path) -> Result<ExitCode, Error> {
     let staged = Staged::new(out)?;
     // Hidden by itself where stderr is no terminal.
@@ -77,11 +91,15 @@ fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for scan in scans {
         if let Some(stop) = &scan.outcome.stop {
-            warn(&format!("warning: {}: {stop}; everything before that is written\n", scan.scene.name));
-            code = ExitCode::from(UNFINISHED);
+            code = stopped(&scan.scene.name, stop);
         }
     }
     code
+}
+
+fn stopped(name: &str, stop: &Stop) -> ExitCode {
+    warn(&format!("warning: {name}: {stop}; everything before that is written\n"));
+    ExitCode::from(UNFINISHED)
 }
 
 /// Shows an error: with the place in the scene for people, on one line for everything else.

@@ -2,6 +2,7 @@
 //!
 //! - [`Sample`]: clamp pose and reactions at one instant; [`Label`]: in which contact phase it was.
 //! - [`compare`]: how near a result is to the truth.
+//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings.
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
@@ -17,6 +18,7 @@ mod fit;
 pub mod kink;
 mod known;
 mod label;
+mod noise;
 pub mod noise_estimate;
 mod phases;
 mod reconstruction;
@@ -25,8 +27,10 @@ mod several;
 mod single;
 mod touch;
 mod track;
+mod travel;
 
 pub use label::Label;
+pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
 pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
 pub use sample::Sample;
@@ -34,3 +38,4 @@ pub use several::Unresolved;
 pub use single::{NoContact, single};
 pub use touch::Touch;
 pub use track::Fault;
+pub use travel::{Halt, Travel};

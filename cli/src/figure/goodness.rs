@@ -3,12 +3,11 @@
 use super::canvas::{Area, BODY, FigureError, TITLE, svg, write};
 use super::palette::{FAINT, INK, MUTED};
 use crate::naive::{Naive, STEP};
-use crate::noise::noisy;
 use crate::paper::{DISTANCES, OBJECTS};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
-use vibrissa::Reactions;
 use vibrissa::compare::goodness_of_fit;
+use vibrissa::{NoiseModel, Reactions};
 
 /// Noise of the sensor that stands in for the experiment: standard deviations, N, N, N m.
 const NOISE: Reactions = Reactions { f0x: 2.5e-3, f0y: 2.5e-3, m0z: 6e-5 };
@@ -74,7 +73,10 @@ pub(crate) fn goodness(scans: &[Naive<'_>]) -> Result<String, FigureError> {
 /// Goodness of fit of the three reactions along a scan, the noisy ones as the reference.
 fn fits(scan: &Naive<'_>, seed: u64) -> [Option<f64>; 3] {
     let clean: Vec<Reactions> = scan.states.iter().map(|state| state.reactions).collect();
-    let noise = noisy(clean.iter().copied(), NOISE, seed);
+    let model = NoiseModel { white: NOISE, ..NoiseModel::default() };
+    // the model is one: this never fails
+    let Ok(mut sensor) = model.generator(seed) else { return [None; 3] };
+    let noise: Vec<Reactions> = clean.iter().filter_map(|felt| sensor.sample(*felt)).collect();
     QUANTITIES.map(|(_, _, value)| {
         let [clean, noise] = [&clean, &noise].map(|list| list.iter().map(value).collect::<Vec<f64>>());
         goodness_of_fit(&clean, &noise)

@@ -56,10 +56,15 @@ fn write_csv(
     columns: &[&str],
     rows: impl IntoIterator<Item = impl serde::Serialize>,
 ) -> io::Result<()> {
-    let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(out);
+    let mut table = csv_writer(out);
     table.write_record(columns)?;
     rows.into_iter().try_for_each(|row| table.serialize(row))?;
     table.flush()
+}
+
+/// Writes rows as they are, the names of the columns being one of them.
+pub(crate) fn csv_writer(out: &mut dyn Write) -> csv::Writer<&mut dyn Write> {
+    csv::WriterBuilder::new().has_headers(false).from_writer(out)
 }
 
 fn json_line(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {

@@ -14,16 +14,13 @@ const COLUMNS: [&str; 6] = ["x", "y", "tangent_angle", "curvature", "arc_length"
 /// # Errors
 /// [`Error::Output`], [`Error::Figure`].
 pub fn write_profiles(name: &str, profiles: &[Profile], out: &Path) -> Result<PathBuf, Error> {
-    let Some(file) = out.file_name().map(Path::new).filter(|file| file.extension().is_none_or(|is| is != "svg")) else {
+    if out.file_name().is_none_or(|file| Path::new(file).extension().is_some_and(|is| is == "svg")) {
         return Err(OutputError::Name { file: out.to_path_buf() }.into());
-    };
-    // The directory of a bare name is the empty path, which cannot be made.
-    let directory = out.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(".".as_ref());
-    let drawing = file.with_extension("svg");
+    }
     let figure = figure::profile(name, profiles)?;
-    let staged = Staged::new(directory)?;
+    let (staged, file) = Staged::of_file(out)?;
     staged.write(file, |out| write_table(profiles, out))?;
-    staged.write(&drawing, |out| out.write_all(figure.as_bytes()))?;
+    staged.write(&file.with_extension("svg"), |out| out.write_all(figure.as_bytes()))?;
     staged.publish()?;
     Ok(out.with_extension("svg"))
 }

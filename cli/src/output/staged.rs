@@ -23,6 +23,12 @@ pub enum OutputError {
         /// The name.
         file: PathBuf,
     },
+    /// A path that leads to no file.
+    #[error("{} is no name for a file; name one with --out", file.display())]
+    NoFile {
+        /// The path.
+        file: PathBuf,
+    },
     /// A file cannot be written.
     #[error("cannot write {}: {source}", file.display())]
     File {
@@ -54,6 +60,21 @@ impl Staged {
         };
         let stage = stage().map_err(|source| OutputError::Directory { directory: target.to_path_buf(), source })?;
         Ok(Self { target: target.to_path_buf(), stage })
+    }
+
+    /// Files for the directory of the file `out`, and the name of that one there.
+    ///
+    /// # Errors
+    /// [`OutputError::NoFile`], [`OutputError::Directory`].
+    pub fn of_file(out: &Path) -> Result<(Self, &Path), OutputError> {
+        let no_file = || OutputError::NoFile { file: out.to_path_buf() };
+        let name = out.file_name().map(Path::new).ok_or_else(no_file)?;
+        if out.is_dir() {
+            return Err(no_file());
+        }
+        // The directory of a bare name is the empty path, which cannot be made.
+        let directory = out.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(".".as_ref());
+        Ok((Self::new(directory)?, name))
     }
 
     /// Writes one file; `name` may lead through folders.

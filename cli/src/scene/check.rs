@@ -1,14 +1,15 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, RodTable, SweepTable};
-use super::{Fault, Scene, object};
+use super::{Scene, object};
+use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use vibrissa::{ClampPath, ContactError, Pose, Rod, RodError};
 
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
-const MOST_STATES: f64 = 1e6;
+pub(crate) const MOST_STATES: f64 = 1e6;
 
 /// Files that the objects name are looked for in `directory`.
 pub(super) fn scene(name: String, document: Document, directory: &Path) -> Result<Scene, Fault> {
@@ -20,7 +21,7 @@ pub(super) fn scene(name: String, document: Document, directory: &Path) -> Resul
     Ok(Scene { name, rod, objects, path, step })
 }
 
-fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
+pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
     let RodTable { length, diameter, youngs_modulus, bending_stiffness, yield_stress } = table.get_ref();
     let fields = [
         ("length", Some(length)),

@@ -1,6 +1,7 @@
 //! The scene file as written: names, types and spans, no physics.
 
-use super::{Fault, shape::Piece};
+use super::shape::Piece;
+use crate::toml_file::Fault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::path::PathBuf;
@@ -79,11 +80,6 @@ impl TryFrom<Vec<f64>> for Point {
             numbers.try_into().map_err(|_| format!("found a list of {found}, expected two numbers: [x, y] in m"))?;
         Ok(Self(xy))
     }
-}
-
-/// The text as a tree of values that know where they stand.
-pub(super) fn table(text: &str) -> Result<Spanned<DeTable<'_>>, Fault> {
-    DeTable::parse(text).map_err(Fault::from)
 }
 
 /// The tree as a document.

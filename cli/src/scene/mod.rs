@@ -6,13 +6,15 @@
 
 mod check;
 mod document;
-mod error;
 mod object;
+mod rod;
 mod shape;
 
-pub use error::{Invalid, SceneError};
+pub(crate) use check::MOST_STATES;
+pub use rod::read_rod;
 
-use error::Fault;
+use crate::SceneError;
+use crate::toml_file;
 use std::path::Path;
 use vibrissa::{ClampPath, Composite, ContactError, Rod, Sweep};
 
@@ -37,9 +39,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the file cannot be read, or is no scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(file)
-            .map_err(|source| SceneError::Unreadable { file: file.to_path_buf(), source })?;
-        Self::parse(file, &text)
+        Self::parse(file, &toml_file::text("the scene", file)?)
     }
 
     /// The scene in a text. `file` names it, in messages and as a whole; it is not opened, but the files that the text
@@ -68,11 +68,8 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        let table = document::table(text).map_err(|fault| fault.in_text(file, text, None))?;
         let directory = file.parent().unwrap_or(file);
-        document::document(table.clone())
-            .and_then(|document| check::scene(stem(file), document, directory))
-            .map_err(|fault| fault.in_text(file, text, Some(table.get_ref())))
+        toml_file::parse(file, text, |table| check::scene(stem(file), document::document(table)?, directory))
     }
 
     /// The sweep this scene asks for.

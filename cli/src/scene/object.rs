@@ -1,8 +1,8 @@
 //! Objects: contours of pieces, put where they stand.
 
-use super::Fault;
 use super::document::{ObjectTable, Tables};
 use super::shape::Piece;
+use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;

@@ -1,6 +1,6 @@
 //! The pieces of a contour: the library's shapes, whose fields are listed there, with their places in the file.
 
-use super::Fault;
+use crate::toml_file::Fault;
 use serde::de::Error as _;
 use std::ops::Range;
 use std::path::Path;

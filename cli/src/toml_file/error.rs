@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, and where in its file.
+//! What can be wrong with a TOML file, and where in it.
 
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use std::ops::Range;
@@ -6,25 +6,27 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Why a file is no scene.
+/// Why a TOML file is not what it is read as: a scene, or a part of one that stands in a file of its own.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The file cannot be read as text.
-    #[error("cannot read the scene {}: {source}", file.display())]
+    #[error("cannot read {what} {}: {source}", file.display())]
     Unreadable {
+        /// What it should be, as in "the scene".
+        what: &'static str,
         /// Which file.
         file: PathBuf,
         /// Why.
         source: std::io::Error,
     },
-    /// The file is no scene.
+    /// The file is not what it should be.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Invalid(Box<Invalid>),
 }
 
-/// A place in a scene file and what is wrong there. It displays as `file:line:column: field: what is wrong`.
+/// A place in a TOML file and what is wrong there. It displays as `file:line:column: field: what is wrong`.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("{file}:{line}:{column}: {}", self.complaint())]
 pub struct Invalid {
@@ -54,7 +56,7 @@ impl Invalid {
 }
 
 /// Something wrong at a place of a text that is not known here.
-pub(super) struct Fault {
+pub(crate) struct Fault {
     span: Range<usize>,
     message: String,
 }
@@ -99,6 +101,18 @@ fn field_at(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
         }
     });
     best.map(|(_, path)| path)
+}
+
+/// Where the value of a field stands, given its path as in `sweep.from` or `crosstalk[1][3]`.
+pub(crate) fn place_of(table: &DeTable<'_>, path: &str) -> Option<Range<usize>> {
+    let mut found = None;
+    // The key is seen before the value.
+    visit(table, "", &mut |place, seen| {
+        if seen == path {
+            found = Some(place);
+        }
+    });
+    found
 }
 
 /// Calls `seen` with the span and path of every key and every value.

@@ -1,0 +1,74 @@
+//! Noise models from TOML files.
+
+use crate::SceneError;
+use crate::toml_file::{self, Fault, place_of};
+use serde::Deserialize;
+use std::path::Path;
+use toml::de::{DeTable, Deserializer};
+use vibrissa::{NoiseError, NoiseModel};
+
+/// The noise model in a TOML file, SI units: any of the tables `gain`, `offset`, `white`, `ar1`, `random_walk`,
+/// `quantum`, `dropout` and the matrix `crosstalk`, as [`NoiseModel`] has them.
+///
+/// # Errors
+/// [`SceneError`]: the file cannot be read, or is no noise model.
+pub fn read_noise(file: &Path) -> Result<NoiseModel, SceneError> {
+    parse(file, &toml_file::text("the noise model", file)?)
+}
+
+fn parse(file: &Path, text: &str) -> Result<NoiseModel, SceneError> {
+    toml_file::parse(file, text, |table| {
+        let tree = table.get_ref().clone();
+        let model = NoiseModel::deserialize(Deserializer::from(table))?;
+        model.check().map_err(|error| fault(&tree, &error))?;
+        Ok(model)
+    })
+}
+
+/// Blames the field, or the one that stands for it.
+fn fault(tree: &DeTable<'_>, error: &NoiseError) -> Fault {
+    match error {
+        NoiseError::Value { field, value, expected } => {
+            let (table, name) = field.split_once('.').unwrap_or((field, field));
+            let both = format!("{table}.force");
+            let span = [field, both.as_str(), table].into_iter().find_map(|path| place_of(tree, path));
+            Fault::new(span.unwrap_or(0..0), format!("{name} is {value}, expected {expected}"))
+        }
+        // Errors of other kinds concern the model as a whole.
+        _ => Fault::new(0..0, error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mistakes_have_their_places() {
+        for (text, message) in [
+            ("[white]\nforce = -1", "noise.toml:2:9: white.force: f0x is -1, expected a finite number that is not"),
+            ("[white]\nm0z = nan", "noise.toml:2:7: white.m0z: m0z is NaN, expected"),
+            ("[ar1]\nforce = 1\ncorrelation = 1", "noise.toml:3:15: ar1.correlation: correlation is 1, expected"),
+            ("[ar1]\nforce = 1", "noise.toml:1:1: ar1: missing field `correlation`"),
+            (
+                "crosstalk = [[0, 0, 0], [0, inf, 0], [0, 0, 0]]",
+                "noise.toml:1:29: crosstalk[2][2]: crosstalk[2][2] is inf",
+            ),
+            (
+                "crosstalk = [[0, 0], [0, 0]]",
+                "noise.toml:1:13: crosstalk: found rows of [2, 2] numbers, expected three",
+            ),
+            ("\n[white]\nforce = 1\nf0x = 1", "noise.toml:2:1: white: force given beside f0x or f0y, expected either"),
+            ("white.f0z = 1", "noise.toml:1:7: white.f0z: unknown field `f0z`, expected one of `force`, `f0x`"),
+            ("[withe]", "noise.toml:1:2: withe: unknown field `withe`, expected one of `gain`"),
+            ("white.force = \"low\"", "noise.toml:1:15: white.force: invalid type: string \"low\", expected a number"),
+            ("[dropout]\nprobability = 2", "noise.toml:2:15: dropout.probability: probability is 2, expected"),
+            ("white = ", "noise.toml:1:9: "),
+        ] {
+            let error = parse("noise.toml".as_ref(), text).unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
+        let error = read_noise("nowhere.toml".as_ref()).unwrap_err().to_string();
+        assert!(error.starts_with("cannot read the noise model nowhere.toml: "), "{error}");
+    }
+}

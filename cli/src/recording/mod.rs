@@ -1,0 +1,52 @@
+//! Recordings: what a clamp felt along its way, read from a CSV file.
+//!
+//! `columns` finds the columns by name, `row` reads one row, `read` puts them together, and `warnings` says what is wrong with single rows. A row that cannot be used keeps its place.
+
+mod columns;
+mod error;
+mod read;
+mod row;
+mod warnings;
+
+pub use error::RecordingError;
+pub use row::{RowFault, RowProblem};
+
+use std::path::PathBuf;
+use vibrissa::Sample;
+
+/// A row of a recording: a sample, or what is wrong with it.
+pub type Row = Result<Sample, RowFault>;
+
+/// What a clamp felt along its way, SI units.
+///
+/// The file is CSV, separated by commas, with the columns x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N m) in any order,
+/// perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m), the standard deviations. Empty lines
+/// and lines that start with # are no rows.
+///
+/// The clamp must go on: a row with the pose of the last usable one, or one that turns back, cannot be used. Distances
+/// of poses are those of (x, y, L phi), and no movement is one of less than 1e-12 L. The direction is that of the last
+/// rows; a pose farther away than twice the whole way before it starts a new direction, so that a clamp that trembled
+/// before it set off costs its trembling only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// Where it was read from.
+    pub file: PathBuf,
+    /// All rows in order.
+    pub rows: Vec<Row>,
+    /// Names of the columns that are not looked at.
+    pub ignored: Vec<String>,
+    /// Lines of usable rows whose time is not later than that of the usable row before.
+    pub late: Vec<u64>,
+}
+
+impl Recording {
+    /// The usable samples in order.
+    pub fn samples(&self) -> impl Iterator<Item = &Sample> {
+        self.rows.iter().flatten()
+    }
+
+    /// What is wrong with the other rows, in order.
+    pub fn faults(&self) -> impl Iterator<Item = &RowFault> {
+        self.rows.iter().filter_map(|row| row.as_ref().err())
+    }
+}

@@ -1,0 +1,53 @@
+//! What to say of a recording that can be used in part.
+
+use super::{Recording, RowFault, RowProblem};
+use std::fmt::Write;
+use std::mem::{Discriminant, discriminant};
+
+/// Most lines that are named for each kind of fault.
+const MOST_LINES: usize = 5;
+
+impl Recording {
+    /// A line for each kind of fault, with the file, the first lines where it is, and how many there are; for a time
+    /// that does not grow; and for columns that are not looked at.
+    pub fn warnings(&self) -> Vec<String> {
+        let file = self.file.display();
+        let mut warnings = Vec::new();
+        if !self.ignored.is_empty() {
+            warnings.push(format!("{file}: columns not looked at: {}", self.ignored.join(", ")));
+        }
+        let mut kinds: Vec<(Discriminant<RowProblem>, Vec<&RowFault>)> = Vec::new();
+        for fault in self.faults() {
+            let kind = discriminant(&fault.problem);
+            match kinds.iter_mut().find(|(known, _)| *known == kind) {
+                Some((_, faults)) => faults.push(fault),
+                None => kinds.push((kind, vec![fault])),
+            }
+        }
+        for (_, faults) in kinds {
+            let lines: Vec<u64> = faults.iter().map(|fault| fault.line).collect();
+            let (count, rows) = (faults.len(), self.rows.len());
+            warnings.push(format!(
+                "{file}: {count} of {rows} rows cannot be used, {}: {}",
+                place(&lines),
+                faults[0].problem
+            ));
+        }
+        if !self.late.is_empty() {
+            let (count, rows) = (self.late.len(), self.rows.len());
+            let at = place(&self.late);
+            warnings.push(format!("{file}: the time does not grow in {count} of {rows} rows, {at}"));
+        }
+        warnings
+    }
+}
+
+/// "line 3", or "lines 3, 4, 5, 6, 7 and 12 more".
+fn place(lines: &[u64]) -> String {
+    let shown: Vec<String> = lines.iter().take(MOST_LINES).map(u64::to_string).collect();
+    let mut text = format!("line{} {}", if lines.len() == 1 { "" } else { "s" }, shown.join(", "));
+    if lines.len() > MOST_LINES {
+        let _ = write!(text, " and {} more", lines.len() - MOST_LINES);
+    }
+    text
+}

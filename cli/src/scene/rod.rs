@@ -1,0 +1,72 @@
+//! A rod on its own.
+
+use super::check;
+use super::document::RodTable;
+use crate::{SceneError, toml_file};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::path::Path;
+use toml::Spanned;
+use toml::de::Deserializer;
+use vibrissa::Rod;
+
+/// A file with a rod in it: that alone, or a scene, of which nothing else is looked at.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RodFile {
+    rod: Spanned<RodTable>,
+    #[serde(rename = "contour")]
+    _contour: Option<IgnoredAny>,
+    #[serde(rename = "object")]
+    _object: Option<IgnoredAny>,
+    #[serde(rename = "sweep")]
+    _sweep: Option<IgnoredAny>,
+}
+
+/// The rod in a TOML file that holds a table `[rod]` as a scene does, or in a scene.
+///
+/// # Errors
+/// [`SceneError`]: the file cannot be read, or holds no rod.
+pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
+    parse(file, &toml_file::text("the rod", file)?)
+}
+
+fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
+    toml_file::parse(file, text, |table| check::rod(&RodFile::deserialize(Deserializer::from(table))?.rod))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rod_alone_and_that_of_a_scene() {
+        let alone = parse("rod.toml".as_ref(), "[rod]\nlength = 0.1\nbending_stiffness = 6.32e-4\n").unwrap();
+        assert_eq!((alone.length(), alone.bending_stiffness()), (0.1, 6.32e-4));
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/O1_q40.toml");
+        let rod = read_rod(&scene).unwrap();
+        assert!((rod.bending_stiffness() - 6.32e-4).abs() < 1e-6);
+        // Of a scene only the rod is looked at.
+        let scene = "[rod]\nlength = 0.1\nbending_stiffness = 1\n[sweep]\nfrom = 3\n[[object]]\n";
+        assert!(parse("scene.toml".as_ref(), scene).is_ok());
+    }
+
+    #[test]
+    fn no_rod() {
+        for (text, message) in [
+            ("", "rod.toml:1:1: missing field `rod`"),
+            ("length = 0.1", "rod.toml:1:1: length: unknown field `length`, expected one of `rod`"),
+            ("[rod]\nlength = 0.1", "rod.toml:1:1: rod: missing field `bending_stiffness`"),
+            (
+                "[rod]\nlength = -1\nbending_stiffness = 1",
+                "rod.toml:2:10: rod.length: length is -1, expected a positive",
+            ),
+            ("[rod]\nlength = \"m\"", "rod.toml:2:10: rod.length: invalid type: string \"m\", expected a number"),
+        ] {
+            let error = parse("rod.toml".as_ref(), text).unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
+        let error = read_rod("nowhere.toml".as_ref()).unwrap_err().to_string();
+        assert!(error.starts_with("cannot read the rod nowhere.toml: "), "{error}");
+    }
+}

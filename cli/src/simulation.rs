@@ -1,0 +1,181 @@
+//! Simulated recordings: a scene, swept at a speed, felt by a sensor.
+
+use crate::output::csv_writer;
+use crate::scene::MOST_STATES;
+use crate::{Error, Scene, Staged};
+use std::path::Path;
+use vibrissa::{Item, NoiseGenerator, NoiseModel, Pose, Reactions, State, Stop, Sweep};
+
+/// The columns, those of the standard deviations last.
+const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
+const WITHOUT_SIGMAS: usize = 7;
+
+/// A recording to be made, SI units.
+#[derive(Debug)]
+pub struct Simulation {
+    /// What the clamp is led along. The scene's own step is not used.
+    pub scene: Scene,
+    /// The sensor; zeros for one that reads the truth.
+    pub noise: NoiseModel,
+    /// Samples in a second, 1/s.
+    pub rate: f64,
+    /// Speed of the clamp: m/s, or rad/s where it only turns.
+    pub speed: f64,
+    /// Of the noise.
+    pub seed: u64,
+    /// Whether to write the standard deviations of the noise, too.
+    pub sigmas: bool,
+}
+
+/// What was recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulated {
+    /// How many samples were written.
+    pub samples: usize,
+    /// How many were lost in dropouts.
+    pub lost: usize,
+    /// Why the sweep stopped before the end of the path, if it did.
+    pub stop: Option<Stop>,
+}
+
+/// Why a recording cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// A rate or speed that is none.
+    #[error("{what} is {value}, expected a positive, finite number of {unit}")]
+    NotPositive {
+        /// Which one.
+        what: &'static str,
+        /// Its value as given.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// More samples than a sweep may report.
+    #[error(
+        "a rate of {rate} Hz at a speed of {speed} {unit}/s asks for {samples:.1e} samples on a path of {length:.6} {unit}, \
+         expected at most {MOST_STATES:e}; lower the rate, raise the speed or cut the path"
+    )]
+    TooMany {
+        /// Samples in a second.
+        rate: f64,
+        /// Speed of the clamp.
+        speed: f64,
+        /// How many samples these are.
+        samples: f64,
+        /// Length of the path.
+        length: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A channel has no noise whose standard deviation could be written.
+    #[error(
+        "the noise model gives {channel} no standard deviation, expected white or AR(1) noise or a quantum in every \
+         channel where standard deviations are to be written"
+    )]
+    NoSigma {
+        /// Which one.
+        channel: &'static str,
+    },
+}
+
+impl Simulation {
+    /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which
+    /// appears when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked
+    /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample.
+    ///
+    /// The memory it takes does not grow with the number of samples.
+    ///
+    /// # Errors
+    /// [`Error::Simulation`], [`Error::Noise`], [`Error::Output`]. A sweep that stops early is none: what there is, is
+    /// written.
+    pub fn write(&self, out: &Path) -> Result<Simulated, Error> {
+        let step = self.step()?;
+        let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
+        let sensor = self.noise.generator(self.seed)?;
+        let Scene { rod, objects, path, .. } = &self.scene;
+        let mut recorder = Recorder { simulation: self, step, sensor, next: 0 };
+        let sweep = Sweep::new(rod, objects, *path, step)?;
+        let (staged, name) = Staged::of_file(out)?;
+        let mut recorded = Simulated { samples: 0, lost: 0, stop: None };
+        staged.write(name, |out| {
+            let columns = if sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
+            let mut table = csv_writer(out);
+            table.write_record(&COLUMNS[..columns])?;
+            for item in sweep {
+                match item {
+                    Ok(Item::State(state)) => match recorder.row(&state, &sigma.unwrap_or_default()) {
+                        Some(row) => {
+                            table.serialize(&row[..columns])?;
+                            recorded.samples += 1;
+                        }
+                        None => recorded.lost += 1,
+                    },
+                    Ok(Item::Event(_)) => {}
+                    Err(stop) => recorded.stop = Some(stop),
+                }
+            }
+            table.flush()
+        })?;
+        staged.publish()?;
+        Ok(recorded)
+    }
+
+    /// Way of the clamp between two samples.
+    fn step(&self) -> Result<f64, SimulationError> {
+        let Self { scene, rate, speed, .. } = self;
+        let unit = if scene.path.turns_only() { "rad" } else { "m" };
+        let per_second = if scene.path.turns_only() { "rad/s" } else { "m/s" };
+        for (what, value, unit) in [("the rate", *rate, "Hz"), ("the speed", *speed, per_second)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(SimulationError::NotPositive { what, value, unit });
+            }
+        }
+        let (step, length) = (speed / rate, scene.path.length());
+        let samples = length / step;
+        // Written so that it holds for a step of zero, too.
+        if samples <= MOST_STATES {
+            Ok(step)
+        } else {
+            Err(SimulationError::TooMany { rate: *rate, speed: *speed, samples, length, unit })
+        }
+    }
+
+    fn sigma(&self) -> Result<Reactions, SimulationError> {
+        let sigma = self.noise.sigma();
+        let channels = [("f0x", sigma.f0x), ("f0y", sigma.f0y), ("m0z", sigma.m0z)];
+        match channels.into_iter().find(|(_, sigma)| *sigma <= 0.0) {
+            Some((channel, _)) => Err(SimulationError::NoSigma { channel }),
+            None => Ok(sigma),
+        }
+    }
+}
+
+/// Makes rows of states.
+struct Recorder<'a> {
+    simulation: &'a Simulation,
+    step: f64,
+    sensor: NoiseGenerator,
+    /// Number of the next sample.
+    next: usize,
+}
+
+impl Recorder<'_> {
+    /// The row of a state, unless it is lost.
+    fn row(&mut self, state: &State, sigma: &Reactions) -> Option<[f64; COLUMNS.len()]> {
+        let Pose { x, y, phi } = state.pose;
+        let path = &self.simulation.scene.path;
+        let start = path.at(0.0);
+        let way = if path.turns_only() { (phi - start.phi).abs() } else { (x - start.x).hypot(y - start.y) };
+        let number = (way / self.step).round() as usize;
+        // The sensor goes on where the sweep has nothing to report.
+        for _ in self.next..number {
+            self.sensor.sample(Reactions::default());
+        }
+        self.next = number + 1;
+        let Reactions { f0x, f0y, m0z } = self.sensor.sample(state.reactions)?;
+        let t = number as f64 / self.simulation.rate;
+        Some([t, x, y, phi, f0x, f0y, m0z, sigma.f0x, sigma.f0y, sigma.m0z])
+    }
+}
