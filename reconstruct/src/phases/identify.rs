@@ -1,6 +1,6 @@
 //! The phases of a whole scan.
 
-use super::automaton::{Break, Place, likeliest};
+use super::automaton::{Break, Place, Trellis};
 use super::border::border;
 use super::evidence::Evidence;
 use crate::fit::{Fit, Noise};
@@ -72,8 +72,7 @@ pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identi
             index = (index + stride).min(part.end - 1);
         }
     }
-    let places: Vec<Place> = nodes.iter().map(|node| node.place).collect();
-    let labels = likeliest(&places);
+    let labels = Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec();
     let runs = runs(track, noise, &nodes, &labels);
     Identified { nodes, runs, labels }
 }
