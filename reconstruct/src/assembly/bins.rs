@@ -21,6 +21,9 @@ pub(super) struct Bin {
     pub at: Vector2<f64>,
     /// Of `at`.
     pub covariance: Matrix2<f64>,
+    /// How far the mean of the points may be off because a point does not depend linearly on what was measured: the
+    /// error of the rod's angles squared, times half the length over which they count.
+    pub bias: f64,
     /// Tangent of the contour, a unit vector.
     pub tangent: Vector2<f64>,
     /// Standard deviation of its angle, radians; infinite where the contact force is lost in noise.
@@ -42,9 +45,10 @@ pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
             let covariance = part.iter().map(|point| point.covariance).sum::<Matrix2<f64>>() / (many * many);
             // The mean of the force vectors, not of the angles: it is as exact where the force is small.
             let force = part.iter().map(force).sum::<Vector2<f64>>() / many;
+            let bias = part.iter().map(|point| 0.5 * point.covariance.trace() / point.s).sum::<f64>() / many;
             forces.push((force, force_noise / many));
             let (from, to) = (first.sample, last.sample + 1);
-            Some(Bin { from, to, at: mean(part).0, covariance, tangent: force, sigma_tangent: 0.0 })
+            Some(Bin { from, to, at: mean(part).0, covariance, bias, tangent: force, sigma_tangent: 0.0 })
         })
         .collect();
     if run.len() > bins.len() {
@@ -134,7 +138,14 @@ mod tests {
             .map(|sample| {
                 let at = Vector2::new(sample as f64 * 2e-6 + sigma * random.normal(), sigma * random.normal());
                 let force = Vector2::new(0.2 + force_noise * random.normal(), force_noise * random.normal());
-                Point { sample, at, force, tangent: Vector2::x(), covariance: Matrix2::identity() * sigma * sigma }
+                Point {
+                    sample,
+                    at,
+                    force,
+                    tangent: Vector2::x(),
+                    s: f64::INFINITY,
+                    covariance: Matrix2::identity() * sigma * sigma,
+                }
             })
             .collect();
         noise::complete(&mut run);
@@ -153,7 +164,14 @@ mod tests {
         let mut run: Vec<Point> = (0..100)
             .map(|sample| {
                 let at = Vector2::new(sample as f64 * 1e-4, 0.0);
-                Point { sample, at, force: Vector2::zeros(), tangent: Vector2::x(), covariance: Matrix2::zeros() }
+                Point {
+                    sample,
+                    at,
+                    force: Vector2::zeros(),
+                    tangent: Vector2::x(),
+                    s: f64::INFINITY,
+                    covariance: Matrix2::zeros(),
+                }
             })
             .collect();
         noise::complete(&mut run);

@@ -38,8 +38,8 @@ use thin::Line;
 /// The noise of a single point is averaged out along the trace: consecutive samples are averaged into bins, far enough
 /// apart to be in order, and the bins are fitted together with the tangent angles, which give the shape more exactly
 /// than the positions do. The stated standard deviation holds for noise as the covariances of the points tell, or as
-/// their scatter shows where that is more; correlation between samples is included, an error common to all of a trace
-/// is not.
+/// their scatter shows where that is more. It includes correlation between samples, and how far off their mean may be
+/// because a point does not depend linearly on what was measured; an error common to all of a trace it does not.
 ///
 /// ```
 /// use nalgebra::Matrix2;
@@ -82,7 +82,8 @@ impl Default for Assembly {
 impl Assembly {
     /// For points found as if every sample had one contact: their tangents are not used where they would have to fit
     /// the way of the points. Such contours of several scans are compared to find where the object is concave
-    /// ([`Comparison`](crate::Comparison)).
+    /// ([`Comparison`](crate::Comparison)). Leave out samples whose force is less than some 40 times its noise: there
+    /// a point's error is not zero in the mean, and scans seem to disagree.
     pub fn naive() -> Self {
         Self { tangents: false, ..Self::default() }
     }

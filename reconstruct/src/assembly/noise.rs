@@ -79,6 +79,7 @@ mod tests {
                 at,
                 force: Vector2::x(),
                 tangent: Vector2::x(),
+                s: f64::INFINITY,
                 covariance: Matrix2::identity() * stated * stated,
             }
         };

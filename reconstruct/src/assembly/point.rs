@@ -13,6 +13,8 @@ pub(super) struct Point {
     pub force: Vector2<f64>,
     /// The same of length 1.
     pub tangent: Vector2<f64>,
+    /// Arc length along the rod, infinite where it is not known.
+    pub s: f64,
     /// Of the position; zero where it is not known.
     pub covariance: Matrix2<f64>,
 }
@@ -29,7 +31,8 @@ impl Point {
         let known = c.iter().all(|entry| entry.is_finite()) && c[(0, 0)] >= 0.0 && c[(1, 1)] >= 0.0;
         let covariance = if known { 0.5 * (c + c.transpose()) } else { Matrix2::zeros() };
         let tangent = Vector2::new(cos, sin);
-        Some(Self { sample, at: Vector2::new(touch.x, touch.y), force: force * tangent, tangent, covariance })
+        let s = if touch.s.is_finite() && touch.s > 0.0 { touch.s } else { f64::INFINITY };
+        Some(Self { sample, at: Vector2::new(touch.x, touch.y), force: force * tangent, tangent, s, covariance })
     }
 }
 

@@ -123,7 +123,7 @@ mod tests {
             let at = Vector2::new(angle.sin(), 1.0 - angle.cos()) * 1e-2 + noise;
             let alpha = angle + sigma_tangent * random.normal();
             let (covariance, tangent) = (Matrix2::identity() * sigma * sigma, Vector2::new(alpha.cos(), alpha.sin()));
-            Bin { from: k, to: k + 1, at, covariance, tangent, sigma_tangent }
+            Bin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent, sigma_tangent }
         };
         (0..count).map(bin).collect()
     }
@@ -173,7 +173,15 @@ mod tests {
                 let at = true_at + Vector2::new(random.normal(), random.normal()) * sigma;
                 let tangent = Vector2::new(turned.cos(), turned.sin());
                 let (from, to) = (k as usize, k as usize + 1);
-                Bin { from, to, at, covariance: Matrix2::identity() * sigma * sigma, tangent, sigma_tangent: 1e-3 }
+                Bin {
+                    from,
+                    to,
+                    at,
+                    covariance: Matrix2::identity() * sigma * sigma,
+                    bias: 0.0,
+                    tangent,
+                    sigma_tangent: 1e-3,
+                }
             })
             .collect();
         let estimates = smooth(&bins, true);

@@ -45,7 +45,7 @@ impl Line {
                 let mean = (tangent + direction).try_normalize(1e-6).unwrap_or(tangent);
                 way += mean.dot(&(at - last));
             }
-            let sigma = variance(&normal).sqrt();
+            let sigma = variance(&normal).sqrt().hypot(bin.bias);
             line.points.push(TracePoint { x: at.x, y: at.y, alpha: angle(&tangent), sigma });
             line.along.push(variance(&along).sqrt());
             line.way.push(way);
@@ -251,7 +251,10 @@ mod tests {
         let bin = |(k, &way): (usize, &i32)| {
             let at = Vector2::new(1e-3 * f64::from(way), 0.0);
             let covariance = nalgebra::Matrix2::identity() * sigma * sigma;
-            (Bin { from: k, to: k + 1, at, covariance, tangent: Vector2::x(), sigma_tangent: 0.0 }, (at, covariance))
+            (
+                Bin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent: Vector2::x(), sigma_tangent: 0.0 },
+                (at, covariance),
+            )
         };
         let (bins, estimates): (Vec<_>, Vec<_>) = ways.iter().enumerate().map(bin).unzip();
         Line::new(&bins, &estimates, true)

@@ -70,8 +70,8 @@ pub(super) fn fused(a: &Trace, b: &Trace) -> Trace {
     Trace { kind: a.kind, samples, reversed, points: simplified(&points, 0.0, TOLERANCE) }
 }
 
-/// How far along another trace, whose lengths are given, each point of one is; beyond what both passed it goes on by its
-/// own length.
+/// How far along another trace, whose lengths are given, each point of one is; beyond what both passed it goes on by
+/// its own length.
 fn keys(one: &Trace, other: &Trace, along: &[f64], far: f64) -> Vec<f64> {
     let own = lengths(&one.points);
     let common: Vec<Option<f64>> = one

@@ -306,3 +306,43 @@ proptest! {
         prop_assert!((of_all.0 - of_merged.0).abs() < 2e-4 && (of_all.1 - of_merged.1).abs() < 2e-4);
     }
 }
+
+#[test]
+fn noise_of_the_reactions_is_averaged_out_and_stated() {
+    for (q, within) in [(0.02, 2e-5), (0.04, 4e-5), (0.06, 1e-4)] {
+        let states = states(q, 1e-5);
+        let mut samples = naive(&states, (2.5e-3, 6e-5), 3);
+        for (sample, state) in samples.iter_mut().zip(&states) {
+            let phase = state.phase();
+            if phase.contacts > 1 {
+                *sample = (Label::of(phase.contacts, phase.tip), Vec::new());
+            }
+        }
+        let scan = assembled(&samples, Assembly::default());
+        assert_eq!((scan.traces.len(), scan.gaps.len()), (2, 3));
+        let object = object();
+        for trace in &scan.traces {
+            let errors = trace.points.iter().map(|p| (object.gap(p.x, p.y).abs(), p.sigma));
+            let (mut errors, ratios): (Vec<f64>, Vec<f64>) =
+                errors.map(|(error, sigma)| (error, error / sigma)).unzip();
+            let ratio = (ratios.iter().map(|ratio| ratio * ratio).sum::<f64>() / ratios.len() as f64).sqrt();
+            errors.sort_by(f64::total_cmp);
+            let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+            let ends = [(trace.entered(), trace.samples.start), (trace.left(), trace.samples.end - 1)];
+            let off = ends.map(|(end, k)| {
+                let (end, contact) = (end.unwrap(), &states[k].contacts[0]);
+                (end[0] - contact.x).hypot(end[1] - contact.y)
+            });
+            println!(
+                "q {q}, {:.1} mm: median {:.1}, worst {:.1} um, {ratio:.2} of what is stated; ends off {:.2}, {:.2} mm",
+                trace.length() * 1e3,
+                median * 1e6,
+                worst * 1e6,
+                off[0] * 1e3,
+                off[1] * 1e3
+            );
+            assert!(median < within && worst < 3.0 * within && ratio < 3.0);
+            assert!(off[0].max(off[1]) < 2e-3);
+        }
+    }
+}
