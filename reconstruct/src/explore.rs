@@ -467,3 +467,95 @@ fn whole() {
         }
     }
 }
+
+#[test]
+#[ignore]
+fn live() {
+    let sigma: f64 = std::env::var("SIGMA").unwrap_or("0".into()).parse().unwrap();
+    let rho: f64 = std::env::var("RHO").unwrap_or("0".into()).parse().unwrap();
+    let half: f64 = std::env::var("HALF").unwrap_or("0.02".into()).parse().unwrap();
+    let mut seed = 1u64;
+    let rod = Rod::new(1.0, 1.0).unwrap();
+    for o in 0..3 {
+        for q in [0.2, 0.4, 0.6] {
+            let (states, _, object) = scan(o, q, 2e-5);
+            let mut gauss = || {
+                let mut s = 0.0;
+                for _ in 0..12 {
+                    seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                    s += (seed >> 11) as f64 / (1u64 << 53) as f64;
+                }
+                s - 6.0
+            };
+            let mut ar = Vector3::zeros();
+            let samples: Vec<crate::Sample> = states
+                .iter()
+                .map(|s| {
+                    ar = ar * rho
+                        + Vector3::new(gauss() * 0.04, gauss() * 0.04, gauss() * 0.0095) * f64::sqrt(1.0 - rho * rho);
+                    let mut r = s.reactions;
+                    r.f0x += ar.x * sigma;
+                    r.f0y += ar.y * sigma;
+                    r.m0z += ar.z * sigma;
+                    crate::Sample::new(s.pose, r)
+                })
+                .collect();
+            let mut noise =
+                [0.04, 0.04, 0.0095].map(|s| crate::noise_estimate::ChannelNoise::white((s * sigma).max(1e-14)));
+            for n in &mut noise {
+                n.long_run = (1.0 + rho) / (1.0 - rho);
+                n.lag1 = rho;
+            }
+            let mut live = crate::Live::new(
+                &rod,
+                &crate::LiveSettings { half_window: half, ..crate::LiveSettings::new(noise, 2e-5) },
+            )
+            .unwrap();
+            let t0 = std::time::Instant::now();
+            let mut worst = std::time::Duration::ZERO;
+            let mut out = Vec::new();
+            for s in &samples {
+                let t = std::time::Instant::now();
+                if let Some(r) = live.push(s) {
+                    out.push(r)
+                }
+                worst = worst.max(t.elapsed());
+            }
+            while let Some(r) = live.finish() {
+                out.push(r)
+            }
+            let el = t0.elapsed();
+            assert_eq!(out.len(), samples.len());
+            let (mut wrong, mut several) = (0, 0);
+            let mut errors = vec![];
+            let mut runs = String::new();
+            let mut last = None;
+            use rod_contours::Contour;
+            for (r, st) in out.iter().zip(&states) {
+                let p = st.phase();
+                let truth = crate::Label::of(p.contacts, p.tip);
+                if last != Some(r.label) {
+                    runs += &format!("{}@{:.4} ", r.label, 0.8 - st.pose.x);
+                    last = Some(r.label);
+                }
+                if truth != r.label {
+                    wrong += 1;
+                    if truth.several() != r.label.several() {
+                        several += 1
+                    }
+                } else if let Ok(t) = r.touch {
+                    errors.push(object.closest(t.x, t.y).gap.abs())
+                }
+            }
+            errors.sort_by(f64::total_cmp);
+            println!(
+                "O{o} q{q} delay {} wrong {:.3} % several {several} point med {:.1e} 95 {:.1e} | {:?}/sample worst {worst:?}: {runs}",
+                live.delay(),
+                100.0 * wrong as f64 / states.len() as f64,
+                errors[errors.len() / 2],
+                errors[errors.len() * 95 / 100],
+                el / samples.len() as u32
+            );
+        }
+    }
+}

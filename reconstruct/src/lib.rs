@@ -21,6 +21,7 @@ mod fit;
 pub mod kink;
 mod known;
 mod label;
+mod live;
 mod noise;
 pub mod noise_estimate;
 mod phases;
@@ -37,6 +38,7 @@ pub use assembly::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
 pub use label::Label;
+pub use live::{Live, LiveSettings};
 pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
 pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};

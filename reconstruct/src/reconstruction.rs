@@ -1,6 +1,6 @@
 //! A whole scan: labels, contact points, and where there are none, why.
 
-use crate::bound::bound;
+use crate::bound::contact;
 use crate::fit::Noise;
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::label::Label;
@@ -11,15 +11,10 @@ use crate::several::{Limits, Neighbour, Piece, Unresolved, resolve};
 use crate::single::NoContact;
 use crate::touch::Touch;
 use crate::track::{Fault, Track};
-use nalgebra::Matrix3;
 use rod_core::{Rod, Units};
 
 /// Fewest usable samples of a scan.
 const FEWEST: usize = 20;
-/// Standard deviation of a reaction, dimensionless, below which the samples themselves are better than a fit through
-/// them.
-const CLEAN: f64 = 1e-9;
-
 /// How a scan is reconstructed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -82,6 +77,9 @@ pub enum Reason {
         /// Standard deviation across the contour, m.
         sigma: f64,
     },
+    /// Several contacts are resolved from a whole scan only.
+    #[error("several contacts, which are resolved from the whole scan only")]
+    Live,
     /// Of several contacts this one is not resolved.
     #[error("several contacts: {0}")]
     Several(#[from] Unresolved),
@@ -99,7 +97,14 @@ pub struct Reading {
     /// The second of several; none where the label is of a single contact or none.
     pub second: Option<Result<Touch, Reason>>,
     /// Where its evidence is.
-    place: usize,
+    pub(crate) place: usize,
+}
+
+impl Reading {
+    /// A sample of this label that has no contact point.
+    pub(crate) fn without(label: Label, reason: Reason) -> Self {
+        Self { label, margin: 0.0, touch: Err(reason), second: None, place: usize::MAX }
+    }
 }
 
 /// What a scan says of the object.
@@ -136,11 +141,7 @@ impl Reconstruction {
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    for (what, value) in [("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(ReconstructError::Setting { what, value });
-        }
-    }
+    positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
     let units = rod.units();
     let (track, places) = Track::new(rod, samples);
     if track.len() < FEWEST {
@@ -149,7 +150,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     let channels = [0, 1, 2].map(|c| track.clamps.iter().map(|clamp| clamp.reactions[c]).collect::<Vec<f64>>());
     let size = [units.force, units.force, units.moment];
     let found = match settings.noise {
-        Some(noise) => std::array::from_fn(|c| ChannelNoise { sigma: noise[c].sigma / size[c], ..noise[c] }),
+        Some(noise) => dimensionless(&noise, units),
         None => noise_of(&track, &channels, samples, size),
     };
     let [f0x, f0y, m0z] = &channels;
@@ -173,8 +174,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
             }
             Err(fault) => {
                 let label = readings.last().map_or(Label::Free, |before: &Reading| before.label);
-                let touch = Err(Reason::Fault(*fault));
-                readings.push(Reading { label, margin: 0.0, touch, second: None, place: usize::MAX });
+                readings.push(Reading::without(label, Reason::Fault(*fault)));
             }
         }
     }
@@ -198,6 +198,20 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     })
 }
 
+/// Noise in SI units made dimensionless.
+pub(crate) fn dimensionless(noise: &[ChannelNoise; 3], units: Units) -> [ChannelNoise; 3] {
+    let size = [units.force, units.force, units.moment];
+    std::array::from_fn(|c| ChannelNoise { sigma: noise[c].sigma / size[c], ..noise[c] })
+}
+
+/// Settings that must be positive, finite numbers.
+pub(crate) fn positive(settings: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ReconstructError> {
+    match settings.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+        Some((what, value)) => Err(ReconstructError::Setting { what, value }),
+        None => Ok(()),
+    }
+}
+
 /// The noise of the samples: what the sensor says of itself, where it does, with the correlation that the scan shows.
 fn noise_of(track: &Track, channels: &[Vec<f64>; 3], samples: &[Sample], size: [f64; 3]) -> [ChannelNoise; 3] {
     let told: Option<Vec<_>> = samples.iter().map(|sample| sample.sigma).collect();
@@ -210,6 +224,16 @@ fn noise_of(track: &Track, channels: &[Vec<f64>; 3], samples: &[Sample], size: [
         });
         ChannelNoise { sigma: told.unwrap_or(found.sigma), ..found }
     })
+}
+
+/// The point in SI units, if it is known well enough.
+pub(crate) fn sure(touch: Touch, units: Units, largest_sigma: f64) -> Result<Touch, Reason> {
+    let sigma = touch.sigma_normal();
+    if sigma <= largest_sigma {
+        Ok(touch.in_units(units))
+    } else {
+        Err(Reason::TooNoisy { sigma: sigma * units.length })
+    }
 }
 
 struct Answers<'a> {
@@ -254,25 +278,15 @@ impl Answers<'_> {
         if label == Label::Free {
             return self.reading(nodes, index, label, Err(Reason::Free));
         }
-        let (clamp, covariance) = if self.noise.variance.max() < CLEAN * CLEAN {
-            (self.track.clamps[index], Matrix3::from_diagonal(&self.noise.variance))
-        } else {
-            let estimate = self.identified.nodes[nodes.of(index)].fit.at(self.track.tau[index]);
-            (estimate.clamp, estimate.covariance())
-        };
-        let touch = bound(&clamp, &covariance, label).map_err(Reason::NoContact).and_then(|touch| self.sure(touch));
+        let fit = &self.identified.nodes[nodes.of(index)].fit;
+        let touch = contact(&self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
+        let touch = touch.map_err(Reason::NoContact).and_then(|touch| self.sure(touch));
         self.reading(nodes, index, label, touch)
     }
 
     /// The point in SI units, if it is known well enough.
     fn sure(&self, touch: Touch) -> Result<Touch, Reason> {
-        let sigma = touch.sigma_normal();
-        let touch = touch.in_units(self.units);
-        if sigma <= self.settings.largest_sigma {
-            Ok(touch)
-        } else {
-            Err(Reason::TooNoisy { sigma: sigma * self.units.length })
-        }
+        sure(touch, self.units, self.settings.largest_sigma)
     }
 
     /// A series of runs with several contacts.
