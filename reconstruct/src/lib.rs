@@ -6,6 +6,7 @@
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+pub mod kink;
 mod label;
 pub mod noise_estimate;
 mod sample;

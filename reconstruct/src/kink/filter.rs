@@ -1,0 +1,133 @@
+//! Kinks and jumps as the samples come.
+
+use super::scale::reach;
+use super::search::Detector;
+use super::{Kink, KinkOptions};
+use crate::noise_estimate::ChannelNoise;
+use std::collections::VecDeque;
+
+/// [`find_kinks`](super::find_kinks) sample by sample: the search runs over the last samples each time that half of the
+/// longest half-window has come in, and answers for places that have a whole half-window of samples on either side.
+///
+/// It finds what the whole recording at once would show, but for transitions whose neighbours decide on them over more
+/// than a half-window. Memory is taken once, when it is made.
+///
+/// ```
+/// use rod_reconstruct::kink::{KinkFilter, KinkOptions};
+/// use rod_reconstruct::noise_estimate::ChannelNoise;
+/// let options = KinkOptions { widest: 0.01, ..KinkOptions::default() };
+/// let mut filter = KinkFilter::new(1e-4, [ChannelNoise::white(1e-6); 3], options, 1000);
+/// let mut found = Vec::new();
+/// for i in 0..1000 {
+///     let tau = 1e-4 * f64::from(i);
+///     let bent = (tau - 0.05).max(0.0);
+///     found.extend(filter.push(tau, [bent, tau - 2.0 * bent, 1.0]));
+/// }
+/// found.extend(std::iter::from_fn(|| filter.finish()));
+/// assert_eq!(found.len(), 1);
+/// assert!((found[0].tau - 0.05).abs() < 1e-6 && found[0].next == 501);
+/// ```
+#[derive(Clone, Debug)]
+pub struct KinkFilter {
+    detector: Detector,
+    tau: Vec<f64>,
+    channels: [Vec<f64>; 3],
+    /// Samples before the first in memory.
+    passed: usize,
+    /// Samples about which nothing more is said.
+    decided: usize,
+    margin: usize,
+    hop: usize,
+    nominal: usize,
+    pending: VecDeque<Kink>,
+    last: Option<Kink>,
+    skipped: usize,
+}
+
+/// A place is said again only where it is so many standard deviations and samples from the last one.
+const APART: f64 = 5.0;
+
+impl KinkFilter {
+    /// For samples at distances of about `spacing` (> 0, in units of the path parameter). The false-alarm rate of
+    /// `options` is that of `nominal` samples.
+    pub fn new(spacing: f64, noise: [ChannelNoise; 3], options: KinkOptions, nominal: usize) -> Self {
+        let (margin, largest) = reach(spacing, options);
+        let hop = largest * (margin / (2 * largest)).max(1);
+        let capacity = 2 * margin + hop;
+        let detector = Detector::new(capacity, spacing, noise, options).roomy(capacity);
+        let room = || Vec::with_capacity(capacity);
+        Self {
+            detector,
+            tau: room(),
+            channels: [room(), room(), room()],
+            passed: 0,
+            decided: 0,
+            margin,
+            hop,
+            nominal,
+            pending: VecDeque::with_capacity(capacity),
+            last: None,
+            skipped: 0,
+        }
+    }
+
+    /// After how many samples, at most, a transition is known: the longest half-window and the half of it that is
+    /// searched at once. Of several that become known at once, one is handed out a sample.
+    pub fn delay(&self) -> usize {
+        self.margin + self.hop
+    }
+
+    /// Samples left out because they were not finite, or not beyond the one before.
+    pub fn skipped(&self) -> usize {
+        self.skipped
+    }
+
+    /// Takes a sample; hands out the next transition that is known, its `next` counting the samples taken.
+    pub fn push(&mut self, tau: f64, channels: [f64; 3]) -> Option<Kink> {
+        let increases = self.tau.last().is_none_or(|last| tau > *last);
+        if !tau.is_finite() || !increases || channels.iter().any(|y| !y.is_finite()) {
+            self.skipped += 1;
+            return self.pending.pop_front();
+        }
+        self.tau.push(tau);
+        for (memory, y) in self.channels.iter_mut().zip(channels) {
+            memory.push(y);
+        }
+        if self.tau.len() == 2 * self.margin + self.hop {
+            self.search(self.margin + self.hop);
+            self.tau.drain(..self.hop);
+            self.channels.iter_mut().for_each(|memory| drop(memory.drain(..self.hop)));
+            self.passed += self.hop;
+        }
+        self.pending.pop_front()
+    }
+
+    /// No more samples come: hands out what remains, one transition a call.
+    pub fn finish(&mut self) -> Option<Kink> {
+        if self.decided < self.passed + self.tau.len() {
+            self.search(self.tau.len());
+        }
+        self.pending.pop_front()
+    }
+
+    /// Decides on the samples in memory up to `end`.
+    fn search(&mut self, end: usize) {
+        let [a, b, c] = &self.channels;
+        self.detector.run(&self.tau, [a, b, c], self.nominal);
+        // a transition that an earlier search placed just beyond its end may lie just before it now
+        let from = self.decided.saturating_sub(self.margin / 8);
+        for kink in self.detector.found() {
+            let kink = Kink { next: kink.next + self.passed, ..kink };
+            let near = |last: Kink| {
+                let samples = kink.next.abs_diff(last.next) <= APART as usize;
+                samples || (kink.tau - last.tau).abs() <= APART * (kink.sigma_tau + last.sigma_tau)
+            };
+            let after = self.last.is_none_or(|last| kink.tau > last.tau);
+            if (from..self.passed + end).contains(&kink.next) && after && !self.last.is_some_and(near) {
+                self.pending.push_back(kink);
+                self.last = Some(kink);
+            }
+        }
+        self.decided = self.passed + end;
+    }
+}

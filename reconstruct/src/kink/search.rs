@@ -1,0 +1,389 @@
+//! From the finest scale to the coarsest: what no finer scale explains.
+
+use super::basis::{Basis, FEWEST, MOST, ROWS, Verdict, Window};
+use super::level::Level;
+use super::refine::{Part, Placed};
+use super::scale::{Scale, scales};
+use super::threshold;
+use super::{Kink, KinkKind, KinkOptions, equivalents};
+use crate::noise_estimate::ChannelNoise;
+
+/// The noise is known to some 10 % of its variance, and thresholds allow for it.
+const ALLOWANCE: f64 = 1.1;
+/// A kink must beat a quartic by this much in units of variance, and by this share of its own score, of which an ideal
+/// kink beats it by a quarter.
+const MARGIN: (f64, f64) = (2.0, 0.1);
+/// Where a window's own misfit stands in for the noise, its chance of being small is that of an F distribution of few
+/// degrees of freedom: thresholds rise with the misfit, up to this factor (11 degrees, a chance of 1e-7).
+const MISFIT: f64 = 6.0;
+/// What would have been so far above the threshold with half the window, but was not found there, is smooth.
+const MISSED: f64 = 4.0;
+/// A jump fits so much better than a kink, in units of the noise variance, where there is one: three more degrees of
+/// freedom exceed it by chance about once in a million times.
+const JUMP: f64 = 32.0;
+/// A knot is placed by bins so many times halved.
+const FINER: usize = 3;
+/// Searches at most.
+const ROUNDS: usize = 3;
+/// Knots of two windows agree within so many standard deviations of the shorter one's.
+const AGREES: f64 = 1.0;
+/// Samples within so many standard deviations of a kink belong to neither side.
+const GUARD: f64 = 4.0;
+
+/// A transition that was taken.
+#[derive(Clone, Copy, Debug)]
+struct Taken {
+    placed: Placed,
+    /// Scale that found it.
+    scale: usize,
+    /// Score over threshold.
+    score: f64,
+    /// Samples that belong to neither side.
+    guard: (usize, usize),
+}
+
+/// What the search works with; made once for recordings up to a length.
+#[derive(Clone, Debug)]
+pub(crate) struct Detector {
+    options: KinkOptions,
+    noise: [ChannelNoise; 3],
+    /// White-equivalent noise of a sample.
+    sigma: [f64; 3],
+    levels: Vec<Level>,
+    scales: Vec<Scale>,
+    bases: Vec<Basis>,
+    taken: Vec<Taken>,
+    candidates: Vec<(f64, usize)>,
+    /// Scale and sample of what was taken and did not hold.
+    dropped: Vec<(usize, usize)>,
+}
+
+const SIDES: usize = MOST - FEWEST + 1;
+
+impl Detector {
+    /// For recordings of up to `capacity` samples at distances of about `spacing`.
+    pub fn new(capacity: usize, spacing: f64, noise: [ChannelNoise; 3], options: KinkOptions) -> Self {
+        let scales: Vec<Scale> = scales(spacing, options)
+            .filter(|scale| (2 * FEWEST) << scale.level <= capacity || scale.level == 0)
+            .collect();
+        let finest = scales.iter().map(|scale| scale.level).max().unwrap_or(0);
+        let levels = (0..=finest).map(|level| Level::with_capacity(capacity >> level)).collect();
+        let bases = (0..2 * SIDES * SIDES)
+            .map(|i| Basis::even(FEWEST + i / SIDES % SIDES, FEWEST + i % SIDES, i / (SIDES * SIDES)))
+            .collect();
+        let (taken, candidates, dropped) = (Vec::new(), Vec::new(), Vec::new());
+        Self { options, noise, sigma: [0.0; 3], levels, scales, bases, taken, candidates, dropped }
+    }
+
+    /// With room for all that recordings up to the capacity can hold, so that no run takes memory.
+    pub fn roomy(mut self, capacity: usize) -> Self {
+        self.candidates.reserve(capacity);
+        self.taken.reserve(capacity / 2);
+        self.dropped.reserve(ROUNDS * capacity / 2);
+        self
+    }
+
+    /// All transitions of a recording in order; `nominal` is the number of samples that the false-alarm rate is for.
+    pub fn run(&mut self, tau: &[f64], channels: [&[f64]; 3], nominal: usize) {
+        self.taken.clear();
+        self.sigma = equivalents(&self.noise, channels);
+        self.levels[0].fill(tau, channels, &self.sigma);
+        for k in 1..self.levels.len() {
+            let (finer, coarser) = self.levels.split_at_mut(k);
+            let sigma = self.sigma.map(|s| s / (2.0_f64.powi(k as i32)).sqrt());
+            coarser[0].fill_from(&finer[k - 1], &sigma);
+        }
+        let share = self.options.false_alarms.max(0.0) / self.scales.len() as f64;
+        for scale in &mut self.scales {
+            let p = share * self.levels[scale.level].size as f64 / nominal.max(1) as f64;
+            scale.three = ALLOWANCE * threshold::three(0.5 * p);
+            scale.six = ALLOWANCE * threshold::six(0.5 * p);
+        }
+        self.dropped.clear();
+        for _ in 0..ROUNDS {
+            let before = self.dropped.len();
+            for scale in 0..self.scales.len() {
+                self.search(scale);
+            }
+            self.settle();
+            // what was misplaced may hide what longer windows see
+            if self.dropped.len() == before {
+                break;
+            }
+        }
+    }
+
+    /// What the last run found, in order.
+    pub fn found(&self) -> impl Iterator<Item = Kink> + '_ {
+        self.taken.iter().map(|taken| Kink::from(*taken))
+    }
+
+    /// Takes the best transition of a scale until there is none.
+    fn search(&mut self, scale: usize) {
+        let Scale { level, half, .. } = self.scales[scale];
+        self.mask(level, None);
+        self.candidates.clear();
+        for node in 0..self.levels[level].len() {
+            if let Some(ratio) = self.ratio(scale, node)
+                && !self.was_dropped(scale, node)
+            {
+                self.candidates.push((ratio, node));
+            }
+        }
+        self.candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        while let Some((ratio, node)) = self.candidates.pop() {
+            let Some(taken) = self.take(scale, node, ratio) else { continue };
+            self.levels[level].mask(taken.guard.0, taken.guard.1);
+            self.taken.push(taken);
+            // windows that reached over it are shorter now
+            let reach = half + 2;
+            let (low, high) = (node.saturating_sub(2 * reach), node + 2 * reach);
+            let mut kept = std::mem::take(&mut self.candidates);
+            kept.retain_mut(|(ratio, node)| {
+                if (low..=high).contains(node) {
+                    *ratio = self.ratio(scale, *node).unwrap_or(f64::NAN);
+                }
+                !ratio.is_nan()
+            });
+            kept.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            self.candidates = kept;
+        }
+    }
+
+    fn was_dropped(&self, scale: usize, node: usize) -> bool {
+        let Scale { level, half, .. } = self.scales[scale];
+        let size = self.levels[level].size;
+        self.dropped.iter().any(|(last, next)| scale <= *last && next.abs_diff(node * size) < half * size)
+    }
+
+    /// Score over threshold of a node, where it speaks for a transition.
+    fn ratio(&self, scale: usize, node: usize) -> Option<f64> {
+        let (verdict, ..) = self.verdict(scale, node, true)?;
+        self.passes(scale, &verdict)
+    }
+
+    fn passes(&self, scale: usize, verdict: &Verdict) -> Option<f64> {
+        let Scale { three, six, .. } = self.scales[scale];
+        let ratio = (verdict.hinge / three).max(verdict.both / six) / verdict.misfit.min(MISFIT);
+        let smooth = verdict.margin < MARGIN.0.max(MARGIN.1 * verdict.both);
+        (ratio > 1.0 && !smooth).then_some(ratio)
+    }
+
+    fn variance(&self, level: usize) -> [f64; 3] {
+        let size = self.levels[level].size as f64;
+        self.sigma.map(|s| s * s / size)
+    }
+
+    /// What the window of a scale around a node says, and the bins it spans; none where there is no room for one, or,
+    /// in a hurry, where noise alone explains it.
+    fn verdict(&self, scale: usize, node: usize, hurry: bool) -> Option<(Verdict, usize, usize)> {
+        let Scale { level, half, three, six } = self.scales[scale];
+        let bins = &self.levels[level];
+        let (left, right) = bins.room(node, half);
+        let fewest = FEWEST.max(half / 2);
+        if left < fewest || right < fewest || left + right < 7 {
+            return None;
+        }
+        let gap = bins.gap();
+        let (from, to) = (node - left, node + gap + right);
+        let own;
+        let basis = if bins.even(from, to) {
+            &self.bases[((gap * SIDES) + left - FEWEST) * SIDES + right - FEWEST]
+        } else {
+            let middle = if gap == 1 { bins.tau[node] } else { 0.5 * (bins.tau[node - 1] + bins.tau[node]) };
+            let mut positions = [0.0; ROWS];
+            for (position, i) in positions.iter_mut().zip((from..node).chain(node + gap..to)) {
+                *position = (bins.tau[i] - middle) / bins.width;
+            }
+            own = Basis::new(&positions[..left + right], left);
+            &own
+        };
+        let mut window = Window { basis, bins: left + right, y: [[0.0; ROWS]; 3] };
+        for (row, y) in window.y.iter_mut().zip(&bins.y) {
+            let offset = y[node];
+            row[..left].iter_mut().zip(&y[from..node]).for_each(|(row, y)| *row = y - offset);
+            row[left..left + right].iter_mut().zip(&y[node + gap..to]).for_each(|(row, y)| *row = y - offset);
+        }
+        let variance = self.variance(level);
+        if hurry {
+            let (hinge, both) = window.glance(&variance);
+            if !(hinge > three || both > six) {
+                return None;
+            }
+        }
+        let verdict = window.judge(&variance, threshold::usual(window.bins - 5));
+        Some((verdict, from, to))
+    }
+
+    /// A candidate in its place, unless it turns out to be none.
+    fn take(&self, scale: usize, node: usize, score: f64) -> Option<Taken> {
+        let (verdict, from, to) = self.verdict(scale, node, false)?;
+        let Scale { level, .. } = self.scales[scale];
+        let bins = &self.levels[level];
+        if self.should_have_been_found(scale, node, &verdict) {
+            return None;
+        }
+        let (low, high) = (node.saturating_sub(1) * bins.size, (node + 2) * bins.size);
+        let guess = if bins.gap() == 1 { bins.tau[node] } else { 0.5 * (bins.tau[node - 1] + bins.tau[node]) };
+        let placed = self.place(level, (from * bins.size, to * bins.size), (low, high), guess)?;
+        // a knot that runs away from its node belongs to something else
+        if !(low.saturating_sub(bins.size)..=high + bins.size).contains(&placed.next) {
+            return None;
+        }
+        let guard = guard(&placed, &self.levels[0].tau, (to - from) * bins.size / 6);
+        Some(Taken { placed, scale, score, guard })
+    }
+
+    /// The kink, or the jump between samples `near`, of the samples of a window of a level.
+    fn place(&self, level: usize, (from, to): (usize, usize), near: (usize, usize), guess: f64) -> Option<Placed> {
+        let (part, size) = self.part(level);
+        let (first, last) = (from / size, to / size);
+        let kink = part.kink(first, last, guess).map(|(kink, bent)| (self.counted(kink), bent));
+        let jump = part.jump(first, last, (near.0 / size, near.1.div_ceil(size)));
+        let freedom = (3 * (last - first).saturating_sub(5)).max(1) as f64;
+        match (kink, jump) {
+            (Some((kink, bent)), Some((jump, stepped))) if bent - stepped > JUMP * (stepped / freedom).max(1.0) => {
+                // between which samples only the samples themselves tell
+                let near = (jump.next.saturating_sub(2) * size, (jump.next + 2) * size);
+                Some(self.samples().jump(from, to, near).map_or(kink, |exact| exact.0))
+            }
+            (kink, _) => kink.map(|found| found.0),
+        }
+    }
+
+    fn samples(&self) -> Part<'_> {
+        self.part(0).0
+    }
+
+    /// The bins that a window of a level is fitted by, and how many samples each holds: as many bins to a window as are
+    /// needed to place a knot.
+    fn part(&self, level: usize) -> (Part<'_>, usize) {
+        let bins = &self.levels[level.saturating_sub(FINER)];
+        let share = (bins.size as f64).sqrt();
+        let channels = [&bins.y[0][..], &bins.y[1][..], &bins.y[2][..]];
+        (Part { tau: &bins.tau, channels, sigma: self.sigma.map(|s| s / share) }, bins.size)
+    }
+
+    /// A kink that was placed by bins, with the number of the sample after it.
+    fn counted(&self, kink: Placed) -> Placed {
+        Placed { next: self.levels[0].tau.partition_point(|t| *t <= kink.tau), ..kink }
+    }
+
+    /// Whether half the window would have shown what this one shows, had it been a kink or a jump.
+    fn should_have_been_found(&self, scale: usize, node: usize, verdict: &Verdict) -> bool {
+        let Scale { level, half, .. } = self.scales[scale];
+        let (finer, halved) = if level == 0 { (0, half / 2) } else { (level - 1, half) };
+        let Some(shorter) = self.scales.iter().find(|s| s.level == finer && s.half == halved) else { return false };
+        let ratio = self.levels[finer].width / self.levels[level].width;
+        let bins = &self.levels[level];
+        let reach = halved * self.levels[finer].size;
+        let centre = node * bins.size + bins.size / 2;
+        let free = |t: &Taken| t.guard.1 + reach <= centre || centre + reach < t.guard.0;
+        if centre < reach || centre + reach > self.levels[0].len() || !self.taken.iter().all(free) {
+            return false;
+        }
+        let gap = self.levels[finer].gap();
+        let basis = &self.bases[((gap * SIDES) + halved - FEWEST) * SIDES + halved - FEWEST];
+        let expected: f64 = verdict
+            .changes
+            .iter()
+            .zip(self.variance(finer))
+            .map(|([slope, step], variance)| basis.power([slope * ratio, *step]) / variance)
+            .sum();
+        expected > MISSED * shorter.six
+    }
+
+    /// Masks a level where transitions are, but for one.
+    fn mask(&mut self, level: usize, but: Option<usize>) {
+        let bins = &mut self.levels[level];
+        bins.unmask();
+        for (i, taken) in self.taken.iter().enumerate() {
+            if Some(i) != but {
+                bins.mask(taken.guard.0, taken.guard.1);
+            }
+        }
+    }
+
+    /// Places each transition by the longest window that its neighbours and the noise allow, and drops, weakest first,
+    /// what no longer stands out between its neighbours.
+    fn settle(&mut self) {
+        self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
+        // twice, for places change what is between neighbours, and then for neighbours of what was dropped
+        for _ in 0..2 {
+            (0..self.taken.len()).for_each(|i| self.settle_one(i));
+        }
+        while let Some(weakest) = (0..self.taken.len())
+            .filter(|i| self.taken[*i].score <= 1.0)
+            .min_by(|a, b| self.taken[*a].score.total_cmp(&self.taken[*b].score))
+        {
+            let dropped = self.taken.remove(weakest);
+            self.dropped.push((dropped.scale, dropped.placed.next));
+            for i in weakest.saturating_sub(1)..(weakest + 1).min(self.taken.len()) {
+                self.settle_one(i);
+            }
+        }
+        self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
+    }
+
+    /// Judges and places a transition anew, between its neighbours. Among windows that the noise allows, a longer one
+    /// is used as long as it agrees with all shorter ones (Lepski 1990): the curvature may break at a kink, too, and shift
+    /// the knot of a long window.
+    fn settle_one(&mut self, i: usize) {
+        let old = self.taken[i];
+        let mut score = 0.0_f64;
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut best: Option<Taken> = None;
+        for scale in 0..self.scales.len() {
+            let level = self.scales[scale].level;
+            self.mask(level, Some(i));
+            let bins = &self.levels[level];
+            let middle = old.placed.next / bins.size;
+            // the fit moved the transition, maybe into a bin beside the one that spoke for it
+            let judged = (middle.saturating_sub(1)..=middle + 1).filter_map(|node| {
+                let (verdict, from, to) = self.verdict(scale, node, false)?;
+                Some((self.passes(scale, &verdict)?, verdict.misfit, from * bins.size, to * bins.size))
+            });
+            let Some((ratio, misfit, from, to)) = judged.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+            score = score.max(ratio);
+            if old.placed.kind == KinkKind::Jump || low > high || (best.is_some() && misfit > 1.0) {
+                continue;
+            }
+            let (part, size) = self.part(level);
+            let Some((placed, _)) = part.kink(from / size, to / size, old.placed.tau) else { continue };
+            if placed.tau < low || placed.tau > high {
+                (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+                continue;
+            }
+            let placed = self.counted(placed);
+            if placed.next.abs_diff(old.placed.next) > 3 * bins.size {
+                continue;
+            }
+            low = low.max(placed.tau - AGREES * placed.sigma_tau);
+            high = high.min(placed.tau + AGREES * placed.sigma_tau);
+            let guard = guard(&placed, &self.levels[0].tau, (to - from) / 6);
+            if best.is_none_or(|b| placed.sigma_tau < b.placed.sigma_tau) {
+                best = Some(Taken { placed, guard, ..old });
+            }
+        }
+        self.taken[i] = Taken { score, ..best.unwrap_or(old) };
+    }
+}
+
+/// Samples near a transition that belong to neither side, up to `most` either way.
+fn guard(placed: &Placed, tau: &[f64], most: usize) -> (usize, usize) {
+    let reach = match placed.kind {
+        KinkKind::Kink => GUARD * placed.sigma_tau,
+        KinkKind::Jump => 0.0,
+    };
+    let low = tau.partition_point(|t| *t < placed.tau - reach).max(placed.next.saturating_sub(most));
+    let high = tau.partition_point(|t| *t <= placed.tau + reach).min(placed.next + most);
+    (low.min(placed.next).saturating_sub(1), high.max(placed.next + 1).min(tau.len()))
+}
+
+impl From<Taken> for Kink {
+    fn from(taken: Taken) -> Self {
+        let Placed { kind, tau, sigma_tau, next, change, sigma } = taken.placed;
+        let score = change.iter().zip(sigma).map(|(c, s)| (c / s).powi(2)).sum();
+        Self { tau, sigma_tau, next, kind, change, sigma, score }
+    }
+}
