@@ -5,7 +5,7 @@ use crate::known::Clamp;
 use crate::label::Label;
 use crate::single::{MomentZero, NoContact};
 use crate::touch::Touch;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 /// Standard deviation of a reaction, dimensionless, below which the samples themselves are better than a fit through
 /// them.
@@ -43,7 +43,13 @@ fn bound(clamp: &Clamp, covariance: &Matrix3<f64>, label: Label) -> Result<Touch
             }
         }
     }
-    Ok(MomentZero::of(&clamp, &Matrix3::zeros())?.touch(&left))
+    let mut touch = MomentZero::of(&clamp, &Matrix3::zeros())?.touch(&left);
+    // Where the force is hardly known the point is no linear function of it any more: the term of second order, which has
+    // the size of the relative error squared.
+    let direction = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0) / touch.force;
+    let relative = direction.dot(&(covariance * direction)) / (touch.force * touch.force);
+    touch.covariance += Matrix2::identity() * (relative * relative);
+    Ok(touch)
 }
 
 fn condition(clamp: &Clamp, label: Label) -> Result<(f64, Vector3<f64>), NoContact> {
