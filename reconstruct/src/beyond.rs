@@ -47,8 +47,12 @@ impl Beyond {
             let (end, by) = self.tip(f);
             let step = end.kappa / by;
             f -= step;
-            if !f.is_finite() { return None; }
-            if step.abs() < 1e-14 * (1.0 + f.abs()) { return Some(f); }
+            if !f.is_finite() {
+                return None;
+            }
+            if step.abs() < 1e-14 * (1.0 + f.abs()) {
+                return Some(f);
+            }
         }
         None
     }

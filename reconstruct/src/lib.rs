@@ -6,18 +6,22 @@
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+#[allow(dead_code, reason = "the identification of phases is to call it")]
 mod beyond;
+#[allow(dead_code, reason = "the identification of phases is to call it")]
 mod envelope;
+#[allow(dead_code, reason = "the identification of phases is to call it")]
 mod fit;
 mod known;
-#[cfg(test)]
-mod explore;
 mod label;
 mod sample;
+#[allow(dead_code, reason = "the identification of phases is to call it")]
+mod several;
 mod single;
 mod touch;
 
 pub use label::Label;
 pub use sample::Sample;
+pub use several::Unresolved;
 pub use single::{NoContact, single};
 pub use touch::Touch;
