@@ -1,5 +1,5 @@
 //! The nine scans of Merker et al. (2021), recorded without noise at 500 Hz and 1 mm/s: which phase, which point.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use rod_contact::{ClampPath, EventKind, Item, State, Sweep};
 use rod_contours::{Composite, Contour, Parabola};
@@ -69,6 +69,26 @@ impl Scan {
                 errors.flags += 1;
                 assert!(self.near_transition(index), "{}: sample {index} is {}, not {truth}", self.name, reading.label);
             }
+            if reading.label == truth
+                && let Some(second) = reading.second
+            {
+                // near a transition the fits know little of the rates
+                let near = self.near_transition(index);
+                errors.several.of += usize::from(!near);
+                if let (Ok(first), Ok(second), false) = (reading.touch, second, near) {
+                    errors.several.answered += 1;
+                    let off = |k: usize, x: f64, y: f64| (x - contacts[k].x).hypot(y - contacts[k].y);
+                    errors.several.first = errors.several.first.max(off(0, first.x, first.y));
+                    let last = off(contacts.len() - 1, second.x, second.y);
+                    if truth == Label::BA {
+                        errors.several.tip = errors.several.tip.max(last);
+                        errors.several.force = errors.several.force.max((first.force - contacts[0].force).abs());
+                    } else if contacts[1].force > 0.1 {
+                        errors.several.second = errors.several.second.max(last);
+                    }
+                }
+                continue;
+            }
             if reading.label != truth || truth.several() || truth == Label::Free {
                 assert!(truth != Label::Free || reading.label != truth || reading.touch == Err(Reason::Free));
                 continue;
@@ -90,6 +110,19 @@ struct Errors {
     flags: usize,
     point: f64,
     contour: f64,
+    several: Several,
+}
+
+/// Of samples with two contacts, how many, how many with both resolved, and the largest errors: of the first contact, of
+/// a second at the tip with the force of the first, of a second that is tangential and has a force above 0.1.
+#[derive(Clone, Copy, Debug, Default)]
+struct Several {
+    of: usize,
+    answered: usize,
+    first: f64,
+    tip: f64,
+    force: f64,
+    second: f64,
 }
 
 /// A whole scan at once, and the same sample by sample.
@@ -101,6 +134,10 @@ fn check(number: usize, vertices: [[f64; 2]; 2]) {
         println!("{}: {errors:?} of {} samples", scan.name, samples.len());
         // 99.9 % of the labels are asked for, and points within 1e-11
         assert!(errors.labels <= 85 && errors.contour < 1e-11 && errors.point < 1e-9, "{}: {errors:?}", scan.name);
+
+        let Several { of, answered, first, tip, force, second } = errors.several;
+        assert!(first < 1e-7 && tip < 1e-6 && force < 1e-6 && second < 1e-5, "{}: {errors:?}", scan.name);
+        assert!(answered as f64 > 0.95 * of as f64, "{}: {errors:?}", scan.name);
 
         let noise = [ChannelNoise::white(1e-13); 3];
         let settings = LiveSettings { half_window: 100.0 * STEP, ..LiveSettings::new(noise, STEP) };
