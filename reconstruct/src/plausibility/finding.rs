@@ -4,6 +4,8 @@ use super::bins::Bin;
 use super::line::Found;
 use super::{Shares, contact};
 use crate::sample::Sample;
+use crate::single::NoContact;
+use crate::touch::Touch;
 use crate::travel::Travel;
 use rod_core::{Reactions, Rod};
 use std::f64::consts::TAU;
@@ -23,6 +25,8 @@ const NEAR: f64 = 2.0;
 const UNEXPLAINED: f64 = 0.2;
 /// How far off, in parts, the length may be.
 const LENGTH: f64 = 0.03;
+/// Contacts of the tip whose arc lengths differ by no more than this part are all at the tip.
+const ALIKE: f64 = 0.1;
 /// A way of the clamp of so many lengths of the rod is more likely in another unit.
 const LONG_WAY: f64 = 100.0;
 
@@ -99,7 +103,7 @@ pub enum Finding {
         /// In lengths of the rod.
         lengths: f64,
     },
-    /// Many samples are explained by no contact on this rod.
+    /// Many samples are explained by no contact on this rod, were it as stiff as the line suggests.
     Unexplained(Shares),
 }
 
@@ -182,7 +186,7 @@ pub(super) fn findings(
     samples: &[Sample],
     bins: &[Bin],
     found: Option<&Found>,
-    shares: &Shares,
+    mut shares: Shares,
 ) -> Vec<Finding> {
     let mut findings = Vec::new();
     let largest = samples.iter().map(|sample| sample.pose.phi.abs()).filter(|phi| phi.is_finite()).fold(0.0, f64::max);
@@ -190,7 +194,7 @@ pub(super) fn findings(
         findings.push(Finding::Angle { largest });
     }
     let mut travel = Travel::new(rod);
-    let way = samples.iter().filter_map(|sample| travel.go(&sample.pose).ok()).next_back().unwrap_or(0.0);
+    let way = samples.iter().fold(0.0, |way, sample| travel.go(&sample.pose).unwrap_or(way));
     if way > LONG_WAY * rod.length() {
         findings.push(Finding::Way { lengths: way / rod.length() });
     }
@@ -202,15 +206,15 @@ pub(super) fn findings(
     }
     let in_units = !findings.iter().any(|f| matches!(f, Finding::Sign | Finding::Units { .. } | Finding::Way { .. }));
     if in_units && let Ok(rod) = Rod::new(rod.length(), stiffness) {
-        if let Some(found) = found.filter(|found| moment_sign(&rod, bins, found)) {
-            debug_assert!(found.line.share > 0.0);
+        if found.is_some_and(|found| moment_sign(&rod, bins, found)) {
             findings.push(Finding::MomentSign);
-        } else {
-            findings.extend(length(&rod, bins));
+            return findings;
         }
+        findings.extend(length(&rod, bins));
+        shares = Shares::of(&rod, bins);
     }
     if 1.0 - shares.explained > UNEXPLAINED {
-        findings.push(Finding::Unexplained(*shares));
+        findings.push(Finding::Unexplained(shares));
     }
     findings
 }
@@ -254,9 +258,17 @@ fn of_line(rod: &Rod, bins: &[Bin], found: &Found, findings: &mut Vec<Finding>) 
 fn moment_sign(rod: &Rod, bins: &[Bin], found: &Found) -> bool {
     let on = || bins.iter().zip(&found.on).filter(|(_, on)| **on).map(|(bin, _)| bin);
     let turned = |bin: &Bin| Reactions { m0z: -bin.reactions.m0z, ..bin.reactions };
-    let as_is = on().filter(|bin| contact(rod, bin, bin.reactions).is_ok()).count();
-    let other = on().filter(|bin| contact(rod, bin, turned(bin)).is_ok()).count();
-    4 * as_is < other && 2 * other > on().count()
+    let (mut as_is, mut other, mut nearer) = (0, 0, 0);
+    for bin in on() {
+        let [here, there] = [bin.reactions, turned(bin)].map(|reactions| contact(rod, bin, reactions));
+        as_is += usize::from(here.is_ok());
+        other += usize::from(there.is_ok());
+        // the rod bends towards the contact, not away from it and back
+        let s = |found: Result<Touch, NoContact>| found.map_or(f64::INFINITY, |touch| touch.s);
+        nearer += usize::from(s(there) < s(here));
+    }
+    let count = on().count();
+    10 * as_is < 9 * other && 2 * other > count && 2 * nearer > count
 }
 
 /// Another length, where half of the contacts of the tip (with a negative phase criterion) are at one arc length.
@@ -274,15 +286,15 @@ fn length(rod: &Rod, bins: &[Bin]) -> Option<Finding> {
         .map(|touch| touch.s)
         .collect();
     lengths.sort_unstable_by(f64::total_cmp);
-    let half = lengths.len() / 2;
-    if half < FEWEST_TIPS {
+    let (half, given) = (lengths.len() / 2, rod.length());
+    let as_given = lengths.iter().filter(|s| (*s / given - 1.0).abs() < LENGTH).count();
+    if half < FEWEST_TIPS || 5 * as_given > lengths.len() {
         return None;
     }
     let ranges = lengths.windows(half + 1).map(|part| (part[half] - part[0], part[half / 2]));
     let (range, suggested) = ranges.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let given = rod.length();
-    let off = (suggested / given - 1.0).abs();
-    (range < LENGTH * suggested && off > LENGTH).then_some(Finding::Length { given, suggested })
+    let off = (suggested - given).abs();
+    (range < ALIKE * suggested && off > LENGTH * given && off > range).then_some(Finding::Length { given, suggested })
 }
 
 /// A phase criterion within this part of m0z^2 of zero may be of a tangential contact.

@@ -15,6 +15,17 @@ const LEAST_SHARE: f64 = 0.05;
 const LEAST_SPAN: f64 = 0.2;
 /// A quadratic that departs from the line by this part of the squares' range is no line.
 const BENT: f64 = 0.02;
+/// A line that misses the origin by less, in parts of the largest square, needs no offset of the moment.
+const ORIGIN: f64 = 5e-3;
+/// Offsets of the moment that are tried, to either side, and the largest, in parts of the largest moment.
+const OFFSETS: i32 = 20;
+const LARGEST_OFFSET: f64 = 0.2;
+/// With an offset of the moment taken into account, so many times as much of the scan must be on the line; or so much of it
+/// where there is no line otherwise.
+const MORE: f64 = 1.2;
+const LEAST_WITH_OFFSET: f64 = 0.3;
+/// Bins on either side that a bin must be on the line with.
+const NEIGHBOURS: usize = 8;
 /// Rounds of fitting and choosing.
 const ROUNDS: usize = 30;
 
@@ -32,8 +43,8 @@ pub struct TangentialLine {
     pub intercept_sigma: f64,
     /// Share of the scan in contact that lies on it.
     pub share: f64,
-    /// What m0z would have to be lessened by for the line to hold further than it does, N m, and the standard error; none
-    /// where that makes no difference.
+    /// What m0z is too large by, N m, and its standard error: the line is then that of the moment without it. None where
+    /// the line holds as well as it is.
     pub moment_offset: Option<(f64, f64)>,
 }
 
@@ -104,7 +115,46 @@ fn sigma(bin: &Bin, slope: f64) -> f64 {
 /// The line that most bins are on.
 pub(super) fn find(bins: &[Bin]) -> Option<Found> {
     let largest = bins.iter().map(|bin| bin.square.abs()).fold(0.0, f64::max);
-    let (wide, rounding) = (WIDE * largest, f64::EPSILON * 8.0 * largest);
+    let rounding = f64::EPSILON * 8.0 * largest;
+    let plain = consensus(bins, largest)
+        .and_then(|start| refine(bins, start, &straight, rounding))
+        .filter(|(fit, on)| spans(bins, on) && !is_bent(bins, on, fit.at[0], rounding));
+    let through_origin = plain.as_ref().is_some_and(|(fit, _)| fit.at[1].abs() < ORIGIN * largest);
+    let offset = if through_origin { None } else { with_offset_of_moment(bins, largest, rounding) };
+    let least = plain.as_ref().map_or(LEAST_WITH_OFFSET * bins.len() as f64, |(_, on)| MORE * count(on) as f64);
+    let offset = offset.filter(|(_, on)| count(on) as f64 > least);
+    let moment_offset = offset.as_ref().map(|(fit, _)| (0.5 * fit.at[2], 0.5 * fit.sigma(2)));
+    let (fit, on) = offset.or(plain)?;
+    let line = TangentialLine {
+        slope: fit.at[0],
+        slope_sigma: fit.sigma(0),
+        intercept: fit.at[1],
+        intercept_sigma: fit.sigma(1),
+        share: count(&on) as f64 / bins.len() as f64,
+        moment_offset,
+    };
+    Some(Found { line, on })
+}
+
+/// The line where a moment that is off bends it: of a range of offsets, the one that leaves most bins on a line is where
+/// the fit starts.
+fn with_offset_of_moment(bins: &[Bin], largest: f64, rounding: f64) -> Option<(Fit, Vec<bool>)> {
+    let tried = (-OFFSETS..=OFFSETS).filter_map(|k| {
+        let offset = LARGEST_OFFSET * largest.sqrt() * f64::from(k) / f64::from(OFFSETS);
+        let shifted = |bin: &Bin| Bin { square: bin.square + offset * (offset - 2.0 * bin.reactions.m0z), ..*bin };
+        consensus(&bins.iter().map(shifted).collect::<Vec<_>>(), largest)
+    });
+    let (on, slope) = tried.max_by_key(|(on, _)| count(on))?;
+    refine(bins, (on, slope), &with_offset, rounding).filter(|(_, on)| spans(bins, on))
+}
+
+fn count(on: &[bool]) -> usize {
+    on.iter().filter(|on| **on).count()
+}
+
+/// The bins on the line, through windows of neighbours, that most are on; and its slope.
+fn consensus(bins: &[Bin], largest: f64) -> Option<(Vec<bool>, f64)> {
+    let wide = WIDE * largest;
     let mut best: Option<(usize, Vec<bool>, f64)> = None;
     for length in WINDOWS {
         for window in bins.windows(length).step_by((length / 4).max(1)) {
@@ -116,30 +166,13 @@ pub(super) fn find(bins: &[Bin]) -> Option<Found> {
                 continue;
             }
             let on: Vec<bool> = bins.iter().map(on).collect();
-            let count = on.iter().filter(|on| **on).count();
+            let count = count(&on);
             if best.as_ref().is_none_or(|best| count > best.0) && spans(bins, &on) {
                 best = Some((count, on, slope));
             }
         }
     }
-    let (_, on, slope) = best?;
-    let (fit, on) = refine(bins, on, &straight, slope, rounding)?;
-    if !spans(bins, &on) || is_bent(bins, &on, fit.at[0], rounding) {
-        return None;
-    }
-    let count = |on: &[bool]| on.iter().filter(|on| **on).count();
-    // A moment that is off bends the line: with it taken into account more of the scan lies on it.
-    let offset = refine(bins, on.clone(), &with_offset, fit.at[0], rounding);
-    let offset = offset.filter(|(_, with)| 5 * count(with) > 6 * count(&on) && spans(bins, with));
-    let line = TangentialLine {
-        slope: fit.at[0],
-        slope_sigma: fit.sigma(0),
-        intercept: fit.at[1],
-        intercept_sigma: fit.sigma(1),
-        share: count(&on) as f64 / bins.len() as f64,
-        moment_offset: offset.map(|(fit, _)| (0.5 * fit.at[2], 0.5 * fit.sigma(2))),
-    };
-    Some(Found { line, on })
+    best.map(|(_, on, slope)| (on, slope))
 }
 
 /// Slope and intercept by least squares.
@@ -160,29 +193,28 @@ fn spans(bins: &[Bin], on: &[bool]) -> bool {
         let (least, most) = loads.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         most - least
     };
-    let count = on.iter().filter(|on| **on).count();
+    let count = count(on);
     let all = range(&mut bins.iter().map(|bin| bin.load));
     let part = range(&mut bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin.load));
     count >= FEWEST && count as f64 >= LEAST_SHARE * bins.len() as f64 && part >= LEAST_SPAN * all
 }
 
-/// Fits, and chooses the bins on the fit by their noise or their scatter, until nothing changes.
+/// Fits, and chooses the bins on the fit by their noise or their scatter, until nothing changes. A bin must be on it with
+/// its neighbours: contacts of the tip come near the line, and are then a little off it all together.
 fn refine(
     bins: &[Bin],
-    mut on: Vec<bool>,
+    (mut on, mut slope): (Vec<bool>, f64),
     columns: Columns<'_>,
-    mut slope: f64,
     rounding: f64,
 ) -> Option<(Fit, Vec<bool>)> {
     let mut fit = Fit::of(bins, &on, columns, slope, rounding)?;
     for _ in 0..ROUNDS {
         slope = fit.at[0];
-        let scaled = |bin: &Bin| fit.off(bin, columns).abs() / sigma(bin, slope).max(rounding);
-        let mut scatter: Vec<f64> = bins.iter().zip(&on).filter(|(_, on)| **on).map(|(bin, _)| scaled(bin)).collect();
-        scatter.sort_unstable_by(f64::total_cmp);
-        // the median of |z| of a normal variable is 0.6745
-        let scale = (scatter.get(scatter.len() / 2)? / 0.6745).max(1.0);
-        let next: Vec<bool> = bins.iter().map(|bin| scaled(bin) <= SIGMAS * scale).collect();
+        let alone: Vec<f64> = bins.iter().map(|bin| fit.off(bin, columns) / sigma(bin, slope).max(rounding)).collect();
+        let together = with_neighbours(&alone);
+        let most = [&alone, &together].map(|z| SIGMAS * scatter(z, &on).max(1.0));
+        let next: Vec<bool> =
+            alone.iter().zip(&together).map(|(a, t)| a.abs() <= most[0] && t.abs() <= most[1]).collect();
         let same = next == on;
         on = next;
         fit = Fit::of(bins, &on, columns, slope, rounding)?;
@@ -191,6 +223,20 @@ fn refine(
         }
     }
     Some((fit, on))
+}
+
+/// Means with the neighbours on both sides, in their own standard deviations.
+fn with_neighbours(alone: &[f64]) -> Vec<f64> {
+    let about = |k: usize| &alone[k.saturating_sub(NEIGHBOURS)..(k + NEIGHBOURS + 1).min(alone.len())];
+    (0..alone.len()).map(|k| about(k).iter().sum::<f64>() / (about(k).len() as f64).sqrt()).collect()
+}
+
+/// Standard deviation of those that are on the line, by their median.
+fn scatter(z: &[f64], on: &[bool]) -> f64 {
+    let mut sizes: Vec<f64> = z.iter().zip(on).filter(|(_, on)| **on).map(|(z, _)| z.abs()).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    // the median of |z| of a normal variable is 0.6745
+    sizes.get(sizes.len() / 2).map_or(0.0, |median| median / 0.6745)
 }
 
 /// Whether a parabola fits better than the line, and is another thing.
