@@ -30,6 +30,7 @@ pub use noise_file::read_noise;
 pub use output::{OutputError, Staged, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
+pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
 pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;

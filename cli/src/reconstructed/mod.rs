@@ -8,16 +8,20 @@ mod report;
 mod summary;
 mod truth;
 
+pub(crate) use truth::naive_touch;
 pub use truth::{Comparison, Transition, TruthError};
 
 use crate::output::write_csv;
-use crate::{Error, Recording, Scene, Staged};
+use crate::{Error, Recording, Scene, Staged, figure};
 use points::PointRecord;
 use report::ReportRecord;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use vibrissa::kink::Kink;
 use vibrissa::{
-    Assembly, ContourEstimate, Measured, Plausibility, Rod, Sample, Settings, Touch, plausibility, reconstruct,
+    Assembly, ContourEstimate, Label, Measured, Plausibility, Pose, Rod, Sample, Settings, Touch, Travel, plausibility,
+    reconstruct,
 };
 
 /// Columns of contour.csv.
@@ -81,7 +85,7 @@ impl Reconstructed {
         Ok(())
     }
 
-    /// Writes points.jsonl, contour.csv and report.json.
+    /// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
@@ -92,6 +96,10 @@ impl Reconstructed {
             serde_json::to_writer_pretty(&mut *file, &ReportRecord::of(self))?;
             file.write_all(b"\n")
         })?;
+        for (name, figure) in [("contour.svg", figure::reconstruction(self)?), ("phases.svg", figure::reactions(self)?)]
+        {
+            staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
+        }
         Ok(())
     }
 
@@ -116,6 +124,28 @@ impl Reconstructed {
             out.write_all(&line)?;
         }
         Ok(())
+    }
+
+    /// The runs of samples with one label, in order.
+    pub(crate) fn runs(&self) -> impl Iterator<Item = (Range<usize>, Label)> + '_ {
+        let runs = &self.found.runs;
+        let ends = runs.iter().skip(1).map(|run| run.0).chain([self.samples.len()]);
+        runs.iter().zip(ends).map(|(&(first, label), end)| (first..end, label))
+    }
+
+    /// Where the clamp was at the kinks: between the samples on either side.
+    pub(crate) fn kink_poses(&self) -> Vec<Pose> {
+        let mut travel = Travel::new(&self.rod);
+        let ways: Vec<f64> = self.samples.iter().map(|s| travel.go(&s.pose).unwrap_or(f64::NAN)).collect();
+        let pose = |kink: &Kink| {
+            let after = kink.next.clamp(1, self.samples.len() - 1);
+            let [a, b] = [after - 1, after].map(|k| self.samples[k].pose);
+            let part = (kink.tau - ways[after - 1]) / (ways[after] - ways[after - 1]);
+            let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
+            let between = |a: f64, b: f64| a + part * (b - a);
+            Pose { x: between(a.x, b.x), y: between(a.y, b.y), phi: between(a.phi, b.phi) }
+        };
+        self.found.kinks.iter().map(pose).collect()
     }
 }
 

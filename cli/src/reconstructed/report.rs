@@ -1,7 +1,6 @@
 //! What is said of a reconstruction as a whole: report.json, SI units, rows counted from 0 as the lines of points.jsonl.
 
-use super::truth::{Comparison, kink_poses};
-use super::{Reconstructed, Transition};
+use super::{Comparison, Reconstructed, Transition};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use vibrissa::compare::{Deviation, KinkScore};
@@ -309,15 +308,14 @@ impl ReportRecord {
         for fault in recording.faults() {
             *faults.entry(fault.problem.name()).or_insert(0) += 1;
         }
-        let ends = result.runs.iter().skip(1).map(|run| run.0).chain([samples.len()]);
-        let runs = result.runs.iter().zip(ends).map(|(&(first, label), end)| RunRecord {
+        let runs = found.runs().map(|(run, label)| RunRecord {
             label,
-            from: rows[first],
-            to: rows[end - 1],
-            from_pose: samples[first].pose.into(),
-            to_pose: samples[end - 1].pose.into(),
+            from: rows[run.start],
+            to: rows[run.end - 1],
+            from_pose: samples[run.start].pose.into(),
+            to_pose: samples[run.end - 1].pose.into(),
         });
-        let kinks = result.kinks.iter().zip(kink_poses(found)).map(|(kink, pose)| KinkRecord {
+        let kinks = result.kinks.iter().zip(found.kink_poses()).map(|(kink, pose)| KinkRecord {
             pose: pose.into(),
             kind: if kink.kind == KinkKind::Jump { "jump" } else { "kink" },
             before_row: rows[kink.next],

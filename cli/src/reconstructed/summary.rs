@@ -54,14 +54,13 @@ impl Reconstructed {
 
     fn run_table(&self) -> Table {
         let mut table = Table::new(["label", "samples", "x0 mm", "y0 mm", "phi0 deg", "median margin"]);
-        let ends = self.found.runs.iter().skip(1).map(|run| run.0).chain([self.samples.len()]);
-        for (&(first, label), end) in self.found.runs.iter().zip(ends) {
-            let pose = self.samples[first].pose;
-            let mut margins: Vec<f64> = self.found.readings[first..end].iter().map(|r| r.margin).collect();
+        for (run, label) in self.runs() {
+            let pose = self.samples[run.start].pose;
+            let mut margins: Vec<f64> = self.found.readings[run.clone()].iter().map(|r| r.margin).collect();
             margins.sort_unstable_by(f64::total_cmp);
             table.row([
                 label.to_string(),
-                (end - first).to_string(),
+                run.len().to_string(),
                 format!("{:.4}", 1e3 * pose.x),
                 format!("{:.4}", 1e3 * pose.y),
                 format!("{:.4}", pose.phi.to_degrees()),

@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use vibrissa::compare::{Confusion, Deviation, KinkScore, signed_distance};
-use vibrissa::{Composite, Event, EventKind, Label, Pose, Rod, Stop, Touch, Travel, single};
+use vibrissa::{Composite, Event, EventKind, Label, Pose, Rod, Stop, Touch, single};
 
 /// How far, in lengths of the rod, a pose may be from the path of the scene and belong to it.
 const OFF_PATH: f64 = 1e-3;
@@ -95,8 +95,8 @@ impl Comparison {
         });
         let second = deviation(objects, readings().filter_map(|reading| reading.second?.ok()));
         let several = found.samples.par_iter().zip(&found.found.readings).filter(|(_, r)| r.label.several());
-        let naive = deviation(objects, several.filter_map(|(sample, _)| naive(&found.rod, sample)));
-        let kinks: Vec<f64> = kink_poses(found).into_iter().filter_map(|pose| truth.way(pose)).collect();
+        let naive = deviation(objects, several.filter_map(|(sample, _)| naive_touch(&found.rod, sample)));
+        let kinks: Vec<f64> = found.kink_poses().into_iter().filter_map(|pose| truth.way(pose)).collect();
         let kinked: Vec<f64> = truth.events.iter().filter(|event| event.kinks).map(|event| event.way).collect();
         let all: Vec<f64> = truth.events.iter().map(|event| event.way).collect();
         Ok(Self {
@@ -117,28 +117,13 @@ impl Comparison {
 }
 
 /// The point of a sample if it had a single contact.
-pub(crate) fn naive(rod: &Rod, sample: &vibrissa::Sample) -> Option<Touch> {
+pub(crate) fn naive_touch(rod: &Rod, sample: &vibrissa::Sample) -> Option<Touch> {
     single(rod, sample.pose, sample.reactions, &Matrix3::zeros()).map_or_else(|none| none.touch(), Some)
 }
 
 fn deviation(objects: &[Composite], touches: impl ParallelIterator<Item = Touch>) -> Option<Deviation> {
     let distances: Option<Vec<f64>> = touches.map(|touch| signed_distance(objects, touch.x, touch.y)).collect();
     Deviation::of(distances?)
-}
-
-/// Where the clamp was at the kinks: between the samples on either side.
-pub(crate) fn kink_poses(found: &Reconstructed) -> Vec<Pose> {
-    let mut travel = Travel::new(&found.rod);
-    let ways: Vec<f64> = found.samples.iter().map(|s| travel.go(&s.pose).unwrap_or(f64::NAN)).collect();
-    let pose = |kink: &vibrissa::kink::Kink| {
-        let after = kink.next.clamp(1, found.samples.len() - 1);
-        let [a, b] = [after - 1, after].map(|k| found.samples[k].pose);
-        let part = (kink.tau - ways[after - 1]) / (ways[after] - ways[after - 1]);
-        let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
-        let between = |a: f64, b: f64| a + part * (b - a);
-        Pose { x: between(a.x, b.x), y: between(a.y, b.y), phi: between(a.phi, b.phi) }
-    };
-    found.found.kinks.iter().map(pose).collect()
 }
 
 /// What happened along the path.
