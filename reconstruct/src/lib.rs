@@ -16,12 +16,11 @@ mod beyond;
 mod bound;
 pub mod compare;
 mod envelope;
-#[cfg(test)]
-mod explore;
 mod fit;
 pub mod kink;
 mod known;
 mod label;
+mod live;
 mod noise;
 pub mod noise_estimate;
 mod phases;
@@ -39,6 +38,7 @@ pub use assembly::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
 pub use label::Label;
+pub use live::{Live, LiveSettings};
 pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
 pub use plausibility::{Finding, Plausibility, Shares, TangentialLine, plausibility};
