@@ -171,6 +171,24 @@ fn degrees_and_millimetres() {
 }
 
 #[test]
+fn odd_numbers_do_no_harm() {
+    for value in [0.0, 1.0, -1e-300, 1e155, 1e308, f64::NAN, f64::INFINITY] {
+        for other in [0.0, 1.0, 1e-308, -1e308] {
+            for count in [1, 2, 9, 100, 2500] {
+                let sample = |k: i32| {
+                    let r = Reactions { f0x: other, f0y: value * f64::from(k % 7), m0z: value };
+                    Sample::new(Pose { x: f64::from(k), y: other, phi: value }, r)
+                };
+                let check = check(&(0..count).map(sample).collect::<Vec<_>>());
+                let Plausibility { shares, .. } = check;
+                let sum = shares.explained + shares.beyond_tip + shares.pulling + shares.no_moment_zero;
+                assert!(sum == 0.0 || (sum - 1.0).abs() < 1e-9, "{sum}");
+            }
+        }
+    }
+}
+
+#[test]
 fn nothing_to_check() {
     let free = changed(&MIDDLE, |_| Reactions::default());
     assert_eq!(check(&free).findings, [Finding::NoContact]);

@@ -44,9 +44,12 @@ fn title(scan: &Scan) -> String {
     shorter.take_while(fits).last().unwrap_or(start)
 }
 
+/// A number that a state has.
+type Quantity = fn(&State) -> f64;
+
 /// The three reactions above each other.
 fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
-    let quantities: [(&str, fn(&State) -> f64); 3] = [
+    let quantities: [(&str, Quantity); 3] = [
         ("f0x in N", |state| state.reactions.f0x),
         ("f0y in N", |state| state.reactions.f0y),
         ("m0z in N mm", |state| 1e3 * state.reactions.m0z),

@@ -1,4 +1,5 @@
-//! What is said of a reconstruction as a whole: report.json, SI units, rows counted from 0 as the lines of points.jsonl.
+//! What is said of a reconstruction as a whole: report.json, SI units, rows counted from 0 as the lines of
+//! points.jsonl.
 
 use super::{Comparison, Reconstructed, Transition};
 use serde::Serialize;

@@ -42,8 +42,10 @@ impl Reconstructed {
             let stiffness = self.rod.bending_stiffness();
             writeln!(
                 text,
-                "physics: m0z^2 / (2 (f0y sin phi0 + f0x cos phi0)) is {:.4} +- {:.4} times the bending stiffness in \
-                 {:.0} % of the scan in contact",
+                "physics: m0z^2 = {:.4e} +- {:.1e} N^2 m^2 + 2 ({:.4} +- {:.4}) EI (f0y sin phi0 + f0x cos phi0) in {:.0} % \
+                 of the scan in contact; expected 0 and 1",
+                line.intercept,
+                line.intercept_sigma,
                 line.slope / stiffness,
                 line.slope_sigma / stiffness,
                 100.0 * line.share

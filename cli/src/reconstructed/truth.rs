@@ -38,8 +38,8 @@ pub struct Transition {
     pub kind: EventKind,
     /// The clamp there.
     pub pose: Pose,
-    /// How far beyond it, along the path of the clamp, the labels change: m, or rad where the clamp only turns. None where
-    /// no such change was found nearby.
+    /// How far beyond it, along the path of the clamp, the labels change: m, or rad where the clamp only turns. None
+    /// where no such change was found nearby.
     pub error: Option<f64>,
 }
 
@@ -64,7 +64,8 @@ pub struct Comparison {
     pub second: Option<Deviation>,
     /// Of the points that samples with several contacts would have if they had a single one.
     pub naive: Option<Deviation>,
-    /// Kinks within 1 mm (or mrad) of transitions that make one: all changes of phase but A -> B, and snaps. For recall.
+    /// Kinks within 1 mm (or mrad) of transitions that make one: all changes of phase but A -> B, and snaps. For
+    /// recall.
     pub kinks: KinkScore,
     /// Kinks within 1 mm (or mrad) of anything that happened, A -> B and borders of pieces included. For precision.
     pub kinks_of_events: KinkScore,

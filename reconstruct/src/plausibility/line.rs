@@ -20,8 +20,8 @@ const ORIGIN: f64 = 5e-3;
 /// Offsets of the moment that are tried, to either side, and the largest, in parts of the largest moment.
 const OFFSETS: i32 = 20;
 const LARGEST_OFFSET: f64 = 0.2;
-/// With an offset of the moment taken into account, so many times as much of the scan must be on the line; or so much of it
-/// where there is no line otherwise.
+/// With an offset of the moment taken into account, so many times as much of the scan must be on the line; or so much
+/// of it where there is no line otherwise.
 const MORE: f64 = 1.2;
 const LEAST_WITH_OFFSET: f64 = 0.3;
 /// Bins on either side that a bin must be on the line with.
@@ -29,8 +29,8 @@ const NEIGHBOURS: usize = 8;
 /// Rounds of fitting and choosing.
 const ROUNDS: usize = 30;
 
-/// The straight line that m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) follows wherever the last contact is tangential; its
-/// slope is the bending stiffness, and it goes through the origin.
+/// The straight line that m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) follows wherever the last contact is tangential;
+/// its slope is the bending stiffness, and it goes through the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentialLine {
     /// Slope, N m^2: the bending stiffness.
@@ -43,8 +43,8 @@ pub struct TangentialLine {
     pub intercept_sigma: f64,
     /// Share of the scan in contact that lies on it.
     pub share: f64,
-    /// What m0z is too large by, N m, and its standard error: the line is then that of the moment without it. None where
-    /// the line holds as well as it is.
+    /// What m0z is too large by, N m, and its standard error: the line is then that of the moment without it. None
+    /// where the line holds as well as it is.
     pub moment_offset: Option<(f64, f64)>,
 }
 
@@ -136,8 +136,8 @@ pub(super) fn find(bins: &[Bin]) -> Option<Found> {
     Some(Found { line, on })
 }
 
-/// The line where a moment that is off bends it: of a range of offsets, the one that leaves most bins on a line is where
-/// the fit starts.
+/// The line where a moment that is off bends it: of a range of offsets, the one that leaves most bins on a line is
+/// where the fit starts.
 fn with_offset_of_moment(bins: &[Bin], largest: f64, rounding: f64) -> Option<(Fit, Vec<bool>)> {
     let tried = (-OFFSETS..=OFFSETS).filter_map(|k| {
         let offset = LARGEST_OFFSET * largest.sqrt() * f64::from(k) / f64::from(OFFSETS);
@@ -199,8 +199,8 @@ fn spans(bins: &[Bin], on: &[bool]) -> bool {
     count >= FEWEST && count as f64 >= LEAST_SHARE * bins.len() as f64 && part >= LEAST_SPAN * all
 }
 
-/// Fits, and chooses the bins on the fit by their noise or their scatter, until nothing changes. A bin must be on it with
-/// its neighbours: contacts of the tip come near the line, and are then a little off it all together.
+/// Fits, and chooses the bins on the fit by their noise or their scatter, until nothing changes. A bin must be on it
+/// with its neighbours: contacts of the tip come near the line, and are then a little off it all together.
 fn refine(
     bins: &[Bin],
     (mut on, mut slope): (Vec<bool>, f64),
