@@ -26,7 +26,7 @@ const UNEXPLAINED: f64 = 0.2;
 /// How far off, in parts, the length may be.
 const LENGTH: f64 = 0.03;
 /// Contacts of the tip whose arc lengths differ by no more than this part are all at the tip.
-const ALIKE: f64 = 0.1;
+const ALIKE: f64 = 0.01;
 /// A way of the clamp of so many lengths of the rod is more likely in another unit.
 const LONG_WAY: f64 = 100.0;
 
@@ -103,8 +103,14 @@ pub enum Finding {
         /// In lengths of the rod.
         lengths: f64,
     },
-    /// Many samples are explained by no contact on this rod, were it as stiff as the line suggests.
-    Unexplained(Shares),
+    /// Much is explained by no contact on this rod, were it as stiff as the line suggests.
+    Unexplained {
+        /// By what a single contact makes of it.
+        shares: Shares,
+        /// Whether of what is on the line, or, where there is none, of all of the scan in contact: that may have several
+        /// contacts.
+        tangential: bool,
+    },
 }
 
 impl Finding {
@@ -115,7 +121,8 @@ impl Finding {
             Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > FAR_SHIFTED,
-            Self::Sign | Self::Units { .. } | Self::MomentSign | Self::Unexplained(_) => true,
+            Self::Unexplained { tangential, .. } => *tangential,
+            Self::Sign | Self::Units { .. } | Self::MomentSign => true,
         }
     }
 }
@@ -167,10 +174,11 @@ impl fmt::Display for Finding {
             Self::Way { lengths } => {
                 write!(f, "the clamp goes {lengths:.3e} lengths of the rod: are x0, y0 in another unit? Expected m")
             }
-            Self::Unexplained(Shares { beyond_tip, pulling, no_moment_zero, .. }) => write!(
+            Self::Unexplained { shares: Shares { beyond_tip, pulling, no_moment_zero, .. }, tangential } => write!(
                 f,
-                "of the scan in contact no contact on this rod explains {:.0} %: {:.0} % would be beyond the tip, {:.0} % \
+                "of the {} no single contact on this rod explains {:.0} %: {:.0} % would be beyond the tip, {:.0} % \
                  would have to pull, in {:.0} % the moment vanishes nowhere",
+                if tangential { "tangential contacts" } else { "scan in contact" },
                 100.0 * (beyond_tip + pulling + no_moment_zero),
                 100.0 * beyond_tip,
                 100.0 * pulling,
@@ -211,10 +219,11 @@ pub(super) fn findings(
             return findings;
         }
         findings.extend(length(&rod, bins));
-        shares = Shares::of(&rod, bins);
+        let on = |found: &Found| bins.iter().zip(&found.on).filter(|(_, on)| **on).map(|(bin, _)| *bin).collect();
+        shares = Shares::of(&rod, &found.map_or_else(|| bins.to_vec(), on));
     }
     if 1.0 - shares.explained > UNEXPLAINED {
-        findings.push(Finding::Unexplained(shares));
+        findings.push(Finding::Unexplained { shares, tangential: in_units && found.is_some() });
     }
     findings
 }

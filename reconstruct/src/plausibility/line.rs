@@ -24,6 +24,9 @@ const LARGEST_OFFSET: f64 = 0.2;
 /// of it where there is no line otherwise.
 const MORE: f64 = 1.2;
 const LEAST_WITH_OFFSET: f64 = 0.3;
+/// What may be left beyond the noise, in parts of the largest square; and where an offset of the moment is fitted, too.
+const SCATTER: f64 = 2e-2;
+const SCATTER_WITH_OFFSET: f64 = 1e-3;
 /// Bins on either side that a bin must be on the line with.
 const NEIGHBOURS: usize = 8;
 /// Rounds of fitting and choosing.
@@ -94,6 +97,13 @@ impl Fit {
         self.covariance[(column, column)].max(0.0).sqrt()
     }
 
+    /// What is left beyond the noise: root of the mean square.
+    fn rest(&self, bins: &[Bin], on: &[bool], columns: Columns<'_>) -> f64 {
+        let used = || bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin);
+        let excess = |bin: &Bin| self.off(bin, columns).powi(2) - sigma(bin, self.at[0]).powi(2);
+        (used().map(excess).sum::<f64>() / used().count().max(1) as f64).max(0.0).sqrt()
+    }
+
     fn off(&self, bin: &Bin, columns: Columns<'_>) -> f64 {
         bin.square - columns(bin).iter().zip(&self.at).map(|(column, at)| column * at).sum::<f64>()
     }
@@ -118,7 +128,8 @@ pub(super) fn find(bins: &[Bin]) -> Option<Found> {
     let rounding = f64::EPSILON * 8.0 * largest;
     let plain = consensus(bins, largest)
         .and_then(|start| refine(bins, start, &straight, rounding))
-        .filter(|(fit, on)| spans(bins, on) && !is_bent(bins, on, fit.at[0], rounding));
+        .filter(|(fit, on)| spans(bins, on) && fit.rest(bins, on, &straight) < SCATTER * largest)
+        .filter(|(fit, on)| !is_bent(bins, on, fit.at[0], rounding));
     let through_origin = plain.as_ref().is_some_and(|(fit, _)| fit.at[1].abs() < ORIGIN * largest);
     let offset = if through_origin { None } else { with_offset_of_moment(bins, largest, rounding) };
     let least = plain.as_ref().map_or(LEAST_WITH_OFFSET * bins.len() as f64, |(_, on)| MORE * count(on) as f64);
@@ -145,7 +156,8 @@ fn with_offset_of_moment(bins: &[Bin], largest: f64, rounding: f64) -> Option<(F
         consensus(&bins.iter().map(shifted).collect::<Vec<_>>(), largest)
     });
     let (on, slope) = tried.max_by_key(|(on, _)| count(on))?;
-    refine(bins, (on, slope), &with_offset, rounding).filter(|(_, on)| spans(bins, on))
+    refine(bins, (on, slope), &with_offset, rounding)
+        .filter(|(fit, on)| spans(bins, on) && fit.rest(bins, on, &with_offset) < SCATTER_WITH_OFFSET * largest)
 }
 
 fn count(on: &[bool]) -> usize {
