@@ -11,7 +11,7 @@ const WIDE: f64 = 2e-3;
 const SIGMAS: f64 = 4.0;
 /// Fewest bins on a line, the least part of the bins, and of the range of the loads that they must span.
 const FEWEST: usize = 8;
-const LEAST_SHARE: f64 = 0.05;
+const LEAST_SHARE: f64 = 0.2;
 const LEAST_SPAN: f64 = 0.2;
 /// A quadratic that departs from the line by this part of the squares' range is no line.
 const BENT: f64 = 0.02;

@@ -24,7 +24,7 @@ const SLACK: f64 = 0.02;
 /// What the physics says of a recording, SI units if the recording's are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plausibility {
-    /// The line of the tangential contacts; none where there is no such line.
+    /// The line of the tangential contacts; none where less than a fifth of the scan in contact lies on one.
     pub line: Option<TangentialLine>,
     /// Shares of the scan in contact by what a single contact makes of them.
     pub shares: Shares,
