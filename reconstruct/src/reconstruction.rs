@@ -158,7 +158,9 @@ impl Reconstruction {
                     Some(_) => run.map_or(1, |(_, length)| length / SERIES),
                     None => self.windows.get(reading.place).copied().unwrap_or(1),
                 };
-                let all = std::iter::once(reading.touch).chain(reading.second);
+                // of several contacts the second counts only after the first
+                let second = reading.second.filter(|_| reading.touch.is_ok());
+                let all = std::iter::once(reading.touch).chain(second);
                 (all.filter_map(Result::ok).collect(), reading.touch.err().map(|reason| reason.to_string()), window)
             })
             .collect();

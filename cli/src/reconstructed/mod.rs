@@ -20,8 +20,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use vibrissa::kink::Kink;
 use vibrissa::{
-    Assembly, ContourEstimate, Label, Measured, Plausibility, Pose, Rod, Sample, Settings, Touch, Travel, plausibility,
-    reconstruct,
+    Assembly, ContourEstimate, Label, Plausibility, Pose, Rod, Sample, Settings, Travel, plausibility, reconstruct,
 };
 
 /// Columns of contour.csv.
@@ -70,7 +69,7 @@ impl Reconstructed {
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
         let found = reconstruct(&rod, &samples, &Settings::default())
             .map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
-        let contour = contour(&found);
+        let contour = found.contour(&Assembly::default());
         let check = plausibility(&rod, &samples);
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self { name, recording, rod, samples, rows, found, contour, check, comparison: None })
@@ -147,23 +146,4 @@ impl Reconstructed {
         };
         self.found.kinks.iter().map(pose).collect()
     }
-}
-
-/// The contour from all contact points.
-fn contour(found: &vibrissa::Reconstruction) -> ContourEstimate {
-    // Of several contacts the second counts only after the first.
-    let touches: Vec<(Vec<Touch>, Option<String>)> = found
-        .readings
-        .iter()
-        .map(|reading| match reading.touch {
-            Ok(first) => ([first].into_iter().chain(reading.second.and_then(Result::ok)).collect(), None),
-            Err(reason) => (Vec::new(), Some(reason.to_string())),
-        })
-        .collect();
-    let measured = found.readings.iter().zip(&touches).map(|(reading, (touches, reason))| Measured {
-        label: reading.label,
-        touches,
-        reason: reason.as_deref(),
-    });
-    Assembly::default().assemble(measured)
 }
