@@ -29,14 +29,15 @@ pub(crate) fn bound(clamp: &Clamp, covariance: &Matrix3<f64>, label: Label) -> R
             }
         }
     }
-    Ok(MomentZero::of(&clamp, &Matrix3::zeros())?.touch(&left))
+    let found = if label == Label::A { MomentZero::of_tip(&clamp) } else { MomentZero::of(&clamp, &Matrix3::zeros()) };
+    Ok(found?.touch(&left))
 }
 
 fn condition(clamp: &Clamp, label: Label) -> Result<(f64, Vector3<f64>), NoContact> {
     if label == Label::B {
         return Ok(clamp.criterion());
     }
-    let found = MomentZero::of(clamp, &Matrix3::zeros())?;
+    let found = MomentZero::of_tip(clamp)?;
     Ok((found.s - 1.0, found.s_by_reactions))
 }
 
