@@ -15,6 +15,7 @@ mod envelope;
 #[cfg(test)]
 mod explore;
 mod fit;
+mod general;
 pub mod kink;
 mod known;
 mod label;
@@ -29,6 +30,7 @@ mod touch;
 mod track;
 mod travel;
 
+pub use general::{GeneralError, single_general};
 pub use label::Label;
 pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
