@@ -1,6 +1,6 @@
 //! The single contact that also fulfils what its phase requires.
 
-use crate::known::{Clamp, spread};
+use crate::known::Clamp;
 use crate::label::Label;
 use crate::single::{MomentZero, NoContact};
 use crate::touch::Touch;
@@ -41,17 +41,17 @@ fn condition(clamp: &Clamp, label: Label) -> Result<(f64, Vector3<f64>), NoConta
     Ok((found.s - 1.0, found.s_by_reactions))
 }
 
-/// Variance of the arc length where the moment vanishes.
-#[cfg(test)]
-fn variance_of_s(clamp: &Clamp, covariance: &Matrix3<f64>) -> f64 {
-    MomentZero::of(clamp, &Matrix3::zeros())
-        .map_or(f64::NAN, |found| spread(&found.s_by_reactions.transpose(), covariance).x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::known::spread;
     use rod_core::{Elastica, Load, Pose, Units};
+
+    /// Variance of the arc length where the moment vanishes.
+    fn variance_of_s(clamp: &Clamp, covariance: &Matrix3<f64>) -> f64 {
+        MomentZero::of(clamp, &Matrix3::zeros())
+            .map_or(f64::NAN, |found| spread(&found.s_by_reactions.transpose(), covariance).x)
+    }
 
     #[test]
     fn the_condition_is_met_and_the_covariance_shrinks() {
