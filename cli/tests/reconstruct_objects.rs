@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 use std::path::Path;
+use vibrissa::kink::KinkKind;
 use vibrissa::{ContactKind, Label, NoiseModel, Reactions, Sample, Settings, State, reconstruct};
 use vibrissa_cli::{Scan, Scene};
 
@@ -10,7 +11,7 @@ use vibrissa_cli::{Scan, Scene};
 const SCENES: [(&str, f64, usize); 12] = [
     ("bay", 4e-6, 4),
     ("bumps", 8e-6, 4),
-    ("channel", 8e-6, 4),
+    ("channel", 4e-6, 4),
     ("comb", 8e-6, 4),
     ("gears", 2e-6, 3),
     ("pegs", 2e-6, 3),
@@ -93,7 +94,7 @@ fn clean_scans_of_any_object_are_labelled_but_for_single_samples_at_transitions(
     for (name, tally) in &tallies {
         assert!(tally.wrong <= 3, "{name}: {tally:?}");
         assert_eq!((tally.missed, tally.flagged, tally.standing_flagged), (0, 0, 0), "{name}: {tally:?}");
-        assert!(tally.error < 1e-10, "{name}: {tally:?}");
+        assert!(tally.error < 1e-9, "{name}: {tally:?}");
     }
     let standing = tallies.iter().filter(|(_, tally)| tally.standing > 1000).count();
     assert_eq!(standing, 8, "scenes with vertices or notches");
@@ -113,5 +114,41 @@ fn noisy_scans_of_vertices_notches_and_pegs() {
         let share = |part: usize, of: usize| part as f64 / of as f64;
         assert!(share(tally.samples - tally.wrong, tally.samples) >= right, "{name}: {tally:?}");
         assert!(share(tally.flagged, tally.single) <= flagged, "{name}: {tally:?}");
+    }
+}
+
+/// The share of single contacts that a reader of kinks alone takes for several: a kink without a change between tip and
+/// flank (which the criterion K tells) brings or takes a contact. A jump starts anew from the truth.
+fn flagged_by_kinks_alone(name: &str) -> f64 {
+    let states = swept(name, 4e-6);
+    let samples: Vec<Sample> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/saw.toml");
+    let found = reconstruct(&Scene::read(&scene).unwrap().rod, &samples, &Settings::default()).unwrap();
+    let truth = |index: usize| Label::of(states[index].phase().contacts, states[index].phase().tip);
+    let (mut several, mut single, mut flagged) = (false, 0_u32, 0_u32);
+    for index in 2..states.len() - 2 {
+        if let Some(kink) = found.kinks.iter().find(|kink| kink.next == index) {
+            let (before, after) = (truth(index - 2), truth(index + 2));
+            if kink.kind == KinkKind::Jump || before == Label::Free {
+                several = after.several();
+            } else if before.tip() == after.tip() {
+                several = !several;
+            }
+        }
+        if states[index].contacts.len() == 1 {
+            single += 1;
+            flagged += u32::from(several);
+        }
+    }
+    f64::from(flagged) / f64::from(single)
+}
+
+/// The vertices of these two lie between an edge and another, or the air, and break the reactions as a contact that comes
+/// does. The labels of both are right (above): there the tangent criterion decides.
+#[test]
+fn kinks_alone_do_not_tell_a_vertex_from_a_second_contact() {
+    for (name, share) in [("square_tilted", 0.01..0.9), ("triangle", 0.2..0.9), ("saw", 0.02..0.9)] {
+        let flagged = flagged_by_kinks_alone(name);
+        assert!(share.contains(&flagged), "{name}: {flagged}");
     }
 }
