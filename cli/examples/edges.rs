@@ -1,5 +1,6 @@
-//! Draws docs/edges.svg: a scan of the bent saw, whose edges and vertices break the reactions without a change of phase,
-//! and what tells them from a second contact. `cargo run --release -p vibrissa-cli --example edges -- docs/edges.svg`
+//! Draws docs/edges.svg: a scan of the bent saw, whose edges and vertices break the reactions without a change of
+//! phase, and what tells them from a second contact. `cargo run --release -p vibrissa-cli --example edges --
+//! docs/edges.svg`
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

@@ -117,8 +117,8 @@ fn noisy_scans_of_vertices_notches_and_pegs() {
     }
 }
 
-/// The share of single contacts that a reader of kinks alone takes for several: a kink without a change between tip and
-/// flank (which the criterion K tells) brings or takes a contact. A jump starts anew from the truth.
+/// The share of single contacts that a reader of kinks alone takes for several: a kink without a change between tip
+/// and flank (which the criterion K tells) brings or takes a contact. A jump starts anew from the truth.
 fn flagged_by_kinks_alone(name: &str) -> f64 {
     let states = swept(name, 4e-6);
     let samples: Vec<Sample> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();
@@ -143,8 +143,8 @@ fn flagged_by_kinks_alone(name: &str) -> f64 {
     f64::from(flagged) / f64::from(single)
 }
 
-/// The vertices of these two lie between an edge and another, or the air, and break the reactions as a contact that comes
-/// does. The labels of both are right (above): there the tangent criterion decides.
+/// The vertices of these two lie between an edge and another, or the air, and break the reactions as a contact that
+/// comes does. The labels of both are right (above): there the tangent criterion decides.
 #[test]
 fn kinks_alone_do_not_tell_a_vertex_from_a_second_contact() {
     for (name, share) in [("square_tilted", 0.01..0.9), ("triangle", 0.2..0.9), ("saw", 0.02..0.9)] {

@@ -10,8 +10,8 @@ use rod_core::{Cut, Pose, Propagator, Reactions, RodError, Units, find_root};
 const STEP: f64 = 1.0 / 64.0;
 /// How far beyond the clamp the moment is followed, as far as the rod's law goes on beyond its tip.
 const REACH: f64 = 1.5;
-/// Step of the central differences by the reactions, in parts of 1 + |reactions|: its cube of rounding errors weighs as much as an
-/// integrator that is exact to 1e-12.
+/// Step of the central differences by the reactions, in parts of 1 + |reactions|: what they leave out, its square, is
+/// as much as what an integrator exact to 1e-12 leaves in them.
 const DIFFERENCE: f64 = 1e-4;
 /// What an integrator leaves in the arc length and in the angle between rod and contour.
 const SLACK: f64 = 1e-6;
@@ -28,14 +28,14 @@ pub enum GeneralError {
     Rod(#[from] RodError),
 }
 
-/// The contact that bends a rod of any kind, clamped at `pose` (m, radians), so that its clamp feels `reactions` (N, N m), with
-/// the covariance of its position from the `covariance` of (f0x, f0y, m0z): [`single`](crate::single) for rods without a
-/// closed form. `units` are those that `rod` is dimensionless in; the criterion K is none of such rods, so that a
-/// contact that pulls is told by the angle between rod and contour.
+/// The contact that bends a rod of any kind, clamped at `pose` (m, radians), so that its clamp feels `reactions` (N, N
+/// m), with the covariance of its position from the `covariance` of (f0x, f0y, m0z): [`single`](crate::single) for
+/// rods without a closed form. `units` are those that `rod` is dimensionless in; the criterion K is none of such rods,
+/// so that a contact that pulls is told by the angle between rod and contour.
 ///
-/// The moment is followed through the propagator to its zeros, and each of those is found by Brent's method: as accurate as the
-/// propagator. The covariance rests on central differences, 1e-6 of its size with a propagator exact to 1e-12.
-/// Two zeros within 1/64 of the rod's length may be missed.
+/// The moment is followed through the propagator to its zeros, and each of those is found by Brent's method: as
+/// accurate as the propagator. The covariance rests on central differences, 1e-6 of its size with a propagator exact
+/// to 1e-12. Two zeros within 1/64 of the rod's length may be missed.
 ///
 /// ```
 /// use nalgebra::Matrix3;
@@ -122,8 +122,8 @@ struct Found {
     touch: Touch,
     /// How far its arc length may be off.
     s_noise: f64,
-    /// Sine of the angle from the contour to the rod: positive at the tip, 0 of a tangential contact, and how far off it may
-    /// be.
+    /// Sine of the angle from the contour to the rod: positive at the tip, 0 of a tangential contact; and how far off
+    /// it may be.
     pressing: f64,
     pressing_noise: f64,
 }

@@ -3,39 +3,50 @@
 //! - [`Sample`]: clamp pose and reactions at one instant; [`Label`]: in which contact phase it was.
 //! - [`compare`]: how near a result is to the truth.
 //! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings.
+//! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
+//! - [`align`], [`Comparison`], [`merge`]: how contours of several scans are offset, where they disagree, one of all.
+//! - [`plausibility`]: whether a recording can be of the rod it is said to be of.
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod assembly;
 mod beyond;
 mod bound;
 pub mod compare;
 mod envelope;
-#[cfg(test)]
-mod explore;
 mod fit;
 mod general;
 pub mod kink;
 mod known;
 mod label;
+mod live;
 mod noise;
 pub mod noise_estimate;
 mod phases;
+mod plausibility;
 mod reconstruction;
 mod sample;
+mod scans;
 mod several;
 mod single;
 mod touch;
 mod track;
 mod travel;
 
+pub use assembly::{
+    Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
+};
 pub use general::{GeneralError, single_general};
 pub use label::Label;
+pub use live::{Live, LiveSettings};
 pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
+pub use plausibility::{Finding, Plausibility, Shares, TangentialLine, plausibility};
 pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
 pub use sample::Sample;
+pub use scans::{Comparison, Disagreement, Offset, align, merge};
 pub use several::Unresolved;
 pub use single::{NoContact, single};
 pub use touch::Touch;

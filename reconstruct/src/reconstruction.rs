@@ -1,6 +1,7 @@
 //! A whole scan: labels, contact points, and where there are none, why.
 
-use crate::bound::bound;
+use crate::assembly::{Assembly, ContourEstimate, Measured};
+use crate::bound::contact;
 use crate::fit::Noise;
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::label::Label;
@@ -11,14 +12,22 @@ use crate::several::{Limits, Neighbour, Piece, Unresolved, resolve};
 use crate::single::NoContact;
 use crate::touch::Touch;
 use crate::track::{Fault, Track};
-use nalgebra::Matrix3;
 use rod_core::{Rod, Units};
+use std::ops::Range;
 
 /// Fewest usable samples of a scan.
 const FEWEST: usize = 20;
-/// Standard deviation of a reaction, dimensionless, below which the samples themselves are better than a fit through
-/// them.
-const CLEAN: f64 = 1e-9;
+/// Samples at the borders of phases that may belong to the other side, besides how uncertain the kink there is: in its
+/// standard deviations, which are on the small side.
+const MARGIN: usize = 3;
+const SIGMAS: f64 = 4.0;
+/// How many times as many are left out where no contacts agree with what is left.
+const MARGINS: [usize; 2] = [3, 10];
+/// Largest standard deviation of one of several contacts across the contour, in lengths of the rod.
+const ACROSS: f64 = 5e-3;
+
+/// Independent numbers that a stretch with several contacts is described by, about: as many parts of it are independent.
+const SERIES: usize = 8;
 
 /// How a scan is reconstructed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,11 +86,14 @@ pub enum Reason {
     #[error("{0}")]
     NoContact(#[from] NoContact),
     /// The point is known no better than this, m.
-    #[error("the point is uncertain by {sigma:.1e} m across the contour")]
+    #[error("the point is uncertain by {sigma:.1e} m")]
     TooNoisy {
-        /// Standard deviation across the contour, m.
+        /// Standard deviation across the contour (or along it, where that is what is too large), m.
         sigma: f64,
     },
+    /// Several contacts are resolved from a whole scan only.
+    #[error("several contacts, which are resolved from the whole scan only")]
+    Live,
     /// Of several contacts this one is not resolved.
     #[error("several contacts: {0}")]
     Several(#[from] Unresolved),
@@ -99,7 +111,14 @@ pub struct Reading {
     /// The second of several; none where the label is of a single contact or none.
     pub second: Option<Result<Touch, Reason>>,
     /// Where its evidence is.
-    place: usize,
+    pub(crate) place: usize,
+}
+
+impl Reading {
+    /// A sample of this label that has no contact point.
+    pub(crate) fn without(label: Label, reason: Reason) -> Self {
+        Self { label, margin: 0.0, touch: Err(reason), second: None, place: usize::MAX }
+    }
 }
 
 /// What a scan says of the object.
@@ -114,9 +133,42 @@ pub struct Reconstruction {
     /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
     pub noise: [ChannelNoise; 3],
     evidence: Vec<Evidence>,
+    /// Samples of each place's window; none of single samples that were taken as they are.
+    windows: Vec<usize>,
 }
 
 impl Reconstruction {
+    /// The contour: contact points assembled into stretches, and the gaps between them.
+    ///
+    /// In noise the points of neighbouring samples come from fits that overlap. Each is counted for its part of the
+    /// window, so that the standard deviations of the contour are what the noise of the samples makes of them.
+    pub fn contour(&self, assembly: &Assembly) -> ContourEstimate {
+        let runs = self.runs.iter().map(|run| run.0).skip(1).chain([self.readings.len()]);
+        let mut lengths = self.runs.iter().zip(runs).map(|(run, end)| (end, end - run.0));
+        let mut run = lengths.next();
+        let answers: Vec<(Vec<Touch>, Option<String>, usize)> = self
+            .readings
+            .iter()
+            .enumerate()
+            .map(|(sample, reading)| {
+                while run.is_some_and(|(end, _)| end <= sample) {
+                    run = lengths.next();
+                }
+                let window = match reading.second {
+                    Some(_) => run.map_or(1, |(_, length)| length / SERIES),
+                    None => self.windows.get(reading.place).copied().unwrap_or(1),
+                };
+                let all = std::iter::once(reading.touch).chain(reading.second);
+                (all.filter_map(Result::ok).collect(), reading.touch.err().map(|reason| reason.to_string()), window)
+            })
+            .collect();
+        assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (touches, reason, shared))| Measured {
+            reason: reason.as_deref(),
+            shared: *shared,
+            ..Measured::new(reading.label, touches)
+        }))
+    }
+
     /// The criteria about a sample, dimensionless; none for one that is of no use.
     pub fn evidence(&self, sample: usize) -> Option<&Evidence> {
         self.readings.get(sample).and_then(|reading| self.evidence.get(reading.place))
@@ -136,11 +188,7 @@ impl Reconstruction {
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    for (what, value) in [("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(ReconstructError::Setting { what, value });
-        }
-    }
+    positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
     let units = rod.units();
     let (track, places) = Track::new(rod, samples);
     if track.len() < FEWEST {
@@ -149,7 +197,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     let channels = [0, 1, 2].map(|c| track.clamps.iter().map(|clamp| clamp.reactions[c]).collect::<Vec<f64>>());
     let size = [units.force, units.force, units.moment];
     let found = match settings.noise {
-        Some(noise) => std::array::from_fn(|c| ChannelNoise { sigma: noise[c].sigma / size[c], ..noise[c] }),
+        Some(noise) => dimensionless(&noise, units),
         None => noise_of(&track, &channels, samples, size),
     };
     let [f0x, f0y, m0z] = &channels;
@@ -161,7 +209,8 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
         .collect();
     let identified = identify(&track, &noise, &breaks);
-    let usable = Answers { track: &track, noise: &noise, identified: &identified, units, settings }.all(&breaks);
+    let usable =
+        Answers { track: &track, kinks: &kinks, noise: &noise, identified: &identified, units, settings }.all(&breaks);
 
     let mut numbers = Vec::with_capacity(track.len());
     let mut readings = Vec::with_capacity(samples.len());
@@ -173,8 +222,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
             }
             Err(fault) => {
                 let label = readings.last().map_or(Label::Free, |before: &Reading| before.label);
-                let touch = Err(Reason::Fault(*fault));
-                readings.push(Reading { label, margin: 0.0, touch, second: None, place: usize::MAX });
+                readings.push(Reading::without(label, Reason::Fault(*fault)));
             }
         }
     }
@@ -189,13 +237,29 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         sigma: std::array::from_fn(|c| kink.sigma[c] * slope(kink, c)),
         ..*kink
     };
+    let clean = noise.is_clean();
     Ok(Reconstruction {
         readings,
         runs,
         kinks: kinks.iter().map(in_units).collect(),
         noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
+        windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
     })
+}
+
+/// Noise in SI units made dimensionless.
+pub(crate) fn dimensionless(noise: &[ChannelNoise; 3], units: Units) -> [ChannelNoise; 3] {
+    let size = [units.force, units.force, units.moment];
+    std::array::from_fn(|c| ChannelNoise { sigma: noise[c].sigma / size[c], ..noise[c] })
+}
+
+/// Settings that must be positive, finite numbers.
+pub(crate) fn positive(settings: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ReconstructError> {
+    match settings.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+        Some((what, value)) => Err(ReconstructError::Setting { what, value }),
+        None => Ok(()),
+    }
 }
 
 /// The noise of the samples: what the sensor says of itself, where it does, with the correlation that the scan shows.
@@ -212,8 +276,24 @@ fn noise_of(track: &Track, channels: &[Vec<f64>; 3], samples: &[Sample], size: [
     })
 }
 
+/// The point in SI units, if it is known well enough.
+pub(crate) fn sure(touch: Touch, units: Units, largest_sigma: f64) -> Result<Touch, Reason> {
+    let sigma = touch.sigma_normal();
+    if sigma <= largest_sigma {
+        Ok(touch.in_units(units))
+    } else {
+        Err(Reason::TooNoisy { sigma: sigma * units.length })
+    }
+}
+
+/// Whether the reactions jump before this sample.
+fn jumps(breaks: &[Break], index: usize) -> bool {
+    breaks.iter().any(|here| here.jump && here.index == index)
+}
+
 struct Answers<'a> {
     track: &'a Track,
+    kinks: &'a [Kink],
     noise: &'a Noise,
     identified: &'a Identified,
     units: Units,
@@ -228,7 +308,9 @@ impl Answers<'_> {
         let mut next = 0;
         while next < runs.len() {
             if runs[next].1.several() {
-                let many = runs[next..].iter().take_while(|run| run.1.several()).count();
+                // a phase on the other side of a jump tells nothing of this one
+                let joined = |pair: &[(Range<usize>, Label)]| pair[1].1.several() && !jumps(breaks, pair[1].0.start);
+                let many = 1 + runs[next..].windows(2).take_while(|pair| joined(pair)).count();
                 self.several(next..next + many, breaks, &mut readings);
                 next += many;
             } else {
@@ -254,48 +336,59 @@ impl Answers<'_> {
         if label == Label::Free {
             return self.reading(nodes, index, label, Err(Reason::Free));
         }
-        let (clamp, covariance) = if self.noise.variance.max() < CLEAN * CLEAN {
-            (self.track.clamps[index], Matrix3::from_diagonal(&self.noise.variance))
-        } else {
-            let estimate = self.identified.nodes[nodes.of(index)].fit.at(self.track.tau[index]);
-            (estimate.clamp, estimate.covariance())
-        };
-        let touch = bound(&clamp, &covariance, label).map_err(Reason::NoContact).and_then(|touch| self.sure(touch));
+        let fit = &self.identified.nodes[nodes.of(index)].fit;
+        let touch = contact(&self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
+        let touch = touch.map_err(Reason::NoContact).and_then(|touch| self.sure(touch));
         self.reading(nodes, index, label, touch)
     }
 
     /// The point in SI units, if it is known well enough.
     fn sure(&self, touch: Touch) -> Result<Touch, Reason> {
-        let sigma = touch.sigma_normal();
-        let touch = touch.in_units(self.units);
-        if sigma <= self.settings.largest_sigma {
-            Ok(touch)
-        } else {
-            Err(Reason::TooNoisy { sigma: sigma * self.units.length })
-        }
+        sure(touch, self.units, self.settings.largest_sigma)
+    }
+
+    /// By how many samples a border may be misplaced: as far as its kink may be.
+    fn unsure(&self, border: usize) -> usize {
+        let track = self.track;
+        let kink = self.kinks.iter().find(|kink| kink.next == border);
+        let sigma = kink.map_or(0.0, |kink| SIGMAS * kink.sigma_tau);
+        let from = track.tau.get(border).map_or(border, |tau| track.tau.partition_point(|other| *other < tau - sigma));
+        (border - from.min(border)).min(track.len())
     }
 
     /// A series of runs with several contacts.
-    fn several(&self, series: std::ops::Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
+    fn several(&self, series: Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
         let runs = &self.identified.runs;
         let pieces: Vec<Piece> =
             runs[series.clone()].iter().map(|(range, label)| Piece { range: range.clone(), label: *label }).collect();
-        // a phase on the other side of a jump tells nothing of this one
-        let jumps = |index: usize| breaks.iter().any(|here| here.jump && here.index == index);
-        let neighbour = |run: Option<&(std::ops::Range<usize>, Label)>, border: usize| {
-            let (range, label) = run.filter(|run| run.1 != Label::Free && !jumps(border))?;
+        let neighbour = |run: Option<&(Range<usize>, Label)>, border: usize| {
+            let single = |label: Label| label != Label::Free && !label.several();
+            let (range, label) = run.filter(|run| single(run.1) && !jumps(breaks, border))?;
             Some(Neighbour { range: range.clone(), label: *label })
         };
         let before =
             neighbour(series.start.checked_sub(1).and_then(|index| runs.get(index)), runs[series.start].0.start);
         let after = neighbour(runs.get(series.end), runs[series.end - 1].0.end);
-        let pairs = resolve(self.track, self.noise, &pieces, before, after, &Limits::default());
+        let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
+        let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
+        let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
+        let mut pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        for wider in MARGINS {
+            // a border misplaced by more than its kink tells spoils all: leave out more
+            if pairs.iter().any(|pair| pair.first.is_ok()) {
+                break;
+            }
+            let limits = Limits { margin: margin * wider, ..limits };
+            pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        }
         let mut pairs = pairs.into_iter();
         for Piece { range, label } in pieces {
             let mut nodes = Nearest::new(self, label, range.start);
             for (index, pair) in range.zip(pairs.by_ref()) {
-                let sure = |found: Result<Touch, Unresolved>| {
-                    found.map_err(Reason::Several).and_then(|touch| self.sure(touch))
+                let sure = |found: Result<Touch, Unresolved>| match found {
+                    Ok(touch) => self.sure(touch),
+                    Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),
+                    Err(reason) => Err(Reason::Several(reason)),
                 };
                 let reading = self.reading(&mut nodes, index, label, sure(pair.first));
                 readings.push(Reading { second: Some(sure(pair.second)), ..reading });

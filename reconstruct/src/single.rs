@@ -48,9 +48,9 @@ impl NoContact {
 /// from the `covariance` of (f0x, f0y, m0z), in N^2, N^2 m, N^2 m^2; zero where that is not known.
 ///
 /// A = f0y, B = -f0x, kappa(0) = -m0z; the contact is where the curvature vanishes first, alpha = atan2(B, A) (Merker et
-/// al. 2021, eq. 10 and 18); but at the tip where the criterion K < 0 excludes a tangential contact and the curvature vanishes
-/// at the tip once more, as it does of a rod that buckles in a notch. Exact but for rounding: of reactions exact to rounding the point is too, 1e-13 of the rod's
-/// length unless the force almost vanishes. No allocation.
+/// al. 2021, eq. 10 and 18); but at the tip where the criterion K < 0 excludes a tangential contact and the curvature
+/// vanishes at the tip once more, as it does of a rod that buckles in a notch. Exact but for rounding: of reactions exact
+/// to rounding the point is too, 1e-13 of the rod's length unless the force almost vanishes. No allocation.
 ///
 /// ```
 /// use nalgebra::Matrix3;
@@ -100,6 +100,7 @@ pub(crate) struct MomentZero {
     /// Of (x, y, phi) at this point, which moves along the rod.
     pub by_reactions: nalgebra::Matrix3<f64>,
     /// Of the section at this arc length.
+    #[allow(dead_code, reason = "the identification of phases is to use it")]
     pub at_s: Matrix4x3<f64>,
 }
 
@@ -116,8 +117,8 @@ impl MomentZero {
         Self::at(clamp, s).ok_or(NoContact::NoMomentZero)
     }
 
-    /// The zero nearest to the tip, where it is a later one than this, the first: a rod pushed into a notch, or on end, buckles and
-    /// is straight several times. Along a segment its zeros are evenly spaced.
+    /// The zero nearest to the tip, where it is a later one than this, the first: a rod pushed into a notch, or on end,
+    /// buckles and is straight several times. Along a segment its zeros are evenly spaced.
     pub fn by_tip(&self, clamp: &Clamp) -> Option<Self> {
         let [a, b] = clamp.force();
         let start = clamp.section();

@@ -12,6 +12,9 @@ pub enum Fault {
     /// Pose, reactions or their standard deviations are no finite numbers.
     #[error("a number is not finite")]
     NotFinite,
+    /// The scan ends before there are enough samples to tell.
+    #[error("too few samples")]
+    TooFew,
     /// The clamp does not go on.
     #[error("{0}")]
     Halt(#[from] Halt),

@@ -13,8 +13,8 @@ fn turn(angle: f64) -> f64 {
     angle - 2.0 * PI * (angle / (2.0 * PI)).round()
 }
 
-/// A rod bent by one contact at arc length `s` (in lengths), where it leans by `angle` against the contour's tangent: 0 of a
-/// tangential contact.
+/// A rod bent by one contact at arc length `s` (in lengths), where it leans by `angle` against the contour's tangent:
+/// 0 of a tangential contact.
 fn bent(rod: &Rod, clamp: Pose, s: f64, force: f64, angle: f64) -> (Elastica, Load) {
     let units = rod.units();
     let shape = |alpha: f64| {
@@ -69,7 +69,8 @@ proptest! {
         prop_assert!((found.covariance - expected).norm() < 1e-9 * expected.norm());
     }
 
-    /// A rod a times as long and b times as stiff under reactions b / a^2 and b / a as great touches at a times the place.
+    /// A rod a times as long and b times as stiff under reactions b / a^2 and b / a as great touches at a times the
+    /// place.
     #[test]
     fn scale(a in 1e-3..1e3, b in 1e-3..1e3, force in 0.1..2.0, lean in 0.05..1.0) {
         let (one, other) = (Rod::new(1.0, 1.0).unwrap(), Rod::new(a, b).unwrap());

@@ -25,8 +25,8 @@ fn subtract(a: &mut Row, share: f64, b: &Row) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a -= share * b);
 }
 
-/// Orthonormal functions over a window with a node at 0: a quadratic, what a hinge and a step at the node add to it, and
-/// what a cubic and a quartic add to it in their place.
+/// Orthonormal functions over a window with a node at 0: a quadratic, what a hinge and a step at the node add to it,
+/// and what a cubic and a quartic add to it in their place.
 #[derive(Clone, Debug)]
 pub(crate) struct Basis {
     pub quadratic: [Row; 3],
@@ -128,6 +128,9 @@ pub(crate) struct Verdict {
     pub changes: [[f64; 2]; 3],
 }
 
+/// A difference of squares that is a smaller share of them is computed from residuals instead.
+const CANCELLED: f64 = 1e-6;
+
 impl Window<'_> {
     /// Squares of hinge and of both over the noise variances alone: at least as large as the verdict's.
     pub fn glance(&self, variance: &[f64; 3]) -> (f64, f64) {
@@ -150,14 +153,15 @@ impl Window<'_> {
                 subtract(&mut rest, share, column);
             }
             let along = [dot(&rest, &self.basis.hinge), dot(&rest, &self.basis.step)];
-            let (mut kinked, mut smooth) = (rest, rest);
-            subtract(&mut kinked, along[0], &self.basis.hinge);
-            subtract(&mut kinked, along[1], &self.basis.step);
-            for column in &self.basis.quartic {
-                let share = dot(&rest, column);
-                subtract(&mut smooth, share, column);
+            let bent = self.basis.quartic.each_ref().map(|column| dot(&rest, column));
+            let whole = dot(&rest, &rest);
+            let smooth = whole - bent[0] * bent[0] - bent[1] * bent[1];
+            let mut kinked = whole - along[0] * along[0] - along[1] * along[1];
+            if kinked < CANCELLED * whole {
+                subtract(&mut rest, along[0], &self.basis.hinge);
+                subtract(&mut rest, along[1], &self.basis.step);
+                kinked = dot(&rest, &rest);
             }
-            let (kinked, smooth) = (dot(&kinked, &kinked), dot(&smooth, &smooth));
             let misfit = (kinked / (usual * variance)).max(1.0);
             let variance = variance * misfit;
             verdict.hinge += along[0] * along[0] / variance;

@@ -1,5 +1,6 @@
 //! Kinks and jumps as the samples come.
 
+use super::scale::reach;
 use super::search::Detector;
 use super::{Kink, KinkOptions};
 use crate::noise_estimate::ChannelNoise;
@@ -50,7 +51,7 @@ impl KinkFilter {
     /// For samples at distances of about `spacing` (> 0, in units of the path parameter). The false-alarm rate of
     /// `options` is that of `nominal` samples.
     pub fn new(spacing: f64, noise: [ChannelNoise; 3], options: KinkOptions, nominal: usize) -> Self {
-        let (margin, largest) = Detector::reach(spacing, options);
+        let (margin, largest) = reach(spacing, options);
         let hop = largest * (margin / (2 * largest)).max(1);
         let capacity = 2 * margin + hop;
         let detector = Detector::new(capacity, spacing, noise, options).roomy(capacity);

@@ -20,6 +20,8 @@ pub(crate) struct Level {
 const ROUNDING: f64 = 1e-9;
 /// Share of the noise of a bin's mean that its being out of step may shift it by and still pass for even.
 const NEGLIGIBLE: f64 = 0.1;
+/// Bins either way that the slope there is taken from.
+const AROUND: usize = 6;
 
 impl Level {
     /// Room for so many bins.
@@ -79,12 +81,10 @@ impl Level {
     fn out_of_step(&self, i: usize, sigma: &[f64; 3]) -> bool {
         let (before, after) = (self.tau[i] - self.tau[i - 1], self.tau[i + 1] - self.tau[i]);
         let out = (after - before).abs() / (after + before);
-        out > ROUNDING
-            && self
-                .y
-                .iter()
-                .zip(sigma)
-                .any(|(y, sigma)| out * (y[i + 1] - y[i]).abs().max((y[i] - y[i - 1]).abs()) > NEGLIGIBLE * sigma)
+        // slopes over several bins, for between neighbours there is more noise than slope
+        let (low, high) = (i.saturating_sub(AROUND), (i + AROUND).min(self.len() - 1));
+        let share = out / (high - low) as f64;
+        out > ROUNDING && self.y.iter().zip(sigma).any(|(y, s)| share * (y[high] - y[low]).abs() > NEGLIGIBLE * s)
     }
 
     /// Whether bins pass for evenly spaced.

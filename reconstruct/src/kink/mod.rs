@@ -4,11 +4,30 @@
 //! it explains beyond a quadratic is judged by the noise, by its own misfit, and against a quartic, which has as many
 //! parameters and no corner. From the finest scale to the coarsest, what stands out is taken, and no later window
 //! reaches across it; a free-knot fit then places it between the samples.
+//!
+//! Measured on the nine scans of Merker et al. (2021), 85,001 samples each, 20 noise draws a scan, wire of 100 mm and
+//! 6.32e-4 N m^2, noise estimated from the data, a transition (all but A -> B) found within 1 mm
+//! (`cargo test --release -p rod-reconstruct --test kinks_of_the_paper -- --ignored --nocapture`):
+//!
+//! | noise | found | false a scan | median error of position |
+//! |---|---|---|---|
+//! | none (one scan each) | 51 of 51 | 0 | 1e-6 mm |
+//! | 0.2 mN / 0.02 mN m, white | 100 % | 0.16 | 0.0010 mm |
+//! | the same, AR(1) of 0.45 | 100 % | 0.08 | 0.0014 mm |
+//! | 2.5 mN / 0.06 mN m, white | 99.9 % | 0.09 | 0.0067 mm |
+//! | the same, AR(1) of 0.45 | 99.1 % | 0.11 | 0.0097 mm |
+//! | 10 mN / 0.5 mN m, white | 89.2 % | 0.08 | 0.024 mm |
+//! | the same, AR(1) of 0.45 | 71.0 % | 0.08 | 0.022 mm |
+//!
+//! Errors of position are 1.0 to 1.3 of the stated standard deviation in the median, where 0.67 is due: curvature, too,
+//! breaks at a kink. Noise that is not the same all along a recording (places that are wrong where slopes are large)
+//! makes false alarms.
 
 mod basis;
 mod filter;
 mod level;
 mod refine;
+mod scale;
 mod search;
 mod threshold;
 
@@ -31,7 +50,7 @@ pub enum KinkKind {
 pub struct Kink {
     /// Where, in units of the path parameter.
     pub tau: f64,
-    /// Standard deviation of `tau`.
+    /// Standard deviation of `tau` from the noise alone; for a jump, of a place anywhere between two samples.
     pub sigma_tau: f64,
     /// Index of the first sample after it.
     pub next: usize,
@@ -55,9 +74,9 @@ pub struct KinkOptions {
 }
 
 impl Default for KinkOptions {
-    /// 0.05 false alarms and half-windows up to 0.08, lengths of the rod.
+    /// 0.1 false alarms and half-windows up to 0.08, lengths of the rod.
     fn default() -> Self {
-        Self { false_alarms: 0.05, widest: 0.08 }
+        Self { false_alarms: 0.1, widest: 0.08 }
     }
 }
 
@@ -75,7 +94,20 @@ pub fn find_kinks(tau: &[f64], channels: [&[f64]; 3], noise: &[ChannelNoise; 3],
         return Vec::new();
     }
     let spacing = (tau[count - 1] - tau[0]) / (count - 1) as f64;
+    let options = KinkOptions { widest: options.widest.min(tau[count - 1] - tau[0]), ..options };
     let mut detector = Detector::new(count, spacing, *noise, options);
     detector.run(tau, channels, count);
     detector.found().collect()
+}
+
+/// White-equivalent noise of each channel, no less than a trace of its largest value. Noise whose neighbours are
+/// opposed counts as white, for short windows see all of it.
+fn equivalents(noise: &[ChannelNoise; 3], channels: [&[f64]; 3]) -> [f64; 3] {
+    let mut sigma = [0.0; 3];
+    for ((sigma, noise), channel) in sigma.iter_mut().zip(noise).zip(channels) {
+        let largest = channel.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+        let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE.sqrt());
+        *sigma = (noise.sigma * noise.long_run.max(1.0).sqrt()).max(least);
+    }
+    sigma
 }

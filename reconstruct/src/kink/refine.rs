@@ -130,7 +130,7 @@ impl Part<'_> {
             let u = (self.tau[i] - knot) / scale;
             [1.0, u, u * u, if i >= next { u } else { 0.0 }, if i >= next { 1.0 } else { 0.0 }]
         };
-        // modified Gram-Schmidt in place of stored columns: triangular factor of the normal equations, columns first
+        // normal equations, so that no columns are stored; the residuals below make up for their condition
         let mut normal = [[0.0; 5]; 5];
         let mut moments = [[0.0; 5]; 3];
         let offset = [0, 1, 2].map(|c| self.channels[c][next.min(to - 1)]);
@@ -158,7 +158,7 @@ impl Part<'_> {
         let mut coefficients = [[0.0; 5]; 3];
         let mut bent = [[0.0; 5]; 3];
         for c in 0..3 {
-            // once more on the residuals: the normal equations square the condition, which is about 1e4 at most
+            // once more on the residuals: the normal equations square the condition
             for round in 0..2 {
                 let rest =
                     if round == 0 { moments[c] } else { self.left(from, to, &row, c, offset[c], &coefficients[c]) };

@@ -3,18 +3,19 @@
 use super::basis::{Basis, FEWEST, MOST, ROWS, Verdict, Window};
 use super::level::Level;
 use super::refine::{Part, Placed};
+use super::scale::{Scale, scales};
 use super::threshold;
-use super::{Kink, KinkKind, KinkOptions};
+use super::{Kink, KinkKind, KinkOptions, equivalents};
 use crate::noise_estimate::ChannelNoise;
 
-/// Half-windows in bins at the finest level, and at the others.
-const FINEST: [usize; 4] = [4, 6, 8, 12];
-const OTHERS: [usize; 2] = [8, 12];
 /// The noise is known to some 10 % of its variance, and thresholds allow for it.
 const ALLOWANCE: f64 = 1.1;
 /// A kink must beat a quartic by this much in units of variance, and by this share of its own score, of which an ideal
 /// kink beats it by a quarter.
 const MARGIN: (f64, f64) = (2.0, 0.1);
+/// Where a window's own misfit stands in for the noise, its chance of being small is that of an F distribution of few
+/// degrees of freedom: thresholds rise with the misfit, up to this factor (11 degrees, a chance of 1e-7).
+const MISFIT: f64 = 6.0;
 /// What would have been so far above the threshold with half the window, but was not found there, is smooth.
 const MISSED: f64 = 4.0;
 /// A jump fits so much better than a kink, in units of the noise variance, where there is one: three more degrees of
@@ -25,19 +26,9 @@ const FINER: usize = 3;
 /// Searches at most.
 const ROUNDS: usize = 3;
 /// Knots of two windows agree within so many standard deviations of the shorter one's.
-const AGREES: f64 = 1.5;
+const AGREES: f64 = 1.0;
 /// Samples within so many standard deviations of a kink belong to neither side.
 const GUARD: f64 = 4.0;
-
-/// One window length.
-#[derive(Clone, Copy, Debug)]
-struct Scale {
-    level: usize,
-    half: usize,
-    /// Thresholds of hinge, and of hinge and step.
-    three: f64,
-    six: f64,
-}
 
 /// A transition that was taken.
 #[derive(Clone, Copy, Debug)]
@@ -67,15 +58,13 @@ pub(crate) struct Detector {
     dropped: Vec<(usize, usize)>,
 }
 
-/// Bins of at most 2^23 samples.
-const LEVELS: usize = 24;
 const SIDES: usize = MOST - FEWEST + 1;
 
 impl Detector {
     /// For recordings of up to `capacity` samples at distances of about `spacing`.
     pub fn new(capacity: usize, spacing: f64, noise: [ChannelNoise; 3], options: KinkOptions) -> Self {
         let scales: Vec<Scale> = scales(spacing, options)
-            .filter(|scale| 2 * FEWEST << scale.level <= capacity || scale.level == 0)
+            .filter(|scale| (2 * FEWEST) << scale.level <= capacity || scale.level == 0)
             .collect();
         let finest = scales.iter().map(|scale| scale.level).max().unwrap_or(0);
         let levels = (0..=finest).map(|level| Level::with_capacity(capacity >> level)).collect();
@@ -84,12 +73,6 @@ impl Detector {
             .collect();
         let (taken, candidates, dropped) = (Vec::new(), Vec::new(), Vec::new());
         Self { options, noise, sigma: [0.0; 3], levels, scales, bases, taken, candidates, dropped }
-    }
-
-    /// Samples in the longest half-window, and in its bins.
-    pub fn reach(spacing: f64, options: KinkOptions) -> (usize, usize) {
-        let longest = scales(spacing, options).map(|scale| (scale.half << scale.level, 1 << scale.level)).max();
-        longest.unwrap_or((FINEST[0], 1))
     }
 
     /// With room for all that recordings up to the capacity can hold, so that no run takes memory.
@@ -110,7 +93,7 @@ impl Detector {
             let sigma = self.sigma.map(|s| s / (2.0_f64.powi(k as i32)).sqrt());
             coarser[0].fill_from(&finer[k - 1], &sigma);
         }
-        let share = self.options.false_alarms / self.scales.len() as f64;
+        let share = self.options.false_alarms.max(0.0) / self.scales.len() as f64;
         for scale in &mut self.scales {
             let p = share * self.levels[scale.level].size as f64 / nominal.max(1) as f64;
             scale.three = ALLOWANCE * threshold::three(0.5 * p);
@@ -147,10 +130,8 @@ impl Detector {
                 self.candidates.push((ratio, node));
             }
         }
-        while let Some(best) =
-            (0..self.candidates.len()).max_by(|a, b| self.candidates[*a].0.total_cmp(&self.candidates[*b].0))
-        {
-            let (ratio, node) = self.candidates.swap_remove(best);
+        self.candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        while let Some((ratio, node)) = self.candidates.pop() {
             let Some(taken) = self.take(scale, node, ratio) else { continue };
             self.levels[level].mask(taken.guard.0, taken.guard.1);
             self.taken.push(taken);
@@ -164,6 +145,7 @@ impl Detector {
                 }
                 !ratio.is_nan()
             });
+            kept.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
             self.candidates = kept;
         }
     }
@@ -182,7 +164,7 @@ impl Detector {
 
     fn passes(&self, scale: usize, verdict: &Verdict) -> Option<f64> {
         let Scale { three, six, .. } = self.scales[scale];
-        let ratio = (verdict.hinge / three).max(verdict.both / six);
+        let ratio = (verdict.hinge / three).max(verdict.both / six) / verdict.misfit.min(MISFIT);
         let smooth = verdict.margin < MARGIN.0.max(MARGIN.1 * verdict.both);
         (ratio > 1.0 && !smooth).then_some(ratio)
     }
@@ -192,8 +174,8 @@ impl Detector {
         self.sigma.map(|s| s * s / size)
     }
 
-    /// What the window of a scale around a node says, and the bins it spans; none where there is no room for one, or, in
-    /// a hurry, where noise alone explains it.
+    /// What the window of a scale around a node says, and the bins it spans; none where there is no room for one, or,
+    /// in a hurry, where noise alone explains it.
     fn verdict(&self, scale: usize, node: usize, hurry: bool) -> Option<(Verdict, usize, usize)> {
         let Scale { level, half, three, six } = self.scales[scale];
         let bins = &self.levels[level];
@@ -328,7 +310,7 @@ impl Detector {
         self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
         // twice, for places change what is between neighbours, and then for neighbours of what was dropped
         for _ in 0..2 {
-            (0..self.taken.len()).for_each(|i| self.settled(i));
+            (0..self.taken.len()).for_each(|i| self.settle_one(i));
         }
         while let Some(weakest) = (0..self.taken.len())
             .filter(|i| self.taken[*i].score <= 1.0)
@@ -337,16 +319,16 @@ impl Detector {
             let dropped = self.taken.remove(weakest);
             self.dropped.push((dropped.scale, dropped.placed.next));
             for i in weakest.saturating_sub(1)..(weakest + 1).min(self.taken.len()) {
-                self.settled(i);
+                self.settle_one(i);
             }
         }
         self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
     }
 
-    /// Judges and places a transition anew, between its neighbours. Among windows that the noise allows, a longer one is
-    /// used as long as it agrees with all shorter ones (Lepski 1990): the curvature may break at a kink, too, and shift
+    /// Judges and places a transition anew, between its neighbours. Among windows that the noise allows, a longer one
+    /// is used as long as it agrees with all shorter ones (Lepski 1990): the curvature may break at a kink, too, and shift
     /// the knot of a long window.
-    fn settled(&mut self, i: usize) {
+    fn settle_one(&mut self, i: usize) {
         let old = self.taken[i];
         let mut score = 0.0_f64;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -380,33 +362,11 @@ impl Detector {
             high = high.min(placed.tau + AGREES * placed.sigma_tau);
             let guard = guard(&placed, &self.levels[0].tau, (to - from) / 6);
             if best.is_none_or(|b| placed.sigma_tau < b.placed.sigma_tau) {
-                best = Some(Taken { placed, scale, score, guard });
+                best = Some(Taken { placed, guard, ..old });
             }
         }
         self.taken[i] = Taken { score, ..best.unwrap_or(old) };
     }
-}
-
-/// Window lengths up to the widest one, thresholds to be set.
-fn scales(spacing: f64, options: KinkOptions) -> impl Iterator<Item = Scale> {
-    let reach = (options.widest / spacing).max(FINEST[0] as f64);
-    (0..LEVELS).flat_map(move |level| {
-        let halves = if level == 0 { &FINEST[..] } else { &OTHERS[..] };
-        let scale = move |half: &usize| Scale { level, half: *half, three: 0.0, six: 0.0 };
-        halves.iter().map(scale).filter(move |scale| (scale.half << level) as f64 <= reach)
-    })
-}
-
-/// White-equivalent noise of each channel, no less than a trace of its largest value. Noise whose neighbours are
-/// opposed counts as white, for short windows see all of it.
-fn equivalents(noise: &[ChannelNoise; 3], channels: [&[f64]; 3]) -> [f64; 3] {
-    let mut sigma = [0.0; 3];
-    for ((sigma, noise), channel) in sigma.iter_mut().zip(noise).zip(channels) {
-        let largest = channel.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-        let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE.sqrt());
-        *sigma = (noise.sigma * noise.long_run.max(1.0).sqrt()).max(least);
-    }
-    sigma
 }
 
 /// Samples near a transition that belong to neither side, up to `most` either way.

@@ -1,6 +1,6 @@
 //! The phases of a whole scan.
 
-use super::automaton::{Break, Place, likeliest};
+use super::automaton::{Break, Place, Trellis};
 use super::border::border;
 use super::evidence::Evidence;
 use crate::fit::{Fit, Noise};
@@ -22,6 +22,23 @@ pub(crate) struct Node {
     pub fit: Fit,
     pub evidence: Evidence,
     pub place: Place,
+}
+
+impl Node {
+    /// About a sample, from samples of `part` only, at most `widest` on one side; none where these are too few.
+    pub fn about(track: &Track, index: usize, part: Range<usize>, noise: &Noise, widest: usize) -> Option<Self> {
+        let fit = Fit::about(track, index, part, noise, widest)?;
+        let evidence = Evidence::of(&fit.at(track.tau[index]));
+        Some(Self { index, fit, evidence, place: Place { scores: [0.0; 5], between: None } })
+    }
+
+    /// As one of places `stride` samples apart, with what lies before it. Windows that overlap tell the same thing
+    /// several times: each counts for its part.
+    pub fn placed(self, stride: usize, between: Option<Break>) -> Self {
+        let weight = (INDEPENDENT * stride as f64 / self.fit.window.len() as f64).min(1.0);
+        let place = Place { scores: self.evidence.scores().map(|score| weight * score), between };
+        Self { place, ..self }
+    }
 }
 
 /// The label of each sample, how sure it is, and what decided.
@@ -54,26 +71,17 @@ pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identi
     for (part, before) in parts(track.tau.len(), breaks) {
         let mut between = before;
         let mut index = part.start;
-        loop {
-            let fit = Fit::about(track, index, part.clone(), noise, WIDEST);
-            let Some(fit) = fit else {
-                // too few samples between two breaks: they go with what is around them
-                break;
-            };
-            let stride = (fit.window.len() / PLACES).max(1);
-            let estimate = fit.at(track.tau[index]);
-            let evidence = Evidence::of(&estimate);
-            let weight = (INDEPENDENT * stride as f64 / fit.window.len() as f64).min(1.0);
-            let place = Place { scores: evidence.scores().map(|score| weight * score), between: between.take() };
-            nodes.push(Node { index, fit, evidence, place });
+        // too few samples between two breaks go with what is around them
+        while let Some(node) = Node::about(track, index, part.clone(), noise, WIDEST) {
+            let stride = (node.fit.window.len() / PLACES).max(1);
+            nodes.push(node.placed(stride, between.take()));
             if index + 1 >= part.end {
                 break;
             }
             index = (index + stride).min(part.end - 1);
         }
     }
-    let places: Vec<Place> = nodes.iter().map(|node| node.place).collect();
-    let labels = likeliest(&places);
+    let labels = Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec();
     let runs = runs(track, noise, &nodes, &labels);
     Identified { nodes, runs, labels }
 }

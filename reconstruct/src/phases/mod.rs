@@ -5,6 +5,6 @@ mod border;
 mod evidence;
 mod identify;
 
-pub(crate) use automaton::Break;
+pub(crate) use automaton::{Break, Trellis, forward};
 pub use evidence::{Basis, Evidence, Quantity};
-pub(crate) use identify::{Identified, identify};
+pub(crate) use identify::{Identified, Node, identify};

@@ -1,0 +1,275 @@
+//! From bins to the points of a trace: in order along the contour, and no more of them than its shape needs.
+
+use super::bins::Bin;
+use super::smooth::Estimate;
+use super::trace::TracePoint;
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// A point counts as ahead of another if it is farther by so many standard deviations of their distance.
+const AHEAD: f64 = 3.0;
+/// And the contact turns back where it goes back by so many.
+const BACK: f64 = 6.0;
+/// Departures smaller than this are none, m.
+const LEAST: f64 = 1e-100;
+/// Bins to each side from which a direction is taken.
+const BESIDE: usize = 4;
+/// Share of a standard deviation by which a point that is left out may depart from the chord.
+const LEFT_OUT: f64 = 0.5;
+
+/// Bins with their estimates, and how far each is along the contour.
+pub(super) struct Line {
+    points: Vec<TracePoint>,
+    /// The way along the tangents, positive where it is that of the contour.
+    way: Vec<f64>,
+    /// Standard deviation of each point along the tangent.
+    along: Vec<f64>,
+    samples: Vec<Range<usize>>,
+    /// Whether the tangents are those of the contour.
+    tangents: bool,
+}
+
+impl Line {
+    pub fn new(bins: &[Bin], estimates: &[Estimate], tangents: bool) -> Self {
+        let mut line = Self { points: Vec::new(), way: Vec::new(), along: Vec::new(), samples: Vec::new(), tangents };
+        let mut before: Option<(Vector2<f64>, Vector2<f64>)> = None;
+        let mut way = 0.0;
+        for (k, (bin, (at, covariance))) in bins.iter().zip(estimates).enumerate() {
+            let tangent = bin.tangent;
+            // Where the tangents are not to be trusted, the error that matters is that across the way of the points.
+            let along = if tangents { tangent } else { chord(estimates, k).unwrap_or(tangent) };
+            let normal = Vector2::new(-along.y, along.x);
+            let variance = |side: &Vector2<f64>| side.dot(&(covariance * side)).max(0.0);
+            if let Some((last, direction)) = before {
+                let mean = (tangent + direction).try_normalize(1e-6).unwrap_or(tangent);
+                way += mean.dot(&(at - last));
+            }
+            let sigma = variance(&normal).sqrt().hypot(bin.bias);
+            line.points.push(TracePoint { x: at.x, y: at.y, alpha: angle(&tangent), sigma });
+            line.along.push(variance(&along).sqrt());
+            line.way.push(way);
+            line.samples.push(bin.from..bin.to);
+            before = Some((*at, tangent));
+        }
+        line
+    }
+
+    /// The samples, the direction and the points of each part in which the contact went one way.
+    pub fn parts(&self, tolerance: f64) -> Vec<(Range<usize>, bool, Vec<TracePoint>)> {
+        self.one_way().into_iter().filter_map(|part| self.part(part, tolerance)).collect()
+    }
+
+    /// Parts in which the way only grows or only shrinks, but for noise; they share the bins at which it turns.
+    fn one_way(&self) -> Vec<Range<usize>> {
+        let count = self.points.len();
+        if !self.tangents {
+            return std::iter::once(0..count).collect();
+        }
+        let mut parts = Vec::new();
+        let (mut from, mut least, mut most) = (0, 0, 0);
+        // 0: not known yet.
+        let mut direction = 0.0;
+        for k in 0..count {
+            if self.way[k] >= self.way[most] {
+                most = k;
+            }
+            if self.way[k] <= self.way[least] {
+                least = k;
+            }
+            let down = self.way[most] - self.way[k] > BACK * self.along[most].hypot(self.along[k]);
+            let up = self.way[k] - self.way[least] > BACK * self.along[least].hypot(self.along[k]);
+            if direction == 0.0 {
+                direction = if down { -1.0 } else { f64::from(u8::from(up)) };
+                if direction != 0.0 {
+                    (least, most) = (k, k);
+                }
+                continue;
+            }
+            let turn = if direction > 0.0 && down {
+                Some(most)
+            } else if direction < 0.0 && up {
+                Some(least)
+            } else {
+                None
+            };
+            if let Some(turn) = turn {
+                parts.push(from..turn + 1);
+                from = turn;
+                direction = -direction;
+                (least, most) = (k, k);
+            }
+        }
+        parts.push(from..count);
+        parts
+    }
+
+    fn part(&self, part: Range<usize>, tolerance: f64) -> Option<(Range<usize>, bool, Vec<TracePoint>)> {
+        let (first, last) = (part.start, part.end.checked_sub(1)?);
+        let samples = self.samples.get(first)?.start..self.samples.get(last)?.end;
+        let reversed = self.way[last] < self.way[first];
+        let mut kept = if self.tangents { self.ahead(part) } else { part.collect() };
+        if reversed {
+            kept.reverse();
+        }
+        let mut points: Vec<TracePoint> = kept.iter().map(|&k| self.points[k]).collect();
+        if self.tangents {
+            self.to_the_ends(&kept, &mut points);
+        }
+        points.dedup_by(|a, b| a.x == b.x && a.y == b.y);
+        Some((samples, reversed, simplified(&points, LEFT_OUT, tolerance)))
+    }
+
+    /// Those bins of a part that are ahead of the one kept before, the last one in any case.
+    fn ahead(&self, part: Range<usize>) -> Vec<usize> {
+        let mut kept: Vec<usize> = Vec::new();
+        let last = part.end - 1;
+        let apart = |a: usize, b: usize| (self.way[a] - self.way[b]).abs() > AHEAD * self.along[a].hypot(self.along[b]);
+        let up = self.way[last] >= self.way[part.start];
+        for k in part {
+            let onward = kept.last().is_none_or(|&before| (self.way[k] > self.way[before]) == up && apart(k, before));
+            if onward {
+                kept.push(k);
+            }
+        }
+        // The end of the stretch is worth more than the point just before it.
+        if kept.last() != Some(&last) {
+            while kept.len() > 1
+                && kept.last().is_some_and(|&before| (self.way[last] > self.way[before]) != up || !apart(last, before))
+            {
+                kept.pop();
+            }
+            if kept.last().is_none_or(|&before| (self.way[last] > self.way[before]) == up && apart(last, before)) {
+                kept.push(last);
+            }
+        }
+        kept
+    }
+
+    /// Moves the end points, which are means over bins, on to where the bins end.
+    fn to_the_ends(&self, kept: &[usize], points: &mut [TracePoint]) {
+        if kept.len() < 3 {
+            return;
+        }
+        for (end, inner, sign) in [(0, 2, -1.0), (kept.len() - 1, kept.len() - 3, 1.0)] {
+            let (k, beside) = (kept[end], kept[inner]);
+            let samples = (self.samples[k].start + self.samples[k].end)
+                .abs_diff(self.samples[beside].start + self.samples[beside].end);
+            let half = 0.5 * (self.samples[k].len() - 1) as f64;
+            let beyond = (self.way[k] - self.way[beside]).abs() * half / (0.5 * samples as f64);
+            let turned = wrapped(self.points[k].alpha - self.points[beside].alpha);
+            let turned = turned * beyond / (self.way[k] - self.way[beside]).abs().max(f64::MIN_POSITIVE);
+            let alpha = points[end].alpha + 0.5 * turned;
+            points[end].x += sign * beyond * alpha.cos();
+            points[end].y += sign * beyond * alpha.sin();
+            points[end].alpha = wrapped(points[end].alpha + turned);
+        }
+    }
+}
+
+/// The direction of the points about one of them; none where they are all in one place.
+fn chord(estimates: &[Estimate], k: usize) -> Option<Vector2<f64>> {
+    let (from, to) = (k.saturating_sub(BESIDE), (k + BESIDE).min(estimates.len() - 1));
+    (estimates[to].0 - estimates[from].0).try_normalize(0.0)
+}
+
+/// The angle of a direction in (-pi, pi].
+fn angle(direction: &Vector2<f64>) -> f64 {
+    let angle = direction.y.atan2(direction.x);
+    if angle == -PI { PI } else { angle }
+}
+
+/// The same angle in (-pi, pi].
+pub(crate) fn wrapped(angle: f64) -> f64 {
+    let wrapped = (PI - angle).rem_euclid(2.0 * PI);
+    PI - wrapped
+}
+
+/// The points without those that lie on the chords between the others (Ramer 1972; Douglas and Peucker 1973): within a
+/// share of their standard deviation or the tolerance.
+pub(crate) fn simplified(points: &[TracePoint], share: f64, tolerance: f64) -> Vec<TracePoint> {
+    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
+    let mut keep = vec![false; points.len()];
+    keep[0] = true;
+    keep[last] = true;
+    let mut spans = vec![(0, last)];
+    while let Some((from, to)) = spans.pop() {
+        let (a, b) = (&points[from], &points[to]);
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let square = dx * dx + dy * dy;
+        let mut worst = (1.0, 0);
+        for (k, p) in points.iter().enumerate().take(to).skip(from + 1) {
+            let (px, py) = (p.x - a.x, p.y - a.y);
+            let t = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
+            let (u, v) = (px - t * dx, py - t * dy);
+            let allowed = (share * p.sigma).max(tolerance).max(LEAST);
+            let departure = (u * u + v * v) / (allowed * allowed);
+            if departure > worst.0 {
+                worst = (departure, k);
+            }
+        }
+        if worst.1 > 0 {
+            keep[worst.1] = true;
+            spans.extend([(from, worst.1), (worst.1, to)]);
+        }
+    }
+    points.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_lies_on_a_chord_is_left_out() {
+        let point = |k: i32| {
+            let x = f64::from(k) * 1e-5;
+            TracePoint { x, y: 50.0 * x * x, alpha: (100.0 * x).atan(), sigma: 0.0 }
+        };
+        let points: Vec<_> = (-1000..=1000).map(point).collect();
+        let few = simplified(&points, 0.5, 1e-6);
+        assert!(few.len() < 120 && few[0] == points[0] && few.last() == points.last(), "{}", few.len());
+        for p in &points {
+            let k = few.iter().position(|q| q.x >= p.x).unwrap().max(1);
+            let (a, b) = (few[k - 1], few[k]);
+            let y = a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x);
+            assert!((y - p.y) / (1.0 + (100.0 * p.x).powi(2)).sqrt() < 1.2e-6);
+        }
+        assert!(simplified(&points, 0.5, 1e-3).len() < 10);
+        assert_eq!(simplified(&points[..1], 0.5, 1e-6).len(), 1);
+        assert_eq!(simplified(&[], 0.5, 1e-6), []);
+    }
+
+    #[test]
+    fn angles_are_wrapped() {
+        assert_eq!((wrapped(PI), wrapped(-PI), wrapped(0.5)), (PI, PI, 0.5));
+        assert!((wrapped(3.0 * PI + 0.1) - (0.1 - PI)).abs() < 1e-14);
+    }
+
+    /// A contact that goes to and fro along a line, in steps of 1 mm.
+    fn line(ways: &[i32], sigma: f64) -> Line {
+        let bin = |(k, &way): (usize, &i32)| {
+            let at = Vector2::new(1e-3 * f64::from(way), 0.0);
+            let covariance = nalgebra::Matrix2::identity() * sigma * sigma;
+            (
+                Bin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent: Vector2::x(), sigma_tangent: 0.0 },
+                (at, covariance),
+            )
+        };
+        let (bins, estimates): (Vec<_>, Vec<_>) = ways.iter().enumerate().map(bin).unzip();
+        Line::new(&bins, &estimates, true)
+    }
+
+    #[test]
+    fn a_contact_that_turns_back_makes_two_parts() {
+        let parts = line(&[0, -1, -2, -3, -4, -3, -2, -1, 0, 1, 2], 1e-5).parts(1e-6);
+        let ends: Vec<_> = parts.iter().map(|(samples, reversed, _)| (samples.clone(), *reversed)).collect();
+        assert_eq!(ends, [(0..5, true), (4..11, false)]);
+        assert_eq!((parts[0].2[0].x, parts[1].2.last().unwrap().x), (-4e-3, 2e-3));
+        // Within noise it goes on.
+        assert_eq!(line(&[0, 1, 2, 1, 2, 3, 5, 4, 6, 7], 5e-4).parts(1e-6).len(), 1);
+        // A contact that stands still is a point.
+        assert_eq!(line(&[3; 9], 1e-5).parts(1e-6)[0].2.len(), 1);
+        assert!(line(&[], 1e-5).parts(1e-6).is_empty());
+    }
+}
