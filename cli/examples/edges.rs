@@ -2,6 +2,8 @@
 //! phase, and what tells them from a second contact. `cargo run --release -p vibrissa-cli --example edges --
 //! docs/edges.svg`
 
+#![allow(clippy::print_stdout, reason = "it is there to be read")]
+
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::error::Error;
