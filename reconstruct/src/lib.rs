@@ -1,21 +1,23 @@
 //! From what the clamp feels back to the object: contact points, contact phases, contours.
 //!
-//! - [`Sample`]: clamp pose and reactions at one instant; [`Label`]: in which contact phase it was.
-//! - [`compare`]: how near a result is to the truth.
-//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings.
+//! - [`Sample`]: clamp pose and reactions at one instant. [`single`]: the one contact behind it, in closed form, and
+//!   [`single_general`] for rods without one. [`NoContact`]: why there is none.
+//! - [`reconstruct`]: a whole scan, its samples with their [`Label`]s, contacts ([`Touch`]), also both where there are two, and
+//!   the [`Evidence`]. [`Live`]: the labels and single contacts as samples come.
+//! - [`kink`], [`noise_estimate`]: where the reactions break, and how noisy they are.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: how contours of several scans are offset, where they disagree, one of all.
 //! - [`plausibility`]: whether a recording can be of the rod it is said to be of.
+//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings. [`compare`]: how near a result is to
+//!   the truth.
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod assembly;
-mod beyond;
 mod bound;
 pub mod compare;
-mod envelope;
 mod fit;
 mod general;
 pub mod kink;

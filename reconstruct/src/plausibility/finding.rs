@@ -13,6 +13,8 @@ use std::fmt;
 
 /// Standard errors that are no chance.
 const SIGMAS: f64 = 4.0;
+/// A length off by so much is none of the rod's.
+const MISFIT_LENGTH: f64 = 0.2;
 /// How far off, in parts, the stiffness may be before it is told, and before the rod does not fit.
 const TOLD: f64 = 0.03;
 const MISFIT: f64 = 0.1;
@@ -119,7 +121,8 @@ impl Finding {
         match self {
             Self::NoContact | Self::NoLine | Self::Angle { .. } | Self::Way { .. } => false,
             Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT,
-            Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT,
+            // where several contacts look like one they may look alike, too: a small difference is a hint at most
+            Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > FAR_SHIFTED,
             Self::Unexplained { tangential, .. } => *tangential,
             Self::Sign | Self::Units { .. } | Self::MomentSign => true,

@@ -1,12 +1,14 @@
 //! Both contacts of a rod that is held by two, from a scan.
 //!
 //! Up to its first contact the rod is known from the reactions alone. Along a scan these arcs touch the contour: there
-//! their normal speed vanishes ([`crate::envelope`]). Force and second contact follow: the rod is without moment there,
+//! their normal speed vanishes (`envelope`). Force and second contact follow: the rod is without moment there,
 //! and that contact, too, moves along its own tangent. All this is asked for at once, in least squares over a whole run
 //! of stretches: reactions, arc lengths and the first force are series in the path parameter that agree with what was
 //! measured as far as its noise allows.
 
+mod beyond;
 mod condition;
+mod envelope;
 mod run;
 mod series;
 mod system;

@@ -1,13 +1,13 @@
 //! A run of stretches with several contacts: which trails the first contact takes, and what least squares makes of
 //! them.
 
+use super::beyond::Beyond;
 use super::condition::INPUTS;
+use super::envelope::NormalSpeed;
 use super::series::Series;
 use super::system::{End, Part, Solution, System, Tolerance};
 use super::trail::{Trail, trails};
 use super::unresolved::Unresolved;
-use crate::beyond::Beyond;
-use crate::envelope::NormalSpeed;
 use crate::fit::Estimate;
 use crate::known::Clamp;
 use crate::single::MomentZero;

@@ -1,7 +1,7 @@
 //! Where along the rod the first contact of a stretch may run: straight trails through the roots of the normal speed.
 
+use super::envelope::{NormalSpeed, touches};
 use super::series::Series;
-use crate::envelope::{NormalSpeed, touches};
 use crate::fit::Estimate;
 use nalgebra::DVector;
 
