@@ -3,7 +3,7 @@
 
 use rod_contact::{ClampPath, EventKind, Item, State, Sweep};
 use rod_contours::{Composite, Contour, Parabola};
-use rod_core::{Pose, Rod};
+use rod_core::{Pose, Reactions, Rod};
 use rod_reconstruct::noise_estimate::ChannelNoise;
 use rod_reconstruct::{Label, Live, LiveSettings, NoContact, Reading, Reason, Sample, Settings, reconstruct};
 use std::f64::consts::FRAC_PI_2;
@@ -196,6 +196,37 @@ fn coarse_recordings() {
                 found.readings.len()
             );
             assert!(labels <= 2 && gap < 0.2 * step, "{} {step}: {labels} {gap}", scan.name);
+        }
+    }
+}
+
+/// The same scan in other units, and seen in a mirror: the same labels, points to match.
+#[test]
+fn units_and_mirrors_do_not_matter() {
+    let scan = Scan::new(1, [[0.0, 0.0], [0.3, 0.0]], 0.4, 2e-4);
+    let samples = scan.samples();
+    let found = reconstruct(&scan.rod, &samples, &Settings::default()).unwrap();
+    for (length, stiffness, mirror) in [(0.1, 6.32e-4, 1.0), (100.0, 632.0, 1.0), (1.0, 1.0, -1.0)] {
+        let rod = Rod::new(length, stiffness).unwrap();
+        let (force, moment) = (stiffness / (length * length), stiffness / length);
+        let other = samples.iter().map(|sample| {
+            let (pose, felt) = (sample.pose, sample.reactions);
+            // x to -x: angles from pi, moments the other way
+            let phi = if mirror < 0.0 { std::f64::consts::PI - pose.phi } else { pose.phi };
+            let pose = Pose { x: mirror * pose.x * length, y: pose.y * length, phi };
+            let felt =
+                Reactions { f0x: mirror * felt.f0x * force, f0y: felt.f0y * force, m0z: mirror * felt.m0z * moment };
+            Sample::new(pose, felt)
+        });
+        let other = reconstruct(&rod, &other.collect::<Vec<_>>(), &Settings::default()).unwrap();
+        assert_eq!(other.runs, found.runs, "{length} {stiffness} {mirror}");
+        assert_eq!(other.kinks.len(), found.kinks.len());
+        for (ours, theirs) in found.readings.iter().zip(&other.readings) {
+            assert_eq!(ours.touch.is_ok(), theirs.touch.is_ok());
+            if let (Ok(ours), Ok(theirs)) = (ours.touch, theirs.touch) {
+                let off = (mirror * theirs.x / length - ours.x).hypot(theirs.y / length - ours.y);
+                assert!(off < 1e-7, "{length} {mirror}: {off}");
+            }
         }
     }
 }
