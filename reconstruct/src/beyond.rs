@@ -1,22 +1,18 @@
 //! Beyond the first contact: its force, and the contact at the tip or the next one.
 
 use crate::known::Clamp;
-use rod_core::{Section, advance, advance_with_sensitivities, inflection};
+use rod_core::{Section, advance_with_sensitivities, inflection};
+
+/// Newton's method converges in 4 to 8 steps or not at all.
+const STEPS: usize = 30;
+/// Relative change of the force that is rounding.
+const SETTLED: f64 = 1e-14;
 
 /// The rod beyond its first contact: the section there, and the force (A, B) next to the clamp.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beyond {
     pub s1: f64,
     pub first: Section,
-    pub force: [f64; 2],
-}
-
-/// A contact beyond the first one, dimensionless.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Second {
-    pub s: f64,
-    pub section: Section,
-    /// The force (A, B) that it alone bears.
     pub force: [f64; 2],
 }
 
@@ -43,23 +39,23 @@ impl Beyond {
     /// f1 for which the tip is without moment, by Newton from a guess.
     pub fn force_of_tip(&self, guess: f64) -> Option<f64> {
         let mut f = guess;
-        for _ in 0..30 {
+        for _ in 0..STEPS {
             let (end, by) = self.tip(f);
             let step = end.kappa / by;
             f -= step;
             if !f.is_finite() {
                 return None;
             }
-            if step.abs() < 1e-14 * (1.0 + f.abs()) {
+            if step.abs() < SETTLED * (1.0 + f.abs()) {
                 return Some(f);
             }
         }
         None
     }
 
-    pub fn second(&self, f1: f64) -> Option<Second> {
-        let force = self.left(f1);
-        let s = inflection(&self.first, force[0], force[1])?;
-        Some(Second { s: self.s1 + s, section: advance(&self.first, force[0], force[1], s), force })
+    /// Arc length to the next section without moment: the next contact, if it is the last one and tangential.
+    pub fn second(&self, f1: f64) -> Option<f64> {
+        let [a, b] = self.left(f1);
+        Some(self.s1 + inflection(&self.first, a, b)?)
     }
 }

@@ -20,9 +20,8 @@ pub(crate) struct NormalSpeed {
     /// v_n, and its derivative by s.
     pub value: f64,
     pub by_s: f64,
-    /// Derivatives by the rates of the reactions; of the position by the reactions.
+    /// Derivatives by the rates of the reactions.
     pub by_rate: Vector3<f64>,
-    pub place_by_reactions: Matrix2x3<f64>,
 }
 
 impl NormalSpeed {
@@ -38,7 +37,6 @@ impl NormalSpeed {
             value: normal.dot(&velocity),
             by_s: rate[2] - section.kappa * tangent.dot(&velocity),
             by_rate: place_by_reactions.tr_mul(&normal),
-            place_by_reactions,
         }
     }
 }

@@ -61,6 +61,11 @@ pub(crate) struct Estimate {
 }
 
 impl Estimate {
+    /// Of a place known without error.
+    pub fn exact(clamp: Clamp, rate: Clamp) -> Self {
+        Self { clamp, rate, shape: [0.0; 3], variance: Vector3::zeros() }
+    }
+
     /// Covariance of the reactions.
     pub fn covariance(&self) -> nalgebra::Matrix3<f64> {
         nalgebra::Matrix3::from_diagonal(&(self.variance * self.shape[0]))

@@ -15,8 +15,6 @@ mod beyond;
 mod bound;
 pub mod compare;
 mod envelope;
-#[cfg(test)]
-mod explore;
 mod fit;
 pub mod kink;
 mod known;

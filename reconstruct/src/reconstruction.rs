@@ -12,9 +12,17 @@ use crate::single::NoContact;
 use crate::touch::Touch;
 use crate::track::{Fault, Track};
 use rod_core::{Rod, Units};
+use std::ops::Range;
 
 /// Fewest usable samples of a scan.
 const FEWEST: usize = 20;
+/// Samples at the borders of phases that may belong to the other side, besides how uncertain the kink there is: in its
+/// standard deviations, which are on the small side.
+const MARGIN: usize = 3;
+const SIGMAS: f64 = 4.0;
+/// Largest standard deviation of one of several contacts across the contour, in lengths of the rod.
+const ACROSS: f64 = 5e-3;
+
 /// How a scan is reconstructed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -162,7 +170,8 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
         .collect();
     let identified = identify(&track, &noise, &breaks);
-    let usable = Answers { track: &track, noise: &noise, identified: &identified, units, settings }.all(&breaks);
+    let usable =
+        Answers { track: &track, kinks: &kinks, noise: &noise, identified: &identified, units, settings }.all(&breaks);
 
     let mut numbers = Vec::with_capacity(track.len());
     let mut readings = Vec::with_capacity(samples.len());
@@ -236,8 +245,14 @@ pub(crate) fn sure(touch: Touch, units: Units, largest_sigma: f64) -> Result<Tou
     }
 }
 
+/// Whether the reactions jump before this sample.
+fn jumps(breaks: &[Break], index: usize) -> bool {
+    breaks.iter().any(|here| here.jump && here.index == index)
+}
+
 struct Answers<'a> {
     track: &'a Track,
+    kinks: &'a [Kink],
     noise: &'a Noise,
     identified: &'a Identified,
     units: Units,
@@ -252,7 +267,9 @@ impl Answers<'_> {
         let mut next = 0;
         while next < runs.len() {
             if runs[next].1.several() {
-                let many = runs[next..].iter().take_while(|run| run.1.several()).count();
+                // a phase on the other side of a jump tells nothing of this one
+                let joined = |pair: &[(Range<usize>, Label)]| pair[1].1.several() && !jumps(breaks, pair[1].0.start);
+                let many = 1 + runs[next..].windows(2).take_while(|pair| joined(pair)).count();
                 self.several(next..next + many, breaks, &mut readings);
                 next += many;
             } else {
@@ -289,21 +306,32 @@ impl Answers<'_> {
         sure(touch, self.units, self.settings.largest_sigma)
     }
 
+    /// By how many samples a border may be misplaced: as far as its kink may be.
+    fn unsure(&self, border: usize) -> usize {
+        let track = self.track;
+        let kink = self.kinks.iter().find(|kink| kink.next == border);
+        let sigma = kink.map_or(0.0, |kink| SIGMAS * kink.sigma_tau);
+        let from = track.tau.get(border).map_or(border, |tau| track.tau.partition_point(|other| *other < tau - sigma));
+        (border - from.min(border)).min(track.len())
+    }
+
     /// A series of runs with several contacts.
-    fn several(&self, series: std::ops::Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
+    fn several(&self, series: Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
         let runs = &self.identified.runs;
         let pieces: Vec<Piece> =
             runs[series.clone()].iter().map(|(range, label)| Piece { range: range.clone(), label: *label }).collect();
-        // a phase on the other side of a jump tells nothing of this one
-        let jumps = |index: usize| breaks.iter().any(|here| here.jump && here.index == index);
-        let neighbour = |run: Option<&(std::ops::Range<usize>, Label)>, border: usize| {
-            let (range, label) = run.filter(|run| run.1 != Label::Free && !jumps(border))?;
+        let neighbour = |run: Option<&(Range<usize>, Label)>, border: usize| {
+            let single = |label: Label| label != Label::Free && !label.several();
+            let (range, label) = run.filter(|run| single(run.1) && !jumps(breaks, border))?;
             Some(Neighbour { range: range.clone(), label: *label })
         };
         let before =
             neighbour(series.start.checked_sub(1).and_then(|index| runs.get(index)), runs[series.start].0.start);
         let after = neighbour(runs.get(series.end), runs[series.end - 1].0.end);
-        let pairs = resolve(self.track, self.noise, &pieces, before, after, &Limits::default());
+        let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
+        let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
+        let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
+        let pairs = resolve(self.track, self.noise, &pieces, before, after, &limits);
         let mut pairs = pairs.into_iter();
         for Piece { range, label } in pieces {
             let mut nodes = Nearest::new(self, label, range.start);

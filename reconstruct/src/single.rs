@@ -96,6 +96,7 @@ pub(crate) struct MomentZero {
     /// Of (x, y, phi) at this point, which moves along the rod.
     pub by_reactions: nalgebra::Matrix3<f64>,
     /// Of the section at this arc length.
+    #[allow(dead_code, reason = "the identification of phases is to use it")]
     pub at_s: Matrix4x3<f64>,
 }
 

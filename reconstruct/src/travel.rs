@@ -64,8 +64,7 @@ impl Travel {
         };
         let step: [f64; 3] = std::array::from_fn(|i| here[i] - last[i]);
         let distance = dot(&step, &step).sqrt();
-        // also where it is no number
-        if !(distance >= STANDING * self.length) {
+        if distance < STANDING * self.length || distance.is_nan() {
             return Err(Halt::Repeated);
         }
         let back = dot(&step, &self.direction) < 0.0;

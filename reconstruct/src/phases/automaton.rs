@@ -176,12 +176,13 @@ mod tests {
 
     #[test]
     fn one_doubtful_place_changes_nothing_and_a_break_lets_the_phase_change() {
-        let kink = Some(Break { index: 5, jump: false, score: 200.0 });
+        let kink = Break { index: 5, jump: false, score: 200.0 };
+        let jump = Some(Break { jump: true, ..kink });
+        let kink = Some(kink);
         let mut places = vec![place(Label::B, 8.0, None); 10];
         places[3] = place(Label::BB, 20.0, None);
-        for k in 6..10 {
-            places[k] = place(Label::BB, 8.0, if k == 6 { kink } else { None });
-        }
+        places.truncate(6);
+        places.extend((0..4).map(|k| place(Label::BB, 8.0, if k == 0 { kink } else { None })));
         let mut trellis = Trellis::default();
         let found = trellis.run(&[0.0; 5], places.iter().copied()).to_vec();
         assert!(found[..6].iter().all(|f| f.0 == Label::B) && found[6..].iter().all(|f| f.0 == Label::BB), "{found:?}");
@@ -189,7 +190,6 @@ mod tests {
         // from A to BB no single contact comes or goes
         let places = [place(Label::A, 9.0, None), place(Label::BB, 9.0, kink), place(Label::B, 7.0, None)];
         assert_eq!(trellis.run(&[0.0; 5], places.iter().copied())[1].0, Label::B);
-        let jump = Some(Break { jump: true, ..kink.unwrap() });
         let places = [place(Label::A, 9.0, None), place(Label::BB, 9.0, jump)];
         assert_eq!(trellis.run(&[0.0; 5], places.iter().copied())[1].0, Label::BB);
     }

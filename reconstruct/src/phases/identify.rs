@@ -71,9 +71,8 @@ pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identi
     for (part, before) in parts(track.tau.len(), breaks) {
         let mut between = before;
         let mut index = part.start;
-        loop {
-            // too few samples between two breaks go with what is around them
-            let Some(node) = Node::about(track, index, part.clone(), noise, WIDEST) else { break };
+        // too few samples between two breaks go with what is around them
+        while let Some(node) = Node::about(track, index, part.clone(), noise, WIDEST) {
             let stride = (node.fit.window.len() / PLACES).max(1);
             nodes.push(node.placed(stride, between.take()));
             if index + 1 >= part.end {
