@@ -19,12 +19,12 @@ struct Arguments {
     /// Recordings of each scan with each noise.
     #[arg(long, default_value_t = 20)]
     seeds: u64,
-    /// Only this level: clean, 0.2mN, 2.5mN or 10mN.
-    #[arg(long)]
-    level: Option<String>,
-    /// Only this scan.
-    #[arg(long)]
-    scan: Option<String>,
+    /// Only these levels: clean, 0.2mN, 2.5mN, 10mN.
+    #[arg(long, num_args = 1.., value_parser = ["clean", "0.2mN", "2.5mN", "10mN"])]
+    level: Vec<String>,
+    /// Only these scans: O1_q20 and so on.
+    #[arg(long, num_args = 1..)]
+    scan: Vec<String>,
     /// Writes the recordings, and the kinks that are there and that were found, to this directory, 5 MB a recording.
     #[arg(long)]
     write: Option<PathBuf>,
@@ -38,10 +38,8 @@ struct Arguments {
 
 fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
-    let names = study::scans();
-    let names: Vec<String> =
-        names.into_iter().filter(|name| arguments.scan.as_ref().is_none_or(|only| only == name)).collect();
-    let wanted = |level: &Level| arguments.level.as_ref().is_none_or(|only| only == level.name);
+    let names = if arguments.scan.is_empty() { study::scans() } else { arguments.scan.clone() };
+    let wanted = |level: &Level| arguments.level.is_empty() || arguments.level.iter().any(|only| only == level.name);
     let scans = study::sweep(&arguments.scenes, &names)?;
     let keep = arguments.write.as_deref().map(Recordings::new).transpose()?;
 
@@ -73,6 +71,9 @@ fn main() -> Outcome<()> {
     println!("{}", study::table(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
     println!("Least changes of slope that stand out by 5 standard deviations, forces in mN/mm / moment in mN m/mm:\n");
     println!("{}", study::limits(noisy.iter().copied()));
+    println!(
+        "Kinks by transition, their changes of slope, and how many of them no window lets stand out at a level:\n"
+    );
     println!("{}{details}", study::kinks_below(&scans, &noisy)?);
     Ok(())
 }
@@ -81,9 +82,13 @@ fn detail(scans: &[Clean], level: &Level, noise: Option<&Noise>, scores: &[Score
     let mut text = format!("\n{} {}\n\n", level.title(), noise.map_or("", |noise| noise.name));
     text += &study::by_scan(scans.iter().zip(scores).map(|(clean, score)| (clean.scene.name.as_str(), score)));
     let mut phases = vibrissa::compare::Confusion::default();
-    for score in scores {
+    for (clean, score) in scans.iter().zip(scores) {
         phases += score.phases;
-        for (what, counts) in [("missed", &score.missed), ("invented", &score.invented)] {
+        if score.phases.accuracy().is_some_and(|accuracy| accuracy < 0.998) {
+            text += &format!("\n{}\n{}\n\n", clean.scene.name, score.phases);
+        }
+        let lists = [("missed", &score.missed), ("invented", &score.invented), ("taken:", &score.mistaken)];
+        for (what, counts) in lists {
             counts.iter().for_each(|(name, count)| text += &format!("{what} {count} x {name}\n"));
         }
     }

@@ -70,8 +70,8 @@ pub fn kinks_below(scans: &[Clean], noises: &[(&Level, &Noise)]) -> super::Outco
     }
     let heads: Vec<String> = noises.iter().map(|(level, noise)| format!("{}, {}", level.title(), noise.name)).collect();
     let mut text = format!(
-        "| transition | number | f0x, mN/mm | f0y, mN/mm | m0z, mN m/mm | below: {} |\n|---|---|---|---|---|{}\n",
-        heads.join(" | below: "),
+        "| transition | number | f0x, mN/mm | f0y, mN/mm | m0z, mN m/mm | {} |\n|---|---|---|---|---|{}\n",
+        heads.join(" | "),
         "---|".repeat(noises.len())
     );
     for (name, sizes) in kinds {

@@ -52,7 +52,8 @@ impl Level {
         if self.force == 0.0 {
             return self.name.to_owned();
         }
-        format!("{} mN / {} mN m", 1e3 * self.force, 1e3 * self.moment)
+        let [force, moment] = [self.force, self.moment].map(|sigma| (1e6 * sigma).round() / 1e3);
+        format!("{force} mN / {moment} mN m")
     }
 }
 

@@ -1,6 +1,6 @@
 //! How near a reconstruction is to the truth.
 
-use super::{Clean, MARGIN};
+use super::{Clean, MARGIN, STEP};
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
 use vibrissa::compare::{Confusion, KinkScore, signed_distance};
@@ -8,6 +8,8 @@ use vibrissa::{Assembly, ContourEstimate, Label, Measured, Reconstruction, Sampl
 
 /// Distance of the places at which an assembled contour is compared, m.
 const SPACING: f64 = 5e-5;
+/// Length of a stretch that is worth a line, m.
+const LONG: f64 = 0.5e-3;
 
 /// So many of so many.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,6 +28,8 @@ pub struct Score {
     /// Transitions that were missed, and places where there is none, with their numbers.
     pub missed: BTreeMap<String, usize>,
     pub invented: BTreeMap<String, usize>,
+    /// Stretches of at least [`LONG`] that were taken for another phase.
+    pub mistaken: BTreeMap<String, usize>,
     /// Phases.
     pub phases: Confusion,
     /// Points of samples labelled as having one contact.
@@ -68,6 +72,7 @@ impl Score {
         score.kinks(clean, found);
         score.readings(clean, samples, found);
         score.stretches(clean, found);
+        score.mistakes(clean, found);
         let objects = &clean.scene.objects;
         let contour = assembled(found);
         let places = contour.of_kind(TraceKind::Single).flat_map(|trace| {
@@ -82,7 +87,11 @@ impl Score {
     pub fn merge(&mut self, other: Self) {
         self.scans += other.scans;
         self.kinks.merge(&other.kinks);
-        for (sums, counts) in [(&mut self.missed, other.missed), (&mut self.invented, other.invented)] {
+        for (sums, counts) in [
+            (&mut self.missed, other.missed),
+            (&mut self.invented, other.invented),
+            (&mut self.mistaken, other.mistaken),
+        ] {
             counts.into_iter().for_each(|(name, count)| *sums.entry(name).or_default() += count);
         }
         self.phases += other.phases;
@@ -143,6 +152,21 @@ impl Score {
             } else if *truth != Label::Free {
                 self.answered.count(touch.is_some() && !reading.label.several());
             }
+        }
+    }
+
+    fn mistakes(&mut self, clean: &Clean, found: &Reconstruction) {
+        let pairs: Vec<(Label, Label)> =
+            clean.labels.iter().copied().zip(found.readings.iter().map(|reading| reading.label)).collect();
+        let mut from = 0;
+        for same in pairs.chunk_by(|a, b| a == b) {
+            let ((truth, label), length) = (same[0], same.len() as f64 * STEP);
+            if truth != label && length >= LONG {
+                let (name, at) = (&clean.scene.name, 1e3 * from as f64 * STEP);
+                let what = format!("{name} {truth} for {label} from about {at:.0} mm on, {:.0} mm", 1e3 * length);
+                *self.mistaken.entry(what).or_default() += 1;
+            }
+            from += same.len();
         }
     }
 
