@@ -5,11 +5,14 @@ mod common;
 
 use allocation_counter::measure;
 use common::Scene;
+use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::hint::black_box;
+use vibrissa::noise_estimate::ChannelNoise;
 use vibrissa::{
-    Ar1, ContactKind, Dropout, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, NoiseModel, Pose, Reactions, Section,
-    State, Support, Supports, advance, advance_with_sensitivities, solve, walk,
+    Ar1, ContactKind, Dropout, Hold, Label, Live, LiveSettings, MultiPoint, NewtonOptions, NewtonWorkspace, NoiseModel,
+    Pose, Reactions, Rod, Sample, Section, State, Support, Supports, advance, advance_with_sensitivities, single,
+    solve, walk,
 };
 
 #[test]
@@ -127,4 +130,39 @@ fn a_noisy_sensor_does_not_allocate() {
         }
     });
     assert_eq!(counted.count_total, 0);
+}
+
+#[test]
+fn inversions_and_the_live_identification_do_not_allocate() {
+    let rod = rod_of_one();
+    let noise = [0.04, 0.04, 0.01];
+    let covariance = Matrix3::from_diagonal(&Vector3::from(noise).map(|sigma| sigma * sigma));
+    // in and out of contact several times, with noise that the model makes
+    let white = Reactions { f0x: noise[0], f0y: noise[1], m0z: noise[2] };
+    let mut sensor = NoiseModel { white, ..NoiseModel::default() }.generator(3).unwrap();
+    let samples: Vec<Sample> = (0..40_000)
+        .filter_map(|k| {
+            let way = 2e-5 * f64::from(k);
+            let force = (30.0 * way).sin().max(0.0);
+            let felt = Reactions { f0x: -3.0 * force, f0y: force, m0z: 2.0 * force };
+            Some(Sample::new(Pose { x: -way, y: 0.0, phi: 1.5 }, sensor.sample(felt)?))
+        })
+        .collect();
+    let settings = LiveSettings { half_window: 5e-3, ..LiveSettings::new(noise.map(ChannelNoise::white), 2e-5) };
+    let mut live = Live::new(&rod, &settings).unwrap();
+    let mut labels = [0; 5];
+    let counted = measure(|| {
+        for sample in &samples {
+            black_box(single(&rod, sample.pose, sample.reactions, &covariance).ok());
+            if let Some(reading) = live.push(sample) {
+                labels[reading.label as usize] += 1;
+            }
+        }
+    });
+    assert!(labels[Label::Free as usize] > 5000 && labels.iter().filter(|count| **count > 0).count() > 1, "{labels:?}");
+    assert_eq!(counted.count_total, 0);
+}
+
+fn rod_of_one() -> Rod {
+    Rod::new(1.0, 1.0).unwrap()
 }

@@ -14,6 +14,9 @@ pub enum Error {
     /// The sweep it asks for.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The reconstruction of a recording.
+    #[error(transparent)]
+    Reconstruct(#[from] vibrissa::ReconstructError),
     /// What is asked of its contours.
     #[error(transparent)]
     Profile(#[from] ProfileError),

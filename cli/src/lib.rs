@@ -13,6 +13,7 @@ mod paper;
 mod profile;
 mod recording;
 mod report;
+mod resolved;
 #[cfg(test)]
 mod sample;
 mod scan;

@@ -3,7 +3,7 @@
 use crate::{Error, PaperScan, Scan};
 use nalgebra::Matrix3;
 use vibrissa::compare::signed_distance;
-use vibrissa::{State, Sweep, Touch, single};
+use vibrissa::{Assembly, ContourEstimate, Label, Measured, State, Sweep, Touch, single};
 
 /// Clamp travel between the states that are turned back, m: a quarter of what is reported, for dense rows of points.
 pub(crate) const STEP: f64 = 2.5e-4;
@@ -19,6 +19,8 @@ pub(crate) struct NaivePoint {
     pub several: bool,
     /// Its distance from the true contours.
     pub error: f64,
+    /// The contact as found.
+    touch: Touch,
 }
 
 /// A scan of the paper with its naive points.
@@ -43,6 +45,12 @@ impl<'a> Naive<'a> {
         Ok(Self { scan, states, points })
     }
 
+    /// The contour as the points have it.
+    pub fn contour(&self) -> ContourEstimate {
+        let touches = self.points.iter().map(|point| Measured::new(Label::B, std::slice::from_ref(&point.touch)));
+        Assembly::naive().assemble(touches)
+    }
+
     /// The largest error (m) of the points of one contact, or of several.
     pub fn largest_error(&self, several: bool) -> Option<f64> {
         let errors = self.points.iter().filter(|point| point.several == several).map(|point| point.error.abs());
@@ -52,9 +60,10 @@ impl<'a> Naive<'a> {
 
 fn point(scan: &Scan, state: &State) -> Option<NaivePoint> {
     let found = single(&scan.scene.rod, state.pose, state.reactions, &Matrix3::zeros());
-    let Touch { x, y, .. } = found.map_or_else(|none| none.touch(), Some)?;
+    let touch = found.map_or_else(|none| none.touch(), Some)?;
+    let Touch { x, y, .. } = touch;
     let error = signed_distance(&scan.scene.objects, x, y)?;
-    Some(NaivePoint { x, y, above: y - state.pose.y, several: state.contacts.len() > 1, error })
+    Some(NaivePoint { x, y, above: y - state.pose.y, several: state.contacts.len() > 1, error, touch })
 }
 
 #[cfg(test)]

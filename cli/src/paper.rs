@@ -1,6 +1,7 @@
 //! The nine scans of Merker et al. (2021): three objects at three distances.
 
 use crate::naive::Naive;
+use crate::resolved::Resolved;
 use crate::{Error, Scan, Scene, Staged, figure};
 use rayon::prelude::*;
 use std::path::Path;
@@ -87,7 +88,8 @@ impl Paper {
     }
 
     /// Writes the files of each scan into a folder of its own, and beside the folders the figures of all scans: phase
-    /// cycles and transitions, phase criterion, goodness of fit, contact points at one distance and at all three.
+    /// cycles and transitions, phase criterion, goodness of fit, contact points at one distance and at all three,
+    /// and both contacts where there are two.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
@@ -95,6 +97,8 @@ impl Paper {
         self.scans.par_iter().try_for_each(|scan| scan.scan.write(staged, Path::new(&scan.scan.scene.name)))?;
         let naive: Vec<Naive<'_>> = self.scans.par_iter().map(Naive::of).collect::<Result<_, Error>>()?;
         let middle: Vec<&Naive<'_>> = naive.iter().filter(|scan| scan.scan.distance == 40).collect();
+        let resolved: Vec<Resolved<'_>> =
+            middle.par_iter().map(|scan| Resolved::of(scan.scan)).collect::<Result<_, Error>>()?;
         let middle_scans: Vec<&Scan> = middle.iter().map(|scan| &scan.scan.scan).collect();
         for (name, figure) in [
             ("goodness_of_fit.svg", figure::goodness(&naive)?),
@@ -103,6 +107,7 @@ impl Paper {
             ("phase_cycles.svg", figure::cycles(self)?),
             ("phase_diagram.svg", figure::transitions(self.scans.iter().map(|scan| &scan.scan))?),
             ("distances.svg", figure::distances(&naive)?),
+            ("notches.svg", figure::notches(&resolved)?),
         ] {
             staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
         }

@@ -53,6 +53,12 @@ fn the_nine_scans_give_the_phases_of_the_paper() {
     let clean = points.iter().filter_map(|text| number_between(text, "largest error ", " mm with one"));
     assert!(clean.filter(|error| *error < 1e-9).count() == 3, "{points:?}");
 
+    let notches = texts(&out.join("notches.svg"));
+    let errors: Vec<f64> = notches.iter().filter_map(|text| number_between(text, "largest error ", " mm,")).collect();
+    assert!(errors.len() == 3 && errors.iter().all(|error| *error < 1e-4), "{notches:?}");
+    let shares = notches.iter().filter_map(|text| number_between(text, " mm, ", " % of the samples"));
+    assert!(shares.filter(|share| *share >= 99.0).count() == 3, "{notches:?}");
+
     let diagram = texts(&out.join("phase_diagram.svg"));
     assert!(["free", "A", "B", "BA", "BB"].iter().all(|phase| diagram.iter().any(|text| text == phase)), "{diagram:?}");
     let mut counts: Vec<u32> = diagram.iter().filter_map(|text| text.parse().ok()).collect();
@@ -65,6 +71,8 @@ fn the_nine_scans_give_the_phases_of_the_paper() {
     for text in ["q = 20 mm", "q = 40 mm", "q = 60 mm", "(a) O1", "(f) O3", "y − y0 in mm", "y in mm"] {
         assert!(distances.iter().any(|found| found == text), "{text} is not in {distances:?}");
     }
+    let concave: Vec<&String> = distances.iter().filter(|text| text.starts_with("concave: ")).collect();
+    assert!(concave.len() == 3 && concave.iter().all(|text| text.matches("apart").count() == 1), "{concave:?}");
 }
 
 /// The texts of a drawing, in order.

@@ -1,13 +1,14 @@
 //! The contact points of one object from several distances (Merker et al. 2021, fig. 9).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, span, svg, write};
+use super::canvas::{Area, BODY, FigureError, TITLE, span, svg, tick, write};
 use super::cloud::{self, Dot};
 use super::palette::{INK, MUTED};
 use super::plane::Window;
-use crate::naive::{Naive, NaivePoint};
+use crate::naive::{Naive, NaivePoint, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
+use vibrissa::{Comparison, ContourEstimate};
 
 /// Width of an object, height of the title and keys, of a row's title, and of an object's name, pixels.
 const WIDTH: u32 = 800;
@@ -17,6 +18,16 @@ const NAME: u32 = 44;
 
 /// Colours of the distances: green, orange and blue as in the paper.
 const COLOURS: [RGBColor; 3] = [RGBColor(0, 158, 115), RGBColor(230, 159, 0), RGBColor(0, 114, 178)];
+
+/// What contours may be apart, m, through points so far from each other.
+const LEAST: f64 = STEP;
+/// Where the scans disagree.
+const SHADE: RGBColor = RGBColor(232, 232, 232);
+
+/// mm with one decimal.
+fn round(metres: f64) -> f64 {
+    (1e4 * metres).round() / 10.0
+}
 
 /// How high a point is, m, in the frame of a row.
 type Height = fn(&NaivePoint) -> f64;
@@ -98,6 +109,19 @@ fn panel(area: &Area<'_>, window: &Window, row: &Row, name: &str, scans: &[&Naiv
     let (head, plot) = area.split_vertically(NAME);
     write(&head, name, (24, 26), HPos::Left, BODY, INK)?;
     let mut chart = window.chart_called(&plot, (8, 6), ("x in mm", row.axis))?;
+    if row.truth {
+        let contours: Vec<ContourEstimate> = scans.iter().map(|scan| scan.contour()).collect();
+        let concave = Comparison { least: LEAST, ..Comparison::default() }.disagreements(&contours);
+        let shades = concave.iter().map(|found| {
+            Rectangle::new([(1e3 * found.from, window.y.start), (1e3 * found.to, window.y.end)], SHADE.filled())
+        });
+        chart.draw_series(shades)?;
+        let told = concave.iter().map(|found| {
+            format!("{} to {} mm, {:.1} mm apart", tick(&round(found.from)), tick(&round(found.to)), 1e3 * found.gap)
+        });
+        let told = told.collect::<Vec<_>>().join("; ");
+        write(&head, &format!("concave: {told}"), (190, 26), HPos::Left, BODY, MUTED)?;
+    }
     for (filled, scan) in [true, false].into_iter().flat_map(|filled| scans.iter().map(move |scan| (filled, scan))) {
         let Some(place) = DISTANCES.iter().position(|distance| *distance == scan.scan.distance) else { continue };
         let points = scan.points.iter().filter(|point| point.several != filled);

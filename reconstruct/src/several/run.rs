@@ -24,6 +24,8 @@ const FINE: Tolerance = Tolerance { share: 0.2, floor: 1e-9, steps: 40 };
 const SHORT: [usize; 2] = [8, 14];
 /// Standard deviations of the reactions' coefficients then, at least, in parts of the force.
 const BLUR: [f64; 2] = [3e-4, 1e-5];
+/// Steps from there to the end where one is too long: standard deviations, as above, and how tightly conditions are kept.
+const PARTS: [(f64, f64); 4] = [(1e-6, 1e-4), (1e-7, 1e-6), (1e-9, 1e-7), (0.0, 1e-9)];
 /// Choices of trails along a run that are tried, and of them those that are worked out.
 const CHOICES: usize = 6;
 const WORKED_OUT: usize = 3;
@@ -106,13 +108,30 @@ pub(crate) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
         .collect();
     middle.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
     let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE);
-    for (choice, short, middle) in middle {
-        let system = System { parts: &parts, ends: choice.ends, tolerance: FINE };
-        let Some(solution) = system.solve(longer(&short, &parts, &middle.x)) else { continue };
-        let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
+    let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
+    let judged = |parts: &[Part], solution: Solution| {
         let excess = solution.cost / measured as f64;
-        if excess < MISFIT && parts.iter().all(|part| right(part, &solution)) {
-            return Ok(Found { parts, solution, excess: excess.max(1.0) });
+        let good = excess < MISFIT && parts.iter().all(|part| right(part, &solution));
+        good.then(|| Found { parts: parts.to_vec(), solution, excess: excess.max(1.0) })
+    };
+    for (choice, short, middle) in middle {
+        let mut x = longer(&short, &parts, &middle.x);
+        let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
+        if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&parts, solution)) {
+            return Ok(found);
+        }
+        // Too long a step for least squares: take it in parts, and stay where the last one that succeeds leads.
+        let mut best = None;
+        for (blur, floor) in PARTS {
+            let parts = blurred(parts.clone(), blur);
+            let system = System { parts: &parts, ends: choice.ends, tolerance: Tolerance { floor, ..FINE } };
+            let Some(solution) = system.solve(x.clone()) else { break };
+            x = solution.x.clone();
+            let Some(found) = judged(&parts, solution) else { break };
+            best = Some(found);
+        }
+        if let Some(found) = best {
+            return Ok(found);
         }
     }
     Err(Unresolved::Inconsistent)
