@@ -1,5 +1,5 @@
 //! A part of the study of docs/reconstruction.md, small enough to be run each time.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../examples/noise_study/study/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the example needs more of it")]
@@ -18,7 +18,7 @@ fn an_industrial_sensor_gives_kinks_phases_and_both_contacts() {
     for noise in &NOISES {
         let mut score = Score::default();
         judge(&scans, &LEVELS[1], noise, SEEDS, None, &|| ()).unwrap().into_iter().for_each(|scan| score.merge(scan));
-        println!("{}", study::table([(&LEVELS[1], Some(noise), &score)]));
+        println!("{}", study::tables([(&LEVELS[1], Some(noise), &score)]));
 
         assert_eq!(score.scans, 9 * SEEDS as usize);
         let false_alarms = score.kinks.false_alarms() as f64 / score.scans as f64;

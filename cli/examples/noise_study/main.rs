@@ -25,7 +25,7 @@ struct Arguments {
     /// Only these scans: O1_q20 and so on.
     #[arg(long, num_args = 1..)]
     scan: Vec<String>,
-    /// Writes the recordings, and the kinks that are there and that were found, to this directory, 5 MB a recording.
+    /// Writes the recordings, and the kinks that are there and that were found, to this directory, 6 MB a recording.
     #[arg(long)]
     write: Option<PathBuf>,
     /// A table for each noise by scan, with the transitions missed and invented and the confusion of phases.
@@ -67,8 +67,8 @@ fn main() -> Outcome<()> {
     if let Some(keep) = keep {
         keep.finish()?;
     }
-    println!("{} scans, {} seeds; lengths in mm\n", scans.len(), arguments.seeds);
-    println!("{}", study::table(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
+    println!("{} scans, {} seeds\n", scans.len(), arguments.seeds);
+    println!("{}", study::tables(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
     println!("Least changes of slope that stand out by 5 standard deviations, forces in mN/mm / moment in mN m/mm:\n");
     println!("{}", study::limits(noisy.iter().copied()));
     println!(

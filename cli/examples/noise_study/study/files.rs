@@ -52,8 +52,8 @@ impl Recordings {
         table.write_record(["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z"])?;
         for (number, Sample { pose, reactions, .. }) in samples.iter().enumerate() {
             let t = number as f64 / RATE;
-            let felt = [reactions.f0x, reactions.f0y, reactions.m0z].map(|value| format!("{value:.7e}"));
-            let pose = [t, pose.x, pose.y, pose.phi].map(|value| format!("{value:.9}"));
+            let felt = [reactions.f0x, reactions.f0y, reactions.m0z].map(|value| format!("{value:.5e}"));
+            let pose = [t, pose.x, pose.y, pose.phi].map(|value| format!("{value:.6}"));
             table.write_record(pose.iter().chain(&felt))?;
         }
         table.flush()?;

@@ -3,59 +3,61 @@
 use super::{Level, Noise, Score};
 use vibrissa::compare::Deviation;
 
-const COLUMNS: [&str; 15] = [
-    "noise",
-    "kinks found",
-    "false a scan",
-    "kink error",
-    "phases right",
-    "two-point found",
-    "single kept",
-    "with point",
-    "points: median / 95 % / largest",
-    "contour: median / 95 % / largest",
-    "first: median / 95 %",
-    "second: median / 95 %",
-    "without first / second",
-    "stretches without first / second",
-    "naive in two-point: median / 95 % / largest",
+/// What a table tells of a score.
+type Columns = [(&'static str, fn(&Score) -> String)];
+
+const FOUND: &Columns = &[
+    ("kinks found", |score| percent(score.kinks.recall())),
+    ("false a scan", |score| format!("{:.2}", score.kinks.false_alarms() as f64 / score.scans.max(1) as f64)),
+    ("error, mm", |score| score.kinks.median_error().map_or("-".into(), millimetres)),
+    ("phases right", |score| percent(score.phases.accuracy())),
+    ("two-point flagged", |score| percent(score.phases.several_recall())),
+    ("single kept", |score| percent(score.phases.single_kept())),
+    ("with a point", |score| percent(score.answered.value())),
+];
+const POINTS: &Columns = &[
+    ("points", |score| deviation(&score.points, true)),
+    ("contour", |score| deviation(&score.contour, true)),
+    ("naive in two-point stretches", |score| deviation(&score.naive, true)),
+];
+const SEVERAL: &Columns = &[
+    ("first contact", |score| deviation(&score.several[0], false)),
+    ("second contact", |score| deviation(&score.several[1], false)),
+    ("samples without first / second", |score| {
+        both(score.resolved.map(|share| share.value().map(|value| 1.0 - value)))
+    }),
+    ("stretches without first / second", |score| both(score.given_up.map(|share| share.value()))),
+];
+const TABLES: [(&str, &Columns); 3] = [
+    ("Kinks, phases and what is kept:", FOUND),
+    ("Distances from the contour, mm: median / 95 % / largest", POINTS),
+    ("Two-point stretches, distances from the contour, mm: median / 95 %", SEVERAL),
 ];
 
-/// A row for each noise.
-pub fn table<'a>(rows: impl IntoIterator<Item = (&'a Level, Option<&'a Noise>, &'a Score)>) -> String {
+/// Tables with a row for each noise.
+pub fn tables<'a>(rows: impl IntoIterator<Item = (&'a Level, Option<&'a Noise>, &'a Score)>) -> String {
     let rows = rows.into_iter().map(|(level, noise, score)| {
         let noise = noise.map_or(String::new(), |noise| format!(", {}", noise.name));
         (format!("{}{noise}", level.title()), score)
     });
-    markdown(rows)
+    markdown("noise", &rows.collect::<Vec<_>>())
 }
 
-/// A row for each scan.
+/// Tables with a row for each scan.
 pub fn by_scan<'a>(rows: impl IntoIterator<Item = (&'a str, &'a Score)>) -> String {
-    markdown(rows.into_iter().map(|(name, score)| (name.to_owned(), score)))
+    markdown("scan", &rows.into_iter().map(|(name, score)| (name.to_owned(), score)).collect::<Vec<_>>())
 }
 
-fn markdown<'a>(rows: impl IntoIterator<Item = (String, &'a Score)>) -> String {
-    let mut text = format!("| {} |\n|{}\n", COLUMNS.join(" | "), "---|".repeat(COLUMNS.len()));
-    for (name, score) in rows {
-        let cells = [
-            name,
-            percent(score.kinks.recall()),
-            format!("{:.2}", score.kinks.false_alarms() as f64 / score.scans.max(1) as f64),
-            score.kinks.median_error().map_or("-".into(), millimetres),
-            percent(score.phases.accuracy()),
-            percent(score.phases.several_recall()),
-            percent(score.phases.single_kept()),
-            percent(score.answered.value()),
-            deviation(&score.points, true),
-            deviation(&score.contour, true),
-            deviation(&score.several[0], false),
-            deviation(&score.several[1], false),
-            both(score.resolved.map(|share| share.value().map(|value| 1.0 - value))),
-            both(score.given_up.map(|share| share.value())),
-            deviation(&score.naive, true),
-        ];
-        text += &format!("| {} |\n", cells.join(" | "));
+fn markdown(what: &str, rows: &[(String, &Score)]) -> String {
+    let mut text = String::new();
+    for (title, columns) in TABLES {
+        let heads: Vec<&str> = columns.iter().map(|column| column.0).collect();
+        text += &format!("{title}\n\n| {what} | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
+        for (name, score) in rows {
+            let cells: Vec<String> = columns.iter().map(|column| column.1(score)).collect();
+            text += &format!("| {name} | {} |\n", cells.join(" | "));
+        }
+        text += "\n";
     }
     text
 }
@@ -76,9 +78,9 @@ fn deviation(distances: &[f64], largest: bool) -> String {
 fn millimetres(length: f64) -> String {
     let length = 1e3 * length;
     match length.abs() {
-        size if size < 1e-3 => format!("{length:.0e}"),
+        size if size < 1e-4 => format!("{length:.0e}"),
         size => {
-            let digits = (1.0 - size.log10().floor()).clamp(0.0, 4.0) as usize;
+            let digits = (1.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
             format!("{length:.digits$}")
         }
     }
