@@ -7,13 +7,21 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(
     version,
-    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases."
+    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording that does not \
+                  fit its rod or its units."
 )]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
 }
+
+const RECONSTRUCT: &str = "\
+Turn a recording of clamp reactions back into contact points, phases and the contour.
+
+Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
+reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
+labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -42,6 +50,22 @@ pub enum Command {
     },
     /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
     Simulate(Simulate),
+    /// Turn a recording of clamp reactions back into contact points, phases and the contour
+    #[command(long_about = RECONSTRUCT)]
+    Reconstruct {
+        /// The recording: CSV with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
+        /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z
+        recording: PathBuf,
+        /// The rod, a TOML file with the table [rod] of a scene; or a scene
+        #[arg(long, value_name = "FILE")]
+        rod: PathBuf,
+        /// The scene that the recording is of, to compare with
+        #[arg(long, value_name = "SCENE")]
+        truth: Option<PathBuf>,
+        /// Directory of the results [default: out/<name of the recording>]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Run the nine scans of Merker et al. (2021) and compare their phases with the paper's
     Paper {
         /// Directory of the results

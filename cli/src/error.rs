@@ -1,6 +1,9 @@
 //! Why a command fails.
 
-use crate::{FigureError, OutputError, ProfileError, RecordingError, SceneError, SimulationError};
+use crate::{
+    FigureError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError, SimulationError,
+    TruthError,
+};
 use vibrissa::{ContactError, NoiseError};
 
 /// Why a command fails.
@@ -29,6 +32,12 @@ pub enum Error {
     /// A recording.
     #[error(transparent)]
     Recording(#[from] RecordingError),
+    /// What a recording tells.
+    #[error(transparent)]
+    Reconstruction(#[from] ReconstructionError),
+    /// The scene that a recording is said to be of.
+    #[error(transparent)]
+    Truth(#[from] TruthError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] FigureError),

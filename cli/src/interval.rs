@@ -31,7 +31,7 @@ impl<'a> Interval<'a> {
 }
 
 /// Way along the path at a pose on it: m, or radians where the clamp only turns.
-fn way(path: &ClampPath, pose: Pose) -> f64 {
+pub(crate) fn way(path: &ClampPath, pose: Pose) -> f64 {
     let (start, rate) = (path.at(0.0), path.rate());
     if path.turns_only() {
         (pose.phi - start.phi) * rate.phi

@@ -1,5 +1,5 @@
 //! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep and of
-//! contours, recordings, the nine scans of the paper and the reports on them.
+//! contours, recordings and what they tell, the nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod cycle;
@@ -11,6 +11,7 @@ mod noise_file;
 mod output;
 mod paper;
 mod profile;
+mod reconstructed;
 mod recording;
 mod report;
 mod resolved;
@@ -30,6 +31,8 @@ pub use noise_file::read_noise;
 pub use output::{OutputError, Staged, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
+pub(crate) use reconstructed::naive_touch;
+pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
 pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};

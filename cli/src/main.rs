@@ -9,9 +9,12 @@ use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::{NoiseModel, Stop};
-use vibrissa_cli::{Error, Paper, Scan, Scene, Simulated, Simulation, Staged, read_noise, write_profiles};
+use vibrissa_cli::{
+    Error, Paper, Reconstructed, Recording, Scan, Scene, Simulated, Simulation, Staged, read_noise, read_rod,
+    write_profiles,
+};
 
-/// A sweep stopped early, or is not what the paper found.
+/// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
 const UNFINISHED: u8 = 2;
 
 fn main() -> ExitCode {
@@ -19,6 +22,7 @@ fn main() -> ExitCode {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
+        Command::Reconstruct { recording, rod, truth, out } => reconstruct(&recording, &rod, truth, out),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| {
@@ -68,6 +72,32 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     let name = &simulation.scene.name;
     say(&format!("{name}: {samples} samples, {lost} lost in dropouts\nwritten to {}\n", out.display()));
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(name, &stop)))
+}
+
+fn reconstruct(file: &Path, rod: &Path, truth: Option<PathBuf>, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+    let rod = read_rod(rod)?;
+    let truth = truth.map(|scene| Scene::read(&scene)).transpose()?;
+    let recording = Recording::read(file, &rod)?;
+    for warning in recording.warnings() {
+        warn(&format!("warning: {warning}\n"));
+    }
+    let mut found = Reconstructed::new(recording, rod)?;
+    if let Some(scene) = truth {
+        found.compare(scene)?;
+    }
+    let out = out.unwrap_or_else(|| Path::new("out").join(&found.name));
+    let staged = Staged::new(&out)?;
+    found.write(&staged)?;
+    staged.publish()?;
+    say(&found.summary());
+    say(&format!("written to {}\n", out.display()));
+    if found.check.fits() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    for finding in found.check.findings.iter().filter(|finding| finding.is_misfit()) {
+        warn(&format!("warning: {}: {finding}\n", file.display()));
+    }
+    Ok(ExitCode::from(UNFINISHED))
 }
 
 fn paper(out: &Path) -> Result<ExitCode, Error> {

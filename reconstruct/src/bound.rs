@@ -7,16 +7,13 @@ use crate::single::{MomentZero, NoContact};
 use crate::touch::Touch;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-/// Standard deviation of a reaction, dimensionless, below which the samples themselves are better than a fit through
-/// them.
-const CLEAN: f64 = 1e-9;
 /// Steps of the projection onto the condition: it is nearly linear within the noise.
 const STEPS: usize = 2;
 
 /// The contact at a sample of phase A or B, dimensionless: from the fit about it, or from the sample where that is hardly
 /// noisy.
 pub(crate) fn contact(sample: &Clamp, tau: f64, fit: &Fit, noise: &Noise, label: Label) -> Result<Touch, NoContact> {
-    if noise.variance.max() < CLEAN * CLEAN {
+    if noise.is_clean() {
         return bound(sample, &Matrix3::from_diagonal(&noise.variance), label);
     }
     let estimate = fit.at(tau);

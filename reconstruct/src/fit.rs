@@ -8,6 +8,8 @@ use std::ops::Range;
 
 /// Least standard deviation of a sample, dimensionless: what solver and file leave of it.
 const ROUNDING: f64 = 1e-13;
+/// Standard deviation of a reaction, dimensionless, below which a sample is called clean.
+const CLEAN: f64 = 1e-9;
 /// Samples on both sides of a place that the smallest window takes.
 const LEAST: usize = 8;
 /// By how much a window grows while the cubic still fits.
@@ -27,6 +29,11 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
+    /// Whether the samples themselves are better than a fit through them.
+    pub fn is_clean(&self) -> bool {
+        self.variance.max() < CLEAN * CLEAN
+    }
+
     /// From what is known of each channel. Rounding stays.
     pub fn new(channels: &[ChannelNoise; 3]) -> Self {
         Self {

@@ -5,6 +5,7 @@
 //! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: how contours of several scans are offset, where they disagree, one of all.
+//! - [`plausibility`]: whether a recording can be of the rod it is said to be of.
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
@@ -23,6 +24,7 @@ mod live;
 mod noise;
 pub mod noise_estimate;
 mod phases;
+mod plausibility;
 mod reconstruction;
 mod sample;
 mod scans;
@@ -39,6 +41,7 @@ pub use label::Label;
 pub use live::{Live, LiveSettings};
 pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
+pub use plausibility::{Finding, Plausibility, Shares, TangentialLine, plausibility};
 pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
 pub use sample::Sample;
 pub use scans::{Comparison, Disagreement, Offset, align, merge};

@@ -1,5 +1,6 @@
 //! A whole scan: labels, contact points, and where there are none, why.
 
+use crate::assembly::{Assembly, ContourEstimate, Measured};
 use crate::bound::contact;
 use crate::fit::Noise;
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
@@ -20,8 +21,13 @@ const FEWEST: usize = 20;
 /// standard deviations, which are on the small side.
 const MARGIN: usize = 3;
 const SIGMAS: f64 = 4.0;
+/// How many times as many are left out where no contacts agree with what is left.
+const MARGINS: [usize; 2] = [3, 10];
 /// Largest standard deviation of one of several contacts across the contour, in lengths of the rod.
 const ACROSS: f64 = 5e-3;
+
+/// Independent numbers that a stretch with several contacts is described by, about: as many parts of it are independent.
+const SERIES: usize = 8;
 
 /// How a scan is reconstructed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,9 +86,9 @@ pub enum Reason {
     #[error("{0}")]
     NoContact(#[from] NoContact),
     /// The point is known no better than this, m.
-    #[error("the point is uncertain by {sigma:.1e} m across the contour")]
+    #[error("the point is uncertain by {sigma:.1e} m")]
     TooNoisy {
-        /// Standard deviation across the contour, m.
+        /// Standard deviation across the contour (or along it, where that is what is too large), m.
         sigma: f64,
     },
     /// Several contacts are resolved from a whole scan only.
@@ -127,9 +133,44 @@ pub struct Reconstruction {
     /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
     pub noise: [ChannelNoise; 3],
     evidence: Vec<Evidence>,
+    /// Samples of each place's window; none of single samples that were taken as they are.
+    windows: Vec<usize>,
 }
 
 impl Reconstruction {
+    /// The contour: contact points assembled into stretches, and the gaps between them.
+    ///
+    /// In noise the points of neighbouring samples come from fits that overlap. Each is counted for its part of the
+    /// window, so that the standard deviations of the contour are what the noise of the samples makes of them.
+    pub fn contour(&self, assembly: &Assembly) -> ContourEstimate {
+        let runs = self.runs.iter().map(|run| run.0).skip(1).chain([self.readings.len()]);
+        let mut lengths = self.runs.iter().zip(runs).map(|(run, end)| (end, end - run.0));
+        let mut run = lengths.next();
+        let answers: Vec<(Vec<Touch>, Option<String>, usize)> = self
+            .readings
+            .iter()
+            .enumerate()
+            .map(|(sample, reading)| {
+                while run.is_some_and(|(end, _)| end <= sample) {
+                    run = lengths.next();
+                }
+                let window = match reading.second {
+                    Some(_) => run.map_or(1, |(_, length)| length / SERIES),
+                    None => self.windows.get(reading.place).copied().unwrap_or(1),
+                };
+                // of several contacts the second counts only after the first
+                let second = reading.second.filter(|_| reading.touch.is_ok());
+                let all = std::iter::once(reading.touch).chain(second);
+                (all.filter_map(Result::ok).collect(), reading.touch.err().map(|reason| reason.to_string()), window)
+            })
+            .collect();
+        assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (touches, reason, shared))| Measured {
+            reason: reason.as_deref(),
+            shared: *shared,
+            ..Measured::new(reading.label, touches)
+        }))
+    }
+
     /// The criteria about a sample, dimensionless; none for one that is of no use.
     pub fn evidence(&self, sample: usize) -> Option<&Evidence> {
         self.readings.get(sample).and_then(|reading| self.evidence.get(reading.place))
@@ -198,11 +239,13 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         sigma: std::array::from_fn(|c| kink.sigma[c] * slope(kink, c)),
         ..*kink
     };
+    let clean = noise.is_clean();
     Ok(Reconstruction {
         readings,
         runs,
         kinks: kinks.iter().map(in_units).collect(),
         noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
+        windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
     })
 }
@@ -331,13 +374,23 @@ impl Answers<'_> {
         let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
         let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
         let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
-        let pairs = resolve(self.track, self.noise, &pieces, before, after, &limits);
+        let mut pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        for wider in MARGINS {
+            // a border misplaced by more than its kink tells spoils all: leave out more
+            if pairs.iter().any(|pair| pair.first.is_ok()) {
+                break;
+            }
+            let limits = Limits { margin: margin * wider, ..limits };
+            pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        }
         let mut pairs = pairs.into_iter();
         for Piece { range, label } in pieces {
             let mut nodes = Nearest::new(self, label, range.start);
             for (index, pair) in range.zip(pairs.by_ref()) {
-                let sure = |found: Result<Touch, Unresolved>| {
-                    found.map_err(Reason::Several).and_then(|touch| self.sure(touch))
+                let sure = |found: Result<Touch, Unresolved>| match found {
+                    Ok(touch) => self.sure(touch),
+                    Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),
+                    Err(reason) => Err(Reason::Several(reason)),
                 };
                 let reading = self.reading(&mut nodes, index, label, sure(pair.first));
                 readings.push(Reading { second: Some(sure(pair.second)), ..reading });

@@ -2,7 +2,7 @@
 
 use super::canvas::{FigureError, TITLE, svg, write};
 use super::palette::INK;
-use super::trace::{self, Trace};
+use super::trace::{self, Along, Trace};
 use crate::Scan;
 use plotters::style::text_anchor::HPos;
 use vibrissa::State;
@@ -30,12 +30,11 @@ pub(crate) fn criterion(scans: &[&Scan]) -> Result<String, FigureError> {
             write(&name, &scan.scene.name, (24, 26), HPos::Left, TITLE, INK)?;
             let stiffness = scan.scene.rod.bending_stiffness();
             let quantity = |state: &State| 1e6 * state.reactions.phase_criterion(state.pose.phi, stiffness);
-            let across = trace::across(scan);
-            let foot = index == last;
+            let (parts, foot) = (trace::parts(scan, quantity), index == last);
             trace::draw(
                 root,
                 &plot,
-                &Trace { scan, quantity: &quantity, name: "K in (N mm)²", across, phases: true, foot },
+                &Trace { along: &Along::of(scan), parts, name: "K in (N mm)²", phases: true, foot },
             )?;
             rest = below;
         }

@@ -1,7 +1,7 @@
 //! Colours by phase: those of Okabe and Ito (2008), near the ones of Merker et al. (2021), fig. 4.
 
 use plotters::style::RGBColor;
-use vibrissa::Phase;
+use vibrissa::{Label, Phase};
 
 pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
 pub(super) const MUTED: RGBColor = RGBColor(90, 90, 90);
@@ -18,6 +18,16 @@ pub(super) fn colour(phase: Phase) -> RGBColor {
         (_, true) => RGBColor(204, 121, 167),
         (_, false) => RGBColor(86, 180, 233),
     }
+}
+
+/// The colour of a label: that of the phases it stands for.
+pub(super) fn label_colour(label: Label) -> RGBColor {
+    let contacts = match label {
+        Label::Free => 0,
+        Label::A | Label::B => 1,
+        Label::BA | Label::BB => 2,
+    };
+    colour(Phase { contacts, tip: label.tip() })
 }
 
 /// Black or white, whichever is read more easily on a colour (relative luminance, sRGB).

@@ -4,9 +4,10 @@ use super::canvas::{Area, FigureError, TITLE, svg, width, write};
 use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
-use super::trace::{self, Quantity, Trace};
+use super::trace::{self, Along, Trace};
 use crate::Scan;
 use plotters::style::text_anchor::HPos;
+use vibrissa::State;
 
 const SIZE: (u32, u32) = (2000, 1080);
 /// Rows of pixels for the title, between the legend and the plots, and room at the left and right edge.
@@ -43,20 +44,23 @@ fn title(scan: &Scan) -> String {
     shorter.take_while(fits).last().unwrap_or(start)
 }
 
+/// A number that a state has.
+type Quantity = fn(&State) -> f64;
+
 /// The three reactions above each other.
 fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
-    let quantities: [(&str, Quantity<'_>); 3] = [
-        ("f0x in N", &|state| state.reactions.f0x),
-        ("f0y in N", &|state| state.reactions.f0y),
-        ("m0z in N mm", &|state| 1e3 * state.reactions.m0z),
+    let quantities: [(&str, Quantity); 3] = [
+        ("f0x in N", |state| state.reactions.f0x),
+        ("f0y in N", |state| state.reactions.f0y),
+        ("m0z in N mm", |state| 1e3 * state.reactions.m0z),
     ];
-    let across = trace::across(scan);
+    let along = Along::of(scan);
     let height = (area.dim_in_pixel().1 - trace::trimmings(true, true)) / 3;
     let mut rest = area.clone();
     for (index, (name, quantity)) in quantities.into_iter().enumerate() {
         let (phases, foot) = (index == 0, index == 2);
         let (part, below) = rest.split_vertically(height + trace::trimmings(phases, foot));
-        trace::draw(root, &part, &Trace { scan, quantity, name, across: across.clone(), phases, foot })?;
+        trace::draw(root, &part, &Trace { along: &along, parts: trace::parts(scan, quantity), name, phases, foot })?;
         rest = below;
     }
     Ok(())

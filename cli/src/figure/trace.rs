@@ -4,7 +4,7 @@ use super::abscissa::Abscissa;
 use super::canvas::{Area, BODY, Chart, FigureError, axes, span, width, write};
 use super::labels::Labels;
 use super::palette::{FAINT, INK, colour};
-use crate::{Interval, Scan};
+use crate::Scan;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use std::ops::Range;
@@ -16,17 +16,30 @@ const BELOW: u32 = 80;
 /// Room above for two rows of phases, pixels.
 pub(super) const ABOVE: u32 = 70;
 
-/// A number that a state has.
-pub(super) type Quantity<'a> = &'a dyn Fn(&State) -> f64;
+/// What the traces of one scan above each other share.
+pub(super) struct Along {
+    /// Range of the abscissa.
+    pub across: Range<f64>,
+    /// What the abscissa is.
+    pub foot: String,
+    /// Parts of the abscissa with the names of their phases.
+    pub phases: Vec<(Range<f64>, String)>,
+    /// Where something happens.
+    pub marks: Vec<f64>,
+}
+
+/// A part of a trace: points in the units of the axes.
+pub(super) struct Part {
+    pub points: Vec<(f64, f64)>,
+    pub colour: RGBColor,
+}
 
 /// What to draw.
 pub(super) struct Trace<'a> {
-    pub scan: &'a Scan,
-    /// The quantity, in the unit that its name says.
-    pub quantity: Quantity<'a>,
+    pub along: &'a Along,
+    pub parts: Vec<Part>,
+    /// The quantity and its unit.
     pub name: &'a str,
-    /// Range of the abscissa, shared by traces above each other.
-    pub across: Range<f64>,
     /// Whether the phases stand above.
     pub phases: bool,
     /// Whether the abscissa stands below.
@@ -38,17 +51,36 @@ pub(super) fn trimmings(phases: bool, foot: bool) -> u32 {
     u32::from(phases) * ABOVE + u32::from(foot) * BELOW
 }
 
-/// The range of the abscissa that shows a scan.
-pub(super) fn across(scan: &Scan) -> Range<f64> {
-    let (path, abscissa) = (&scan.scene.path, Abscissa::of(&scan.scene.path));
-    span([0.0, path.length()].map(|way| abscissa.value(path.at(way))), 0.02)
+impl Along {
+    /// A sweep, with its transitions as marks.
+    pub fn of(scan: &Scan) -> Self {
+        let (path, abscissa) = (&scan.scene.path, Abscissa::of(&scan.scene.path));
+        let intervals = scan.intervals();
+        let phase = |from, to, name: String| (abscissa.value(from)..abscissa.value(to), name);
+        Self {
+            across: span([0.0, path.length()].map(|way| abscissa.value(path.at(way))), 0.02),
+            foot: abscissa.label(path),
+            phases: intervals.iter().map(|part| phase(part.from, part.to, part.phase.to_string())).collect(),
+            marks: intervals.iter().filter(|part| part.end.is_some()).map(|part| abscissa.value(part.to)).collect(),
+        }
+    }
+}
+
+/// A quantity along a sweep, coloured by phase.
+pub(super) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
+    let abscissa = Abscissa::of(&scan.scene.path);
+    let point = |state: &&State| (abscissa.value(state.pose), quantity(state));
+    let intervals = scan.intervals();
+    let part = intervals
+        .iter()
+        .map(|part| Part { points: part.states.iter().map(point).collect(), colour: colour(part.phase) });
+    part.collect()
 }
 
 /// Draws a trace into a part of `root`.
 pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Result<(), FigureError> {
-    let intervals = trace.scan.intervals();
-    let abscissa = Abscissa::of(&trace.scan.scene.path);
-    let values = intervals.iter().flat_map(|interval| interval.states.iter().map(|state| (trace.quantity)(state)));
+    let Along { across, foot, phases, marks } = trace.along;
+    let values = trace.parts.iter().flat_map(|part| part.points.iter().map(|point| point.1));
     let up = span(values.chain([0.0]), 0.08);
     let mut chart = ChartBuilder::on(area)
         .margin_top(if trace.phases { ABOVE } else { 8 })
@@ -57,36 +89,31 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Resul
         .margin_right(30)
         .set_label_area_size(LabelAreaPosition::Left, LEFT)
         .set_label_area_size(LabelAreaPosition::Bottom, if trace.foot { BELOW } else { 0 })
-        .build_cartesian_2d(trace.across.clone(), up.clone())?;
-    let foot = if trace.foot { abscissa.label(&trace.scan.scene.path) } else { String::new() };
-    axes(&mut chart, (12, 5), (&foot, trace.name))?;
-    chart.draw_series([PathElement::new(vec![(trace.across.start, 0.0), (trace.across.end, 0.0)], FAINT)])?;
-    for interval in &intervals {
-        let points = interval.states.iter().map(|state| (abscissa.value(state.pose), (trace.quantity)(state)));
-        chart.draw_series(LineSeries::new(points, colour(interval.phase).stroke_width(4)))?;
-        if interval.end.is_some() {
-            let place = abscissa.value(interval.to);
-            chart.draw_series([PathElement::new(vec![(place, up.start), (place, up.end)], INK.stroke_width(1))])?;
-        }
+        .build_cartesian_2d(across.clone(), up.clone())?;
+    axes(&mut chart, (12, 5), (if trace.foot { foot } else { "" }, trace.name))?;
+    chart.draw_series([PathElement::new(vec![(across.start, 0.0), (across.end, 0.0)], FAINT)])?;
+    for part in &trace.parts {
+        chart.draw_series(LineSeries::new(part.points.iter().copied(), part.colour.stroke_width(4)))?;
     }
-    if trace.phases { name_phases(root, &chart, &intervals, abscissa, up.end) } else { Ok(()) }
+    for &place in marks {
+        chart.draw_series([PathElement::new(vec![(place, up.start), (place, up.end)], INK.stroke_width(1))])?;
+    }
+    if trace.phases { name_phases(root, &chart, phases, up.end) } else { Ok(()) }
 }
 
-/// Writes the phases above the chart, over their intervals; where those are short, in a second row.
+/// Writes the phases above the chart, over their parts; where those are short, in a second row.
 fn name_phases(
     root: &Area<'_>,
     chart: &Chart<'_, '_>,
-    intervals: &[Interval<'_>],
-    abscissa: Abscissa,
+    phases: &[(Range<f64>, String)],
     top: f64,
 ) -> Result<(), FigureError> {
     let mut labels = Labels::default();
-    for interval in intervals {
-        let (x, y) = chart.backend_coord(&(0.5 * (abscissa.value(interval.from) + abscissa.value(interval.to)), top));
-        let name = interval.phase.to_string();
-        let size = (width(&name, BODY) + 6, BODY as i32 + 2);
+    for (part, name) in phases {
+        let (x, y) = chart.backend_coord(&(0.5 * (part.start + part.end), top));
+        let size = (width(name, BODY) + 6, BODY as i32 + 2);
         if let Some(place) = labels.place([(x, y - 18), (x, y - 46)], size) {
-            write(root, &name, place, HPos::Center, BODY, INK)?;
+            write(root, name, place, HPos::Center, BODY, INK)?;
         }
     }
     Ok(())

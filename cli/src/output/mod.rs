@@ -51,7 +51,7 @@ impl Scan {
     }
 }
 
-fn write_csv(
+pub(crate) fn write_csv(
     out: &mut dyn Write,
     columns: &[&str],
     rows: impl IntoIterator<Item = impl serde::Serialize>,

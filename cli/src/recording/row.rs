@@ -72,6 +72,20 @@ pub enum RowProblem {
     },
 }
 
+impl RowProblem {
+    /// Its kind, in few words.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Cells { .. } => "number of cells",
+            Self::NoNumber { .. } => "no number",
+            Self::NotFinite { .. } => "not finite",
+            Self::NoSigma { .. } => "no standard deviation",
+            Self::Repeated { .. } => "pose repeated",
+            Self::TurnsBack { .. } => "turns back",
+        }
+    }
+}
+
 /// Most characters of a cell that are shown.
 const MOST_SHOWN: usize = 24;
 

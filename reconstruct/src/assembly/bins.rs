@@ -45,7 +45,8 @@ pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
             let covariance = part.iter().map(|point| point.covariance).sum::<Matrix2<f64>>() / (many * many);
             // The mean of the force vectors, not of the angles: it is as exact where the force is small.
             let force = part.iter().map(force).sum::<Vector2<f64>>() / many;
-            let bias = part.iter().map(|point| 0.5 * point.covariance.trace() / point.s).sum::<f64>() / many;
+            let bias =
+                part.iter().map(|point| 0.5 * point.covariance.trace() / (point.shared * point.s)).sum::<f64>() / many;
             forces.push((force, force_noise / many));
             let (from, to) = (first.sample, last.sample + 1);
             Some(Bin { from, to, at: mean(part).0, covariance, bias, tangent: force, sigma_tangent: 0.0 })
@@ -145,6 +146,7 @@ mod tests {
                     tangent: Vector2::x(),
                     s: f64::INFINITY,
                     covariance: Matrix2::identity() * sigma * sigma,
+                    shared: 1.0,
                 }
             })
             .collect();
@@ -171,6 +173,7 @@ mod tests {
                     tangent: Vector2::x(),
                     s: f64::INFINITY,
                     covariance: Matrix2::zeros(),
+                    shared: 1.0,
                 }
             })
             .collect();

@@ -136,7 +136,7 @@ mod tests {
             let x = sample as f64 * 2e-6 + if sample < at { 0.0 } else { leap };
             let at = Vector2::new(x + sigma * random.normal(), sigma * random.normal());
             let covariance = Matrix2::identity() * (sigma * sigma).max(1e-30);
-            Point { sample, at, force: Vector2::x(), tangent: Vector2::x(), s: f64::INFINITY, covariance }
+            Point { sample, at, force: Vector2::x(), tangent: Vector2::x(), s: f64::INFINITY, covariance, shared: 1.0 }
         };
         (0..count).map(point).collect()
     }

@@ -10,7 +10,7 @@ use crate::{Label, Touch};
 ///
 /// ```
 /// use rod_reconstruct::{Label, Measured};
-/// let lost = Measured { label: Label::B, touches: &[], reason: Some("the rod is shorter than that") };
+/// let lost = Measured { reason: Some("the rod is shorter than that"), ..Measured::new(Label::B, &[]) };
 /// assert!(lost.touches.is_empty() && Measured::free().label == Label::Free);
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -21,22 +21,25 @@ pub struct Measured<'a> {
     pub touches: &'a [Touch],
     /// Why there is none, where there is none.
     pub reason: Option<&'a str>,
+    /// How many neighbouring samples share the noise of the points: 1 where each has its own, the length of the window where
+    /// they come from fits through many samples.
+    pub shared: usize,
 }
 
 impl<'a> Measured<'a> {
     /// A sample of a rod that touches nothing.
     pub fn free() -> Self {
-        Self { label: Label::Free, touches: &[], reason: None }
+        Self { label: Label::Free, touches: &[], reason: None, shared: 1 }
     }
 
     /// A sample with its contacts.
     pub fn new(label: Label, touches: &'a [Touch]) -> Self {
-        Self { label, touches, reason: None }
+        Self { label, touches, reason: None, shared: 1 }
     }
 
     /// What the sample says of the contour.
     pub(super) fn says(&self, sample: usize) -> Says {
-        let point = |index: usize| self.touches.get(index).and_then(|touch| Point::of(sample, touch));
+        let point = |index: usize| self.touches.get(index).and_then(|touch| Point::of(sample, touch, self.shared));
         match self.label {
             Label::Free => Says::Free,
             label if label.several() => Says::Several(point(0), point(1)),

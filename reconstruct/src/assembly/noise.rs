@@ -81,6 +81,7 @@ mod tests {
                 tangent: Vector2::x(),
                 s: f64::INFINITY,
                 covariance: Matrix2::identity() * stated * stated,
+                shared: 1.0,
             }
         };
         (0..count).map(point).collect()

@@ -15,13 +15,16 @@ pub(super) struct Point {
     pub tangent: Vector2<f64>,
     /// Arc length along the rod, infinite where it is not known.
     pub s: f64,
-    /// Of the position; zero where it is not known.
+    /// Of the position, as if it shared its noise with no other sample; zero where it is not known.
     pub covariance: Matrix2<f64>,
+    /// How many samples share it.
+    pub shared: f64,
 }
 
 impl Point {
     /// None where the numbers are none.
-    pub fn of(sample: usize, touch: &Touch) -> Option<Self> {
+    pub fn of(sample: usize, touch: &Touch, shared: usize) -> Option<Self> {
+        let shared = shared.max(1) as f64;
         if ![touch.x, touch.y, touch.alpha].into_iter().all(f64::is_finite) {
             return None;
         }
@@ -29,10 +32,18 @@ impl Point {
         let (sin, cos) = touch.alpha.sin_cos();
         let c = touch.covariance;
         let known = c.iter().all(|entry| entry.is_finite()) && c[(0, 0)] >= 0.0 && c[(1, 1)] >= 0.0;
-        let covariance = if known { 0.5 * (c + c.transpose()) } else { Matrix2::zeros() };
+        let covariance = if known { 0.5 * shared * (c + c.transpose()) } else { Matrix2::zeros() };
         let tangent = Vector2::new(cos, sin);
         let s = if touch.s.is_finite() && touch.s > 0.0 { touch.s } else { f64::INFINITY };
-        Some(Self { sample, at: Vector2::new(touch.x, touch.y), force: force * tangent, tangent, s, covariance })
+        Some(Self {
+            sample,
+            at: Vector2::new(touch.x, touch.y),
+            force: force * tangent,
+            tangent,
+            s,
+            covariance,
+            shared,
+        })
     }
 }
 

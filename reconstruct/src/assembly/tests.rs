@@ -148,8 +148,8 @@ fn gaps_are_where_there_is_no_single_contact() {
         4000..5000 => Measured::new(if k < 4500 { Label::BB } else { Label::BA }, &all[k..k + 2]),
         // Second contact not known.
         5000..5200 => Measured::new(Label::BA, &all[k..k + 1]),
-        7000..7040 => Measured { label: Label::B, touches: &[], reason: Some("short") },
-        8000..8100 => Measured { label: Label::B, touches: &[], reason: Some("long") },
+        7000..7040 => Measured { reason: Some("short"), ..Measured::new(Label::B, &[]) },
+        8000..8100 => Measured { reason: Some("long"), ..Measured::new(Label::B, &[]) },
         _ => Measured::new(if k < 3000 { Label::A } else { Label::B }, &all[k..k + 1]),
     };
     let contour = Assembly::default().assemble((0..10_000).map(samples));

@@ -24,7 +24,7 @@ const STRANGE: f64 = -12.0;
 /// breaks the reactions too, without a change of phase.
 const DOUBTFUL: f64 = 30.0;
 const SURER: f64 = 4.0;
-const SUREST: f64 = 8.0;
+const SUREST: f64 = 12.0;
 
 /// Whether one contact comes, goes or passes between tip and flank from one to the other: the diagram of fig. 8b with the
 /// free rod, read in both directions.

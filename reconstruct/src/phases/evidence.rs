@@ -21,7 +21,7 @@ const NOISY: f64 = 1e-7;
 /// Least log-likelihood of a phase at one place: one bad place must not outweigh all others.
 const LEAST: f64 = -40.0;
 /// How far the quantities spread where a phase does not bind them: forces, criterion, arc length and normal speed.
-const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.3];
+const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
 
 /// A quantity that a phase requires to vanish, and its standard deviation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,0 +1,127 @@
+//! The reactions of a recording, the phase criterion and how sure the labels are.
+
+use super::abscissa::Abscissa;
+use super::canvas::{BODY, FigureError, TITLE, span, svg, write};
+use super::palette::{INK, MUTED, label_colour};
+use super::trace::{self, Along, Part, Trace};
+use crate::Reconstructed;
+use plotters::style::text_anchor::HPos;
+use std::ops::Range;
+use vibrissa::{ClampPath, Pose, Reading, Sample};
+
+const WIDTH: u32 = 1800;
+/// Height of a plot, and of the title.
+const PLOT: u32 = 240;
+const HEAD: u32 = 110;
+/// Least and largest value of each of so many columns: no more can be seen.
+const COLUMNS: f64 = 1600.0;
+
+/// A number that a sample and its reading have.
+type Quantity<'a> = &'a dyn Fn(&Sample, &Reading) -> f64;
+
+/// Draws reactions, criterion and margin above each other, coloured by label, with the kinks as vertical lines.
+pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
+    let stiffness = found.rod.bending_stiffness();
+    let quantities: [(&str, Quantity<'_>); 5] = [
+        ("f0x in N", &|sample, _| sample.reactions.f0x),
+        ("f0y in N", &|sample, _| sample.reactions.f0y),
+        ("m0z in N mm", &|sample, _| 1e3 * sample.reactions.m0z),
+        ("K in (N mm)²", &|sample, _| 1e6 * sample.reactions.phase_criterion(sample.pose.phi, stiffness)),
+        ("margin", &|_, reading| reading.margin),
+    ];
+    let last = quantities.len() - 1;
+    let row = |index: usize| PLOT + trace::trimmings(index == 0, index == last);
+    let height = HEAD + (0..=last).map(row).sum::<u32>();
+    let Some(path) = path(found) else { return svg((WIDTH, HEAD), |_| Ok(())) };
+    let abscissa = Abscissa::of(&path);
+    let along = along(found, &path, abscissa);
+    svg((WIDTH, height), |root| {
+        let (head, mut rest) = root.split_vertically(HEAD);
+        let title =
+            format!("{}: reactions, phase criterion K, and by how much the label is likelier than others", found.name);
+        write(&head, &title, (24, 36), HPos::Left, TITLE, INK)?;
+        let kinks = found.found.kinks.len();
+        write(&head, &format!("vertical lines: {kinks} kinks and jumps"), (24, 80), HPos::Left, BODY, MUTED)?;
+        for (index, (name, quantity)) in quantities.into_iter().enumerate() {
+            let (part, below) = rest.split_vertically(row(index));
+            let parts = parts(found, abscissa, &along.across, quantity);
+            let trace = Trace { along: &along, parts, name, phases: index == 0, foot: index == last };
+            trace::draw(root, &part, &trace)?;
+            rest = below;
+        }
+        Ok(())
+    })
+}
+
+/// The straight way from the first pose to the last; where they are the same, to the one farthest from it.
+fn path(found: &Reconstructed) -> Option<ClampPath> {
+    let first = found.samples.first()?.pose;
+    let off =
+        |pose: &Pose| (pose.x - first.x).hypot(pose.y - first.y).hypot(found.rod.length() * (pose.phi - first.phi));
+    let poses = || found.samples.iter().map(|sample| sample.pose);
+    let last = poses().next_back().filter(|pose| off(pose) > 0.1 * found.rod.length());
+    ClampPath::new(first, last.or_else(|| poses().max_by(|a, b| off(a).total_cmp(&off(b))))?).ok()
+}
+
+fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
+    let value = |sample: usize| abscissa.value(found.samples[sample].pose);
+    let phases = found.runs().map(|(samples, label)| (value(samples.start)..value(samples.end - 1), label.to_string()));
+    Along {
+        across: span(found.samples.iter().map(|sample| abscissa.value(sample.pose)), 0.02),
+        foot: abscissa.label(path),
+        phases: phases.collect(),
+        marks: found.kink_poses().into_iter().map(|pose| abscissa.value(pose)).collect(),
+    }
+}
+
+fn parts(found: &Reconstructed, abscissa: Abscissa, across: &Range<f64>, quantity: Quantity<'_>) -> Vec<Part> {
+    let width = (across.end - across.start) / COLUMNS;
+    let part = |(samples, label): (Range<usize>, _)| {
+        let both = found.samples[samples.clone()].iter().zip(&found.found.readings[samples]);
+        let points = both.map(|(sample, reading)| (abscissa.value(sample.pose), quantity(sample, reading)));
+        Part { points: columns(points, width), colour: label_colour(label) }
+    };
+    found.runs().map(part).collect()
+}
+
+/// The first, the least, the largest and the last of the points in each column of this width.
+fn columns(points: impl Iterator<Item = (f64, f64)>, width: f64) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    let mut column: Vec<(f64, f64)> = Vec::new();
+    let mut flush = |column: &mut Vec<(f64, f64)>| {
+        if let (Some(&first), Some(&last)) = (column.first(), column.last()) {
+            let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+            let ends = [column.iter().min_by(by_value), column.iter().max_by(by_value)];
+            kept.push(first);
+            kept.extend(ends.into_iter().flatten().filter(|point| **point != first && **point != last));
+            if column.len() > 1 {
+                kept.push(last);
+            }
+        }
+        column.clear();
+    };
+    for point in points {
+        if column.first().is_some_and(|first| (first.0 - point.0).abs() > width) {
+            flush(&mut column);
+        }
+        column.push(point);
+    }
+    flush(&mut column);
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_keeps_its_ends_and_extremes() {
+        let values = [0.0, 3.0, -2.0, 1.0, 5.0, 5.0];
+        let points = values.into_iter().enumerate().map(|(k, value)| (0.1 * k as f64, value));
+        assert_eq!(
+            columns(points, 0.35).iter().map(|point| point.1).collect::<Vec<_>>(),
+            [0.0, -2.0, 3.0, 1.0, 5.0, 5.0]
+        );
+        assert!(columns(std::iter::empty(), 1.0).is_empty());
+    }
+}

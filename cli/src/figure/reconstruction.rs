@@ -1,0 +1,85 @@
+//! The contact points of a recording, beside what they would be if there were never more than one contact.
+
+use super::canvas::{BODY, FigureError, TITLE, span, svg, write};
+use super::cloud::{self, Dot};
+use super::palette::{FAINT, INK, MUTED, label_colour};
+use super::plane::Window;
+use crate::{Comparison, Reconstructed, naive_touch};
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+use vibrissa::compare::Deviation;
+use vibrissa::{Label, Touch};
+
+/// Width; least and largest height of the plot; height of the title and the key, pixels.
+const WIDTH: u32 = 1800;
+const HEIGHT: (f64, f64) = (400.0, 1500.0);
+const HEAD: u32 = 150;
+
+/// First and second contacts of several: rings.
+const FIRST: Dot = Dot { colour: RGBColor(213, 94, 0), filled: false };
+const SECOND: Dot = Dot { colour: RGBColor(204, 121, 167), filled: false };
+const NAIVE: Dot = Dot { colour: FAINT, filled: true };
+
+/// Draws the contact points in the plane, and the true contour where it is known.
+pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureError> {
+    let single = |label: Label| {
+        let readings = found.found.readings.iter().filter(move |reading| reading.label == label);
+        readings.filter_map(|reading| reading.touch.ok()).map(millimetres)
+    };
+    let several = || found.found.readings.iter().filter(|reading| reading.label.several());
+    let first = || several().filter_map(|reading| reading.touch.ok()).map(millimetres);
+    let second = || several().filter_map(|reading| reading.second?.ok()).map(millimetres);
+    let naive = found.samples.iter().zip(&found.found.readings).filter(|(_, reading)| reading.label.several());
+    let naive: Vec<(f64, f64)> =
+        naive.filter_map(|(sample, _)| naive_touch(&found.rod, sample)).map(millimetres).collect();
+
+    let all = || single(Label::A).chain(single(Label::B)).chain(first()).chain(second());
+    let (x, y) = (span(all().map(|point| point.0), 0.06), span(all().map(|point| point.1), 0.1));
+    let (beside, below) = Window::TRIMMINGS;
+    let plot = f64::from(WIDTH - beside);
+    let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
+    let window = Window::of(&x, &y, (plot, high), (0.0, 0.0));
+    svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {
+        let (head, area) = root.split_vertically(HEAD);
+        write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
+        let errors = found.comparison.as_ref().map_or_else(String::new, errors);
+        write(&head, &errors, (24, 76), HPos::Left, BODY, MUTED)?;
+        let tip = Dot { colour: label_colour(Label::A), filled: true };
+        let tangential = Dot { colour: label_colour(Label::B), filled: true };
+        let entries = [
+            (tip, "A"),
+            (tangential, "B"),
+            (FIRST, "first of several"),
+            (SECOND, "second of several"),
+            (NAIVE, "several taken for one"),
+        ];
+        cloud::key(&head, (24, 120), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
+        let mut chart = window.chart(&area, (12, 8))?;
+        let seen = naive.into_iter().filter(|point| window.x.contains(&point.0) && window.y.contains(&point.1));
+        cloud::dots(&mut chart, &window, seen, NAIVE)?;
+        for (label, dot) in [(Label::A, tip), (Label::B, tangential)] {
+            cloud::dots(&mut chart, &window, single(label), dot)?;
+        }
+        cloud::dots(&mut chart, &window, first(), FIRST)?;
+        cloud::dots(&mut chart, &window, second(), SECOND)?;
+        match &found.comparison {
+            Some(comparison) => cloud::contours(&mut chart, &window, &comparison.scene.objects),
+            None => Ok(()),
+        }
+    })
+}
+
+fn millimetres(touch: Touch) -> (f64, f64) {
+    (1e3 * touch.x, 1e3 * touch.y)
+}
+
+/// How far the points are from the contour.
+fn errors(comparison: &Comparison) -> String {
+    let Comparison { single, first, second, naive, .. } = comparison;
+    let kinds = [("one contact", single), ("first", first), ("second", second), ("several taken for one", naive)];
+    let text = |(name, deviation): (&str, &Option<Deviation>)| {
+        deviation.map(|d| format!("{name} {:.1e} ({:.1e})", 1e3 * d.median, 1e3 * d.largest))
+    };
+    let texts: Vec<String> = kinds.into_iter().filter_map(text).collect();
+    format!("distance from the contour in mm, median (largest): {}", texts.join(", "))
+}

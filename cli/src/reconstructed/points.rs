@@ -1,0 +1,77 @@
+//! A row of a recording as it is written: SI units, numbers that survive a round trip, null where there is no answer.
+
+use super::Reconstructed;
+use crate::RowFault;
+use serde::Serialize;
+use vibrissa::{Basis, Label, Reason, Touch};
+
+/// A line of points.jsonl.
+#[derive(Serialize)]
+pub(super) struct PointRecord {
+    x0: Option<f64>,
+    y0: Option<f64>,
+    phi0: Option<f64>,
+    #[serde(flatten)]
+    touch: TouchRecord,
+    label: Option<Label>,
+    several: Option<bool>,
+    margin: Option<f64>,
+    basis: Option<Basis>,
+    second: Option<TouchRecord>,
+}
+
+impl PointRecord {
+    /// The answer to a usable row.
+    pub fn of_sample(found: &Reconstructed, sample: usize) -> Self {
+        let (reading, pose) = (&found.found.readings[sample], found.samples[sample].pose);
+        Self {
+            x0: Some(pose.x),
+            y0: Some(pose.y),
+            phi0: Some(pose.phi),
+            touch: TouchRecord::of(&reading.touch),
+            label: Some(reading.label),
+            several: Some(reading.label.several()),
+            margin: Some(reading.margin),
+            basis: found.found.evidence(sample).map(|evidence| evidence.basis(reading.label)),
+            second: reading.second.as_ref().map(TouchRecord::of),
+        }
+    }
+
+    /// A row that cannot be used.
+    pub fn of_fault(fault: &RowFault) -> Self {
+        let touch = TouchRecord { reason: Some(fault.to_string()), ..TouchRecord::default() };
+        let (x0, y0, phi0) = (fault.pose.map(|p| p.x), fault.pose.map(|p| p.y), fault.pose.map(|p| p.phi));
+        Self { x0, y0, phi0, touch, label: None, several: None, margin: None, basis: None, second: None }
+    }
+}
+
+/// A contact, or why there is none.
+#[derive(Default, Serialize)]
+struct TouchRecord {
+    x: Option<f64>,
+    y: Option<f64>,
+    s: Option<f64>,
+    alpha: Option<f64>,
+    force: Option<f64>,
+    sigma_x: Option<f64>,
+    sigma_y: Option<f64>,
+    reason: Option<String>,
+}
+
+impl TouchRecord {
+    fn of(touch: &Result<Touch, Reason>) -> Self {
+        match touch {
+            Ok(Touch { x, y, s, alpha, force, covariance }) => Self {
+                x: Some(*x),
+                y: Some(*y),
+                s: Some(*s),
+                alpha: Some(*alpha),
+                force: Some(*force),
+                sigma_x: Some(covariance[(0, 0)].max(0.0).sqrt()),
+                sigma_y: Some(covariance[(1, 1)].max(0.0).sqrt()),
+                reason: None,
+            },
+            Err(reason) => Self { reason: Some(reason.to_string()), ..Self::default() },
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! What the command says of a reconstruction.
+
+use super::report::Answered;
+use super::truth::Comparison;
+use super::{Reconstructed, Transition};
+use crate::table::Table;
+use std::fmt::Write;
+use vibrissa::compare::Deviation;
+
+impl Reconstructed {
+    /// Rows, noise, labels, points and gaps; where the truth is known, how near they are to it.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.tell(&mut text);
+        text
+    }
+
+    fn tell(&self, text: &mut String) -> std::fmt::Result {
+        let labels: Vec<String> = self.found.runs.iter().map(|run| run.1.to_string()).collect();
+        let (rows, usable) = (self.recording.rows.len(), self.rows.len());
+        writeln!(text, "{}: {}; {usable} of {rows} rows used", self.name, labels.join(" "))?;
+        let [f0x, f0y, m0z] = self.found.noise.each_ref().map(|noise| noise.sigma);
+        writeln!(text, "noise: f0x {f0x:.2e} N, f0y {f0y:.2e} N, m0z {m0z:.2e} N m")?;
+        let Answered { single, single_answered, several, first_answered, second_answered } = Answered::of(self);
+        writeln!(
+            text,
+            "points: {single_answered} of {single} samples with one contact; of {several} with several the first of \
+             {first_answered}, the second of {second_answered}"
+        )?;
+        writeln!(text, "{} kinks, {} gaps", self.found.kinks.len(), self.contour.gaps.len())?;
+        self.tell_physics(text)?;
+        text.push_str(&self.run_table().to_string());
+        match &self.comparison {
+            Some(comparison) => comparison.tell(text),
+            None => Ok(()),
+        }
+    }
+
+    fn tell_physics(&self, text: &mut String) -> std::fmt::Result {
+        if let Some(line) = &self.check.line {
+            let stiffness = self.rod.bending_stiffness();
+            writeln!(
+                text,
+                "physics: m0z^2 = {:.4e} +- {:.1e} N^2 m^2 + 2 ({:.4} +- {:.4}) EI (f0y sin phi0 + f0x cos phi0) in {:.0} % \
+                 of the scan in contact; expected 0 and 1",
+                line.intercept,
+                line.intercept_sigma,
+                line.slope / stiffness,
+                line.slope_sigma / stiffness,
+                100.0 * line.share
+            )?;
+        }
+        self.check.findings.iter().try_for_each(|finding| writeln!(text, "physics: {finding}"))
+    }
+
+    fn run_table(&self) -> Table {
+        let mut table = Table::new(["label", "samples", "x0 mm", "y0 mm", "phi0 deg", "median margin"]);
+        for (run, label) in self.runs() {
+            let pose = self.samples[run.start].pose;
+            let mut margins: Vec<f64> = self.found.readings[run.clone()].iter().map(|r| r.margin).collect();
+            margins.sort_unstable_by(f64::total_cmp);
+            table.row([
+                label.to_string(),
+                run.len().to_string(),
+                format!("{:.4}", 1e3 * pose.x),
+                format!("{:.4}", 1e3 * pose.y),
+                format!("{:.4}", pose.phi.to_degrees()),
+                margins.get(margins.len() / 2).map_or_else(|| "-".into(), |margin| format!("{margin:.3}")),
+            ]);
+        }
+        table
+    }
+}
+
+impl Comparison {
+    fn tell(&self, text: &mut String) -> std::fmt::Result {
+        let Self { scene, confusion, either, off_path, kinks, .. } = self;
+        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name, confusion.total())?;
+        if let Some(stop) = &self.stop {
+            writeln!(text, "its sweep stopped early, samples beyond are not compared: {stop}")?;
+        }
+        writeln!(text, "{confusion}\nwrong labels within 1e-4 rod lengths of a transition: {either}")?;
+        let mut table = Table::new(["distance from the contour", "points", "median mm", "95 % mm", "largest mm"]);
+        for (name, deviation) in [
+            ("one contact", &self.single),
+            ("first of several", &self.first),
+            ("second of several", &self.second),
+            ("several taken for one", &self.naive),
+        ] {
+            let Some(Deviation { count, median, percentile_95, largest, .. }) = deviation else { continue };
+            let mm = [median, percentile_95, largest].map(|distance| format!("{:.2e}", 1e3 * distance));
+            table.row([name.to_owned(), count.to_string()].into_iter().chain(mm));
+        }
+        text.push_str(&table.to_string());
+        let share = |share: Option<f64>| share.map_or_else(|| "-".into(), |share| format!("{:.1} %", 100.0 * share));
+        writeln!(
+            text,
+            "kinks within 1 mm: recall {} of {}, precision {} of {}",
+            share(kinks.recall()),
+            kinks.truth,
+            share(self.kinks_of_events.precision()),
+            kinks.found
+        )?;
+        let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
+        let mut table = Table::new(["transition", "kind", "x0 mm", "y0 mm", "phi0 deg", unit]);
+        for Transition { from, to, kind, pose, error } in &self.transitions {
+            table.row([
+                format!("{from} -> {to}"),
+                kind.to_string(),
+                format!("{:.4}", 1e3 * pose.x),
+                format!("{:.4}", 1e3 * pose.y),
+                format!("{:.4}", pose.phi.to_degrees()),
+                error.map_or_else(|| "-".into(), |error| format!("{:.4}", 1e3 * error)),
+            ]);
+        }
+        write!(text, "{table}")
+    }
+}

@@ -1,0 +1,212 @@
+//! What was found against the scene that the recording is of.
+
+use super::Reconstructed;
+use crate::{Error, Scan, Scene, interval};
+use nalgebra::Matrix3;
+use rayon::prelude::*;
+use std::path::PathBuf;
+use vibrissa::compare::{Confusion, Deviation, KinkScore, signed_distance};
+use vibrissa::{Composite, Event, EventKind, Label, Pose, Rod, Stop, Touch, single};
+
+/// How far, in lengths of the rod, a pose may be from the path of the scene and belong to it.
+const OFF_PATH: f64 = 1e-3;
+/// Within so many lengths of the rod about a transition a label may be that before or after it.
+const EITHER: f64 = 1e-4;
+/// Kinks are matched with true ones within this, m.
+const MARGIN: f64 = 1e-3;
+/// A transition found so many lengths of the rod away, or more, is not the one that is looked for.
+const FAR: f64 = 0.05;
+
+/// Why there is no comparison.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: no sample is on the path of the scene {scene}, expected the scene that the recording is of", file.display())]
+pub struct TruthError {
+    /// The recording.
+    pub file: PathBuf,
+    /// Name of the scene.
+    pub scene: String,
+}
+
+/// A change of label in the scene, and where it was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// The label before.
+    pub from: Label,
+    /// The label after.
+    pub to: Label,
+    /// What happened.
+    pub kind: EventKind,
+    /// The clamp there.
+    pub pose: Pose,
+    /// How far beyond it, along the path of the clamp, the labels change: m, or rad where the clamp only turns. None
+    /// where no such change was found nearby.
+    pub error: Option<f64>,
+}
+
+/// How near a reconstruction is to the truth.
+#[derive(Debug)]
+pub struct Comparison {
+    /// The scene.
+    pub scene: Scene,
+    /// Why its sweep stopped before the end of the path, if it did: samples beyond are compared with nothing.
+    pub stop: Option<Stop>,
+    /// Samples that are not on the path of the scene.
+    pub off_path: usize,
+    /// Phases; of samples on the path.
+    pub confusion: Confusion,
+    /// Wrong labels within 1e-4 rod lengths of a transition, where they may be either.
+    pub either: u64,
+    /// Distance from the contour of the points of samples with a single contact.
+    pub single: Option<Deviation>,
+    /// Of the first contacts of samples with several.
+    pub first: Option<Deviation>,
+    /// Of the second ones.
+    pub second: Option<Deviation>,
+    /// Of the points that samples with several contacts would have if they had a single one.
+    pub naive: Option<Deviation>,
+    /// Kinks within 1 mm (or mrad) of transitions that make one: all changes of phase but A -> B, and snaps. For
+    /// recall.
+    pub kinks: KinkScore,
+    /// Kinks within 1 mm (or mrad) of anything that happened, A -> B and borders of pieces included. For precision.
+    pub kinks_of_events: KinkScore,
+    /// Changes of label.
+    pub transitions: Vec<Transition>,
+}
+
+impl Comparison {
+    pub(super) fn of(found: &Reconstructed, scene: Scene) -> Result<Self, Error> {
+        let scan = Scan::run(scene)?;
+        let truth = Truth::of(&scan, &found.rod);
+        let ways: Vec<Option<f64>> = found.samples.iter().map(|sample| truth.way(sample.pose)).collect();
+        let off_path = ways.iter().filter(|way| way.is_none()).count();
+        if off_path == ways.len() {
+            return Err(TruthError { file: found.recording.file.clone(), scene: scan.scene.name }.into());
+        }
+        let (mut confusion, mut either) = (Confusion::default(), 0);
+        for (reading, way) in found.found.readings.iter().zip(&ways) {
+            let Some(way) = way else { continue };
+            let label = truth.label(*way);
+            confusion.add(label, reading.label);
+            either += u64::from(label != reading.label && truth.is_either(*way));
+        }
+        let readings = || found.found.readings.par_iter().filter(|reading| reading.label != Label::Free);
+        let objects = &scan.scene.objects;
+        let [single, first] = [false, true].map(|several| {
+            deviation(objects, readings().filter_map(move |r| r.touch.ok().filter(|_| r.label.several() == several)))
+        });
+        let second = deviation(objects, readings().filter_map(|reading| reading.second?.ok()));
+        let several = found.samples.par_iter().zip(&found.found.readings).filter(|(_, r)| r.label.several());
+        let naive = deviation(objects, several.filter_map(|(sample, _)| naive_touch(&found.rod, sample)));
+        let kinks: Vec<f64> = found.kink_poses().into_iter().filter_map(|pose| truth.way(pose)).collect();
+        let kinked: Vec<f64> = truth.events.iter().filter(|event| event.kinks).map(|event| event.way).collect();
+        let all: Vec<f64> = truth.events.iter().map(|event| event.way).collect();
+        Ok(Self {
+            off_path,
+            confusion,
+            either,
+            single,
+            first,
+            second,
+            naive,
+            kinks: KinkScore::of(&kinks, &kinked, MARGIN),
+            kinks_of_events: KinkScore::of(&kinks, &all, MARGIN),
+            transitions: truth.transitions(found),
+            stop: scan.outcome.stop.clone(),
+            scene: scan.scene,
+        })
+    }
+}
+
+/// The point of a sample if it had a single contact.
+pub(crate) fn naive_touch(rod: &Rod, sample: &vibrissa::Sample) -> Option<Touch> {
+    single(rod, sample.pose, sample.reactions, &Matrix3::zeros()).map_or_else(|none| none.touch(), Some)
+}
+
+fn deviation(objects: &[Composite], touches: impl ParallelIterator<Item = Touch>) -> Option<Deviation> {
+    let distances: Option<Vec<f64>> = touches.map(|touch| signed_distance(objects, touch.x, touch.y)).collect();
+    Deviation::of(distances?)
+}
+
+/// What happened along the path.
+struct Truth<'a> {
+    scan: &'a Scan,
+    /// Length of the rod, m.
+    length: f64,
+    start: Label,
+    events: Vec<Happening<'a>>,
+}
+
+struct Happening<'a> {
+    event: &'a Event,
+    /// Along the path: m, or rad where the clamp only turns.
+    way: f64,
+    from: Label,
+    to: Label,
+    /// Whether the reactions have a kink or a jump there.
+    kinks: bool,
+}
+
+impl<'a> Truth<'a> {
+    fn of(scan: &'a Scan, rod: &Rod) -> Self {
+        let happening = |event: &'a Event| {
+            let [from, to] = [event.from(), event.to()].map(|phase| Label::of(phase.contacts, phase.tip));
+            let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip);
+            let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
+            Happening { event, way: interval::way(&scan.scene.path, event.pose()), from, to, kinks }
+        };
+        let events: Vec<Happening<'a>> = scan.outcome.events.iter().map(happening).collect();
+        let phase = scan.outcome.states.first().map(|state| state.phase()).unwrap_or_default();
+        Self { scan, length: rod.length(), start: Label::of(phase.contacts, phase.tip), events }
+    }
+
+    /// How far along the path a pose is, if it is on it and the sweep came so far.
+    fn way(&self, pose: Pose) -> Option<f64> {
+        let path = &self.scan.scene.path;
+        let way = interval::way(path, pose);
+        let end = match (&self.scan.outcome.stop, self.scan.outcome.states.last()) {
+            (Some(_), Some(state)) => interval::way(path, state.pose),
+            _ => path.length(),
+        };
+        let there = path.at(way);
+        let unit = if path.turns_only() { 1.0 } else { self.length };
+        let off = (pose.x - there.x).hypot(pose.y - there.y).max(self.length * (pose.phi - there.phi).abs());
+        let off = off.max(self.length / unit * (-way).max(way - end));
+        (off <= OFF_PATH * self.length).then_some(way)
+    }
+
+    fn label(&self, way: f64) -> Label {
+        let before = self.events.partition_point(|event| event.way <= way);
+        before.checked_sub(1).map_or(self.start, |last| self.events[last].to)
+    }
+
+    fn is_either(&self, way: f64) -> bool {
+        let slack = EITHER * if self.scan.scene.path.turns_only() { 1.0 } else { self.length };
+        self.events.iter().any(|event| event.from != event.to && (event.way - way).abs() <= slack)
+    }
+
+    fn transitions(&self, found: &Reconstructed) -> Vec<Transition> {
+        let runs = &found.found.runs;
+        let borders: Vec<(Label, Label, f64)> = runs
+            .windows(2)
+            .filter_map(|pair| {
+                let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| self.way(found.samples[k].pose));
+                Some((pair[0].1, pair[1].1, 0.5 * (before? + after?)))
+            })
+            .collect();
+        let far = FAR * if self.scan.scene.path.turns_only() { 1.0 } else { self.length };
+        let changes = self.events.iter().filter(|event| event.from != event.to);
+        changes
+            .map(|event| {
+                let alike = borders.iter().filter(|border| (border.0, border.1) == (event.from, event.to));
+                let errors = alike.map(|border| border.2 - event.way).filter(|error| error.abs() < far);
+                Transition {
+                    from: event.from,
+                    to: event.to,
+                    kind: event.event.kind,
+                    pose: event.event.pose(),
+                    error: errors.min_by(|a, b| a.abs().total_cmp(&b.abs())),
+                }
+            })
+            .collect()
+    }
+}
