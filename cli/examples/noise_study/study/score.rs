@@ -4,7 +4,7 @@ use super::{Clean, MARGIN, STEP};
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
 use vibrissa::compare::{Confusion, KinkScore, signed_distance};
-use vibrissa::{Assembly, ContourEstimate, Label, Measured, Reconstruction, Sample, Touch, TraceKind, single};
+use vibrissa::{Assembly, Label, Reconstruction, Sample, Touch, TraceKind, single};
 
 /// Distance of the places at which an assembled contour is compared, m.
 const SPACING: f64 = 5e-5;
@@ -74,7 +74,7 @@ impl Score {
         score.stretches(clean, found);
         score.mistakes(clean, found);
         let objects = &clean.scene.objects;
-        let contour = assembled(found);
+        let contour = found.contour(&Assembly::default());
         let places = contour.of_kind(TraceKind::Single).flat_map(|trace| {
             let points: Vec<[f64; 2]> = trace.points.iter().map(|point| [point.x, point.y]).collect();
             along(&points)
@@ -190,22 +190,6 @@ impl Score {
             any.into_iter().zip(&mut self.given_up).for_each(|(any, given_up)| given_up.count(!any));
         }
     }
-}
-
-/// The contour of a scan.
-fn assembled(found: &Reconstruction) -> ContourEstimate {
-    let touches: Vec<Vec<Touch>> = found
-        .readings
-        .iter()
-        .map(|reading| {
-            let first = reading.touch.as_ref().ok();
-            // without a first contact there is no second one
-            let second = reading.second.as_ref().and_then(|second| second.as_ref().ok()).filter(|_| first.is_some());
-            first.into_iter().chain(second).copied().collect()
-        })
-        .collect();
-    let measured = found.readings.iter().zip(&touches).map(|(reading, touches)| Measured::new(reading.label, touches));
-    Assembly::default().assemble(measured)
 }
 
 /// Places along a polyline, m.
