@@ -40,7 +40,8 @@ fn bound(clamp: &Clamp, covariance: &Matrix3<f64>, label: Label) -> Result<Touch
             }
         }
     }
-    let mut touch = MomentZero::of(&clamp, &Matrix3::zeros())?.touch(&left);
+    let found = if label == Label::A { MomentZero::of_tip(&clamp) } else { MomentZero::of(&clamp, &Matrix3::zeros()) };
+    let mut touch = found?.touch(&left);
     // Where the force is hardly known the point is no linear function of it any more: the term of second order, which has
     // the size of the relative error squared.
     let direction = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0) / touch.force;
@@ -53,7 +54,7 @@ fn condition(clamp: &Clamp, label: Label) -> Result<(f64, Vector3<f64>), NoConta
     if label == Label::B {
         return Ok(clamp.criterion());
     }
-    let found = MomentZero::of(clamp, &Matrix3::zeros())?;
+    let found = MomentZero::of_tip(clamp)?;
     Ok((found.s - 1.0, found.s_by_reactions))
 }
 

@@ -17,6 +17,7 @@ mod bound;
 pub mod compare;
 mod envelope;
 mod fit;
+mod general;
 pub mod kink;
 mod known;
 mod label;
@@ -37,6 +38,7 @@ mod travel;
 pub use assembly::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
+pub use general::{GeneralError, single_general};
 pub use label::Label;
 pub use live::{Live, LiveSettings};
 pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};

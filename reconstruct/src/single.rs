@@ -9,7 +9,7 @@ use rod_core::{Pose, Reactions, Rod, Section, inflection};
 /// How far beyond the tip, in lengths of the rod, or how much against the phase criterion, dimensionless, is rounding.
 const SLACK: f64 = 1e-9;
 /// How many standard deviations are noise.
-const SIGMAS: f64 = 4.0;
+pub(crate) const SIGMAS: f64 = 4.0;
 
 /// Why no single contact can have caused what the clamp felt. Not a failure: an answer, with what there is of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,8 +48,9 @@ impl NoContact {
 /// from the `covariance` of (f0x, f0y, m0z), in N^2, N^2 m, N^2 m^2; zero where that is not known.
 ///
 /// A = f0y, B = -f0x, kappa(0) = -m0z; the contact is where the curvature vanishes first, alpha = atan2(B, A) (Merker et
-/// al. 2021, eq. 10 and 18). Exact but for rounding: of reactions exact to rounding the point is too, 1e-13 of the rod's
-/// length unless the force almost vanishes. No allocation.
+/// al. 2021, eq. 10 and 18); but at the tip where the criterion K < 0 excludes a tangential contact and the curvature
+/// vanishes at the tip once more, as it does of a rod that buckles in a notch. Exact but for rounding: of reactions exact
+/// to rounding the point is too, 1e-13 of the rod's length unless the force almost vanishes. No allocation.
 ///
 /// ```
 /// use nalgebra::Matrix3;
@@ -73,14 +74,17 @@ pub fn single(rod: &Rod, pose: Pose, reactions: Reactions, covariance: &Matrix3<
     if !(clamp.is_finite() && covariance.iter().all(|v| v.is_finite())) {
         return Err(NoContact::NotFinite);
     }
-    let found = MomentZero::of(&clamp, &covariance)?;
+    let first = MomentZero::of(&clamp, &covariance)?;
+    let noise = |gradient: &Vector3<f64>| SIGMAS * spread(&gradient.transpose(), &covariance).x.sqrt();
+    let beyond = |found: &MomentZero| noise(&found.s_by_reactions) + SLACK;
+    let (k, gradient) = clamp.criterion();
+    let excess = noise(&gradient) + SLACK * (1.0 + first.force);
+    let tip = first.by_tip(&clamp).filter(|tip| k < -excess && (tip.s - 1.0).abs() <= beyond(tip));
+    let found = tip.unwrap_or(first);
     let touch = found.touch(&covariance).in_units(units);
-    let beyond = SIGMAS * spread(&found.s_by_reactions.transpose(), &covariance).x.sqrt() + SLACK;
-    if found.s > 1.0 + beyond {
+    if found.s > 1.0 + beyond(&found) {
         return Err(NoContact::BeyondTip(touch));
     }
-    let (k, gradient) = clamp.criterion();
-    let excess = SIGMAS * spread(&gradient.transpose(), &covariance).x.sqrt() + SLACK * (1.0 + found.force);
     if k > excess { Err(NoContact::Pulling(touch)) } else { Ok(touch) }
 }
 
@@ -104,24 +108,50 @@ impl MomentZero {
     /// Of a rod whose reactions have this covariance: within it they may be none.
     pub fn of(clamp: &Clamp, covariance: &Matrix3<f64>) -> Result<Self, NoContact> {
         let [a, b] = clamp.force();
-        let force = a.hypot(b);
         let noise = |i: usize| SIGMAS * covariance[(i, i)].max(0.0).sqrt();
         let r = &clamp.reactions;
         if (0..3).all(|i| r[i].abs() <= noise(i)) {
             return Err(NoContact::Free);
         }
+        let s = inflection(&clamp.section(), a, b).ok_or(NoContact::NoMomentZero)?;
+        Self::at(clamp, s).ok_or(NoContact::NoMomentZero)
+    }
+
+    /// The zero nearest to the tip, where it is a later one than this, the first: a rod pushed into a notch, or on end,
+    /// buckles and is straight several times. Along a segment its zeros are evenly spaced.
+    pub fn by_tip(&self, clamp: &Clamp) -> Option<Self> {
+        let [a, b] = clamp.force();
         let start = clamp.section();
-        let s = inflection(&start, a, b).ok_or(NoContact::NoMomentZero)?;
+        // the zero before the clamp is the first of the rod gone backwards
+        let back = Section { phi: start.phi + std::f64::consts::PI, kappa: -start.kappa, ..start };
+        let spacing = self.s + inflection(&back, -a, -b)?;
+        let later = ((1.0 - self.s) / spacing).round();
+        // also where it is no number
+        if !(later >= 1.0 && later.is_finite()) {
+            return None;
+        }
+        Self::at(clamp, self.s + later * spacing)
+    }
+
+    /// The zero that the tip would be at, if it alone were in contact.
+    pub fn of_tip(clamp: &Clamp) -> Result<Self, NoContact> {
+        let first = Self::of(clamp, &Matrix3::zeros())?;
+        Ok(first.by_tip(clamp).unwrap_or(first))
+    }
+
+    /// With derivatives, of a zero at arc length `s`.
+    fn at(clamp: &Clamp, s: f64) -> Option<Self> {
+        let [a, b] = clamp.force();
         let (section, gradient) = clamp.gradient_at(s);
         let kappa_by_s = gradient.by_s[3];
         if kappa_by_s == 0.0 || !section.x.is_finite() {
-            return Err(NoContact::NoMomentZero);
+            return None;
         }
         let at_s = gradient.by_reactions;
         let s_by_reactions = -at_s.row(3).transpose() / kappa_by_s;
         let slide = Vector3::new(gradient.by_s[0], gradient.by_s[1], gradient.by_s[2]);
         let by_reactions = at_s.fixed_rows::<3>(0) + slide * s_by_reactions.transpose();
-        Ok(Self { s, section, force, alpha: b.atan2(a), s_by_reactions, by_reactions, at_s })
+        Some(Self { s, section, force: a.hypot(b), alpha: b.atan2(a), s_by_reactions, by_reactions, at_s })
     }
 
     /// The contact there, dimensionless.

@@ -45,7 +45,9 @@ pub(crate) fn passage(from: Label, to: Label, between: Option<Break>) -> f64 {
     use Label::{A, B};
     let sure = between.map_or(0.0, |here| ((here.score - DOUBTFUL) / SURER).clamp(-SUREST, SUREST));
     if from == to {
-        return -sure.max(0.0);
+        // a rod that snaps or slips may well land in the phase it left
+        let least = if between.is_some_and(|here| here.jump) { AT_BREAK } else { f64::NEG_INFINITY };
+        return (-sure.max(0.0)).max(least);
     }
     let strange = if neighbours(from, to) { 0.0 } else { STRANGE };
     match between {

@@ -102,6 +102,8 @@ pub struct Evidence {
     /// Tangent criterion: speed, across its own tangent, of the point that a single contact would have, per way of the
     /// clamp: 0 where a single contact there is; at a vertex too, where the point stands still.
     pub tangent: Quantity,
+    /// Length and tangent criterion of a later zero of the moment, where one is nearer to the tip than the first.
+    again: Option<[Quantity; 2]>,
 }
 
 impl Evidence {
@@ -109,28 +111,29 @@ impl Evidence {
     pub(crate) fn of(estimate: &Estimate) -> Self {
         let none = Vector3::zeros();
         let found = MomentZero::of(&estimate.clamp, &Matrix3::zeros());
-        let tangent = found.as_ref().map_or(Quantity::UNKNOWN, |found| tangent(estimate, found));
-        Self::new(&estimate.clamp, found, tangent, |gradient| estimate.variance(gradient, &none))
+        let speed = |found: &MomentZero, later| tangent(estimate, found, later);
+        Self::new(&estimate.clamp, found, speed, |gradient| estimate.variance(gradient, &none))
     }
 
     /// The criteria of one sample with noise of this variance; no rates, hence no tangent criterion.
     pub(crate) fn of_sample(clamp: &Clamp, variance: &Vector3<f64>) -> Self {
         let found = MomentZero::of(clamp, &Matrix3::zeros());
-        Self::new(clamp, found, Quantity::UNKNOWN, |gradient| gradient.component_mul(gradient).dot(variance))
+        Self::new(clamp, found, |_, _| Quantity::UNKNOWN, |gradient| gradient.component_mul(gradient).dot(variance))
     }
 
     fn new(
         clamp: &Clamp,
         found: Result<MomentZero, NoContact>,
-        tangent: Quantity,
+        tangent: impl Fn(&MomentZero, bool) -> Quantity,
         variance: impl Fn(&Vector3<f64>) -> f64,
     ) -> Self {
         let (k, by_reactions) = clamp.criterion();
         let size = 1.0 + clamp.reactions.norm();
-        let length = match found {
-            Ok(found) => {
-                Quantity::new(found.s - 1.0, variance(&found.s_by_reactions), FLOOR * (1.0 + 1.0 / found.force))
-            }
+        let length_of = |found: &MomentZero| {
+            Quantity::new(found.s - 1.0, variance(&found.s_by_reactions), FLOOR * (1.0 + 1.0 / found.force))
+        };
+        let length = match &found {
+            Ok(found) => length_of(found),
             Err(NoContact::NoMomentZero) => Quantity { value: f64::INFINITY, sigma: 1.0 },
             Err(_) => Quantity::UNKNOWN,
         };
@@ -139,12 +142,17 @@ impl Evidence {
             force: [0, 1, 2].map(|c| Quantity::new(clamp.reactions[c], variance(&unit(c)), FLOOR)),
             criterion: Quantity::new(k, variance(&by_reactions), FLOOR * size),
             length,
-            tangent,
+            tangent: found.as_ref().map_or(Quantity::UNKNOWN, |found| tangent(found, false)),
+            again: found
+                .as_ref()
+                .ok()
+                .and_then(|found| found.by_tip(clamp))
+                .map(|found| [length_of(&found), tangent(&found, true)]),
         };
         let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
         let size = force.norm();
         if evidence.length.sigma > BLUR || variance(&(force / size)).sqrt() > BLUR * size {
-            (evidence.length, evidence.tangent) = (Quantity::UNKNOWN, Quantity::UNKNOWN);
+            (evidence.length, evidence.tangent, evidence.again) = (Quantity::UNKNOWN, Quantity::UNKNOWN, None);
         }
         evidence
     }
@@ -156,7 +164,10 @@ impl Evidence {
         let single = self.tangent.vanishes(tangent);
         let [free, k, s, v] = match label {
             Label::Free => [self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>(), 0.0, 0.0, 0.0],
-            Label::A => [0.0, tip, self.length.vanishes(length), single],
+            Label::A => {
+                let [s, v] = self.again.unwrap_or([self.length, self.tangent]);
+                [0.0, tip, s.vanishes(length), v.vanishes(tangent)]
+            }
             Label::B => [0.0, touch, self.length.not_positive(), single],
             Label::BA => [0.0, tip, 0.0, 0.0],
             Label::BB => [0.0, touch, 0.0, 0.0],
@@ -186,7 +197,7 @@ impl Evidence {
 }
 
 /// The normal speed of the point of the moment zero, and its standard deviation.
-fn tangent(estimate: &Estimate, found: &MomentZero) -> Quantity {
+fn tangent(estimate: &Estimate, found: &MomentZero, later: bool) -> Quantity {
     let speed = |clamp: &Clamp, found: &MomentZero| {
         let (_, gradient) = clamp.gradient_at(found.s);
         let rate = gradient.rate(&estimate.rate);
@@ -207,8 +218,8 @@ fn tangent(estimate: &Estimate, found: &MomentZero) -> Quantity {
         }
         let mut clamp = estimate.clamp;
         clamp.reactions[c] += step;
-        MomentZero::of(&clamp, &Matrix3::zeros())
-            .map_or(f64::INFINITY, |found| (speed(&clamp, &found).0 - value) / step)
+        let found = if later { MomentZero::of_tip(&clamp) } else { MomentZero::of(&clamp, &Matrix3::zeros()) };
+        found.map_or(f64::INFINITY, |found| (speed(&clamp, &found).0 - value) / step)
     });
     let floor = FLOOR * (1.0 + 10.0 / found.force) + SINE * size;
     let tangent = Quantity::new(value, estimate.variance(&by_value, &by_rate), floor);
