@@ -126,7 +126,7 @@ fn flagged_by_kinks_alone(name: &str) -> f64 {
     let found = reconstruct(&Scene::read(&scene).unwrap().rod, &samples, &Settings::default()).unwrap();
     let truth = |index: usize| Label::of(states[index].phase().contacts, states[index].phase().tip);
     let (mut several, mut single, mut flagged) = (false, 0_u32, 0_u32);
-    for index in 2..states.len() - 2 {
+    for (index, state) in states.iter().enumerate().take(states.len() - 2).skip(2) {
         if let Some(kink) = found.kinks.iter().find(|kink| kink.next == index) {
             let (before, after) = (truth(index - 2), truth(index + 2));
             if kink.kind == KinkKind::Jump || before == Label::Free {
@@ -135,7 +135,7 @@ fn flagged_by_kinks_alone(name: &str) -> f64 {
                 several = !several;
             }
         }
-        if states[index].contacts.len() == 1 {
+        if state.contacts.len() == 1 {
             single += 1;
             flagged += u32::from(several);
         }

@@ -21,6 +21,8 @@ const FEWEST: usize = 20;
 /// standard deviations, which are on the small side.
 const MARGIN: usize = 3;
 const SIGMAS: f64 = 4.0;
+/// A kink within a phase is one from this chi^2 on.
+const SURE: f64 = 60.0;
 /// How many times as many are left out where no contacts agree with what is left.
 const MARGINS: [usize; 2] = [3, 10];
 /// Largest standard deviation of one of several contacts across the contour, in lengths of the rod.
@@ -310,9 +312,7 @@ impl Answers<'_> {
         let mut next = 0;
         while next < runs.len() {
             if runs[next].1.several() {
-                // a phase on the other side of a jump tells nothing of this one
-                let joined = |pair: &[(Range<usize>, Label)]| pair[1].1.several() && !jumps(breaks, pair[1].0.start);
-                let many = 1 + runs[next..].windows(2).take_while(|pair| joined(pair)).count();
+                let many = runs[next..].iter().take_while(|run| run.1.several()).count();
                 self.several(next..next + many, breaks, &mut readings);
                 next += many;
             } else {
@@ -358,40 +358,62 @@ impl Answers<'_> {
         (border - from.min(border)).min(track.len())
     }
 
-    /// A series of runs with several contacts.
+    /// A series of runs with several contacts: resolved in parts between jumps and between kinks within a phase, where
+    /// other contacts than those before may be the first and the last.
     fn several(&self, series: Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
         let runs = &self.identified.runs;
-        let pieces: Vec<Piece> =
-            runs[series.clone()].iter().map(|(range, label)| Piece { range: range.clone(), label: *label }).collect();
-        let neighbour = |run: Option<&(Range<usize>, Label)>, border: usize| {
-            let single = |label: Label| label != Label::Free && !label.several();
-            let (range, label) = run.filter(|run| single(run.1) && !jumps(breaks, border))?;
+        let single = |label: Label| label != Label::Free && !label.several();
+        let neighbour = |index: Option<usize>| {
+            let (range, label) = runs.get(index?).filter(|run| single(run.1))?;
             Some(Neighbour { range: range.clone(), label: *label })
         };
-        let before =
-            neighbour(series.start.checked_sub(1).and_then(|index| runs.get(index)), runs[series.start].0.start);
-        let after = neighbour(runs.get(series.end), runs[series.end - 1].0.end);
+        let mut before = neighbour(series.start.checked_sub(1)).filter(|_| !jumps(breaks, runs[series.start].0.start));
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (range, label) in &runs[series.clone()] {
+            let inside =
+                breaks.iter().filter(|here| here.score > SURE && range.start < here.index && here.index < range.end);
+            let mut start = range.start;
+            for end in inside.map(|here| here.index).chain([range.end]) {
+                if start > range.start || jumps(breaks, start) && !pieces.is_empty() {
+                    self.resolved(std::mem::take(&mut pieces), before.take(), None, readings);
+                }
+                pieces.push(Piece { range: start..end, label: *label });
+                start = end;
+            }
+        }
+        let after = neighbour(Some(series.end)).filter(|_| !jumps(breaks, runs[series.end - 1].0.end));
+        self.resolved(pieces, before, after, readings);
+    }
+
+    /// Pieces that follow each other smoothly.
+    fn resolved(
+        &self,
+        pieces: Vec<Piece>,
+        before: Option<Neighbour>,
+        after: Option<Neighbour>,
+        readings: &mut Vec<Reading>,
+    ) {
         let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
         let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
         let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
         let mut pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
         for wider in MARGINS {
             // a border misplaced by more than its kink tells spoils all: leave out more
-            if pairs.iter().any(|pair| pair.first.is_ok()) {
+            if self.noise.is_clean() || pairs.iter().any(|pair| pair.first.is_ok()) {
                 break;
             }
             let limits = Limits { margin: margin * wider, ..limits };
             pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
         }
+        let sure = |found: Result<Touch, Unresolved>| match found {
+            Ok(touch) => self.sure(touch),
+            Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),
+            Err(reason) => Err(Reason::Several(reason)),
+        };
         let mut pairs = pairs.into_iter();
         for Piece { range, label } in pieces {
             let mut nodes = Nearest::new(self, label, range.start);
             for (index, pair) in range.zip(pairs.by_ref()) {
-                let sure = |found: Result<Touch, Unresolved>| match found {
-                    Ok(touch) => self.sure(touch),
-                    Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),
-                    Err(reason) => Err(Reason::Several(reason)),
-                };
                 let reading = self.reading(&mut nodes, index, label, sure(pair.first));
                 readings.push(Reading { second: Some(sure(pair.second)), ..reading });
             }

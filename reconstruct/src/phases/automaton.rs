@@ -24,7 +24,7 @@ const STRANGE: f64 = -12.0;
 /// breaks the reactions too, without a change of phase.
 const DOUBTFUL: f64 = 30.0;
 const SURER: f64 = 4.0;
-const SUREST: f64 = 12.0;
+const SUREST: f64 = 8.0;
 
 /// Whether one contact comes, goes or passes between tip and flank from one to the other: the diagram of fig. 8b with the
 /// free rod, read in both directions.
@@ -45,8 +45,9 @@ pub(crate) fn passage(from: Label, to: Label, between: Option<Break>) -> f64 {
     use Label::{A, B};
     let sure = between.map_or(0.0, |here| ((here.score - DOUBTFUL) / SURER).clamp(-SUREST, SUREST));
     if from == to {
-        // a rod that snaps or slips may well land in the phase it left
-        let least = if between.is_some_and(|here| here.jump) { AT_BREAK } else { f64::NEG_INFINITY };
+        // a rod that snaps or slips may well land in the phase it left, and a third contact keeps the label of two
+        let again = from.several() || between.is_some_and(|here| here.jump);
+        let least = if again { AT_BREAK } else { f64::NEG_INFINITY };
         return (-sure.max(0.0)).max(least);
     }
     let strange = if neighbours(from, to) { 0.0 } else { STRANGE };

@@ -4,7 +4,7 @@ use crate::fit::Estimate;
 use crate::known::Clamp;
 use crate::label::Label;
 use crate::single::{MomentZero, NoContact};
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 use serde::Serialize;
 use std::fmt;
 
@@ -20,6 +20,10 @@ const BLUR: f64 = 0.05;
 const NOISY: f64 = 1e-7;
 /// Least log-likelihood of a phase at one place: one bad place must not outweigh all others.
 const LEAST: f64 = -40.0;
+/// Share of single contacts that stand still, how fast the others go, per way of the clamp, and the most that counts.
+const STANDING: f64 = 0.3;
+const MOVING: f64 = 1.0;
+const MOST: f64 = 30.0;
 /// How far the quantities spread where a phase does not bind them: forces, criterion, arc length and normal speed.
 const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
 
@@ -102,8 +106,10 @@ pub struct Evidence {
     /// Tangent criterion: speed, across its own tangent, of the point that a single contact would have, per way of the
     /// clamp: 0 where a single contact there is; at a vertex too, where the point stands still.
     pub tangent: Quantity,
-    /// Length and tangent criterion of a later zero of the moment, where one is nearer to the tip than the first.
-    again: Option<[Quantity; 2]>,
+    /// Speed of that point along its tangent, per way of the clamp: 0 at a vertex or in a notch.
+    pub motion: Quantity,
+    /// Length, tangent criterion and motion of a later zero of the moment, where one is nearer to the tip than the first.
+    again: Option<[Quantity; 3]>,
 }
 
 impl Evidence {
@@ -111,20 +117,25 @@ impl Evidence {
     pub(crate) fn of(estimate: &Estimate) -> Self {
         let none = Vector3::zeros();
         let found = MomentZero::of(&estimate.clamp, &Matrix3::zeros());
-        let speed = |found: &MomentZero, later| tangent(estimate, found, later);
+        let speed = |found: &MomentZero, later| speed(estimate, found, later);
         Self::new(&estimate.clamp, found, speed, |gradient| estimate.variance(gradient, &none))
     }
 
     /// The criteria of one sample with noise of this variance; no rates, hence no tangent criterion.
     pub(crate) fn of_sample(clamp: &Clamp, variance: &Vector3<f64>) -> Self {
         let found = MomentZero::of(clamp, &Matrix3::zeros());
-        Self::new(clamp, found, |_, _| Quantity::UNKNOWN, |gradient| gradient.component_mul(gradient).dot(variance))
+        Self::new(
+            clamp,
+            found,
+            |_, _| [Quantity::UNKNOWN; 2],
+            |gradient| gradient.component_mul(gradient).dot(variance),
+        )
     }
 
     fn new(
         clamp: &Clamp,
         found: Result<MomentZero, NoContact>,
-        tangent: impl Fn(&MomentZero, bool) -> Quantity,
+        speed: impl Fn(&MomentZero, bool) -> [Quantity; 2],
         variance: impl Fn(&Vector3<f64>) -> f64,
     ) -> Self {
         let (k, by_reactions) = clamp.criterion();
@@ -137,22 +148,24 @@ impl Evidence {
             Err(NoContact::NoMomentZero) => Quantity { value: f64::INFINITY, sigma: 1.0 },
             Err(_) => Quantity::UNKNOWN,
         };
+        let [tangent, motion] = found.as_ref().map_or([Quantity::UNKNOWN; 2], |found| speed(found, false));
         let unit = |c: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == c)));
         let mut evidence = Self {
             force: [0, 1, 2].map(|c| Quantity::new(clamp.reactions[c], variance(&unit(c)), FLOOR)),
             criterion: Quantity::new(k, variance(&by_reactions), FLOOR * size),
             length,
-            tangent: found.as_ref().map_or(Quantity::UNKNOWN, |found| tangent(found, false)),
-            again: found
-                .as_ref()
-                .ok()
-                .and_then(|found| found.by_tip(clamp))
-                .map(|found| [length_of(&found), tangent(&found, true)]),
+            tangent,
+            motion,
+            again: found.as_ref().ok().and_then(|found| found.by_tip(clamp)).map(|found| {
+                let [tangent, motion] = speed(&found, true);
+                [length_of(&found), tangent, motion]
+            }),
         };
         let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
         let size = force.norm();
         if evidence.length.sigma > BLUR || variance(&(force / size)).sqrt() > BLUR * size {
-            (evidence.length, evidence.tangent, evidence.again) = (Quantity::UNKNOWN, Quantity::UNKNOWN, None);
+            evidence.length = Quantity::UNKNOWN;
+            (evidence.tangent, evidence.motion, evidence.again) = (Quantity::UNKNOWN, Quantity::UNKNOWN, None);
         }
         evidence
     }
@@ -161,14 +174,19 @@ impl Evidence {
     fn terms(&self, label: Label) -> [(Basis, f64); 4] {
         let [force, criterion, length, tangent] = SPREAD;
         let (tip, touch) = (self.criterion.not_positive(), self.criterion.vanishes(criterion));
-        let single = self.tangent.vanishes(tangent);
+        // A single contact moves along its tangent, or, at a vertex or in a notch, not at all: two points that are taken
+        // for one do neither, and hardly ever stand still.
+        let single = |across: &Quantity, along: &Quantity| {
+            let standing = STANDING * along.vanishes(MOVING).min(MOST).exp();
+            across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
+        };
         let [free, k, s, v] = match label {
             Label::Free => [self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>(), 0.0, 0.0, 0.0],
             Label::A => {
-                let [s, v] = self.again.unwrap_or([self.length, self.tangent]);
-                [0.0, tip, s.vanishes(length), v.vanishes(tangent)]
+                let [s, v, along] = self.again.unwrap_or([self.length, self.tangent, self.motion]);
+                [0.0, tip, s.vanishes(length), single(&v, &along)]
             }
-            Label::B => [0.0, touch, self.length.not_positive(), single],
+            Label::B => [0.0, touch, self.length.not_positive(), single(&self.tangent, &self.motion)],
             Label::BA => [0.0, tip, 0.0, 0.0],
             Label::BB => [0.0, touch, 0.0, 0.0],
         };
@@ -196,32 +214,39 @@ impl Evidence {
     }
 }
 
-/// The normal speed of the point of the moment zero, and its standard deviation.
-fn tangent(estimate: &Estimate, found: &MomentZero, later: bool) -> Quantity {
-    let speed = |clamp: &Clamp, found: &MomentZero| {
+/// The speed of the point of the moment zero across its tangent and along it, with standard deviations.
+fn speed(estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
+    let of = |clamp: &Clamp, found: &MomentZero| {
         let (_, gradient) = clamp.gradient_at(found.s);
         let rate = gradient.rate(&estimate.rate);
         // the point slides along the rod so that the curvature there stays 0
         let slide = -rate[3] / gradient.by_s[3];
         let velocity = Vector2::new(rate[0] + gradient.by_s[0] * slide, rate[1] + gradient.by_s[1] * slide);
-        (found.normal().dot(&velocity), velocity.norm())
+        let normal = found.normal();
+        Vector2::new(normal.dot(&velocity), normal.y * velocity.x - normal.x * velocity.y)
     };
-    let (value, size) = speed(&estimate.clamp, found);
-    let by_rate: Vector3<f64> = found.by_reactions.fixed_rows::<2>(0).tr_mul(&found.normal());
+    let value = of(&estimate.clamp, found);
     // How it depends on the reactions themselves matters in noise only: a difference over one standard deviation, which is
     // what the noise does.
     let covariance = estimate.covariance();
-    let by_value = Vector3::from_fn(|c, _| {
+    let mut by_value = Matrix2x3::zeros();
+    for c in 0..3 {
         let step = covariance[(c, c)].sqrt();
         if step < NOISY {
-            return 0.0;
+            continue;
         }
         let mut clamp = estimate.clamp;
         clamp.reactions[c] += step;
         let found = if later { MomentZero::of_tip(&clamp) } else { MomentZero::of(&clamp, &Matrix3::zeros()) };
-        found.map_or(f64::INFINITY, |found| (speed(&clamp, &found).0 - value) / step)
-    });
-    let floor = FLOOR * (1.0 + 10.0 / found.force) + SINE * size;
-    let tangent = Quantity::new(value, estimate.variance(&by_value, &by_rate), floor);
-    if tangent.sigma.is_finite() { tangent } else { Quantity::UNKNOWN }
+        let Ok(found) = found else { return [Quantity::UNKNOWN; 2] };
+        by_value.set_column(c, &((of(&clamp, &found) - value) / step));
+    }
+    let (normal, by_reactions) = (found.normal(), found.by_reactions.fixed_rows::<2>(0).into_owned());
+    let floor = FLOOR * (1.0 + 10.0 / found.force) + SINE * value.norm();
+    [(0, normal), (1, Vector2::new(normal.y, -normal.x))].map(|(row, direction)| {
+        let by_rate: Vector3<f64> = by_reactions.tr_mul(&direction);
+        let by_value = by_value.row(row).transpose();
+        let speed = Quantity::new(value[row], estimate.variance(&by_value, &by_rate), floor);
+        if speed.sigma.is_finite() { speed } else { Quantity::UNKNOWN }
+    })
 }

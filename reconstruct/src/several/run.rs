@@ -120,7 +120,11 @@ pub(crate) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
         if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&parts, solution)) {
             return Ok(found);
         }
-        // Too long a step for least squares: take it in parts, and stay where the last one that succeeds leads.
+        // Too long a step for least squares, if the choice is right: take it in parts, and stay where the last one that
+        // succeeds leads.
+        if middle.cost > MISFIT * measured as f64 {
+            continue;
+        }
         let mut best = None;
         for (blur, floor) in PARTS {
             let parts = blurred(parts.clone(), blur);
