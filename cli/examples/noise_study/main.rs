@@ -72,7 +72,7 @@ fn main() -> Outcome<()> {
     println!("Least changes of slope that stand out by 5 standard deviations, forces in mN/mm / moment in mN m/mm:\n");
     println!("{}", study::limits(noisy.iter().copied()));
     println!(
-        "Kinks by transition, their changes of slope, and how many of them no window lets stand out at a level:\n"
+        "Kinks by transition, their changes of slope, and how many of them no half-window up to 4 mm lets stand out:\n"
     );
     println!("{}{details}", study::kinks_below(&scans, &noisy)?);
     Ok(())

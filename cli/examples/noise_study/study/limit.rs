@@ -7,6 +7,8 @@ use vibrissa::{Settings, reconstruct};
 
 /// Half-windows, m.
 const HALVES: [f64; 5] = [0.5e-3, 1e-3, 2e-3, 4e-3, 8e-3];
+/// Longest half-window that is taken for usable: over longer ones the reactions are no quadratics, m.
+const USABLE: f64 = 4e-3;
 /// A change of slope must exceed its standard deviation by so much.
 const SURE: f64 = 5.0;
 
@@ -42,7 +44,7 @@ struct Sizes {
 
 /// The kinks of the scans by the kind of transition, as clean data show them, and how many of each kind are below the limit:
 /// whose three changes of slope together exceed their standard deviations by less than 5 in the longest window that fits
-/// between the transitions beside, 8 mm at most.
+/// between the transitions beside, 4 mm at most.
 pub fn kinks_below(scans: &[Clean], noises: &[(&Level, &Noise)]) -> super::Outcome<String> {
     let mut kinds: BTreeMap<String, Sizes> = BTreeMap::new();
     for clean in scans {
@@ -52,7 +54,7 @@ pub fn kinks_below(scans: &[Clean], noises: &[(&Level, &Noise)]) -> super::Outco
             let near = near.min_by(|a, b| (a.tau - transition.at).abs().total_cmp(&(b.tau - transition.at).abs()));
             let Some(kink) = near.filter(|kink| transition.shows && kink.kind == KinkKind::Kink) else { continue };
             let others = clean.transitions.iter().enumerate().filter(|other| other.0 != index);
-            let room = others.map(|other| (other.1.at - transition.at).abs()).fold(HALVES[4], f64::min);
+            let room = others.map(|other| (other.1.at - transition.at).abs()).fold(USABLE, f64::min);
             let sizes = kinds.entry(transition.name.clone()).or_default();
             sizes.below.resize(noises.len(), 0);
             for (below, (level, noise)) in sizes.below.iter_mut().zip(noises) {
