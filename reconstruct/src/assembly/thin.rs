@@ -11,6 +11,8 @@ use std::ops::Range;
 const AHEAD: f64 = 3.0;
 /// And the contact turns back where it goes back by so many.
 const BACK: f64 = 6.0;
+/// Share of the standard deviation of another point along the contour with which one is much better known.
+const BETTER: f64 = 0.5;
 /// Departures smaller than this are none, m.
 const LEAST: f64 = 1e-100;
 /// Bins to each side from which a direction is taken.
@@ -120,20 +122,25 @@ impl Line {
         Some((samples, reversed, simplified(&points, LEFT_OUT, tolerance)))
     }
 
-    /// Those bins of a part that are ahead of the one kept before, the last one in any case.
+    /// Those bins of a part that are ahead of the one kept before, the last one in any case. One that is much better known
+    /// takes the place of those before that it is not ahead of: where the force is about to vanish a point is known so
+    /// badly along the contour that nothing would be ahead of it for a long way.
     fn ahead(&self, part: Range<usize>) -> Vec<usize> {
         let mut kept: Vec<usize> = Vec::new();
         let last = part.end - 1;
         let apart = |a: usize, b: usize| (self.way[a] - self.way[b]).abs() > AHEAD * self.along[a].hypot(self.along[b]);
         let up = self.way[last] >= self.way[part.start];
         for k in part {
-            let onward = kept.last().is_none_or(|&before| (self.way[k] > self.way[before]) == up && apart(k, before));
-            if onward {
+            let onward = |before: usize| (self.way[k] > self.way[before]) == up && apart(k, before);
+            while kept.last().is_some_and(|&before| !onward(before) && self.along[k] < BETTER * self.along[before]) {
+                kept.pop();
+            }
+            if kept.last().is_none_or(|&before| onward(before)) {
                 kept.push(k);
             }
         }
-        // The end of the stretch is worth more than the point just before it.
-        if kept.last() != Some(&last) {
+        // The end of the stretch is worth more than the point just before it, unless it is known much worse.
+        if kept.last().is_some_and(|&before| before != last && BETTER * self.along[last] <= self.along[before]) {
             while kept.len() > 1
                 && kept.last().is_some_and(|&before| (self.way[last] > self.way[before]) != up || !apart(last, before))
             {
@@ -246,9 +253,30 @@ mod tests {
         assert!((wrapped(3.0 * PI + 0.1) - (0.1 - PI)).abs() < 1e-14);
     }
 
+    #[test]
+    fn a_point_that_is_hardly_known_does_not_hide_better_ones() {
+        let ways: Vec<i32> = (0..20).collect();
+        let mut sigmas = vec![1e-5; 20];
+        // 2 cm at first, a third of that with each step
+        sigmas.iter_mut().enumerate().take(6).for_each(|(k, sigma)| *sigma = 2e-2 / 3_f64.powi(k as i32));
+        let parts = uneven(&ways, &sigmas).parts(1e-9);
+        let kept: Vec<f64> = parts[0].2.iter().map(|p| (1e3 * p.x).round()).collect();
+        assert!(parts.len() == 1 && kept.first().is_some_and(|x| (3.0..7.0).contains(x)), "{kept:?}");
+        assert_eq!(kept.last(), Some(&19.0));
+        // and so at the other end
+        sigmas.reverse();
+        let parts = uneven(&ways, &sigmas).parts(1e-9);
+        let kept: Vec<f64> = parts[0].2.iter().map(|p| (1e3 * p.x).round()).collect();
+        assert!(kept[0] == 0.0 && kept.last().is_some_and(|x| (12.0..17.0).contains(x)), "{kept:?}");
+    }
+
     /// A contact that goes to and fro along a line, in steps of 1 mm.
     fn line(ways: &[i32], sigma: f64) -> Line {
-        let bin = |(k, &way): (usize, &i32)| {
+        uneven(ways, &vec![sigma; ways.len()])
+    }
+
+    fn uneven(ways: &[i32], sigmas: &[f64]) -> Line {
+        let bin = |(k, (&way, &sigma)): (usize, (&i32, &f64))| {
             let at = Vector2::new(1e-3 * f64::from(way), 0.0);
             let covariance = nalgebra::Matrix2::identity() * sigma * sigma;
             (
@@ -256,7 +284,7 @@ mod tests {
                 (at, covariance),
             )
         };
-        let (bins, estimates): (Vec<_>, Vec<_>) = ways.iter().enumerate().map(bin).unzip();
+        let (bins, estimates): (Vec<_>, Vec<_>) = ways.iter().zip(sigmas).enumerate().map(bin).unzip();
         Line::new(&bins, &estimates, true)
     }
 

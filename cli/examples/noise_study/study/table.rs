@@ -1,0 +1,97 @@
+//! Scores as tables in Markdown, lengths in mm.
+
+use super::{Level, Noise, Score};
+use vibrissa::compare::Deviation;
+
+/// What a table tells of a score.
+type Columns = [(&'static str, fn(&Score) -> String)];
+
+const FOUND: &Columns = &[
+    ("kinks found", |score| percent(score.kinks.recall())),
+    ("false a scan", |score| format!("{:.2}", score.kinks.false_alarms() as f64 / score.scans.max(1) as f64)),
+    ("error, mm", |score| score.kinks.median_error().map_or("-".into(), millimetres)),
+    ("phases right", |score| percent(score.phases.accuracy())),
+    ("two-point flagged", |score| percent(score.phases.several_recall())),
+    ("single kept", |score| percent(score.phases.single_kept())),
+    ("with a point", |score| percent(score.answered.value())),
+];
+const POINTS: &Columns = &[
+    ("points", |score| deviation(&score.points, true)),
+    ("contour", |score| deviation(&score.contour, true)),
+    ("naive in two-point stretches", |score| deviation(&score.naive, true)),
+];
+const SEVERAL: &Columns = &[
+    ("first contact", |score| deviation(&score.several[0], false)),
+    ("second contact", |score| deviation(&score.several[1], false)),
+    ("samples without first / second", |score| {
+        both(score.resolved.map(|share| share.value().map(|value| 1.0 - value)))
+    }),
+    ("stretches without first / second", |score| both(score.given_up.map(|share| share.value()))),
+];
+const TABLES: [(&str, &Columns); 3] = [
+    ("Kinks, phases and what is kept:", FOUND),
+    ("Distances from the contour, mm: median / 95 % / largest", POINTS),
+    ("Two-point stretches, distances from the contour, mm: median / 95 %", SEVERAL),
+];
+
+/// Tables with a row for each noise.
+pub fn tables<'a>(rows: impl IntoIterator<Item = (&'a Level, Option<&'a Noise>, &'a Score)>) -> String {
+    let rows = rows.into_iter().map(|(level, noise, score)| {
+        let noise = noise.map_or(String::new(), |noise| format!(", {}", noise.name));
+        (format!("{}{noise}", level.title()), score)
+    });
+    markdown("noise", &rows.collect::<Vec<_>>())
+}
+
+/// Tables with a row for each scan.
+pub fn by_scan<'a>(rows: impl IntoIterator<Item = (&'a str, &'a Score)>) -> String {
+    markdown("scan", &rows.into_iter().map(|(name, score)| (name.to_owned(), score)).collect::<Vec<_>>())
+}
+
+fn markdown(what: &str, rows: &[(String, &Score)]) -> String {
+    let mut text = String::new();
+    for (title, columns) in TABLES {
+        let heads: Vec<&str> = columns.iter().map(|column| column.0).collect();
+        text += &format!("{title}\n\n| {what} | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
+        for (name, score) in rows {
+            let cells: Vec<String> = columns.iter().map(|column| column.1(score)).collect();
+            text += &format!("| {name} | {} |\n", cells.join(" | "));
+        }
+        text += "\n";
+    }
+    text
+}
+
+fn both(shares: [Option<f64>; 2]) -> String {
+    shares.map(percent).join(" / ")
+}
+
+fn deviation(distances: &[f64], largest: bool) -> String {
+    Deviation::of(distances.iter().copied()).map_or("-".into(), |off| {
+        let last = largest.then_some(off.largest);
+        let numbers: Vec<String> = [off.median, off.percentile_95].into_iter().chain(last).map(millimetres).collect();
+        numbers.join(" / ")
+    })
+}
+
+/// Two significant digits of a length in m.
+fn millimetres(length: f64) -> String {
+    let length = 1e3 * length;
+    match length.abs() {
+        size if size < 1e-4 => format!("{length:.0e}"),
+        size => {
+            let digits = (1.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
+            format!("{length:.digits$}")
+        }
+    }
+}
+
+/// Only all of them are 100 %, only none 0 %.
+fn percent(share: Option<f64>) -> String {
+    match share {
+        None => "-".into(),
+        Some(share) if share >= 1.0 => "100 %".into(),
+        Some(share) if share <= 0.0 => "0 %".into(),
+        Some(share) => format!("{:.2} %", (100.0 * share).clamp(0.01, 99.99)),
+    }
+}
