@@ -30,10 +30,7 @@ fn samples(noise: &NoiseModel) -> Vec<Sample> {
 
 fn identified_and_assembled(rod: &Rod, samples: &[Sample]) -> usize {
     let found = reconstruct(rod, black_box(samples), &Settings::default()).unwrap();
-    let touches: Vec<Option<Touch>> = found.readings.iter().map(|reading| reading.touch.ok()).collect();
-    let measured =
-        found.readings.iter().zip(&touches).map(|(reading, touch)| Measured::new(reading.label, touch.as_slice()));
-    black_box(Assembly::default().assemble(measured));
+    black_box(found.contour(&Assembly::default()));
     1
 }
 
