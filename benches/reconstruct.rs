@@ -11,8 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::hint::black_box;
 use vibrissa::noise_estimate::ChannelNoise;
 use vibrissa::{
-    Assembly, Label, Live, LiveSettings, Measured, NoiseModel, Reactions, Rod, Sample, Settings, Touch, reconstruct,
-    single,
+    Assembly, Label, Live, LiveSettings, NoiseModel, Reactions, Rod, Sample, Settings, reconstruct, single,
 };
 
 /// A scan of O1 at q = 0.4 recorded at 500 Hz and 1 mm/s with a rod of 100 mm, all contact phases within.
