@@ -148,7 +148,8 @@ impl Reconstruction {
         let runs = self.runs.iter().map(|run| run.0).skip(1).chain([self.readings.len()]);
         let mut lengths = self.runs.iter().zip(runs).map(|(run, end)| (end, end - run.0));
         let mut run = lengths.next();
-        let answers: Vec<(Vec<Touch>, Option<String>, usize)> = self
+        let mut touches: Vec<Touch> = Vec::with_capacity(self.readings.len());
+        let answers: Vec<(Range<usize>, Option<String>, usize)> = self
             .readings
             .iter()
             .enumerate()
@@ -162,14 +163,16 @@ impl Reconstruction {
                 };
                 // of several contacts the second counts only after the first
                 let second = reading.second.filter(|_| reading.touch.is_ok());
-                let all = std::iter::once(reading.touch).chain(second);
-                (all.filter_map(Result::ok).collect(), reading.touch.err().map(|reason| reason.to_string()), window)
+                let start = touches.len();
+                touches.extend(std::iter::once(reading.touch).chain(second).filter_map(Result::ok));
+                let reason = reading.touch.err().filter(|reason| *reason != Reason::Free);
+                (start..touches.len(), reason.map(|reason| reason.to_string()), window)
             })
             .collect();
-        assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (touches, reason, shared))| Measured {
+        assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (range, reason, shared))| Measured {
             reason: reason.as_deref(),
             shared: *shared,
-            ..Measured::new(reading.label, touches)
+            ..Measured::new(reading.label, &touches[range.clone()])
         }))
     }
 
