@@ -1,9 +1,9 @@
 //! A scan turned back into contact points as if there were never more than one contact (Merker et al. 2021, fig. 6).
 
+use crate::reconstructed::naive_touch;
 use crate::{Error, PaperScan, Scan};
-use nalgebra::Matrix3;
 use vibrissa::compare::signed_distance;
-use vibrissa::{Assembly, ContourEstimate, Label, Measured, State, Sweep, Touch, single};
+use vibrissa::{Assembly, ContourEstimate, Label, Measured, Sample, State, Sweep, Touch};
 
 /// Clamp travel between the states that are turned back, m: a quarter of what is reported, for dense rows of points.
 pub(crate) const STEP: f64 = 2.5e-4;
@@ -59,8 +59,7 @@ impl<'a> Naive<'a> {
 }
 
 fn point(scan: &Scan, state: &State) -> Option<NaivePoint> {
-    let found = single(&scan.scene.rod, state.pose, state.reactions, &Matrix3::zeros());
-    let touch = found.map_or_else(|none| none.touch(), Some)?;
+    let touch = naive_touch(&scan.scene.rod, &Sample::new(state.pose, state.reactions))?;
     let Touch { x, y, .. } = touch;
     let error = signed_distance(&scan.scene.objects, x, y)?;
     Some(NaivePoint { x, y, above: y - state.pose.y, several: state.contacts.len() > 1, error, touch })

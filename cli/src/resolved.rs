@@ -1,9 +1,9 @@
 //! A scan turned back into contact points with what the reactions tell of the contact phases.
 
+use crate::reconstructed::naive_touch;
 use crate::{Error, PaperScan};
-use nalgebra::Matrix3;
 use vibrissa::compare::signed_distance;
-use vibrissa::{Composite, NoContact, Reason, Sample, Settings, StretchKind, Sweep, Touch, reconstruct, single};
+use vibrissa::{Composite, Reason, Sample, Settings, StretchKind, Sweep, Touch, reconstruct};
 
 /// Clamp travel between samples, m: a tenth of the rate that the paper recorded at.
 const STEP: f64 = 2e-5;
@@ -64,8 +64,7 @@ impl<'a> Resolved<'a> {
                     places.push(place(&touch));
                 }
             }
-            let alone = single(&scene.rod, sample.pose, sample.reactions, &Matrix3::zeros());
-            if let Some(touch) = alone.map_or_else(|none: NoContact| none.touch(), Some) {
+            if let Some(touch) = naive_touch(&scene.rod, sample) {
                 resolved.naive_error = resolved.naive_error.max(off(&touch));
                 resolved.naive.push(place(&touch));
             }

@@ -1,7 +1,7 @@
 //! One contact from one sample for rods without a closed form: tapered, bent at rest, of any stiffness law.
 
 use crate::known::{Clamp, spread};
-use crate::single::{NoContact, SIGMAS};
+use crate::single::{NoContact, SIGMAS, dimensionless, is_free};
 use crate::touch::Touch;
 use nalgebra::{Matrix2x3, Matrix3, Vector3};
 use rod_core::{Cut, Pose, Propagator, Reactions, RodError, Units, find_root};
@@ -58,13 +58,8 @@ pub fn single_general(
     reactions: Reactions,
     covariance: &Matrix3<f64>,
 ) -> Result<Touch, GeneralError> {
-    let clamp = Clamp::new(units, pose, reactions);
-    let unit = Matrix3::from_diagonal(&Vector3::new(units.force, units.force, units.moment).map(f64::recip));
-    let covariance = unit * covariance * unit;
-    if !(clamp.is_finite() && covariance.iter().all(|v| v.is_finite())) {
-        return Err(NoContact::NotFinite.into());
-    }
-    if (0..3).all(|c| clamp.reactions[c].abs() <= SIGMAS * covariance[(c, c)].max(0.0).sqrt()) {
+    let (clamp, covariance) = dimensionless(units, pose, reactions, covariance)?;
+    if is_free(&clamp, &covariance) {
         return Err(NoContact::Free.into());
     }
     let zeros = zeros(rod, &clamp)?;

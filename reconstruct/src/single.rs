@@ -3,8 +3,8 @@
 
 use crate::known::{Clamp, spread};
 use crate::touch::Touch;
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix4x3, Vector2, Vector3};
-use rod_core::{Pose, Reactions, Rod, Section, inflection};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use rod_core::{Pose, Reactions, Rod, Section, Units, inflection};
 
 /// How far beyond the tip, in lengths of the rod, or how much against the phase criterion, dimensionless, is rounding.
 const SLACK: f64 = 1e-9;
@@ -68,12 +68,7 @@ impl NoContact {
 /// [`NoContact`], which is as good an answer: no single contact fits, and why.
 pub fn single(rod: &Rod, pose: Pose, reactions: Reactions, covariance: &Matrix3<f64>) -> Result<Touch, NoContact> {
     let units = rod.units();
-    let clamp = Clamp::new(units, pose, reactions);
-    let unit = Matrix3::from_diagonal(&Vector3::new(units.force, units.force, units.moment).map(f64::recip));
-    let covariance = unit * covariance * unit;
-    if !(clamp.is_finite() && covariance.iter().all(|v| v.is_finite())) {
-        return Err(NoContact::NotFinite);
-    }
+    let (clamp, covariance) = dimensionless(units, pose, reactions, covariance)?;
     let first = MomentZero::of(&clamp, &covariance)?;
     let noise = |gradient: &Vector3<f64>| SIGMAS * spread(&gradient.transpose(), &covariance).x.sqrt();
     let beyond = |found: &MomentZero| noise(&found.s_by_reactions) + SLACK;
@@ -88,6 +83,28 @@ pub fn single(rod: &Rod, pose: Pose, reactions: Reactions, covariance: &Matrix3<
     if k > excess { Err(NoContact::Pulling(touch)) } else { Ok(touch) }
 }
 
+/// What the clamp feels and how well that is known, dimensionless, if these are numbers.
+pub(crate) fn dimensionless(
+    units: Units,
+    pose: Pose,
+    reactions: Reactions,
+    covariance: &Matrix3<f64>,
+) -> Result<(Clamp, Matrix3<f64>), NoContact> {
+    let clamp = Clamp::new(units, pose, reactions);
+    let unit = Matrix3::from_diagonal(&Vector3::new(units.force, units.force, units.moment).map(f64::recip));
+    let covariance = unit * covariance * unit;
+    if clamp.is_finite() && covariance.iter().all(|v| v.is_finite()) {
+        Ok((clamp, covariance))
+    } else {
+        Err(NoContact::NotFinite)
+    }
+}
+
+/// Whether reactions with this covariance may be none.
+pub(crate) fn is_free(clamp: &Clamp, covariance: &Matrix3<f64>) -> bool {
+    (0..3).all(|c| clamp.reactions[c].abs() <= SIGMAS * covariance[(c, c)].max(0.0).sqrt())
+}
+
 /// Where the moment vanishes first, dimensionless, with derivatives by the reactions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MomentZero {
@@ -99,20 +116,15 @@ pub(crate) struct MomentZero {
     pub s_by_reactions: Vector3<f64>,
     /// Of (x, y, phi) at this point, which moves along the rod.
     pub by_reactions: nalgebra::Matrix3<f64>,
-    /// Of the section at this arc length.
-    #[allow(dead_code, reason = "the identification of phases is to use it")]
-    pub at_s: Matrix4x3<f64>,
 }
 
 impl MomentZero {
     /// Of a rod whose reactions have this covariance: within it they may be none.
     pub fn of(clamp: &Clamp, covariance: &Matrix3<f64>) -> Result<Self, NoContact> {
-        let [a, b] = clamp.force();
-        let noise = |i: usize| SIGMAS * covariance[(i, i)].max(0.0).sqrt();
-        let r = &clamp.reactions;
-        if (0..3).all(|i| r[i].abs() <= noise(i)) {
+        if is_free(clamp, covariance) {
             return Err(NoContact::Free);
         }
+        let [a, b] = clamp.force();
         let s = inflection(&clamp.section(), a, b).ok_or(NoContact::NoMomentZero)?;
         Self::at(clamp, s).ok_or(NoContact::NoMomentZero)
     }
@@ -151,7 +163,7 @@ impl MomentZero {
         let s_by_reactions = -at_s.row(3).transpose() / kappa_by_s;
         let slide = Vector3::new(gradient.by_s[0], gradient.by_s[1], gradient.by_s[2]);
         let by_reactions = at_s.fixed_rows::<3>(0) + slide * s_by_reactions.transpose();
-        Some(Self { s, section, force: a.hypot(b), alpha: b.atan2(a), s_by_reactions, by_reactions, at_s })
+        Some(Self { s, section, force: a.hypot(b), alpha: b.atan2(a), s_by_reactions, by_reactions })
     }
 
     /// The contact there, dimensionless.

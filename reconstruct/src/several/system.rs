@@ -4,6 +4,7 @@
 use super::condition::{INPUTS, ROWS, conditions, second};
 use super::series::Series;
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
+use rod_core::Dual;
 
 /// Standard deviations of the first two terms of an arc length, which are free, and of the third; the next ones decay
 /// by `DECAY` each. Those of a force are in parts of the force at the clamp.
@@ -152,6 +153,14 @@ impl Normal {
         }
         self.cost += weight * residual * residual;
     }
+
+    /// The matrix with 1 on its diagonal, and what its rows and columns were multiplied by.
+    fn scaled(&self) -> (DVector<f64>, DMatrix<f64>) {
+        let scale = self.matrix.diagonal().map(|d| d.max(f64::MIN_POSITIVE).sqrt().recip());
+        let n = scale.len();
+        let scaled = DMatrix::from_fn(n, n, |i, j| self.matrix[(i, j)] * scale[i] * scale[j]);
+        (scale, scaled)
+    }
 }
 
 /// A run.
@@ -272,20 +281,7 @@ impl System<'_> {
             );
         }
         let (p, q) = (second(&a.pose[0], &a.values, from.tip), second(&b.pose[0], &b.values, to.tip));
-        let side = (p[2].value * q[2].value + p[3].value * q[3].value).signum();
-        let normal_at = |i: usize| 0.5 * (q[i].value + side * p[i].value);
-        let n = [normal_at(2), normal_at(3)];
-        let chord = [q[0].value - p[0].value, q[1].value - p[1].value];
-        let off = chord[0] * n[0] + chord[1] * n[1];
-        let by_q: [f64; INPUTS] = std::array::from_fn(|i| {
-            n[0] * q[0].derivatives[i]
-                + n[1] * q[1].derivatives[i]
-                + 0.5 * (chord[0] * q[2].derivatives[i] + chord[1] * q[3].derivatives[i])
-        });
-        let by_p: [f64; INPUTS] = std::array::from_fn(|i| {
-            -n[0] * p[0].derivatives[i] - n[1] * p[1].derivatives[i]
-                + 0.5 * side * (chord[0] * p[2].derivatives[i] + chord[1] * p[3].derivatives[i])
-        });
+        let Chord { off, by: [by_p, by_q] } = chord(&p, &q);
         let mut row = Vec::new();
         from.spread(&a, &by_p, &mut row);
         to.spread(&b, &by_q, &mut row);
@@ -299,20 +295,10 @@ impl System<'_> {
             End::Open => {}
             End::Last { place, normal: there, sigma, way } => {
                 let p = second(&local.pose[0], &local.values, part.tip);
-                let side = (p[2].value * there.x + p[3].value * there.y).signum();
-                let n = [0.5 * (p[2].value + side * there.x), 0.5 * (p[3].value + side * there.y)];
-                let chord = [p[0].value - place.x, p[1].value - place.y];
-                let by: [f64; INPUTS] = std::array::from_fn(|i| {
-                    n[0] * p[0].derivatives[i]
-                        + n[1] * p[1].derivatives[i]
-                        + 0.5 * (chord[0] * p[2].derivatives[i] + chord[1] * p[3].derivatives[i])
-                });
+                let fixed = [place.x, place.y, there.x, there.y].map(Dual::constant);
+                let Chord { off, by: [_, by] } = chord(&fixed, &p);
                 part.spread(&local, &by, &mut row);
-                normal.add(
-                    &row,
-                    chord[0] * n[0] + chord[1] * n[1],
-                    across(way, sigma.hypot(0.1 * self.tolerance.floor)).powi(-2),
-                );
+                normal.add(&row, off, across(way, sigma.hypot(0.1 * self.tolerance.floor)).powi(-2));
             }
             End::First { s, way } => {
                 part.spread(&local, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0], &mut row);
@@ -333,8 +319,7 @@ impl System<'_> {
             }
             let (mut next, mut step) = (None, 0.0);
             for _ in 0..10 {
-                let scale = now.matrix.diagonal().map(|d| d.max(f64::MIN_POSITIVE).sqrt().recip());
-                let mut scaled = DMatrix::from_fn(x.len(), x.len(), |i, j| now.matrix[(i, j)] * scale[i] * scale[j]);
+                let (scale, mut scaled) = now.scaled();
                 scaled.set_diagonal(&DVector::repeat(x.len(), 1.0 + damping));
                 let found = scaled.cholesky().map(|c| c.solve(&now.gradient.component_mul(&scale)));
                 if let Some(move_by) = found {
@@ -360,12 +345,35 @@ impl System<'_> {
                 now = self.normal(&x, &weights);
             }
         }
-        let scale = now.matrix.diagonal().map(|d| d.max(f64::MIN_POSITIVE).sqrt().recip());
-        let scaled = DMatrix::from_fn(x.len(), x.len(), |i, j| now.matrix[(i, j)] * scale[i] * scale[j]);
+        let (scale, scaled) = now.scaled();
         let inverse = scaled.cholesky()?.inverse();
         let covariance = DMatrix::from_fn(x.len(), x.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]);
         Some(Solution { x, covariance, cost: now.cost })
     }
+}
+
+/// By how much the chord from one place of a contact to the next leaves the mean of the two tangents: 0 on a contour, up to
+/// the third power of the chord. With derivatives by the inputs at both places.
+struct Chord {
+    off: f64,
+    by: [[f64; INPUTS]; 2],
+}
+
+/// The chord between two places, each given as position and normal; the normals may differ in sign.
+fn chord(p: &[Dual<f64, INPUTS>; 4], q: &[Dual<f64, INPUTS>; 4]) -> Chord {
+    let side = (p[2].value * q[2].value + p[3].value * q[3].value).signum();
+    let n = [2, 3].map(|i| 0.5 * (q[i].value + side * p[i].value));
+    let chord = [q[0].value - p[0].value, q[1].value - p[1].value];
+    let by_q = std::array::from_fn(|i| {
+        n[0] * q[0].derivatives[i]
+            + n[1] * q[1].derivatives[i]
+            + 0.5 * (chord[0] * q[2].derivatives[i] + chord[1] * q[3].derivatives[i])
+    });
+    let by_p = std::array::from_fn(|i| {
+        -n[0] * p[0].derivatives[i] - n[1] * p[1].derivatives[i]
+            + 0.5 * side * (chord[0] * p[2].derivatives[i] + chord[1] * p[3].derivatives[i])
+    });
+    Chord { off: chord[0] * n[0] + chord[1] * n[1], by: [by_p, by_q] }
 }
 
 /// Standard deviation of a contact's move across the contour over a way of the clamp, and that of where it starts.
