@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::assembly::seeded::Random;
-use crate::{Assembly, ContourEstimate, GapReason, Label, Measured, Touch, Trace, TraceKind, TracePoint};
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
+use crate::{Assembly, ContourEstimate, GapReason, Label, Measured, Touch, Trace, TraceKind, TracePoint, single};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 use proptest::prelude::*;
 use rod_contact::{ClampPath, State, Sweep};
 use rod_contours::{Composite, Contour, Parabola};
-use rod_core::{Pose, Reactions, Rod, Section, advance, walk};
+use rod_core::{Pose, Reactions, Rod};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const NOTCH: [f64; 2] = [0.015, 0.01125];
@@ -56,26 +56,6 @@ fn assembled(samples: &[(Label, Vec<Touch>)], assembly: Assembly) -> ContourEsti
     assembly.assemble(samples.iter().map(|(label, touches)| Measured::new(*label, touches)))
 }
 
-/// The point at which a rod with one contact and these reactions would be touched: the first without curvature.
-fn inverted(pose: Pose, reactions: Reactions) -> Option<Touch> {
-    let units = rod().units();
-    let (force, moment) = (units.force, units.moment);
-    let (a, b) = (reactions.f0y / force, -reactions.f0x / force);
-    let start =
-        Section { x: pose.x / units.length, y: pose.y / units.length, phi: pose.phi, kappa: -reactions.m0z / moment };
-    let (most, steps) = (1.5, 150);
-    let step = walk(&start, a, b, most, steps).position(|at| at.kappa * start.kappa <= 0.0)?;
-    let (mut from, mut to) = (step as f64 * most / steps as f64, (step + 1) as f64 * most / steps as f64);
-    for _ in 0..48 {
-        let middle = 0.5 * (from + to);
-        if advance(&start, a, b, middle).kappa * start.kappa > 0.0 { from = middle } else { to = middle }
-    }
-    let at = advance(&start, a, b, from);
-    let (x, y) = (at.x * units.length, at.y * units.length);
-    let force = reactions.f0x.hypot(reactions.f0y);
-    Some(Touch { s: from * units.length, x, y, alpha: b.atan2(a), force, covariance: Matrix2::zeros() })
-}
-
 /// All samples as if each had one contact, from reactions with white noise (force N, moment N m).
 fn naive(states: &[State], noise: (f64, f64), seed: u64) -> Vec<(Label, Vec<Touch>)> {
     let mut random = Random::new(seed);
@@ -87,20 +67,9 @@ fn naive(states: &[State], noise: (f64, f64), seed: u64) -> Vec<(Label, Vec<Touc
         if r.f0x.hypot(r.f0y) <= 40.0 * noise.0 {
             return (Label::Free, Vec::new());
         }
-        let at = |v: Vector3<f64>| inverted(state.pose, Reactions { f0x: v.x, f0y: v.y, m0z: v.z });
-        let touch = at(noisy).and_then(|touch| {
-            let mut jacobian = Matrix2x3::zeros();
-            for k in 0..3 {
-                let step = 1e-4 * [0.06, 0.06, 0.006][k];
-                let mut beside = noisy;
-                beside[k] += step;
-                let beside = at(beside)?;
-                jacobian[(0, k)] = (beside.x - touch.x) / step;
-                jacobian[(1, k)] = (beside.y - touch.y) / step;
-            }
-            let variances = Matrix3::from_diagonal(&sigmas.map(|sigma| sigma * sigma));
-            Some(Touch { covariance: jacobian * variances * jacobian.transpose(), ..touch })
-        });
+        let reactions = Reactions { f0x: noisy.x, f0y: noisy.y, m0z: noisy.z };
+        let variances = Matrix3::from_diagonal(&sigmas.map(|sigma| sigma * sigma));
+        let touch = single(&rod(), state.pose, reactions, &variances).map_or_else(|none| none.touch(), Some);
         (Label::B, touch.into_iter().collect())
     };
     states.iter().map(point).collect()
