@@ -1,6 +1,6 @@
 //! From what the clamp feels back to the object: contact points, contact phases, contours.
 //!
-//! - [`Sample`]: clamp pose and reactions at one instant. [`single`]: the one contact behind it, in closed form, and
+//! - [`single`]: the one contact behind the pose of the clamp and what it feels (a [`Sample`]), in closed form, and
 //!   [`single_general`] for rods without one. [`NoContact`]: why there is none.
 //! - [`reconstruct`]: a whole scan, its samples with their [`Label`]s, contacts ([`Touch`]), also both where there are two, and
 //!   the [`Evidence`]. [`Live`]: the labels and single contacts as samples come.
@@ -29,7 +29,6 @@ pub mod noise_estimate;
 mod phases;
 mod plausibility;
 mod reconstruction;
-mod sample;
 mod scans;
 mod several;
 mod single;
@@ -47,7 +46,7 @@ pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 pub use phases::{Basis, Evidence, Quantity};
 pub use plausibility::{Finding, Plausibility, Shares, TangentialLine, plausibility};
 pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
-pub use sample::Sample;
+pub use rod_core::Sample;
 pub use scans::{Comparison, Disagreement, Offset, align, merge};
 pub use several::Unresolved;
 pub use single::{NoContact, single};

@@ -7,9 +7,8 @@ use crate::label::Label;
 use crate::noise_estimate::ChannelNoise;
 use crate::phases::{Break, Node, Trellis, forward};
 use crate::reconstruction::{Reading, Reason, ReconstructError, dimensionless, positive, sure};
-use crate::sample::Sample;
 use crate::track::{Fault, Intake, Track};
-use rod_core::{Rod, Units};
+use rod_core::{Rod, Sample, Units};
 use std::collections::VecDeque;
 
 /// Places to a half-window.

@@ -7,12 +7,11 @@ use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::label::Label;
 use crate::noise_estimate::{ChannelNoise, estimate};
 use crate::phases::{Break, Evidence, Identified, identify};
-use crate::sample::Sample;
 use crate::several::{Limits, Neighbour, Piece, Unresolved, resolve};
 use crate::single::NoContact;
 use crate::touch::Touch;
 use crate::track::{Fault, Track};
-use rod_core::{Rod, Units};
+use rod_core::{Rod, Sample, Units};
 use std::ops::Range;
 
 /// Fewest usable samples of a scan.

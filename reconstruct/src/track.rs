@@ -1,9 +1,8 @@
 //! The samples of a scan in order along the path of the clamp.
 
 use crate::known::Clamp;
-use crate::sample::Sample;
 use crate::travel::{Halt, Travel};
-use rod_core::{Rod, Units};
+use rod_core::{Rod, Sample, Units};
 
 /// Why a sample is of no use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

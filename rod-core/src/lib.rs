@@ -1,6 +1,7 @@
 //! Mechanics of one thin elastic rod, planar and inextensible, with large deflections (Euler-Bernoulli, elastica).
 //!
 //! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts.
+//! - [`Sample`]: where the clamp was and what it felt, as a sensor measures it.
 //! - [`advance`], [`advance_with_sensitivities`], [`walk`]: one segment between two contacts in closed form.
 //! - [`inflection`]: where a segment is straight.
 //! - [`Elastica`]: the whole rod under any number of forces. [`GeneralElastica`] and [`Propagator`]: the same through the closed
@@ -33,6 +34,7 @@ mod ode;
 mod pose;
 mod propagator;
 mod rod;
+mod sample;
 mod scalar;
 mod segment;
 mod units;
@@ -51,6 +53,7 @@ pub use ode::{Method, Ode};
 pub use pose::{Pose, Reactions};
 pub use propagator::{ClosedForm, Cut, Propagator};
 pub use rod::Rod;
+pub use sample::Sample;
 pub use scalar::Scalar;
 pub use segment::{Section, Sensitivities, advance, advance_with_sensitivities};
 pub use units::Units;

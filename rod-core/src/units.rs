@@ -10,17 +10,17 @@
 /// # Ok::<(), rod_core::RodError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Units {
+pub struct Units<T = f64> {
     /// m
-    pub length: f64,
+    pub length: T,
     /// N
-    pub force: f64,
+    pub force: T,
     /// N m
-    pub moment: f64,
+    pub moment: T,
     /// 1/m
-    pub curvature: f64,
+    pub curvature: T,
     /// J
-    pub energy: f64,
+    pub energy: T,
 }
 
 impl Units {

@@ -1,9 +1,8 @@
 //! Consecutive samples, averaged: what is linear in them stays so, and the noise is less.
 
 use crate::noise_estimate::estimate;
-use crate::sample::Sample;
 use nalgebra::Matrix3;
-use rod_core::{Pose, Reactions};
+use rod_core::{Pose, Reactions, Sample};
 
 /// Most bins.
 const MOST: usize = 1000;

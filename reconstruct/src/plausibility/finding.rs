@@ -3,11 +3,10 @@
 use super::bins::Bin;
 use super::line::Found;
 use super::{Shares, contact};
-use crate::sample::Sample;
 use crate::single::NoContact;
 use crate::touch::Touch;
 use crate::travel::Travel;
-use rod_core::{Reactions, Rod};
+use rod_core::{Reactions, Rod, Sample};
 use std::f64::consts::TAU;
 use std::fmt;
 

@@ -11,11 +11,10 @@ mod line;
 pub use finding::Finding;
 pub use line::TangentialLine;
 
-use crate::sample::Sample;
 use crate::single::{NoContact, single};
 use crate::touch::Touch;
 use bins::{Bin, bins};
-use rod_core::{Reactions, Rod};
+use rod_core::{Reactions, Rod, Sample};
 
 /// How far beyond the tip, in lengths of the rod, a contact may seem to be, and how far above 0, in parts of m0z^2, the
 /// phase criterion, before the rod is blamed for it.

@@ -1,6 +1,6 @@
 //! What is known of one instant of a scan.
 
-use rod_core::{Pose, Reactions};
+use crate::pose::{Pose, Reactions};
 
 /// Where the clamp was and what it felt, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +19,8 @@ impl Sample {
     /// A sample without time and standard deviations.
     ///
     /// ```
-    /// use rod_core::{Pose, Reactions};
-    /// let free = rod_reconstruct::Sample::new(Pose { x: 0.0, y: 0.0, phi: 1.5 }, Reactions::default());
+    /// use rod_core::{Pose, Reactions, Sample};
+    /// let free = Sample::new(Pose { x: 0.0, y: 0.0, phi: 1.5 }, Reactions::default());
     /// assert!(free.t.is_none() && free.sigma.is_none());
     /// ```
     pub fn new(pose: Pose, reactions: Reactions) -> Self {
