@@ -1,0 +1,72 @@
+//! What speaks against a sample.
+
+bitflags::bitflags! {
+    /// What speaks against a sample; nothing where it is good. Flags are added along the signal chain, never taken away.
+    ///
+    /// ```
+    /// use rod_hw::Quality;
+    /// let quality = Quality::SATURATED | Quality::GAP_BEFORE;
+    /// assert_eq!(quality.to_string(), "saturated, gap before");
+    /// assert!(!quality.is_usable() && Quality::GAP_BEFORE.is_usable());
+    /// ```
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Quality: u16 {
+        /// A raw value at its rail, an overload bit of the device, or a component beyond the rated load.
+        const SATURATED = 1;
+        /// The device warns.
+        const DEVICE_WARNING = 1 << 1;
+        /// The device calls the sample wrong.
+        const DEVICE_ERROR = 1 << 2;
+        /// Samples before it are missing.
+        const GAP_BEFORE = 1 << 3;
+        /// The first one after the device or the connection started anew.
+        const RESTARTED = 1 << 4;
+        /// Not measured but interpolated.
+        const INTERPOLATED = 1 << 5;
+        /// Sticks out of its neighbours.
+        const SPIKE = 1 << 6;
+        /// The tare is not that of this run of the device.
+        const TARE_STALE = 1 << 7;
+        /// The force or moments out of the plane of the rod are large.
+        const OUT_OF_PLANE = 1 << 8;
+    }
+}
+
+/// What they are called, in the order of their bits.
+const NAMES: [&str; 9] = [
+    "saturated",
+    "device warning",
+    "device error",
+    "gap before",
+    "restarted",
+    "interpolated",
+    "spike",
+    "tare stale",
+    "out of plane",
+];
+
+impl Quality {
+    /// Whether the values mean what they say: not where the sensor was saturated, called the sample wrong, or a spike came in
+    /// between.
+    pub fn is_usable(self) -> bool {
+        !self.intersects(Self::SATURATED | Self::DEVICE_ERROR | Self::SPIKE)
+    }
+
+    /// The flags that are set, by name.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        NAMES.iter().enumerate().filter(move |(bit, _)| self.bits() >> bit & 1 == 1).map(|(_, name)| *name)
+    }
+}
+
+impl core::fmt::Display for Quality {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        if self.is_empty() {
+            return f.write_str("good");
+        }
+        for (i, name) in self.names().enumerate() {
+            f.write_str(if i == 0 { "" } else { ", " })?;
+            f.write_str(name)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,113 @@
+//! Sequence numbers: what is missing, repeated, late.
+
+/// Follows the counter of a device, which wraps.
+///
+/// A number up to half the range ahead is an advance, one behind is late. A device that starts anew counts from a low number
+/// again, which looks late at first: two numbers in a row that are behind and follow each other are a restart.
+///
+/// ```
+/// use rod_hw::{Sequence, Step};
+/// let mut sequence = Sequence::new(32, 1);
+/// let steps: Vec<Step> = [u32::MAX - 1, u32::MAX, 0, 3, 3, 2, 4].map(|n| sequence.step(n)).into();
+/// use Step::*;
+/// assert_eq!(steps, [First, Next, Next, Gap(2), Repeated, Late, Next]);
+/// assert_eq!(sequence.unwrapped(), u64::from(u32::MAX) + 5);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Sequence {
+    bits: u32,
+    stride: u32,
+    last: Option<u32>,
+    unwrapped: u64,
+    /// The number that a restart would go on with.
+    candidate: Option<u32>,
+}
+
+/// What a number says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// The first one.
+    First,
+    /// The one that was due.
+    Next,
+    /// So many are missing before it.
+    Gap(u32),
+    /// The one before once more.
+    Repeated,
+    /// One that should have come before, or the first of a device that started anew.
+    Late,
+    /// The second of a device that started anew.
+    Restarted,
+}
+
+impl Sequence {
+    /// A counter of so many bits (1 to 32) that grows by `stride` from sample to sample.
+    pub fn new(bits: u32, stride: u32) -> Self {
+        Self { bits: bits.clamp(1, 32), stride: stride.max(1), last: None, unwrapped: 0, candidate: None }
+    }
+
+    /// Takes the number of a sample.
+    pub fn step(&mut self, number: u32) -> Step {
+        let Some(last) = self.last else {
+            self.last = Some(number);
+            self.unwrapped = u64::from(number);
+            return Step::First;
+        };
+        let mask = u32::MAX >> (32 - self.bits);
+        let ahead = number.wrapping_sub(last) & mask;
+        let candidate = self.candidate.take();
+        if ahead == 0 {
+            Step::Repeated
+        } else if ahead <= mask / 2 {
+            self.last = Some(number);
+            self.unwrapped += u64::from(ahead);
+            let missing = ahead.div_ceil(self.stride) - 1;
+            if missing == 0 { Step::Next } else { Step::Gap(missing) }
+        } else if candidate == Some(number) {
+            self.last = Some(number);
+            // goes on growing
+            self.unwrapped += 1;
+            Step::Restarted
+        } else {
+            self.candidate = Some(number.wrapping_add(self.stride) & mask);
+            Step::Late
+        }
+    }
+
+    /// The last number that was no repetition and not late, with the wraps counted.
+    pub fn unwrapped(&self) -> u64 {
+        self.unwrapped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn restart_and_its_look_alike() {
+        let mut sequence = Sequence::new(32, 1);
+        let steps = [1000, 1001, 1, 2, 3].map(|n| sequence.step(n));
+        assert_eq!(steps, [Step::First, Step::Next, Step::Late, Step::Restarted, Step::Next]);
+        let mut sequence = Sequence::new(16, 2);
+        let steps = [65_534, 0, 4, 2, 6].map(|n| sequence.step(n));
+        assert_eq!(steps, [Step::First, Step::Next, Step::Gap(1), Step::Late, Step::Next]);
+        assert_eq!(sequence.unwrapped(), 65_536 + 6);
+    }
+
+    proptest! {
+        #[test]
+        fn missing_numbers_add_up(start: u32, gaps in proptest::collection::vec(1_u32..1000, 1..100)) {
+            let mut sequence = Sequence::new(32, 1);
+            sequence.step(start);
+            let (mut number, mut missing) = (start, 0);
+            for gap in &gaps {
+                number = number.wrapping_add(*gap);
+                if let Step::Gap(n) = sequence.step(number) { missing += n }
+            }
+            prop_assert_eq!(missing, gaps.iter().map(|gap| gap - 1).sum::<u32>());
+            prop_assert_eq!(sequence.unwrapped(), u64::from(start) + gaps.iter().map(|gap| u64::from(*gap)).sum::<u64>());
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Where the clamp is at a time.
+
+use rod_core::Pose;
+
+/// A source of clamp poses: where the stage has the clamp at a time.
+pub trait StageSource {
+    /// Pose of the clamp (m, m, rad) at time `t` (s, on the clock of the samples).
+    ///
+    /// # Errors
+    /// [`StageError`] where that is not known: a stage does not extrapolate.
+    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError>;
+}
+
+/// Why there is no pose.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StageError {
+    /// The time lies outside of what is known.
+    #[error(
+        "the stage is known from {from} s to {to} s, expected to cover the sample at {t} s; record the stage longer, or shift its clock"
+    )]
+    Outside {
+        /// The time asked for, s.
+        t: f64,
+        /// The first time known, s.
+        from: f64,
+        /// The last time known, s.
+        to: f64,
+    },
+    /// The time, or the pose there, is no number.
+    #[error("the pose at {t} s is not finite, expected finite numbers of m, m and rad")]
+    NotFinite {
+        /// The time asked for, s.
+        t: f64,
+    },
+}
+
+/// A closure of the time (s) as a stage.
+///
+/// ```
+/// use rod_core::Pose;
+/// use rod_hw::{FnStage, StageSource};
+/// let mut stage = FnStage(|t: f64| Ok(Pose { x: 0.08 - 1e-3 * t, y: -0.04, phi: 1.5 + 0.01 * t.sin() }));
+/// assert_eq!(stage.pose_at(10.0)?.x, 0.07);
+/// # Ok::<(), rod_hw::StageError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct FnStage<F>(pub F);
+
+impl<F: FnMut(f64) -> Result<Pose, StageError>> StageSource for FnStage<F> {
+    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
+        (self.0)(t)
+    }
+}
+
+impl<S: StageSource + ?Sized> StageSource for &mut S {
+    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
+        (**self).pose_at(t)
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: StageSource + ?Sized> StageSource for Box<S> {
+    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
+        (**self).pose_at(t)
+    }
+}
