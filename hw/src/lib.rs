@@ -27,6 +27,7 @@ mod sequence;
 mod source;
 mod stage;
 mod transport;
+mod unit;
 mod wrench;
 mod wrench_sample;
 
@@ -44,5 +45,6 @@ pub use sequence::{Sequence, Step};
 pub use source::{RawSource, WrenchSource};
 pub use stage::{FnStage, StageError, StageSource};
 pub use transport::Transport;
+pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;
 pub use wrench_sample::WrenchSample;

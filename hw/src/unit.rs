@@ -1,0 +1,232 @@
+//! Units by name.
+
+use Dimension::{Angle, Force, Length, Temperature, Time, Torque};
+use core::f64::consts::PI;
+
+/// What a unit measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// In SI: N.
+    Force,
+    /// In SI: N m.
+    Torque,
+    /// In SI: m.
+    Length,
+    /// In SI: rad.
+    Angle,
+    /// In SI: s.
+    Time,
+    /// Degrees Celsius.
+    Temperature,
+}
+
+/// A unit of one of the accepted spellings: `N`, `mN`, `N m`, `N-mm`, `lbf in`, `mm`, `deg`, `ms` and more. Blanks, dots,
+/// hyphens and asterisks between the parts do not matter, capitals do: mN is not MN.
+///
+/// ```
+/// use rod_hw::{Dimension, Unit};
+/// let unit = Unit::parse("N-mm", Dimension::Torque)?;
+/// assert_eq!((unit.name, unit.factor), ("N mm", 1e-3)); // N m each
+/// let wrong = Unit::parse("mN", Dimension::Torque).unwrap_err().to_string();
+/// assert!(wrong.starts_with("`mN` is a unit of force, expected one of torque: N m, mN m, N mm"), "{wrong}");
+/// # Ok::<(), rod_hw::UnitError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// How it is usually written.
+    pub name: &'static str,
+    /// What it measures.
+    pub dimension: Dimension,
+    /// One of it in SI.
+    pub factor: f64,
+}
+
+/// Why a text is no unit.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// No such spelling.
+    #[error("`{shown}` is no unit that is known, expected one of {expected}: {}", List(*.expected))]
+    Unknown {
+        /// The text, or its beginning.
+        shown: Shown,
+        /// What is expected.
+        expected: Dimension,
+    },
+    /// A unit of something else.
+    #[error("`{}` is a unit of {}, expected one of {expected}: {}", .found.name, .found.dimension, List(*.expected))]
+    Dimension {
+        /// The unit it is.
+        found: Unit,
+        /// What is expected.
+        expected: Dimension,
+    },
+}
+
+/// Name, other spellings without separators, what it measures, factor.
+type Row = (&'static str, &'static [&'static str], Dimension, f64);
+
+const POUND: f64 = 4.448_221_615_260_5;
+const GRAVITY: f64 = 9.806_65;
+const INCH: f64 = 0.0254;
+
+const UNITS: [Row; 35] = [
+    ("N", &["Newton", "newton", "Newtons", "newtons"], Force, 1.0),
+    ("mN", &[], Force, 1e-3),
+    ("uN", &["µN", "μN"], Force, 1e-6),
+    ("cN", &[], Force, 1e-2),
+    ("kN", &[], Force, 1e3),
+    ("lbf", &["lb", "lbs", "pound"], Force, POUND),
+    ("klbf", &["klb"], Force, 1e3 * POUND),
+    ("kgf", &["kg", "kp"], Force, GRAVITY),
+    ("gf", &["g"], Force, 1e-3 * GRAVITY),
+    ("N m", &["Newtonmeter", "newtonmetre", "Newtonmeters"], Torque, 1.0),
+    ("mN m", &[], Torque, 1e-3),
+    ("N mm", &["Newtonmillimeter", "newtonmillimetre"], Torque, 1e-3),
+    ("uN m", &["µNm", "μNm"], Torque, 1e-6),
+    ("mN mm", &[], Torque, 1e-6),
+    ("N cm", &[], Torque, 1e-2),
+    ("cN m", &[], Torque, 1e-2),
+    ("kN m", &[], Torque, 1e3),
+    ("lbf in", &["lbin", "inlb", "inlbf"], Torque, POUND * INCH),
+    ("lbf ft", &["lbft", "ftlb", "ftlbf"], Torque, POUND * 12.0 * INCH),
+    ("kgf cm", &["kgcm"], Torque, 1e-2 * GRAVITY),
+    ("m", &["metre", "meter", "metres", "meters"], Length, 1.0),
+    ("mm", &["millimetre", "millimeter"], Length, 1e-3),
+    ("um", &["µm", "μm"], Length, 1e-6),
+    ("cm", &[], Length, 1e-2),
+    ("in", &["inch"], Length, INCH),
+    ("rad", &["radian", "radians"], Angle, 1.0),
+    ("mrad", &[], Angle, 1e-3),
+    ("deg", &["°", "degree", "degrees"], Angle, PI / 180.0),
+    ("s", &["sec", "second", "seconds"], Time, 1.0),
+    ("ms", &["msec"], Time, 1e-3),
+    ("us", &["µs", "μs", "usec"], Time, 1e-6),
+    ("ns", &[], Time, 1e-9),
+    ("min", &[], Time, 60.0),
+    ("h", &[], Time, 3600.0),
+    ("degC", &["°C", "C", "Celsius"], Temperature, 1.0),
+];
+
+impl Unit {
+    /// The unit of this spelling, if it measures what is expected.
+    ///
+    /// # Errors
+    /// [`UnitError`], with the spellings that are accepted. There is no unit by default: the empty text is an error, too.
+    pub fn parse(text: &str, expected: Dimension) -> Result<Self, UnitError> {
+        match Self::find(text) {
+            Some(unit) if unit.dimension == expected => Ok(unit),
+            Some(found) => Err(UnitError::Dimension { found, expected }),
+            None => Err(UnitError::Unknown { shown: Shown::new(text), expected }),
+        }
+    }
+
+    /// The unit of this spelling, whatever it measures.
+    pub fn find(text: &str) -> Option<Self> {
+        let is = |name: &str| compact(name).eq(compact(text));
+        let row = UNITS.iter().find(|row| is(row.0) || row.1.iter().any(|other| is(other)));
+        row.map(|&(name, _, dimension, factor)| Self { name, dimension, factor })
+    }
+}
+
+/// Without what stands between the parts.
+fn compact(text: &str) -> impl Iterator<Item = char> {
+    text.chars().filter(|c| !c.is_whitespace() && !matches!(c, '-' | '*' | '.' | '·' | '⋅' | '_'))
+}
+
+impl core::fmt::Display for Dimension {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Force => "force",
+            Torque => "torque",
+            Length => "length",
+            Angle => "angle",
+            Time => "time",
+            Temperature => "temperature",
+        })
+    }
+}
+
+/// The units of a dimension, for messages.
+struct List(Dimension);
+
+impl core::fmt::Display for List {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        for (i, row) in UNITS.iter().filter(|row| row.2 == self.0).enumerate() {
+            f.write_str(if i == 0 { "" } else { ", " })?;
+            f.write_str(row.0)?;
+        }
+        Ok(())
+    }
+}
+
+/// The beginning of a text, for messages.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Shown {
+    characters: [char; Self::MOST],
+    count: usize,
+}
+
+impl Shown {
+    const MOST: usize = 24;
+
+    fn new(text: &str) -> Self {
+        let mut shown = Self { characters: ['\0'; Self::MOST], count: 0 };
+        for (place, character) in shown.characters.iter_mut().zip(text.chars()) {
+            *place = character;
+            shown.count += 1;
+        }
+        shown
+    }
+}
+
+impl core::fmt::Display for Shown {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.characters[..self.count].iter().try_for_each(|&c| core::fmt::Write::write_char(f, c))
+    }
+}
+
+impl core::fmt::Debug for Shown {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "`{self}`")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spellings() {
+        for (text, name) in [
+            ("N·m", "N m"),
+            ("Nm", "N m"),
+            ("N-m", "N m"),
+            ("Nmm", "N mm"),
+            ("mN m", "mN m"),
+            ("mNm", "mN m"),
+            (" lb-in ", "lbf in"),
+            ("µs", "us"),
+            ("°", "deg"),
+        ] {
+            assert_eq!(Unit::find(text).map(|unit| unit.name), Some(name), "{text}");
+        }
+        for text in ["", "MN", "nm", "NM", "counts", "V"] {
+            assert_eq!(Unit::find(text), None, "{text}");
+        }
+        let error = Unit::parse("counts", Force).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "`counts` is no unit that is known, expected one of force: N, mN, uN, cN, kN, lbf, klbf, kgf, gf"
+        );
+    }
+
+    #[test]
+    fn no_two_units_share_a_spelling() {
+        for row in UNITS {
+            for text in row.1.iter().chain([&row.0]) {
+                assert_eq!(Unit::find(text).unwrap().name, row.0, "{text}");
+            }
+        }
+    }
+}
