@@ -36,5 +36,5 @@ pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transiti
 pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
-pub use simulation::{Simulated, Simulation, SimulationError};
+pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
 pub use toml_file::{Invalid, SceneError};

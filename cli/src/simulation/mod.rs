@@ -1,10 +1,16 @@
 //! Simulated recordings: a scene, swept at a speed, felt by a sensor.
+//!
+//! `ticks` is the sensor's samples one after the other; here is what a recording is of, and how it is written.
+
+mod ticks;
+
+pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
 use crate::scene::MOST_STATES;
 use crate::{Error, Scene, Staged};
 use std::path::Path;
-use vibrissa::{Item, NoiseGenerator, NoiseModel, Pose, Reactions, State, Stop, Sweep};
+use vibrissa::{NoiseModel, Pose, Reactions, Stop};
 
 /// The columns, those of the standard deviations last.
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
@@ -91,28 +97,22 @@ impl Simulation {
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Output`]. A sweep that stops early is none: what there is, is
     /// written.
     pub fn write(&self, out: &Path) -> Result<Simulated, Error> {
-        let step = self.step()?;
         let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
-        let sensor = self.noise.generator(self.seed)?;
-        let Scene { rod, objects, path, .. } = &self.scene;
-        let mut recorder = Recorder { simulation: self, step, sensor, next: 0 };
-        let sweep = Sweep::new(rod, objects, *path, step)?;
+        let ticks = self.ticks()?;
         let (staged, name) = Staged::of_file(out)?;
         let mut recorded = Simulated { samples: 0, lost: 0, stop: None };
         staged.write(name, |out| {
             let columns = if sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
             let mut table = csv_writer(out);
             table.write_record(&COLUMNS[..columns])?;
-            for item in sweep {
-                match item {
-                    Ok(Item::State(state)) => match recorder.row(&state, &sigma.unwrap_or_default()) {
-                        Some(row) => {
-                            table.serialize(&row[..columns])?;
-                            recorded.samples += 1;
-                        }
-                        None => recorded.lost += 1,
-                    },
-                    Ok(Item::Event(_)) => {}
+            for tick in ticks {
+                match tick {
+                    Ok(Tick { number, pose, reactions: Some(reactions) }) => {
+                        let row = self.row(number, pose, reactions, sigma.unwrap_or_default());
+                        table.serialize(&row[..columns])?;
+                        recorded.samples += 1;
+                    }
+                    Ok(Tick { reactions: None, .. }) => recorded.lost += 1,
                     Err(stop) => recorded.stop = Some(stop),
                 }
             }
@@ -120,6 +120,12 @@ impl Simulation {
         })?;
         staged.publish()?;
         Ok(recorded)
+    }
+
+    fn row(&self, number: usize, pose: Pose, reactions: Reactions, sigma: Reactions) -> [f64; COLUMNS.len()] {
+        let (Pose { x, y, phi }, Reactions { f0x, f0y, m0z }) = (pose, reactions);
+        let t = number as f64 / self.rate;
+        [t, x, y, phi, f0x, f0y, m0z, sigma.f0x, sigma.f0y, sigma.m0z]
     }
 
     /// Way of the clamp between two samples.
@@ -149,33 +155,5 @@ impl Simulation {
             Some((channel, _)) => Err(SimulationError::NoSigma { channel }),
             None => Ok(sigma),
         }
-    }
-}
-
-/// Makes rows of states.
-struct Recorder<'a> {
-    simulation: &'a Simulation,
-    step: f64,
-    sensor: NoiseGenerator,
-    /// Number of the next sample.
-    next: usize,
-}
-
-impl Recorder<'_> {
-    /// The row of a state, unless it is lost.
-    fn row(&mut self, state: &State, sigma: &Reactions) -> Option<[f64; COLUMNS.len()]> {
-        let Pose { x, y, phi } = state.pose;
-        let path = &self.simulation.scene.path;
-        let start = path.at(0.0);
-        let way = if path.turns_only() { (phi - start.phi).abs() } else { (x - start.x).hypot(y - start.y) };
-        let number = (way / self.step).round() as usize;
-        // The sensor goes on where the sweep has nothing to report.
-        for _ in self.next..number {
-            self.sensor.sample(Reactions::default());
-        }
-        self.next = number + 1;
-        let Reactions { f0x, f0y, m0z } = self.sensor.sample(state.reactions)?;
-        let t = number as f64 / self.simulation.rate;
-        Some([t, x, y, phi, f0x, f0y, m0z, sigma.f0x, sigma.f0y, sigma.m0z])
     }
 }

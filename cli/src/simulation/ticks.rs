@@ -1,0 +1,70 @@
+//! The samples of a simulated recording, one after the other.
+
+use super::Simulation;
+use crate::Error;
+use vibrissa::{Item, NoiseGenerator, Pose, Reactions, State, Stop, Sweep};
+
+/// One sample that the sensor took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tick {
+    /// Its number, from 0 at the start of the path: the time is so many periods.
+    pub number: usize,
+    /// The clamp.
+    pub pose: Pose,
+    /// What the sensor read; none where that was lost.
+    pub reactions: Option<Reactions>,
+}
+
+/// The samples along a scene, in order; an error where the sweep stops early, and nothing after it. Poses that a snap jumps
+/// over have no sample, but a number.
+#[derive(Debug)]
+pub struct Ticks<'a> {
+    sweep: Sweep<'a>,
+    simulation: &'a Simulation,
+    step: f64,
+    sensor: NoiseGenerator,
+    /// Number of the next sample.
+    next: usize,
+}
+
+impl Simulation {
+    /// The samples. The memory they take does not grow with their number.
+    ///
+    /// # Errors
+    /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
+    pub fn ticks(&self) -> Result<Ticks<'_>, Error> {
+        let (step, sensor) = (self.step()?, self.noise.generator(self.seed)?);
+        let sweep = Sweep::new(&self.scene.rod, &self.scene.objects, self.scene.path, step)?;
+        Ok(Ticks { sweep, simulation: self, step, sensor, next: 0 })
+    }
+}
+
+impl Ticks<'_> {
+    fn tick(&mut self, state: &State) -> Tick {
+        let Pose { x, y, phi } = state.pose;
+        let path = &self.simulation.scene.path;
+        let start = path.at(0.0);
+        let way = if path.turns_only() { (phi - start.phi).abs() } else { (x - start.x).hypot(y - start.y) };
+        let number = (way / self.step).round() as usize;
+        // The sensor goes on where the sweep has nothing to report.
+        for _ in self.next..number {
+            self.sensor.sample(Reactions::default());
+        }
+        self.next = number + 1;
+        Tick { number, pose: state.pose, reactions: self.sensor.sample(state.reactions) }
+    }
+}
+
+impl Iterator for Ticks<'_> {
+    type Item = Result<Tick, Stop>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            return match self.sweep.next()? {
+                Ok(Item::State(state)) => Some(Ok(self.tick(&state))),
+                Ok(Item::Event(_)) => continue,
+                Err(stop) => Some(Err(stop)),
+            };
+        }
+    }
+}
