@@ -3,11 +3,11 @@
 use super::Reconstructed;
 use crate::RowFault;
 use serde::Serialize;
-use vibrissa::{Basis, Label, Reason, Touch};
+use vibrissa::{Basis, Label, Pose, Reading, Reason, Touch};
 
 /// A line of points.jsonl.
 #[derive(Serialize)]
-pub(super) struct PointRecord {
+pub(crate) struct PointRecord {
     x0: Option<f64>,
     y0: Option<f64>,
     phi0: Option<f64>,
@@ -24,6 +24,12 @@ impl PointRecord {
     /// The answer to a usable row.
     pub fn of_sample(found: &Reconstructed, sample: usize) -> Self {
         let (reading, pose) = (&found.found.readings[sample], found.samples[sample].pose);
+        let basis = found.found.evidence(sample).map(|evidence| evidence.basis(reading.label));
+        Self { basis, ..Self::of_reading(pose, reading) }
+    }
+
+    /// The answer to a sample with the clamp at this pose.
+    pub fn of_reading(pose: Pose, reading: &Reading) -> Self {
         Self {
             x0: Some(pose.x),
             y0: Some(pose.y),
@@ -32,15 +38,20 @@ impl PointRecord {
             label: Some(reading.label),
             several: Some(reading.label.several()),
             margin: Some(reading.margin),
-            basis: found.found.evidence(sample).map(|evidence| evidence.basis(reading.label)),
+            basis: None,
             second: reading.second.as_ref().map(TouchRecord::of),
         }
     }
 
     /// A row that cannot be used.
     pub fn of_fault(fault: &RowFault) -> Self {
-        let touch = TouchRecord { reason: Some(fault.to_string()), ..TouchRecord::default() };
-        let (x0, y0, phi0) = (fault.pose.map(|p| p.x), fault.pose.map(|p| p.y), fault.pose.map(|p| p.phi));
+        Self::without(fault.pose, fault.to_string())
+    }
+
+    /// A sample that cannot be used, and why.
+    pub fn without(pose: Option<Pose>, reason: String) -> Self {
+        let touch = TouchRecord { reason: Some(reason), ..TouchRecord::default() };
+        let (x0, y0, phi0) = (pose.map(|p| p.x), pose.map(|p| p.y), pose.map(|p| p.phi));
         Self { x0, y0, phi0, touch, label: None, several: None, margin: None, basis: None, second: None }
     }
 }
