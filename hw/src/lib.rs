@@ -16,34 +16,46 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod calibration;
+mod chain;
 mod clock;
 mod counters;
+mod frame;
 mod link;
+mod mounting;
 mod protocol;
 mod quality;
 mod raw;
 mod reaction_sample;
+mod saturation;
 mod sequence;
 mod source;
 mod stage;
+mod timing;
 mod transport;
 mod unit;
 mod wrench;
 mod wrench_sample;
 
 pub use calibration::{Calibration, CalibrationError, FnCalibration};
+pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
 pub use clock::Clock;
 #[cfg(feature = "std")]
 pub use clock::HostClock;
 pub use counters::LinkCounters;
+pub use frame::{Axis, Frame, FrameError};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
+pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
 pub use quality::Quality;
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
+pub use saturation::{RailError, Rails};
 pub use sequence::{Sequence, Step};
 pub use source::{RawSource, WrenchSource};
-pub use stage::{FnStage, StageError, StageSource};
+pub use stage::{ConstantSpeed, FnStage, Shifted, StageError, StageSource, Velocity};
+#[cfg(feature = "std")]
+pub use stage::{StageTable, StageTableError};
+pub use timing::{Timekeeper, TimingError};
 pub use transport::Transport;
 pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;

@@ -25,7 +25,7 @@ pub struct ReactionSample<T = f64> {
     pub raw: RawSample,
 }
 
-/// The components that a rod bent in the plane does not cause, in the clamp's axes.
+/// The components that a rod bent in the plane does not cause, in the axes of the scene, about the clamp.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OutOfPlane<T = f64> {
     /// Force across the plane, N.

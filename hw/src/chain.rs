@@ -1,0 +1,251 @@
+//! From raw values to the reactions at the clamp.
+
+use crate::calibration::{Calibration, CalibrationError};
+use crate::mounting::Mounting;
+use crate::quality::Quality;
+use crate::raw::RawSample;
+use crate::reaction_sample::ReactionSample;
+use crate::saturation::{RailError, Rails};
+use crate::source::{RawSource, WrenchSource};
+use crate::stage::{StageError, StageSource};
+use crate::timing::{Timekeeper, TimingError};
+use crate::wrench_sample::WrenchSample;
+use rod_core::{Pose, Scalar};
+
+/// What is done to wrenches before they are taken to the clamp: a tare. `()` does nothing, nor does `None`.
+pub trait Correction<T = f64> {
+    /// The same sample, corrected.
+    fn correct(&self, sample: &WrenchSample<T>) -> WrenchSample<T>;
+}
+
+impl<T: Copy> Correction<T> for () {
+    fn correct(&self, sample: &WrenchSample<T>) -> WrenchSample<T> {
+        *sample
+    }
+}
+
+impl<T: Copy, K: Correction<T>> Correction<T> for Option<K> {
+    fn correct(&self, sample: &WrenchSample<T>) -> WrenchSample<T> {
+        self.as_ref().map_or(*sample, |correction| correction.correct(sample))
+    }
+}
+
+/// Raw samples of a sensor to the reactions of the clamp, one by one and without allocation: rails, time, calibration, then
+/// the [`WrenchChain`].
+///
+/// ```
+/// use rod_core::Pose;
+/// use rod_hw::{
+///     Channels, ConstantSpeed, FnCalibration, Frame, Mounting, Rails, RawSample, SignalChain, Timekeeper, Velocity, Wrench,
+///     WrenchChain, WrenchSample,
+/// };
+/// // a base that tells the moment in steps of 10 uN m
+/// let calibration = FnCalibration(|raw: &RawSample| {
+///     Ok(WrenchSample::<f64>::of(raw, Wrench { force: [0.0; 3], torque: [0.0, 0.0, 1e-5 * raw.channels[0]] }))
+/// });
+/// let start = Pose { x: 0.08, y: -0.04, phi: 1.571 };
+/// let stage = ConstantSpeed::new(start, Velocity { x: -1e-3, ..Velocity::default() }, 0.0)?;
+/// let mut chain = SignalChain::new(calibration, WrenchChain::new(stage, Mounting::new(Frame::same())))
+///     .with_rails(Rails::of_bits(16, 1).ok_or("no such converter")?)
+///     .with_timekeeper(Timekeeper::counted(Some(2e-3)));
+/// let found = chain.take(&RawSample::new(5.0, Channels::from([-500.0])))?;
+/// assert_eq!((found.pose.x, found.reactions.m0z), (0.075, 5e-3));
+///
+/// // or all that a source has
+/// let source = [5.002, 5.004].map(|t| Ok::<_, std::io::Error>(RawSample::new(t, Channels::from([100.0]))));
+/// let all: Result<Vec<_>, _> = chain.over(source.into_iter()).collect();
+/// assert_eq!(all?.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignalChain<C, S, K = (), T = f64> {
+    rails: Rails,
+    timekeeper: Timekeeper,
+    calibration: C,
+    wrenches: WrenchChain<S, K, T>,
+}
+
+/// Wrenches at the sensor to the reactions of the clamp: tare, pose of the clamp, mounting. Also on its own, for sensors that
+/// deliver wrenches.
+///
+/// ```
+/// use rod_core::Pose;
+/// use rod_hw::{FnStage, Frame, Mounting, Quality, Wrench, WrenchChain, WrenchSample};
+/// let stage = FnStage(|t: f64| Ok(Pose { x: -1e-3 * t, y: -0.04, phi: 1.571 }));
+/// let mut chain = WrenchChain::new(stage, Mounting::new(Frame::same()));
+/// let mut sample = WrenchSample::new(2.0, Wrench { force: [0.3, 0.0, 0.0], torque: [0.0; 3] });
+/// assert_eq!(chain.take(&sample)?.reactions.f0x, -0.3);
+/// // the device, and with it its zero, began anew
+/// sample.quality = Quality::RESTARTED;
+/// assert!(chain.take(&sample)?.quality.contains(Quality::TARE_STALE));
+/// # Ok::<(), rod_hw::ChainError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WrenchChain<S, K = (), T = f64> {
+    tare: K,
+    /// The device started anew since the tare.
+    stale: bool,
+    stage: S,
+    mounting: Mounting<T>,
+}
+
+/// Why a sample gives no reactions.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ChainError {
+    /// A raw value that is none, or another number of them.
+    #[error("raw values: {0}")]
+    Raw(#[from] RailError),
+    /// No time.
+    #[error("time: {0}")]
+    Timing(#[from] TimingError),
+    /// No wrench.
+    #[error("calibration: {0}")]
+    Calibration(#[from] CalibrationError),
+    /// No pose.
+    #[error("stage: {0}")]
+    Stage(#[from] StageError),
+    /// A wrench that is none.
+    #[error("the wrench at {t} s is not finite after the {step}, expected finite numbers of N and N m")]
+    NotFinite {
+        /// Its time, s.
+        t: f64,
+        /// What came before.
+        step: &'static str,
+    },
+}
+
+/// Why a source gives no reactions.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensorError<E> {
+    /// There is no sample.
+    #[error(transparent)]
+    Source(E),
+    /// A sample gives none.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+}
+
+impl<C, S, T> SignalChain<C, S, (), T> {
+    /// Without rails, at the host's time.
+    pub fn new<K>(calibration: C, wrenches: WrenchChain<S, K, T>) -> SignalChain<C, S, K, T> {
+        SignalChain { rails: Rails::none(), timekeeper: Timekeeper::host(), calibration, wrenches }
+    }
+}
+
+impl<C, S, K, T> SignalChain<C, S, K, T> {
+    /// With the ends of the ranges of the raw values.
+    pub fn with_rails(self, rails: Rails) -> Self {
+        Self { rails, ..self }
+    }
+
+    /// With another way to tell when samples were taken.
+    pub fn with_timekeeper(self, timekeeper: Timekeeper) -> Self {
+        Self { timekeeper, ..self }
+    }
+
+    /// Time, to look at its jitter.
+    pub fn timekeeper(&self) -> &Timekeeper {
+        &self.timekeeper
+    }
+
+    /// What comes after calibration.
+    pub fn wrenches(&mut self) -> &mut WrenchChain<S, K, T> {
+        &mut self.wrenches
+    }
+}
+
+impl<C: Calibration<T>, S: StageSource, K: Correction<T>, T: Scalar> SignalChain<C, S, K, T> {
+    /// The reactions behind a raw sample.
+    ///
+    /// # Errors
+    /// [`ChainError`]; the next sample may be good.
+    pub fn take(&mut self, raw: &RawSample) -> Result<ReactionSample<T>, ChainError> {
+        let wrench = self.wrench(raw)?;
+        self.wrenches.take(&wrench)
+    }
+
+    /// The calibrated wrench behind a raw sample, at the sensor and without the tare: what a tare is made of.
+    ///
+    /// # Errors
+    /// [`ChainError`]; the next sample may be good.
+    pub fn wrench(&mut self, raw: &RawSample) -> Result<WrenchSample<T>, ChainError> {
+        let quality = raw.quality | self.rails.check(raw)?;
+        let t = self.timekeeper.time(raw)?;
+        let sample = self.calibration.wrench(&RawSample { quality, ..*raw })?;
+        finite(&WrenchSample { t, ..sample }, "calibration")
+    }
+
+    /// The reactions behind all samples of a source. After an error it may go on.
+    pub fn over<I: RawSource>(
+        &mut self,
+        source: I,
+    ) -> impl Iterator<Item = Result<ReactionSample<T>, SensorError<<I as RawSource>::Error>>> {
+        source.map(|raw| Ok(self.take(&raw.map_err(SensorError::Source)?)?))
+    }
+}
+
+impl<S, T> WrenchChain<S, (), T> {
+    /// Without a tare.
+    pub fn new(stage: S, mounting: Mounting<T>) -> Self {
+        Self { tare: (), stale: false, stage, mounting }
+    }
+
+    /// With a tare, or a place for one: `None::<...>`.
+    pub fn with_tare<K>(self, tare: K) -> WrenchChain<S, K, T> {
+        let Self { stage, mounting, .. } = self;
+        WrenchChain { tare, stale: false, stage, mounting }
+    }
+}
+
+impl<S, K, T> WrenchChain<S, K, T> {
+    /// Takes another tare, that of this run of the device.
+    pub fn set_tare(&mut self, tare: K) {
+        (self.tare, self.stale) = (tare, false);
+    }
+
+    /// The tare.
+    pub fn tare(&self) -> &K {
+        &self.tare
+    }
+
+    /// The stage.
+    pub fn stage(&mut self) -> &mut S {
+        &mut self.stage
+    }
+
+    /// The mounting.
+    pub fn mounting(&self) -> &Mounting<T> {
+        &self.mounting
+    }
+}
+
+impl<S: StageSource, K: Correction<T>, T: Scalar> WrenchChain<S, K, T> {
+    /// The reactions behind a wrench. From a restart of the device on, and until there is another tare, samples are marked
+    /// with [`Quality::TARE_STALE`]: the zero that was subtracted, here or in the device, is gone.
+    ///
+    /// # Errors
+    /// [`ChainError`]; the next sample may be good.
+    pub fn take(&mut self, sample: &WrenchSample<T>) -> Result<ReactionSample<T>, ChainError> {
+        self.stale |= sample.quality.contains(Quality::RESTARTED);
+        let mut tared = finite(&self.tare.correct(&finite(sample, "sensor")?), "tare")?;
+        tared.quality.set(Quality::TARE_STALE, self.stale || tared.quality.contains(Quality::TARE_STALE));
+        let Pose { x, y, phi } = self.stage.pose_at(tared.t)?;
+        let pose = Pose { x: T::from_f64(x), y: T::from_f64(y), phi: T::from_f64(phi) };
+        Ok(self.mounting.reactions(&tared, pose))
+    }
+
+    /// The reactions behind all wrenches of a source. After an error it may go on.
+    pub fn over<I: WrenchSource<T>>(
+        &mut self,
+        source: I,
+    ) -> impl Iterator<Item = Result<ReactionSample<T>, SensorError<<I as WrenchSource<T>>::Error>>> {
+        source.map(|sample| Ok(self.take(&sample.map_err(SensorError::Source)?)?))
+    }
+}
+
+fn finite<T: Scalar>(sample: &WrenchSample<T>, step: &'static str) -> Result<WrenchSample<T>, ChainError> {
+    let t = sample.t;
+    if t.is_finite() && sample.wrench.is_finite() { Ok(*sample) } else { Err(ChainError::NotFinite { t, step }) }
+}

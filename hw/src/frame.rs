@@ -1,0 +1,410 @@
+//! Axes and origin, and what a wrench is in others.
+
+use crate::wrench::Wrench;
+use core::array::from_fn;
+use core::str::FromStr;
+use rod_core::Scalar;
+
+/// Rotations as given, rounded to a few digits, may be so far from orthonormal; they are then made exact.
+const ORTHONORMAL: f64 = 1e-3;
+
+/// How axes and their origin lie to others: from the sensor's to those of the scene at the clamp, say.
+///
+/// A vector v becomes R v. A wrench (F, M) becomes (R F, R (M - d x F)), d the new origin as seen from the old one, in the old axes.
+///
+/// ```
+/// use rod_hw::{Axis, Frame, Wrench};
+/// // the sensor's x points down, its z along the scene's z; the clamp sits 12 mm in front of it
+/// let frame: Frame = Frame::from_axes([Axis::MinusY, Axis::X, Axis::Z])?.with_origin([0.0, 0.012, 0.0])?;
+/// let found = frame.wrench(&Wrench { force: [-0.5, 0.0, 0.0], torque: [0.0, 0.0, 7e-3] });
+/// assert_eq!(found.force, [0.0, 0.5, 0.0]);
+/// assert!((found.torque[2] - 1e-3).abs() < 1e-12); // 7 mN m less 0.5 N at 12 mm
+/// # Ok::<(), rod_hw::FrameError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame<T = f64> {
+    rotation: [[T; 3]; 3],
+    origin: [T; 3],
+}
+
+/// One of the scene's axes, or its opposite. As text: `x`, `-x`, `y`, ...
+///
+/// ```
+/// use rod_hw::Axis;
+/// assert_eq!("-y".parse(), Ok(Axis::MinusY));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Along x.
+    X,
+    /// Against x.
+    MinusX,
+    /// Along y.
+    Y,
+    /// Against y.
+    MinusY,
+    /// Along z.
+    Z,
+    /// Against z.
+    MinusZ,
+}
+
+/// Why axes are none.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FrameError {
+    /// A number that is none, or cannot be what it is given for.
+    #[error("{what} is {value}, expected {expected}")]
+    Value {
+        /// What it is given for.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// Axes that are not of length 1, or not at right angles.
+    #[error(
+        "axes {a} and {b} have the product {product}, expected {} to within 1e-3; are these the columns or rows of a rotation?",
+        u8::from(.a == .b)
+    )]
+    NotOrthonormal {
+        /// The one, from 1.
+        a: usize,
+        /// The other.
+        b: usize,
+        /// Their scalar product.
+        product: f64,
+    },
+    /// A mirror image.
+    #[error("the axes are left-handed, expected right-handed ones: x cross y is z; check the sign of one of them")]
+    LeftHanded,
+    /// A text that names no axis.
+    #[error("no axis of this name, expected one of x, -x, y, -y, z, -z")]
+    NoAxis,
+}
+
+impl<T: Scalar> Frame<T> {
+    /// The axes and the origin themselves.
+    pub fn same() -> Self {
+        let [zero, one] = [0.0, 1.0].map(T::from_f64);
+        let rotation = from_fn(|i| from_fn(|j| if i == j { one } else { zero }));
+        Self { rotation, origin: [zero; 3] }
+    }
+
+    /// Old axes that are the new ones turned by `angle` (rad) about z: the planar case.
+    ///
+    /// ```
+    /// use rod_hw::{Frame, Wrench};
+    /// let frame = Frame::planar(std::f64::consts::FRAC_PI_2)?;
+    /// let along_x = Wrench { force: [1.0, 0.0, 0.0], torque: [0.0; 3] };
+    /// assert!((frame.wrench(&along_x).force[1] - 1.0).abs() < 1e-15); // the sensor's x is the scene's y
+    /// # Ok::<(), rod_hw::FrameError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`FrameError::Value`] where the angle is no number.
+    pub fn planar(angle: T) -> Result<Self, FrameError> {
+        number("the angle", angle)?;
+        Ok(Self::same().turned(angle))
+    }
+
+    /// Old axes x, y, z that point along these new ones.
+    ///
+    /// # Errors
+    /// Where two point along the same, or they are left-handed.
+    pub fn from_axes(axes: [Axis; 3]) -> Result<Self, FrameError> {
+        let columns = axes.map(|axis| axis.direction().map(T::from_f64));
+        Self::from_matrix(transposed(&columns))
+    }
+
+    /// From the rotation matrix R, row by row, that takes components in the old axes to those in the new ones.
+    ///
+    /// ```
+    /// use rod_hw::{Frame, FrameError};
+    /// assert!(Frame::from_matrix([[0.7071, -0.7071, 0.0], [0.7071, 0.7071, 0.0], [0.0, 0.0, 1.0]]).is_ok());
+    /// assert_eq!(Frame::from_matrix([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), Err(FrameError::LeftHanded));
+    /// ```
+    ///
+    /// # Errors
+    /// [`FrameError`] where it is not orthonormal to 1e-3, or left-handed; within that, the nearest rotation is taken.
+    pub fn from_matrix(rows: [[T; 3]; 3]) -> Result<Self, FrameError> {
+        for entry in rows.iter().flatten() {
+            number("an entry of the rotation matrix", *entry)?;
+        }
+        for a in 0..3 {
+            for b in a..3 {
+                let product = dot(rows[a], rows[b]).to_f64();
+                let expected = f64::from(u8::from(a == b));
+                if (product - expected).abs() > ORTHONORMAL {
+                    return Err(FrameError::NotOrthonormal { a: a + 1, b: b + 1, product });
+                }
+            }
+        }
+        if dot(cross(rows[0], rows[1]), rows[2]).to_f64() < 0.0 {
+            return Err(FrameError::LeftHanded);
+        }
+        Ok(Self { rotation: nearest_rotation(rows), ..Self::same() })
+    }
+
+    /// From the unit quaternion (w, x, y, z) that turns components in the old axes to those in the new ones.
+    ///
+    /// ```
+    /// use rod_hw::{Axis, Frame, Wrench};
+    /// let quarter = Frame::from_quaternion([0.5_f64.sqrt(), 0.0, 0.0, 0.5_f64.sqrt()])?;
+    /// let [found, expected] = [quarter, Frame::from_axes([Axis::Y, Axis::MinusX, Axis::Z])?]
+    ///     .map(|frame| frame.wrench(&Wrench::from_components([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])));
+    /// assert!((found - expected).components().iter().all(|c| c.abs() < 1e-14));
+    /// # Ok::<(), rod_hw::FrameError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`FrameError`] where its length is not 1 to 1e-3.
+    pub fn from_quaternion([w, x, y, z]: [T; 4]) -> Result<Self, FrameError> {
+        let norm = (w * w + x * x + y * y + z * z).sqrt();
+        if (norm.to_f64() - 1.0).abs() > ORTHONORMAL || norm.to_f64().is_nan() {
+            let (what, value, expected) = ("the length of the quaternion", norm.to_f64(), "1 to within 1e-3");
+            return Err(FrameError::Value { what, value, expected });
+        }
+        let [w, x, y, z] = [w / norm, x / norm, y / norm, z / norm];
+        let [one, two] = [1.0, 2.0].map(T::from_f64);
+        Self::from_matrix([
+            [one - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)],
+            [two * (x * y + w * z), one - two * (x * x + z * z), two * (y * z - w * x)],
+            [two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y)],
+        ])
+    }
+
+    /// With the new origin here, m, as seen from the old one and in the old axes: the lever arm.
+    ///
+    /// # Errors
+    /// [`FrameError::Value`] where it is no number.
+    pub fn with_origin(self, origin: [T; 3]) -> Result<Self, FrameError> {
+        for component in origin {
+            number("a component of the lever arm", component)?;
+        }
+        Ok(Self { origin, ..self })
+    }
+
+    /// The new origin as seen from the old one, in the old axes, m.
+    pub fn origin(&self) -> [T; 3] {
+        self.origin
+    }
+
+    /// Rotation matrix, row by row: from components in the old axes to those in the new ones.
+    pub fn rotation(&self) -> [[T; 3]; 3] {
+        self.rotation
+    }
+
+    /// A wrench in the old axes about the old origin, in the new axes about the new one.
+    pub fn wrench(&self, old: &Wrench<T>) -> Wrench<T> {
+        let moment = minus(old.torque, cross(self.origin, old.force));
+        Wrench { force: product(&self.rotation, old.force), torque: product(&self.rotation, moment) }
+    }
+
+    /// The way back.
+    ///
+    /// ```
+    /// use rod_hw::{Axis, Frame, Wrench};
+    /// let frame: Frame = Frame::from_axes([Axis::Z, Axis::X, Axis::Y])?.with_origin([0.1, 0.2, 0.3])?;
+    /// let wrench = Wrench::from_components([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    /// let back = frame.inverse().wrench(&frame.wrench(&wrench));
+    /// assert!((back - wrench).components().iter().all(|c| c.abs() < 1e-14));
+    /// # Ok::<(), rod_hw::FrameError>(())
+    /// ```
+    pub fn inverse(&self) -> Self {
+        let origin = product(&self.rotation, self.origin).map(|c| -c);
+        Self { rotation: transposed(&self.rotation), origin }
+    }
+
+    /// This one and then the next: from sensor to flange and from flange to clamp is from sensor to clamp.
+    pub fn then(&self, next: &Self) -> Self {
+        let onward = product(&transposed(&self.rotation), next.origin);
+        let columns = transposed(&self.rotation).map(|column| product(&next.rotation, column));
+        Self { rotation: transposed(&columns), origin: from_fn(|i| self.origin[i] + onward[i]) }
+    }
+
+    /// All of it turned by `angle` (rad) about the new z axis at the new origin.
+    pub fn turned(&self, angle: T) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let [x, y, z] = self.rotation;
+        let along = from_fn(|j| cos * x[j] - sin * y[j]);
+        let across = from_fn(|j| sin * x[j] + cos * y[j]);
+        Self { rotation: [along, across, z], ..*self }
+    }
+
+    /// The six rows that take (F, M) to the new components.
+    pub(crate) fn rows(&self) -> [[T; 6]; 6] {
+        let zero = T::from_f64(0.0);
+        from_fn(|i| {
+            if let Some(row) = self.rotation.get(i) {
+                return [row[0], row[1], row[2], zero, zero, zero];
+            }
+            // r . (M - d x F) = r . M - (r x d) . F
+            let row = self.rotation[i - 3];
+            let lever = cross(row, self.origin);
+            [-lever[0], -lever[1], -lever[2], row[0], row[1], row[2]]
+        })
+    }
+}
+
+impl Axis {
+    fn direction(self) -> [f64; 3] {
+        match self {
+            Self::X => [1.0, 0.0, 0.0],
+            Self::MinusX => [-1.0, 0.0, 0.0],
+            Self::Y => [0.0, 1.0, 0.0],
+            Self::MinusY => [0.0, -1.0, 0.0],
+            Self::Z => [0.0, 0.0, 1.0],
+            Self::MinusZ => [0.0, 0.0, -1.0],
+        }
+    }
+}
+
+impl FromStr for Axis {
+    type Err = FrameError;
+
+    fn from_str(text: &str) -> Result<Self, FrameError> {
+        Ok(match text {
+            "x" | "+x" => Self::X,
+            "-x" => Self::MinusX,
+            "y" | "+y" => Self::Y,
+            "-y" => Self::MinusY,
+            "z" | "+z" => Self::Z,
+            "-z" => Self::MinusZ,
+            _ => return Err(FrameError::NoAxis),
+        })
+    }
+}
+
+pub(crate) fn number<T: Scalar>(what: &'static str, value: T) -> Result<(), FrameError> {
+    let value = value.to_f64();
+    if value.is_finite() { Ok(()) } else { Err(FrameError::Value { what, value, expected: "a finite number" }) }
+}
+
+pub(crate) fn dot<T: Scalar>(a: [T; 3], b: [T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn minus<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    from_fn(|i| a[i] - b[i])
+}
+
+fn product<T: Scalar>(rows: &[[T; 3]; 3], vector: [T; 3]) -> [T; 3] {
+    rows.map(|row| dot(row, vector))
+}
+
+fn transposed<T: Scalar>(rows: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    from_fn(|i| from_fn(|j| rows[j][i]))
+}
+
+/// The polar factor, by the iteration R (3 - R'R) / 2 of Newton and Schulz: 1e-3 becomes 1e-6, 1e-12, rounding.
+fn nearest_rotation<T: Scalar>(mut rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
+    let [half, three_halves] = [0.5, 1.5].map(T::from_f64);
+    for _ in 0..3 {
+        // with R by rows, R (3 - R'R) / 2 = (3 - R R') R / 2
+        let gram: [[T; 3]; 3] = from_fn(|i| from_fn(|k| dot(rows[i], rows[k])));
+        let columns = transposed(&rows);
+        rows = from_fn(|i| from_fn(|j| three_halves * rows[i][j] - half * dot(gram[i], columns[j])));
+    }
+    rows
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    pub(crate) fn frames() -> impl Strategy<Value = Frame> {
+        let quaternion = proptest::array::uniform4(-1.0_f64..1.0).prop_filter_map("too short", |q| {
+            let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+            (norm > 0.1).then(|| q.map(|c| c / norm))
+        });
+        (quaternion, proptest::array::uniform3(-0.1..0.1))
+            .prop_map(|(q, d)| Frame::from_quaternion(q).unwrap().with_origin(d).unwrap())
+    }
+
+    pub(crate) fn wrenches() -> impl Strategy<Value = Wrench> {
+        proptest::array::uniform6(-2.0..2.0).prop_map(Wrench::from_components)
+    }
+
+    pub(crate) fn close(a: &Wrench, b: &Wrench) -> bool {
+        (*a - *b).components().iter().all(|c| c.abs() < 1e-13)
+    }
+
+    proptest! {
+        #[test]
+        fn there_and_back(frame in frames(), wrench in wrenches()) {
+            prop_assert!(close(&frame.inverse().wrench(&frame.wrench(&wrench)), &wrench));
+            prop_assert!(close(&frame.wrench(&frame.inverse().wrench(&wrench)), &wrench));
+        }
+
+        #[test]
+        fn two_hops_are_one(a in frames(), b in frames(), wrench in wrenches()) {
+            prop_assert!(close(&a.then(&b).wrench(&wrench), &b.wrench(&a.wrench(&wrench))));
+        }
+
+        #[test]
+        fn what_stays(frame in frames(), wrench in wrenches()) {
+            let new = frame.wrench(&wrench);
+            prop_assert!((dot(new.force, new.force) - dot(wrench.force, wrench.force)).abs() < 1e-13);
+            prop_assert!((dot(new.force, new.torque) - dot(wrench.force, wrench.torque)).abs() < 1e-13);
+            // the rows say the same
+            let rows = frame.rows();
+            let by_rows = rows.map(|row| row.iter().zip(wrench.components()).map(|(r, c)| r * c).sum::<f64>());
+            prop_assert!(close(&Wrench::from_components(by_rows), &new));
+        }
+
+        #[test]
+        fn a_force_through_the_new_origin_has_no_moment_there(frame in frames(), force in proptest::array::uniform3(-2.0..2.0)) {
+            let new = frame.wrench(&Wrench { force, torque: cross(frame.origin(), force) });
+            prop_assert!(new.torque.iter().all(|c| c.abs() < 1e-14));
+        }
+
+        #[test]
+        fn digits_that_were_cut(frame in frames()) {
+            let rounded = frame.rotation().map(|row| row.map(|c| (c * 1e4).round() / 1e4));
+            let rotation = Frame::from_matrix(rounded).unwrap().rotation();
+            for i in 0..3 {
+                for k in 0..3 {
+                    prop_assert!((rotation[i][k] - frame.rotation()[i][k]).abs() < 2e-4);
+                    prop_assert!((dot(rotation[i], rotation[k]) - f64::from(u8::from(i == k))).abs() < 1e-15);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_tool_transform_of_the_plane() {
+        // m_z' = m_z - (d_x f_y - d_y f_x)
+        let frame = Frame::same().with_origin([0.02, -0.05, 0.3]).unwrap();
+        let found = frame.wrench(&Wrench { force: [0.3, -0.4, 0.0], torque: [0.0, 0.0, 0.011] });
+        assert!((found.torque[2] - (0.011 - (0.02_f64 * -0.4 - -0.05 * 0.3))).abs() < 1e-17);
+    }
+
+    #[test]
+    fn refuses() {
+        let message = |rows| Frame::from_matrix(rows).unwrap_err().to_string();
+        assert_eq!(
+            message([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]),
+            "axes 2 and 2 have the product 4, expected 1 to within 1e-3; are these the columns or rows of a rotation?"
+        );
+        assert_eq!(
+            message([[1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 1.0]]),
+            "an entry of the rotation matrix is NaN, expected a finite number"
+        );
+        assert_eq!(Frame::<f64>::from_axes([Axis::X, Axis::MinusY, Axis::Z]), Err(FrameError::LeftHanded));
+        assert!(Frame::<f64>::from_axes([Axis::X, Axis::X, Axis::Z]).is_err());
+        for quaternion in [[1.0, 1.0, 0.0, 0.0], [f64::NAN; 4]] {
+            let error = Frame::from_quaternion(quaternion).unwrap_err().to_string();
+            assert!(error.contains("expected 1 to within 1e-3"), "{error}");
+        }
+        assert!(Frame::planar(f64::INFINITY).is_err());
+        assert!(Frame::same().with_origin([0.0, f64::NAN, 0.0]).is_err());
+        assert_eq!("X".parse::<Axis>(), Err(FrameError::NoAxis));
+    }
+}

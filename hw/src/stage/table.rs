@@ -1,0 +1,180 @@
+//! A stage whose positions were logged.
+
+use super::{StageError, StageSource};
+use rod_core::Pose;
+use std::f64::consts::PI;
+
+/// A stage whose poses were logged: between two of them they are interpolated linearly, beyond the first and last there are
+/// none.
+///
+/// ```
+/// use rod_core::Pose;
+/// use rod_hw::{StageError, StageSource, StageTable};
+/// let pose = |x| Pose { x, y: -0.04, phi: 1.571 };
+/// let mut stage = StageTable::new(vec![(0.0, pose(0.08)), (1.0, pose(0.079)), (3.0, pose(0.075))])?;
+/// assert!((stage.pose_at(2.0)?.x - 0.077).abs() < 1e-15);
+/// assert_eq!(stage.pose_at(3.5), Err(StageError::Outside { t: 3.5, from: 0.0, to: 3.0 }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageTable {
+    rows: Vec<(f64, Pose)>,
+}
+
+/// Why poses make no table.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StageTableError {
+    /// There is nothing to interpolate.
+    #[error("{found} rows, expected at least 2")]
+    Short {
+        /// How many there are.
+        found: usize,
+    },
+    /// A time or a pose is no number.
+    #[error("row {row}: {what} is {value}, expected a finite number")]
+    NotFinite {
+        /// Which row, from 1.
+        row: usize,
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Time stands still or runs back.
+    #[error("row {row}: the time is {t} s, expected more than {before} s, that of the row before")]
+    NotGrowing {
+        /// Which row, from 1.
+        row: usize,
+        /// Its time, s.
+        t: f64,
+        /// That of the row before, s.
+        before: f64,
+    },
+    /// An angle that starts anew at a whole turn.
+    #[error(
+        "row {row}: the angle jumps by {jump} rad, expected less than half a turn from row to row; take out the whole turns"
+    )]
+    Turns {
+        /// Which row, from 1.
+        row: usize,
+        /// From the row before, rad.
+        jump: f64,
+    },
+}
+
+impl StageTable {
+    /// From times (s, strictly growing) and poses there (m, m, rad).
+    ///
+    /// # Errors
+    /// [`StageTableError`] with the row.
+    pub fn new(rows: Vec<(f64, Pose)>) -> Result<Self, StageTableError> {
+        if rows.len() < 2 {
+            return Err(StageTableError::Short { found: rows.len() });
+        }
+        let mut last: Option<(f64, Pose)> = None;
+        for (row, &(t, pose)) in (1..).zip(&rows) {
+            for (what, value) in [("the time", t), ("x", pose.x), ("y", pose.y), ("the angle", pose.phi)] {
+                if !value.is_finite() {
+                    return Err(StageTableError::NotFinite { row, what, value });
+                }
+            }
+            if let Some((before, pose_before)) = last {
+                let jump = pose.phi - pose_before.phi;
+                if t <= before {
+                    return Err(StageTableError::NotGrowing { row, t, before });
+                }
+                if jump.abs() >= PI {
+                    return Err(StageTableError::Turns { row, jump });
+                }
+            }
+            last = Some((t, pose));
+        }
+        Ok(Self { rows })
+    }
+
+    /// Times (s) and poses.
+    pub fn rows(&self) -> &[(f64, Pose)] {
+        &self.rows
+    }
+}
+
+impl StageSource for StageTable {
+    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
+        if !t.is_finite() {
+            return Err(StageError::NotFinite { t });
+        }
+        let after = self.rows.partition_point(|row| row.0 < t);
+        let outside = || {
+            let ends = self.rows.first().zip(self.rows.last());
+            let (from, to) = ends.map_or((f64::NAN, f64::NAN), |(first, last)| (first.0, last.0));
+            StageError::Outside { t, from, to }
+        };
+        let &(later, to) = self.rows.get(after).ok_or_else(outside)?;
+        if later == t {
+            return Ok(to);
+        }
+        let &(earlier, from) = after.checked_sub(1).and_then(|before| self.rows.get(before)).ok_or_else(outside)?;
+        let share = (t - earlier) / (later - earlier);
+        let between = |from: f64, to: f64| from + share * (to - from);
+        Ok(Pose { x: between(from.x, to.x), y: between(from.y, to.y), phi: between(from.phi, to.phi) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn pose(x: f64) -> Pose {
+        Pose { x, y: -2.0 * x, phi: 0.5 * x }
+    }
+
+    proptest! {
+        #[test]
+        fn linear_motion_is_exact(
+            steps in proptest::collection::vec(1e-3_f64..1.0, 1..20), share in 0.0_f64..=1.0, speed in -1.0_f64..1.0,
+        ) {
+            let mut t = -3.0;
+            let mut rows = vec![(t, pose(speed * t))];
+            for step in steps {
+                t += step;
+                rows.push((t, pose(speed * t)));
+            }
+            let mut stage = StageTable::new(rows.clone()).unwrap();
+            for &(t, there) in &rows {
+                prop_assert_eq!(stage.pose_at(t), Ok(there));
+            }
+            let at = -3.0 + share * (t + 3.0);
+            let found = stage.pose_at(at.clamp(-3.0, t)).unwrap();
+            prop_assert!((found.x - speed * at).abs() < 1e-14 && (found.y + 2.0 * speed * at).abs() < 1e-14);
+            let past = |to: f64| StageError::Outside { t: to, from: -3.0, to: t };
+            prop_assert_eq!(stage.pose_at(t + 1e-9), Err(past(t + 1e-9)));
+            prop_assert_eq!(stage.pose_at(-3.1), Err(past(-3.1)));
+        }
+    }
+
+    #[test]
+    fn refuses() {
+        for (rows, message) in [
+            (vec![(0.0, pose(0.0))], "1 rows, expected at least 2"),
+            (
+                vec![(0.0, pose(0.0)), (1.0, pose(0.0)), (1.0, pose(0.0))],
+                "row 3: the time is 1 s, expected more than 1 s, that of the row before",
+            ),
+            (
+                vec![(0.0, pose(0.0)), (1.0, Pose { y: f64::NAN, ..pose(0.0) })],
+                "row 2: y is NaN, expected a finite number",
+            ),
+            (vec![(f64::INFINITY, pose(0.0)), (1.0, pose(0.0))], "row 1: the time is inf, expected a finite number"),
+            (
+                vec![(0.0, Pose { phi: 3.0, ..pose(0.0) }), (1.0, Pose { phi: -3.0, ..pose(0.0) })],
+                "row 2: the angle jumps by -6 rad, expected less than half a turn from row to row; take out the whole turns",
+            ),
+        ] {
+            assert_eq!(StageTable::new(rows).unwrap_err().to_string(), message);
+        }
+        let mut stage = StageTable::new(vec![(0.0, pose(0.0)), (1.0, pose(1.0))]).unwrap();
+        assert!(matches!(stage.pose_at(f64::NAN), Err(StageError::NotFinite { .. })));
+    }
+}
