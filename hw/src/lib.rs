@@ -4,7 +4,7 @@
 //!   and torque at the sensor's origin. [`ReactionSample`]: clamp pose and reactions. [`Quality`] travels with all of them.
 //! - [`RawSource`], [`WrenchSource`]: any iterator of results is one, so that closures (`core::iter::from_fn`), adapters,
 //!   `&mut source` and `Box<dyn Iterator>` are, too.
-//! - [`Calibration`]: raw values to a wrench. [`StageSource`]: where the clamp is at a time.
+//! - [`Calibration`]: raw values to a wrench, [`Scale`] of counts and [`GaugeMatrix`] among them. [`StageSource`]: where the clamp is at a time.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
 //!
@@ -17,6 +17,7 @@
 
 mod calibration;
 mod clock;
+mod component;
 mod counters;
 mod link;
 mod protocol;
@@ -31,10 +32,14 @@ mod unit;
 mod wrench;
 mod wrench_sample;
 
-pub use calibration::{Calibration, CalibrationError, FnCalibration};
+pub use calibration::{
+    Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix, Scale,
+    Thermometer, WrenchUnits,
+};
 pub use clock::Clock;
 #[cfg(feature = "std")]
 pub use clock::HostClock;
+pub use component::Component;
 pub use counters::LinkCounters;
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 pub use protocol::{FrameFault, Protocol, Request};
