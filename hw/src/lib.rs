@@ -5,6 +5,7 @@
 //! - [`RawSource`], [`WrenchSource`]: any iterator of results is one, so that closures (`core::iter::from_fn`), adapters,
 //!   `&mut source` and `Box<dyn Iterator>` are, too.
 //! - [`Calibration`]: raw values to a wrench, [`Scale`] of counts and [`GaugeMatrix`] among them. [`StageSource`]: where the clamp is at a time.
+//! - [`Accuracy`], [`RatedLoad`]: how far a sensor can be trusted. [`SensorCheck`]: whether it suits a rod.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
 //!
@@ -33,8 +34,8 @@ mod wrench;
 mod wrench_sample;
 
 pub use calibration::{
-    Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix, Scale,
-    Thermometer, WrenchUnits,
+    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
+    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
 };
 pub use clock::Clock;
 #[cfg(feature = "std")]

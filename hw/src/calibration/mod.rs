@@ -1,17 +1,23 @@
 //! From raw values to a wrench.
 
+mod accuracy;
 mod error;
 mod gauge_matrix;
 mod gsv_matrix;
 mod rank;
+mod rated_load;
 mod scale;
+mod sensor_check;
 mod temperature;
 mod wrench_units;
 
+pub use accuracy::Accuracy;
 pub use error::CalibrationDataError;
 pub use gauge_matrix::GaugeMatrix;
 pub use gsv_matrix::GsvMatrix;
+pub use rated_load::RatedLoad;
 pub use scale::Scale;
+pub use sensor_check::{SensorCheck, SensorFinding};
 pub use temperature::{Compensation, Thermometer};
 pub use wrench_units::WrenchUnits;
 
