@@ -4,7 +4,8 @@
 //!   and torque at the sensor's origin. [`ReactionSample`]: clamp pose and reactions. [`Quality`] travels with all of them.
 //! - [`RawSource`], [`WrenchSource`]: any iterator of results is one, so that closures (`core::iter::from_fn`), adapters,
 //!   `&mut source` and `Box<dyn Iterator>` are, too.
-//! - [`Calibration`]: raw values to a wrench. [`StageSource`]: where the clamp is at a time.
+//! - [`Calibration`]: raw values to a wrench, [`Scale`] of counts and [`GaugeMatrix`] among them. [`StageSource`]: where the clamp is at a time.
+//! - [`Accuracy`], [`RatedLoad`]: how far a sensor can be trusted. [`SensorCheck`]: whether it suits a rod.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
 //!
@@ -18,6 +19,7 @@
 mod calibration;
 mod chain;
 mod clock;
+mod component;
 mod counters;
 mod frame;
 mod link;
@@ -36,11 +38,15 @@ mod unit;
 mod wrench;
 mod wrench_sample;
 
-pub use calibration::{Calibration, CalibrationError, FnCalibration};
+pub use calibration::{
+    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
+    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
+};
 pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
 pub use clock::Clock;
 #[cfg(feature = "std")]
 pub use clock::HostClock;
+pub use component::Component;
 pub use counters::LinkCounters;
 pub use frame::{Axis, Frame, FrameError};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};

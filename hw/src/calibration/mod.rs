@@ -1,7 +1,31 @@
 //! From raw values to a wrench.
 
+mod accuracy;
+mod error;
+mod gauge_matrix;
+mod gsv_matrix;
+mod rank;
+mod rated_load;
+mod scale;
+mod sensor_check;
+mod temperature;
+mod wrench_units;
+
+pub use accuracy::Accuracy;
+pub use error::CalibrationDataError;
+pub use gauge_matrix::GaugeMatrix;
+pub use gsv_matrix::GsvMatrix;
+pub use rated_load::RatedLoad;
+pub use scale::Scale;
+pub use sensor_check::{SensorCheck, SensorFinding};
+pub use temperature::{Compensation, Thermometer};
+pub use wrench_units::WrenchUnits;
+
+use crate::component::Component;
 use crate::raw::RawSample;
+use crate::wrench::Wrench;
 use crate::wrench_sample::WrenchSample;
+use rod_core::Scalar;
 
 /// From raw values to force and torque at the sensor's origin.
 ///
@@ -38,6 +62,48 @@ pub enum CalibrationError {
     /// The calibration compensates for a temperature that the device does not tell.
     #[error("the sample has no temperature, which this calibration needs; expected one with every sample")]
     NoTemperature,
+    /// A temperature that the compensation is not for.
+    #[error(
+        "a temperature of {temperature} gives gauge {gauge} a gain of 1 / {divisor}, expected a positive one; check thermometer \
+         and gain slopes"
+    )]
+    Temperature {
+        /// Which gauge, from 1.
+        gauge: usize,
+        /// The temperature, as the device tells it.
+        temperature: f64,
+        /// One over the gain.
+        divisor: f64,
+    },
+    /// The raw values are numbers, but no wrench.
+    #[error("{component} comes out as {value} {}, expected a finite number; check the factors of the calibration", .component.si())]
+    Overflow {
+        /// Which component.
+        component: Component,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// Refuses a sample of another number of channels.
+fn expect_channels(raw: &RawSample, expected: usize) -> Result<(), CalibrationError> {
+    let found = raw.channels.len();
+    if found == expected { Ok(()) } else { Err(CalibrationError::Channels { found, expected }) }
+}
+
+/// A channel, from 0, if it is a number.
+fn finite_channel(raw: &RawSample, channel: usize) -> Result<f64, CalibrationError> {
+    let value = raw.channels.get(channel).copied().unwrap_or(f64::NAN);
+    if value.is_finite() { Ok(value) } else { Err(CalibrationError::NotFinite { channel: channel + 1, value }) }
+}
+
+/// The sample of these components, if they are numbers.
+fn finished<T: Scalar>(raw: &RawSample, components: [T; 6]) -> Result<WrenchSample<T>, CalibrationError> {
+    let wrench = Wrench::from_components(components);
+    match Component::ALL.iter().find(|c| !c.of(&wrench).to_f64().is_finite()) {
+        Some(&component) => Err(CalibrationError::Overflow { component, value: component.of(&wrench).to_f64() }),
+        None => Ok(WrenchSample::of(raw, wrench)),
+    }
 }
 
 /// A closure as a calibration.
