@@ -7,6 +7,7 @@
 //! - [`Calibration`]: raw values to a wrench. [`StageSource`]: where the clamp is at a time.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
+//! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
 //! sample is generic over the number, f32 or f64.
@@ -15,6 +16,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+#[cfg(feature = "embedded-hal")]
+pub mod adc;
 mod calibration;
 mod clock;
 mod counters;
