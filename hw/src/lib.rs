@@ -22,6 +22,7 @@ mod link;
 mod protocol;
 mod quality;
 mod raw;
+pub mod rdt;
 mod reaction_sample;
 mod sequence;
 mod source;
