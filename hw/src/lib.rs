@@ -30,6 +30,7 @@ mod mounting;
 mod protocol;
 mod quality;
 mod raw;
+pub mod rdt;
 mod reaction_sample;
 mod saturation;
 mod sequence;

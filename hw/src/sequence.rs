@@ -74,6 +74,34 @@ impl Sequence {
         }
     }
 
+    /// How far ahead of the last number this one is, behind where negative; none before the first. For those who know more
+    /// than one counter and decide themselves, with [`advance`](Self::advance).
+    pub fn ahead(&self, number: u32) -> Option<i64> {
+        let mask = u32::MAX >> (32 - self.bits);
+        let ahead = number.wrapping_sub(self.last?) & mask;
+        Some(if ahead <= mask / 2 { i64::from(ahead) } else { i64::from(ahead) - i64::from(mask) - 1 })
+    }
+
+    /// Goes on from this number: of the same run where it is ahead, of a new one otherwise. What
+    /// [`unwrapped`](Self::unwrapped) tells grows in any case.
+    ///
+    /// ```
+    /// use rod_hw::Sequence;
+    /// let mut sequence = Sequence::new(32, 1);
+    /// sequence.advance(1000);
+    /// assert_eq!(sequence.ahead(997), Some(-3));
+    /// sequence.advance(1); // the device started anew
+    /// assert_eq!((sequence.ahead(3), sequence.unwrapped()), (Some(2), 1001));
+    /// ```
+    pub fn advance(&mut self, number: u32) {
+        self.unwrapped = match self.ahead(number) {
+            None => u64::from(number),
+            Some(ahead) => self.unwrapped + u64::try_from(ahead).unwrap_or(0).max(1),
+        };
+        self.last = Some(number);
+        self.candidate = None;
+    }
+
     /// The last number that was no repetition and not late, with the wraps counted.
     pub fn unwrapped(&self) -> u64 {
         self.unwrapped
