@@ -18,6 +18,7 @@
 mod calibration;
 mod clock;
 mod counters;
+pub mod framed;
 mod link;
 mod protocol;
 mod quality;
