@@ -22,7 +22,7 @@ pub struct LinkCounters {
     pub answers: u64,
     /// Datagrams from elsewhere.
     pub foreign: u64,
-    /// Bytes outside of any frame.
+    /// Bytes of a stream that belong to no good frame: those of damaged frames are among them.
     pub skipped_bytes: u64,
     /// Samples handed on that the device calls wrong or saturated.
     pub device_errors: u64,

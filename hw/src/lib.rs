@@ -25,6 +25,7 @@ mod clock;
 mod component;
 mod counters;
 mod frame;
+pub mod framed;
 mod link;
 mod mounting;
 mod protocol;
@@ -42,10 +43,7 @@ mod unit;
 mod wrench;
 mod wrench_sample;
 
-pub use calibration::{
-    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
-    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
-};
+pub use calibration::{Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix, RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits};
 pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
 pub use clock::Clock;
 #[cfg(feature = "std")]

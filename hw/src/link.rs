@@ -66,6 +66,9 @@ pub enum LinkError<E> {
         /// The last one.
         last: FrameFault,
     },
+    /// The device refuses what it is asked to do, which goes on being asked for.
+    #[error("{0}")]
+    Refused(FrameFault),
     /// The connection is broken. Where the settings say so, the link tries to make it anew while it is asked for samples.
     #[error("the connection is broken: {0}")]
     Broken(E),
@@ -168,6 +171,7 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
                     sample.quality |= core::mem::take(&mut self.flags);
                     return Some(Ok(sample));
                 }
+                Some(Err(fault @ FrameFault::Refused { .. })) => return Some(Err(LinkError::Refused(fault))),
                 Some(Err(last)) => {
                     self.faults += 1;
                     if self.faults >= self.settings.storm {

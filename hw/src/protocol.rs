@@ -7,8 +7,9 @@ use core::ops::Deref;
 /// A device's language: a state machine that is handed bytes and time, and neither reads nor writes, nor looks at a clock.
 ///
 /// For protocol authors, the contract:
-/// 1. [`decode`](Self::decode) consumes at least one byte of what it is handed, or all of it and returns `None`. It never
-///    panics, whatever the bytes, and keeps a bounded number of them.
+/// 1. [`decode`](Self::decode) returns `None` only when it has consumed all that it was handed. It tells at most one thing
+///    for each byte that it ever consumed, so that asking until there is nothing to tell comes to an end. It never panics,
+///    whatever the bytes, and keeps a bounded number of them.
 /// 2. Of a stream, bytes one at a time give the same samples as all at once. Of datagrams, each call begins with a whole
 ///    one or with what an earlier call left of it.
 /// 3. [`counters`](Self::counters) account for every frame and every byte outside of frames.
@@ -36,6 +37,43 @@ pub trait Protocol {
 
     /// What came so far. The link adds what it alone knows.
     fn counters(&self) -> LinkCounters;
+}
+
+impl<P: Protocol + ?Sized> Protocol for &mut P {
+    fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
+        (**self).decode(bytes, now)
+    }
+    fn request(&mut self, now: f64) -> Option<Request> {
+        (**self).request(now)
+    }
+    fn farewell(&self) -> Option<Request> {
+        (**self).farewell()
+    }
+    fn reset(&mut self) {
+        (**self).reset();
+    }
+    fn counters(&self) -> LinkCounters {
+        (**self).counters()
+    }
+}
+
+#[cfg(feature = "std")]
+impl<P: Protocol + ?Sized> Protocol for Box<P> {
+    fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
+        (**self).decode(bytes, now)
+    }
+    fn request(&mut self, now: f64) -> Option<Request> {
+        (**self).request(now)
+    }
+    fn farewell(&self) -> Option<Request> {
+        (**self).farewell()
+    }
+    fn reset(&mut self) {
+        (**self).reset();
+    }
+    fn counters(&self) -> LinkCounters {
+        (**self).counters()
+    }
 }
 
 /// What is wrong with one frame.

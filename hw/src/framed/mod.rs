@@ -1,0 +1,62 @@
+//! Sensors on a serial line whose bytes are frames: sync, length, check.
+//!
+//! One engine, [`Framed`], for any [`Profile`]:
+//!
+//! | profile | devices | check | number, time | channels |
+//! |---|---|---|---|---|
+//! | [`Gsv`] | ME-Messsysteme GSV-8, GSV-6 | terminator only | none | up to 16: units (f32) or counts (16, 24 bit) |
+//! | [`Bota`] | Bota Systems SensONE, Rokubi | CRC-16/X.25 | time, us | Fx Fy Fz Mx My Mz, N and N m |
+//! | [`OptoForce`] | OptoForce, OnRobot by USB | sum of bytes | counter | 3, 6 or 12 counts |
+//! | [`Robotiq`] | Robotiq FT 300, FT 150 | CRC-16/MODBUS | none | Fx to Mz, counts of 10 mN and 1 mN m |
+//! | [`Hx711`] | strain gauges at HX711s, on an Arduino | delimiter only | none | up to 16, mV |
+//!
+//! A device that is not there needs three functions and what it answers: see [`Profile`]. Without the feature `std` all of
+//! it works, too, and allocates nothing.
+
+mod bota;
+mod engine;
+pub mod gsv;
+mod hx711;
+mod optoforce;
+mod profile;
+mod robotiq;
+mod scanner;
+
+pub use bota::{Bota, BotaFilter};
+pub use engine::Framed;
+pub use gsv::{Gsv, GsvValues};
+pub use hx711::Hx711;
+pub use optoforce::{OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup};
+pub use profile::{Await, Content, Counter, Framing, Head, Profile, Reading, Step};
+pub use robotiq::Robotiq;
+pub use scanner::{LONGEST_FRAME, Scanner};
+
+/// Words of two bytes.
+fn words(bytes: &[u8]) -> impl Iterator<Item = [u8; 2]> {
+    bytes.chunks_exact(2).map(|pair| [pair[0], pair[1]])
+}
+
+/// Words of four bytes.
+fn doubles(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> {
+    bytes.chunks_exact(4).map(|four| [four[0], four[1], four[2], four[3]])
+}
+
+/// Two bytes of a frame whose length is checked; zeros beyond its end.
+fn word_at(frame: &[u8], at: usize) -> [u8; 2] {
+    frame.get(at..at + 2).and_then(|bytes| bytes.try_into().ok()).unwrap_or_default()
+}
+
+/// Four bytes of a frame whose length is checked; zeros beyond its end.
+fn double_at(frame: &[u8], at: usize) -> [u8; 4] {
+    frame.get(at..at + 4).and_then(|bytes| bytes.try_into().ok()).unwrap_or_default()
+}
+
+/// The values that there are, at most as many as fit.
+fn channels(values: impl Iterator<Item = f64>) -> crate::raw::Channels {
+    let (mut all, mut count) = ([0.0; crate::raw::Channels::MOST], 0);
+    for (place, value) in all.iter_mut().zip(values) {
+        *place = value;
+        count += 1;
+    }
+    crate::raw::Channels::new(&all[..count]).unwrap_or_default()
+}
