@@ -20,6 +20,7 @@ mod resolved;
 mod sample;
 mod scan;
 mod scene;
+mod setup;
 mod simulation;
 mod table;
 mod toml_file;
@@ -38,5 +39,6 @@ pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transiti
 pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
+pub use setup::{Setup, TareSetup};
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
 pub use toml_file::{Invalid, SceneError};

@@ -1,0 +1,66 @@
+//! The setup as written: names, types and spans.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A setup file.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Document {
+    #[serde(default)]
+    pub sensor: SensorTable,
+    #[serde(default)]
+    pub mounting: MountingTable,
+    #[serde(default)]
+    pub accuracy: AccuracyTable,
+    #[serde(default)]
+    pub tare: TareTable,
+}
+
+/// `[sensor]`: what it sends.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SensorTable {
+    pub profile: Option<Spanned<String>>,
+    pub rate: Option<Spanned<f64>>,
+    pub force_unit: Option<Spanned<String>>,
+    pub torque_unit: Option<Spanned<String>>,
+    pub counts_per_force_unit: Option<Spanned<f64>>,
+    pub counts_per_torque_unit: Option<Spanned<f64>>,
+    pub channels: Option<Spanned<Vec<String>>>,
+}
+
+/// `[mounting]`: how it sits under the clamp.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MountingTable {
+    pub angle: Option<Spanned<f64>>,
+    pub axes: Option<Spanned<Vec<String>>>,
+    pub lever: Option<Spanned<Vec<f64>>>,
+    pub lever_tolerance: Option<Spanned<f64>>,
+    pub sense: Option<Spanned<String>>,
+    pub turns_from: Option<Spanned<f64>>,
+    pub most_force_across: Option<Spanned<f64>>,
+    pub most_moment_across: Option<Spanned<f64>>,
+}
+
+/// `[accuracy]`: how far it can be trusted.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AccuracyTable {
+    pub force_range: Option<Spanned<f64>>,
+    pub torque_range: Option<Spanned<f64>>,
+    pub force_class: Option<Spanned<f64>>,
+    pub torque_class: Option<Spanned<f64>>,
+    pub force_sigma: Option<Spanned<f64>>,
+    pub torque_sigma: Option<Spanned<f64>>,
+}
+
+/// `[tare]`: the window without contact that a scan begins with.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TareTable {
+    pub seconds: Option<Spanned<f64>>,
+    pub force_change: Option<Spanned<f64>>,
+    pub torque_change: Option<Spanned<f64>>,
+}

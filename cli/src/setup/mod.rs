@@ -1,0 +1,94 @@
+//! The setup of a sensor, read from a TOML file: what it sends, how it sits under the clamp, how far it can be trusted.
+//!
+//! `document` is the file as written, `check` turns it into what the library takes.
+
+mod check;
+mod document;
+
+use crate::{SceneError, toml_file};
+use document::Document;
+use serde::Deserialize;
+use std::path::Path;
+use toml::de::Deserializer;
+use vibrissa::hw::rdt::RdtProfile;
+use vibrissa::hw::{Accuracy, Frame, Mounting, RatedLoad, Scale, Wrench};
+
+/// How a sensor is set up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setup {
+    /// Family of an RDT sensor.
+    pub profile: RdtProfile,
+    /// Rate of its own counter, Hz: where it is known, times are counted.
+    pub rate: Option<f64>,
+    /// What its numbers are in N and N m; none where the device or its protocol tells.
+    pub scale: Option<Scale>,
+    /// How it sits under the clamp.
+    pub mounting: Mounting,
+    /// How much it may be loaded.
+    pub rated: Option<RatedLoad>,
+    /// Its class in percent of that.
+    pub class: Wrench,
+    /// How far it can be trusted.
+    pub accuracy: Option<Accuracy>,
+    /// The window for the tare.
+    pub tare: TareSetup,
+}
+
+/// The window without contact that a scan begins with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TareSetup {
+    /// How long it is, s.
+    pub seconds: f64,
+    /// Largest change of a component within it, N and N m; where it is not given, a tenth of E I / L^2 and E I / L.
+    pub change: Option<Wrench>,
+}
+
+impl Default for Setup {
+    /// A Net F/T that tells its scaling, with the scene's axes and its origin at the clamp, tared for a second.
+    fn default() -> Self {
+        Self {
+            profile: RdtProfile::NetFt,
+            rate: None,
+            scale: None,
+            mounting: Mounting::new(Frame::same()),
+            rated: None,
+            class: Wrench::default(),
+            accuracy: None,
+            tare: TareSetup { seconds: 1.0, change: None },
+        }
+    }
+}
+
+impl Setup {
+    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the file cannot be read, or is no setup.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        Self::parse(file, &toml_file::text("the setup", file)?)
+    }
+
+    /// The setup in a text; `file` names it in messages.
+    ///
+    /// ```
+    /// use vibrissa_cli::Setup;
+    /// let setup = Setup::parse("sensor.toml".as_ref(), r#"
+    ///     [sensor]
+    ///     rate = 7000.0                # Hz, of its own counter
+    ///     [mounting]
+    ///     axes = ["-y", "x", "z"]      # of the scene, along which its x, y, z lie
+    ///     lever = [0.0, 0.012, 0.0]    # m, from its origin to the clamp, in its axes
+    /// "#)?;
+    /// assert_eq!((setup.rate, setup.scale), (Some(7000.0), None));
+    /// # Ok::<(), vibrissa_cli::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with the place in the text.
+    pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
+        toml_file::parse(file, text, |table| {
+            let tree = table.get_ref().clone();
+            check::setup(&Document::deserialize(Deserializer::from(table))?, &tree)
+        })
+    }
+}
