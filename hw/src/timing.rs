@@ -24,10 +24,11 @@ const RUN: u32 = 32;
 
 /// When samples were taken, in seconds of the host's clock; never earlier than the sample before.
 ///
-/// One of three ways, by what the device tells:
+/// One of four ways, by what the device tells:
 /// - [`host`](Self::host): when they arrived. They are late, each by another amount.
 /// - [`device`](Self::device): by the device's own clock, set to the host's by the sample that came with the least delay.
 /// - [`counted`](Self::counted): numbers of samples times their period, which is fitted.
+/// - [`paced`](Self::paced): numbers of samples times a period that is exact, from when the first one arrived.
 ///
 /// ```
 /// use rod_hw::{Channels, RawSample, Timekeeper};
@@ -59,6 +60,7 @@ enum Way {
     Host,
     Device(Device),
     Counted(Counted),
+    Paced(Paced),
 }
 
 /// Why a sample has no time.
@@ -114,6 +116,21 @@ impl Timekeeper {
         Self::of(Way::Counted(Counted::new(period.filter(|period| period.is_finite() && *period > 0.0))))
     }
 
+    /// The sample's number times `period` (s; positive), from the host's time of the first one on. Samples without a number are
+    /// counted. For a stage that runs on the device's clock, or when that is better than the host's: distances of samples are
+    /// exact, however late they come.
+    ///
+    /// ```
+    /// use rod_hw::{Channels, RawSample, Timekeeper};
+    /// let mut timekeeper = Timekeeper::paced(2e-3);
+    /// let raw = |sequence, host_time| RawSample { sequence: Some(sequence), ..RawSample::new(host_time, Channels::default()) };
+    /// let times = [raw(70, 1.0), raw(71, 1.0025), raw(75, 1.5)].map(|raw| timekeeper.time(&raw));
+    /// assert_eq!(times, [Ok(1.0), Ok(1.002), Ok(1.01)]);
+    /// ```
+    pub fn paced(period: f64) -> Self {
+        Self::of(Way::Paced(Paced { period, first: None, last: 0 }))
+    }
+
     fn of(way: Way) -> Self {
         Self { way, last: None, scatter: 0.0, count: 0, restarts: 0 }
     }
@@ -132,6 +149,7 @@ impl Timekeeper {
                 device.time(host, own, anew)
             }
             Way::Counted(counted) => counted.time(host, raw.sequence, anew),
+            Way::Paced(paced) => paced.time(host, raw.sequence, anew),
         };
         self.restarts += u64::from(restarted);
         self.count += 1;
@@ -150,6 +168,7 @@ impl Timekeeper {
     pub fn period(&self) -> Option<f64> {
         match &self.way {
             Way::Counted(counted) => counted.period,
+            Way::Paced(paced) => Some(paced.period),
             _ => None,
         }
     }
@@ -267,6 +286,33 @@ impl Counted {
         self.fitted = self.fitted.min(FAMILIAR);
         self.run = (0, 0.0);
         (host, 0.0, restarted)
+    }
+}
+
+/// Steps of one length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Paced {
+    period: f64,
+    /// The first sample: its number and time.
+    first: Option<(u64, f64)>,
+    /// Number of the last one.
+    last: u64,
+}
+
+impl Paced {
+    /// Time, what the host's stamp is off, and whether it started anew.
+    fn time(&mut self, host: f64, number: Option<u64>, anew: bool) -> (f64, f64, bool) {
+        let going = self.first.filter(|_| !anew);
+        let number = number.unwrap_or(if going.is_some() { self.last + 1 } else { 0 });
+        let (Some((first, start)), true) = (going, number >= self.last) else {
+            let restarted = self.first.is_some();
+            (self.first, self.last) = (Some((number, host)), number);
+            return (host, 0.0, restarted);
+        };
+        self.last = number;
+        // a product, not a sum of steps: nothing adds up
+        let time = start + (number - first) as f64 * self.period;
+        (time, host - time, false)
     }
 }
 
@@ -417,12 +463,13 @@ mod tests {
         /// Whatever the stamps and numbers are, time is finite and never runs back.
         #[test]
         fn monotonic(
-            way in 0..3,
+            way in 0..4,
             samples in proptest::collection::vec((0.0_f64..10.0, 0_u64..50, 0.0_f64..10.0, any::<bool>()), 1..200),
         ) {
             let mut timekeeper = match way {
                 0 => Timekeeper::host(),
                 1 => Timekeeper::device(1.0),
+                2 => Timekeeper::paced(1e-2),
                 _ => Timekeeper::counted(None),
             };
             let mut last = f64::NEG_INFINITY;

@@ -46,7 +46,10 @@ fn scale(table: &SensorTable, place: Range<usize>) -> Result<Option<Scale>, Faul
             return Ok(None);
         }
         _ => {
-            return Err(Fault::new(place, "expected both units, force_unit and torque_unit, beside counts or channels"));
+            return Err(Fault::new(
+                place,
+                "expected both units, force_unit and torque_unit, beside counts or channels",
+            ));
         }
     };
     let [force, torque] = units;
@@ -60,7 +63,10 @@ fn scale(table: &SensorTable, place: Range<usize>) -> Result<Option<Scale>, Faul
             WrenchUnits::new(force, torque).map_err(|error| Fault::new(place.clone(), error.to_string()))?,
         ),
         _ => {
-            return Err(Fault::new(place, "expected both counts_per_force_unit and counts_per_torque_unit, or neither"));
+            return Err(Fault::new(
+                place,
+                "expected both counts_per_force_unit and counts_per_torque_unit, or neither",
+            ));
         }
     };
     let Some(channels) = channels else { return Ok(Some(scale)) };
