@@ -1,0 +1,92 @@
+//! Why there is no live scan.
+
+use std::path::PathBuf;
+use vibrissa::hw::recording::{ColumnError, RowProblem, TableError};
+use vibrissa::hw::{ChainError, StageError, StageTableError, TareError};
+
+/// Why there is no live scan, or none any more.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LiveError {
+    /// The sensor cannot be reached or understood.
+    #[error("{address}: {source}")]
+    Sensor {
+        /// Where it should be.
+        address: String,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// It is not known what the numbers of the sensor are.
+    #[error(
+        "{address}: nothing tells what its numbers are in N and N m; give force_unit and torque_unit, and the counts per unit of \
+         each where it sends counts, in the table [sensor] of a setup (--setup FILE)"
+    )]
+    NoScale {
+        /// Where it is.
+        address: String,
+    },
+    /// A constant speed along no path.
+    #[error(
+        "--stage constant:SPEED needs the path of the clamp: give --path SCENE, a TOML file with [sweep], or a scene as --rod"
+    )]
+    NoPath,
+    /// Nothing tells where the clamp is.
+    #[error("{address}: nothing tells where the clamp is; give --stage constant:SPEED or table:FILE")]
+    NoStage {
+        /// Where the samples come from.
+        address: String,
+    },
+    /// The stage cannot move like this.
+    #[error("the stage: {0}")]
+    Stage(StageError),
+    /// A table cannot be read.
+    #[error(transparent)]
+    Table(TableError),
+    /// It lacks columns.
+    #[error(transparent)]
+    Columns(ColumnError),
+    /// A row of the table of poses cannot be used.
+    #[error("{}:{line}: {problem}", file.display())]
+    StageRow {
+        /// Which file.
+        file: PathBuf,
+        /// Which line.
+        line: u64,
+        /// What is wrong with it.
+        problem: RowProblem,
+    },
+    /// A table of poses that is none.
+    #[error("{}: {source}", file.display())]
+    StageTable {
+        /// Which file.
+        file: PathBuf,
+        /// Why.
+        source: StageTableError,
+    },
+    /// The sensor cannot be tared.
+    #[error("no tare from the first {seconds} s: {source}; start where the rod is free, or change [tare] of the setup (seconds = 0 for none)")]
+    Tare {
+        /// How long the window is, s.
+        seconds: f64,
+        /// Why.
+        source: TareError,
+    },
+    /// Too little came before the end.
+    #[error("{samples} samples before the end, expected at least {fewest} for the tare and the noise of the sensor{first}")]
+    TooFew {
+        /// How many came.
+        samples: usize,
+        /// The fewest.
+        fewest: usize,
+        /// What was wrong with the first one that was no sample.
+        first: String,
+    },
+    /// The samples cannot be used.
+    #[error("sample at {t:.6} s: {source}")]
+    Chain {
+        /// When it came, s.
+        t: f64,
+        /// Why.
+        source: ChainError,
+    },
+}

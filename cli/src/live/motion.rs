@@ -1,0 +1,76 @@
+//! The stage of a live scan.
+
+use super::StageSpec;
+use crate::Error;
+use crate::live::LiveError;
+use std::path::Path;
+use vibrissa::hw::recording::{ColumnMap, Role, Table, TableOptions};
+use vibrissa::hw::{ConstantSpeed, StageError, StageSource, StageTable};
+use vibrissa::{ClampPath, Pose};
+
+/// How the clamp moves.
+#[derive(Clone, Debug)]
+pub(super) enum Motion {
+    /// Not known: the samples tell.
+    Told,
+    /// At constant speed along a path.
+    Constant(ConstantSpeed),
+    /// From a table.
+    Table(StageTable),
+}
+
+impl Motion {
+    /// What is asked for, a constant speed from time `start` (s) on.
+    pub fn new(spec: Option<&StageSpec>, path: Option<&ClampPath>, start: f64) -> Result<Self, Error> {
+        match (spec, path) {
+            (None, _) => Ok(Self::Told),
+            (Some(StageSpec::Constant(_)), None) => Err(LiveError::NoPath.into()),
+            (Some(StageSpec::Constant(speed)), Some(path)) => {
+                let duration = path.length() / speed;
+                let motion = ConstantSpeed::within(path.at(0.0), path.at(path.length()), start, start + duration);
+                Ok(Self::Constant(motion.map_err(LiveError::Stage)?))
+            }
+            (Some(StageSpec::Table(file)), _) => Ok(Self::Table(table(file)?)),
+        }
+    }
+
+    /// When it has arrived, s.
+    pub fn end(&self) -> Option<f64> {
+        match self {
+            Self::Told => None,
+            Self::Constant(motion) => Some(motion.motion().1),
+            Self::Table(table) => table.rows().last().map(|row| row.0),
+        }
+    }
+}
+
+impl StageSource for Motion {
+    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
+        match self {
+            Self::Told => Err(StageError::NotFinite { t }),
+            Self::Constant(motion) => motion.pose_at(t),
+            Self::Table(table) => table.pose_at(t),
+        }
+    }
+}
+
+/// The table of poses in a file.
+fn table(file: &Path) -> Result<StageTable, LiveError> {
+    let table = Table::read(file, &TableOptions::default()).map_err(LiveError::Table)?;
+    let roles = [Role::Time, Role::X0, Role::Y0, Role::Phi0];
+    let columns = ColumnMap::new().find(&table, &roles, &[]).map_err(LiveError::Columns)?;
+    let rows: Result<Vec<(f64, Pose)>, _> = table
+        .rows()
+        .map(|row| {
+            let number = |role| columns.needed(&row, role);
+            let of_line = |problem| LiveError::StageRow { file: file.to_path_buf(), line: row.line(), problem };
+            let [t, x, y, phi] = roles.map(number);
+            Ok((t.map_err(of_line)?, Pose {
+                x: x.map_err(of_line)?,
+                y: y.map_err(of_line)?,
+                phi: phi.map_err(of_line)?,
+            }))
+        })
+        .collect();
+    StageTable::new(rows?).map_err(|source| LiveError::StageTable { file: file.to_path_buf(), source })
+}
