@@ -6,6 +6,7 @@
 //!   `&mut source` and `Box<dyn Iterator>` are, too.
 //! - [`Calibration`]: raw values to a wrench, [`Scale`] of counts and [`GaugeMatrix`] among them. [`StageSource`]: where the clamp is at a time.
 //! - [`Accuracy`], [`RatedLoad`]: how far a sensor can be trusted. [`SensorCheck`]: whether it suits a rod.
+//! - [`TareWindow`]: samples without load to a [`Zero`]; [`Tare`]: one or two of them, taken off.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
 //! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
@@ -38,6 +39,7 @@ mod sequence;
 mod source;
 mod stage;
 mod timing;
+mod tare;
 mod transport;
 mod unit;
 mod wrench;
@@ -67,6 +69,8 @@ pub use stage::{ConstantSpeed, FnStage, Shifted, StageError, StageSource, Veloci
 #[cfg(feature = "std")]
 pub use stage::{StageTable, StageTableError};
 pub use timing::{Timekeeper, TimingError};
+pub use stage::{FnStage, StageError, StageSource};
+pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};
 pub use transport::Transport;
 pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;

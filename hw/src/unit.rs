@@ -163,18 +163,21 @@ impl core::fmt::Display for List {
 /// The beginning of a text, for messages.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Shown {
-    characters: [char; Self::MOST],
-    count: usize,
+    bytes: [u8; Self::MOST],
+    count: u8,
 }
 
 impl Shown {
-    const MOST: usize = 24;
+    /// Small, since errors are handed up by value.
+    const MOST: usize = 31;
 
     fn new(text: &str) -> Self {
-        let mut shown = Self { characters: ['\0'; Self::MOST], count: 0 };
-        for (place, character) in shown.characters.iter_mut().zip(text.chars()) {
-            *place = character;
-            shown.count += 1;
+        let mut shown = Self { bytes: [0; Self::MOST], count: 0 };
+        let ends = text.char_indices().map(|(at, character)| at + character.len_utf8());
+        let count = ends.take_while(|end| *end <= Self::MOST).last().unwrap_or(0);
+        if let (Some(place), Some(bytes)) = (shown.bytes.get_mut(..count), text.as_bytes().get(..count)) {
+            place.copy_from_slice(bytes);
+            shown.count = count as u8;
         }
         shown
     }
@@ -182,7 +185,8 @@ impl Shown {
 
 impl core::fmt::Display for Shown {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        self.characters[..self.count].iter().try_for_each(|&c| core::fmt::Write::write_char(f, c))
+        let bytes = self.bytes.get(..usize::from(self.count)).unwrap_or_default();
+        f.write_str(core::str::from_utf8(bytes).unwrap_or_default())
     }
 }
 
@@ -219,6 +223,14 @@ mod tests {
             error,
             "`counts` is no unit that is known, expected one of force: N, mN, uN, cN, kN, lbf, klbf, kgf, gf"
         );
+    }
+
+    #[test]
+    fn long_texts_are_cut_between_characters() {
+        let message = |text: &str| Unit::parse(text, Force).unwrap_err().to_string();
+        assert!(message("µµµµµµµµµµµµµµµµµ").starts_with("`µµµµµµµµµµµµµµµ` is no unit"));
+        assert!(message("").starts_with("`` is no unit"));
+        assert!(size_of::<UnitError>() <= 64, "{}", size_of::<UnitError>());
     }
 
     #[test]

@@ -65,10 +65,8 @@ mod tests {
         ) {
             let mut rows: [[f64; 8]; 6] = core::array::from_fn(|i| core::array::from_fn(|j| elements[8 * i + j]));
             let gap = 10_f64.powf(gap);
-            for j in 0..8 {
-                let others: f64 = (0..5).map(|i| mix[i] * rows[i][j]).sum();
-                rows[5][j] = others + gap * rows[5][j];
-            }
+            let others: [f64; 8] = core::array::from_fn(|j| (0..5).map(|i| mix[i] * rows[i][j]).sum());
+            rows[5].iter_mut().zip(others).for_each(|(a, others)| *a = others + gap * *a);
             let mut unit = rows;
             unit.iter_mut().for_each(scale);
             let smallest = SMatrix::<f64, 6, 8>::from_fn(|i, j| unit[i][j]).singular_values().min();
