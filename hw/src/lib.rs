@@ -28,6 +28,8 @@ mod sequence;
 mod source;
 mod stage;
 mod transport;
+#[cfg(feature = "rdt")]
+mod udp;
 mod unit;
 mod wrench;
 mod wrench_sample;
@@ -46,6 +48,8 @@ pub use sequence::{Sequence, Step};
 pub use source::{RawSource, WrenchSource};
 pub use stage::{FnStage, StageError, StageSource};
 pub use transport::Transport;
+#[cfg(feature = "rdt")]
+pub use udp::{Udp, UdpError};
 pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;
 pub use wrench_sample::WrenchSample;
