@@ -20,7 +20,7 @@ pub struct LinkCounters {
     pub bad_checksum: u64,
     /// Answers to requests.
     pub answers: u64,
-    /// Datagrams from elsewhere.
+    /// Datagrams from elsewhere, or empty.
     pub foreign: u64,
     /// Bytes of a stream that belong to no good frame: those of damaged frames are among them.
     pub skipped_bytes: u64,
@@ -28,6 +28,8 @@ pub struct LinkCounters {
     pub device_errors: u64,
     /// Times that the device's counter began anew.
     pub restarts: u64,
+    /// Samples handed on that the consumer did not take in time, thrown away.
+    pub untaken: u64,
     /// Requests sent.
     pub requests: u64,
     /// Times that the connection was made anew.
@@ -49,6 +51,7 @@ impl core::fmt::Display for LinkCounters {
             (self.skipped_bytes, "bytes skipped"),
             (self.device_errors, "called wrong by the device"),
             (self.restarts, "restarts"),
+            (self.untaken, "not taken in time"),
             (self.reconnects, "reconnects"),
         ] {
             if count > 0 {

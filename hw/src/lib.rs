@@ -41,6 +41,8 @@ mod stage;
 mod tare;
 mod timing;
 mod transport;
+#[cfg(feature = "rdt")]
+mod udp;
 mod unit;
 mod wrench;
 mod wrench_sample;
@@ -71,6 +73,8 @@ pub use stage::{StageTable, StageTableError};
 pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};
 pub use timing::{Timekeeper, TimingError};
 pub use transport::Transport;
+#[cfg(feature = "rdt")]
+pub use udp::{Udp, UdpError};
 pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;
 pub use wrench_sample::WrenchSample;

@@ -14,7 +14,7 @@ pub trait Transport {
     fn send(&mut self, bytes: &[u8]) -> Result<(), Self::Error>;
 
     /// Puts what comes within `wait` at the front of the buffer and returns how many bytes that is; none where nothing
-    /// comes.
+    /// comes. Of a datagram longer than the buffer, its beginning and its true length.
     ///
     /// # Errors
     /// Where the connection is broken, or ended by the other side.
@@ -26,7 +26,7 @@ pub trait Transport {
     /// Where that does not work (yet), or not at all for this transport.
     fn reconnect(&mut self) -> Result<(), Self::Error>;
 
-    /// Datagrams left out because they came from elsewhere.
+    /// Datagrams left out because they came from elsewhere, or empty.
     fn foreign(&self) -> u64 {
         0
     }

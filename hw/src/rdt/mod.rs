@@ -6,12 +6,20 @@
 //!
 //! Sources: ATI 9620-05-Net FT (11 and C-Ethernet Axia-02), OptoForce Ethernet Converter 2.0 (2017).
 
+#[cfg(feature = "rdt")]
+mod configuration;
 mod profile;
 mod protocol;
 mod record;
 mod request;
+#[cfg(feature = "rdt")]
+mod scaling;
 
+#[cfg(feature = "rdt")]
+pub use configuration::RdtConfiguration;
 pub use profile::RdtProfile;
 pub use protocol::{Rdt, RdtRequestError, RdtSettings};
 pub use record::RdtRecord;
 pub use request::{OnRobotFilter, RdtRequest};
+#[cfg(feature = "rdt")]
+pub use scaling::{RdtScaling, RdtScalingError, read_scaling};
