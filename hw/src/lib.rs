@@ -18,13 +18,19 @@
 mod calibration;
 mod clock;
 mod counters;
+#[cfg(feature = "std")]
+pub mod fake;
 pub mod framed;
 mod link;
 mod protocol;
 mod quality;
 mod raw;
 mod reaction_sample;
+#[cfg(feature = "std")]
+mod read_write;
 mod sequence;
+#[cfg(feature = "std")]
+mod serial;
 mod source;
 mod stage;
 mod transport;
@@ -42,7 +48,15 @@ pub use protocol::{FrameFault, Protocol, Request};
 pub use quality::Quality;
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
+#[cfg(feature = "std")]
+pub use read_write::ReadWrite;
 pub use sequence::{Sequence, Step};
+#[cfg(all(feature = "serial", unix))]
+pub use serial::{Pty, open_pty};
+#[cfg(feature = "serial")]
+pub use serial::{SerialError, SerialPort};
+#[cfg(feature = "std")]
+pub use serial::{SerialProfile, SerialProfileError};
 pub use source::{RawSource, WrenchSource};
 pub use stage::{FnStage, StageError, StageSource};
 pub use transport::Transport;
