@@ -25,6 +25,8 @@ mod chain;
 mod clock;
 mod component;
 mod counters;
+#[cfg(feature = "std")]
+pub mod fake;
 mod frame;
 pub mod framed;
 mod link;
@@ -34,8 +36,12 @@ mod quality;
 mod raw;
 pub mod rdt;
 mod reaction_sample;
+#[cfg(feature = "std")]
+mod read_write;
 mod saturation;
 mod sequence;
+#[cfg(feature = "std")]
+mod serial;
 mod source;
 mod stage;
 mod tare;
@@ -64,8 +70,16 @@ pub use protocol::{FrameFault, Protocol, Request};
 pub use quality::Quality;
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
+#[cfg(feature = "std")]
+pub use read_write::ReadWrite;
 pub use saturation::{RailError, Rails};
 pub use sequence::{Sequence, Step};
+#[cfg(all(feature = "serial", unix))]
+pub use serial::{Pty, open_pty};
+#[cfg(feature = "serial")]
+pub use serial::{SerialError, SerialPort};
+#[cfg(feature = "std")]
+pub use serial::{SerialProfile, SerialProfileError};
 pub use source::{RawSource, WrenchSource};
 pub use stage::{ConstantSpeed, FnStage, Shifted, StageError, StageSource, Velocity};
 #[cfg(feature = "std")]

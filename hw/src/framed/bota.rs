@@ -2,7 +2,7 @@
 
 use super::profile::{Await, Content, Framing, Head, Profile, Reading, Step};
 use super::{double_at, word_at};
-use crate::protocol::{FrameFault, Request};
+use crate::protocol::FrameFault;
 use crate::quality::Quality;
 use crc::{CRC_16_IBM_SDLC, Crc};
 

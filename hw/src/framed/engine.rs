@@ -108,10 +108,10 @@ impl<P: Profile> Framed<P> {
 
     /// What waits for this is done.
     fn came(&mut self, what: Await, now: f64) {
-        if let Setup::Sent { step, .. } = self.setup {
-            if self.profile.setup(step).is_some_and(|sent| sent.until == what) {
-                self.setup = Setup::Due { step: step + 1, at: now };
-            }
+        if let Setup::Sent { step, .. } = self.setup
+            && self.profile.setup(step).is_some_and(|sent| sent.until == what)
+        {
+            self.setup = Setup::Due { step: step + 1, at: now };
         }
     }
 

@@ -40,8 +40,9 @@ pub const COUNTS_24: f64 = 8_388_608.0 / 1.05;
 /// Frames of a GSV-8 or GSV-6. [`Default`]: values as f32, of any number of channels, nothing changed but that and started.
 ///
 /// Channels are in the unit that the device is set to (f32; [`unit`]), or counts about zero ([`COUNTS_16`], [`COUNTS_24`]).
-/// There is no checksum: what a flipped bit changes within a value is not detected. A device in another mode of values, or
-/// with other channels than said here, is not read but a fault.
+/// There is no checksum: what a flipped bit changes within a value is not detected, and one in the number of channels may
+/// make one frame of two unless `channels` says how many there are. A device in another mode of values, or with other
+/// channels than said here, is not read but a fault.
 ///
 /// ```
 /// use rod_hw::framed::{Framed, Gsv};
@@ -62,7 +63,7 @@ pub struct Gsv {
     pub channels: Option<usize>,
     /// Rate to set, Hz; what the device is set to, where none.
     pub rate: Option<f32>,
-    /// Whether to have the device set all channels of six axes to zero first, at rest.
+    /// Whether what its channels (6 where `channels` is none) measure at the start is zero.
     pub zero: bool,
 }
 

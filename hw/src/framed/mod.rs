@@ -31,6 +31,13 @@ pub use profile::{Await, Content, Counter, Framing, Head, Profile, Reading, Step
 pub use robotiq::Robotiq;
 pub use scanner::{LONGEST_FRAME, Scanner};
 
+#[cfg(feature = "std")]
+pub(crate) use bota::checksum as bota_checksum;
+#[cfg(feature = "std")]
+pub(crate) use optoforce::sum as optoforce_sum;
+#[cfg(feature = "std")]
+pub(crate) use robotiq::checksum as robotiq_checksum;
+
 /// Words of two bytes.
 fn words(bytes: &[u8]) -> impl Iterator<Item = [u8; 2]> {
     bytes.chunks_exact(2).map(|pair| [pair[0], pair[1]])

@@ -27,7 +27,7 @@ const STOP: [u8; 50] = [0xff; 50];
 /// let mut protocol = Framed::new(Robotiq);
 /// let frame = [0x20, 0x4e, 0x7b, 0, 0x38, 0xfe, 0x15, 3, 0x0c, 0, 0xde, 0xff, 0x38, 0, 0xe4, 0x5d];
 /// let sample = protocol.decode(&mut &frame[..], 0.0).ok_or("no sample")??;
-/// assert_eq!(sample.channels[1] * Robotiq::SCALES[1], -4.56); // N
+/// assert!((sample.channels[1] * Robotiq::SCALES[1] + 4.56).abs() < 1e-12); // N
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
