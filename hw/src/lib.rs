@@ -9,6 +9,7 @@
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
 //! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
+//! - With the feature `recordings`, `recording`: tables of text, LabVIEW's among them, read; samples recorded.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
 //! sample is generic over the number, f32 or f64.
@@ -34,6 +35,8 @@ mod raw;
 pub mod rdt;
 mod reaction_sample;
 mod saturation;
+#[cfg(feature = "recordings")]
+pub mod recording;
 mod sequence;
 mod source;
 mod stage;
@@ -57,7 +60,7 @@ pub use frame::{Axis, Frame, FrameError};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
-pub use quality::Quality;
+pub use quality::{Quality, QualityError};
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
 pub use saturation::{RailError, Rails};
