@@ -10,6 +10,7 @@
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
 //!   protocol on a transport, with a deadline.
 //! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
+//! - With the feature `recordings`, `recording`: tables of text, LabVIEW's among them, read; samples recorded.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
 //! sample is generic over the number, f32 or f64.
@@ -39,6 +40,8 @@ mod reaction_sample;
 #[cfg(feature = "std")]
 mod read_write;
 mod saturation;
+#[cfg(feature = "recordings")]
+pub mod recording;
 mod sequence;
 #[cfg(feature = "std")]
 mod serial;
@@ -67,7 +70,7 @@ pub use frame::{Axis, Frame, FrameError};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
-pub use quality::Quality;
+pub use quality::{Quality, QualityError};
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
 #[cfg(feature = "std")]

@@ -1,0 +1,363 @@
+//! Named columns of numbers, row by row.
+
+use super::error::TableError;
+use super::fault::{RowFault, RowProblem};
+use super::heading::Column;
+use super::number::number;
+use super::options::{Decimal, TableOptions};
+use super::split::{Splitter, comment};
+use super::{lvm, text};
+use std::io::Read;
+use std::path::Path;
+
+/// Named columns with their units, and rows of cells with their lines in the file.
+///
+/// Read from text: CSV, TSV, separated by semicolons or blanks, or LabVIEW's LVM. What separates cells and fractions and which
+/// line names the columns is found out, or said in the [`TableOptions`]; what is ambiguous is refused.
+///
+/// ```
+/// use rod_hw::recording::{Cell, Table, TableOptions};
+/// let text = "Scan 3 of the parabola\r\n\r\nt [s];Fx [mN];note\r\n0,0;1,5;start\r\n0,1;;\r\n0,2;2,\r\n";
+/// let table = Table::parse("scan.csv", text.as_bytes(), &TableOptions::default())?;
+/// assert_eq!((table.columns()[1].name.as_str(), table.columns()[1].unit.as_deref()), ("Fx", Some("mN")));
+/// let first = table.row(0).ok_or("no row")?;
+/// assert_eq!((first.line(), first.cell(1), first.cell(2)), (4, Cell::Number(1.5), Cell::Text("start")));
+/// let problems: Vec<String> = table.rows().filter_map(|row| row.number(1).err()).map(|p| p.to_string()).collect();
+/// assert_eq!(problems, ["Fx is empty, expected a number", "the number of cells is 2, expected 3"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    pub(super) file: String,
+    pub(super) columns: Vec<Column>,
+    pub(super) header_line: Option<u64>,
+    pub(super) notes: Vec<Note>,
+    heads: Vec<Head>,
+    cells: Vec<Stored>,
+    texts: Vec<Box<str>>,
+    pub(super) cut: bool,
+}
+
+/// A line beside the table: `key: value` of a comment or of a header.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Its line, from 1.
+    pub line: u64,
+    /// What it is about; empty where that is not said.
+    pub key: String,
+    /// What it says.
+    pub text: String,
+}
+
+/// What stands in one place of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'t> {
+    /// A number, perhaps one that is not finite.
+    Number(f64),
+    /// Nothing.
+    Empty,
+    /// Something else.
+    Text(&'t str),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stored {
+    Number(f64),
+    Empty,
+    /// Which one of the texts.
+    Text(u32),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Head {
+    line: u64,
+    /// How many cells the line has.
+    found: u32,
+    /// Where the cells are; a row of another number of them has none.
+    start: Option<usize>,
+}
+
+/// A row of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'t> {
+    table: &'t Table,
+    head: Head,
+}
+
+/// Columns there may be.
+pub(super) const MOST_COLUMNS: usize = 4096;
+/// Notes that are kept; so many lines say nothing to a person.
+const MOST_NOTES: usize = 4096;
+
+impl Table {
+    /// The table in a file.
+    ///
+    /// # Errors
+    /// [`TableError`]; also where an LVM file has several segments and the options do not say which.
+    pub fn read(file: &Path, options: &TableOptions) -> Result<Self, TableError> {
+        let name = file.display().to_string();
+        Self::parse(&name, &bytes(file, &name, options)?, options)
+    }
+
+    /// The table in a text. `file` names it in messages; it is not opened.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Self, TableError> {
+        let mut tables = Self::parse_all(file, bytes, options)?;
+        match (tables.len(), tables.pop()) {
+            (1, Some(table)) => Ok(table),
+            (segments, _) => Err(TableError::Segments { file: file.to_owned(), segments }),
+        }
+    }
+
+    /// All tables in a file: the segments of an LVM file, or the only one.
+    ///
+    /// # Errors
+    /// [`TableError`].
+    pub fn read_all(file: &Path, options: &TableOptions) -> Result<Vec<Self>, TableError> {
+        let name = file.display().to_string();
+        Self::parse_all(&name, &bytes(file, &name, options)?, options)
+    }
+
+    /// All tables in a text.
+    ///
+    /// # Errors
+    /// As [`read_all`](Self::read_all).
+    pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
+        if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+            return Err(TableError::Utf16 { file: file.to_owned() });
+        }
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let mut tables = if lvm::is_lvm(bytes) {
+            lvm::tables(file, bytes, options)?
+        } else {
+            vec![text::table(file, bytes, options)?]
+        };
+        for table in &mut tables {
+            table.cut = !bytes.ends_with(b"\n") && !bytes.ends_with(b"\r");
+            table.take_units(&options.units)?;
+        }
+        Ok(tables)
+    }
+
+    pub(super) fn new(file: &str, columns: Vec<Column>, header_line: Option<u64>) -> Self {
+        Self {
+            file: file.to_owned(),
+            columns,
+            header_line,
+            notes: Vec::new(),
+            heads: Vec::new(),
+            cells: Vec::new(),
+            texts: Vec::new(),
+            cut: false,
+        }
+    }
+
+    /// What the file is called.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The columns from left to right.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Line of the names, from 1, if there is one.
+    pub fn header_line(&self) -> Option<u64> {
+        self.header_line
+    }
+
+    /// How many rows there are, those of a wrong number of cells included.
+    pub fn len(&self) -> usize {
+        self.heads.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.heads.is_empty()
+    }
+
+    /// A row, from 0.
+    pub fn row(&self, index: usize) -> Option<Row<'_>> {
+        self.heads.get(index).map(|head| Row { table: self, head: *head })
+    }
+
+    /// All rows.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = Row<'_>> + Clone {
+        self.heads.iter().map(|head| Row { table: self, head: *head })
+    }
+
+    /// Comments, and what headers say, in order.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    /// What is said of this, the first time that it is.
+    pub fn note(&self, key: &str) -> Option<&str> {
+        self.notes.iter().find(|note| note.key == key).map(|note| note.text.as_str())
+    }
+
+    /// Whether the last line has no end, as where a file was cut: the last number may lack digits.
+    pub fn is_cut(&self) -> bool {
+        self.cut
+    }
+
+    /// What is wrong with rows of a wrong number of cells.
+    pub fn faults(&self) -> impl Iterator<Item = RowFault> {
+        self.rows().filter_map(|row| row.check().err().map(|problem| RowFault { line: row.line(), problem }))
+    }
+
+    pub(super) fn add_note(&mut self, line: u64, text: &str) {
+        let (key, text) = text.split_once(": ").unwrap_or(("", text));
+        self.add_pair(line, key, text);
+    }
+
+    pub(super) fn add_pair(&mut self, line: u64, key: &str, text: &str) {
+        if self.notes.len() < MOST_NOTES {
+            self.notes.push(Note { line, key: key.trim().to_owned(), text: text.trim().to_owned() });
+        }
+    }
+
+    /// Adds rows of a text, comments and blank lines aside.
+    pub(super) fn add_line(&mut self, line: u64, text: &str, splitter: &mut Splitter, decimal: Decimal) {
+        if let Some(comment) = comment(text) {
+            self.add_note(line, comment);
+        } else if !text.trim().is_empty() {
+            self.add_row(line, text, splitter, decimal, 0);
+        }
+    }
+
+    /// Adds a row, of which the last cells may be missing.
+    pub(super) fn add_row(
+        &mut self,
+        line: u64,
+        text: &str,
+        splitter: &mut Splitter,
+        decimal: Decimal,
+        optional: usize,
+    ) {
+        let (start, width) = (self.cells.len(), self.columns.len());
+        let mut extra = false;
+        let found = splitter.each(text, |i, cell| {
+            if i >= width {
+                // empty cells at the end do no harm
+                extra |= !cell.is_empty();
+            } else {
+                let stored = stored(&mut self.texts, cell, decimal);
+                self.cells.push(stored);
+            }
+        });
+        if extra || found + optional < width {
+            self.cells.truncate(start);
+            let found = u32::try_from(found).unwrap_or(u32::MAX);
+            self.heads.push(Head { line, found, start: None });
+        } else {
+            self.cells.resize(start + width, Stored::Empty);
+            self.heads.push(Head { line, found: width as u32, start: Some(start) });
+        }
+    }
+
+    /// Puts a number into all rows, from the first.
+    pub(super) fn fill(&mut self, column: usize, value: impl Fn(usize) -> f64) {
+        for (k, head) in self.heads.iter().enumerate() {
+            if let Some(cell) = head.start.and_then(|start| self.cells.get_mut(start + column)) {
+                *cell = Stored::Number(value(k));
+            }
+        }
+    }
+
+    fn take_units(&mut self, units: &[(String, String)]) -> Result<(), TableError> {
+        for (name, unit) in units {
+            let mut any = false;
+            for column in self.columns.iter_mut().filter(|column| column.is(name)) {
+                column.unit = Some(unit.clone());
+                any = true;
+            }
+            if !any {
+                let found = super::listed(self.columns.iter().map(|column| column.heading.as_str()));
+                return Err(TableError::NoSuchColumn { file: self.file.clone(), column: name.clone(), found });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn stored(texts: &mut Vec<Box<str>>, cell: &str, decimal: Decimal) -> Stored {
+    if cell.is_empty() {
+        return Stored::Empty;
+    }
+    if let Some(value) = number(cell, decimal) {
+        return Stored::Number(value);
+    }
+    // flags and remarks are often those of the row before
+    if texts.last().is_none_or(|last| **last != *cell) {
+        texts.push(cell.into());
+    }
+    // more than 2^32 texts are not in a file of 4 GiB
+    Stored::Text(u32::try_from(texts.len() - 1).unwrap_or(u32::MAX))
+}
+
+fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {
+    let unreadable = |source| TableError::Unreadable { file: name.to_owned(), source };
+    let mut bytes = Vec::new();
+    let input = std::fs::File::open(file).map_err(unreadable)?;
+    let length = input.metadata().map_or(0, |data| data.len());
+    // what may be read, and one more byte to see that there is more
+    let most = options.most_bytes;
+    if length <= most {
+        input.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(unreadable)?;
+    }
+    if length > most || bytes.len() as u64 > most {
+        return Err(TableError::TooLong { file: name.to_owned(), most });
+    }
+    Ok(bytes)
+}
+
+impl<'t> Row<'t> {
+    /// Its line in the file, from 1.
+    pub fn line(&self) -> u64 {
+        self.head.line
+    }
+
+    /// The cell in a column; empty in a row of a wrong number of cells, and beyond the columns.
+    pub fn cell(&self, column: usize) -> Cell<'t> {
+        let place = self.head.start.filter(|_| column < self.table.columns.len()).map(|start| start + column);
+        match place.and_then(|place| self.table.cells.get(place)) {
+            Some(Stored::Number(value)) => Cell::Number(*value),
+            Some(Stored::Text(i)) => Cell::Text(self.table.texts.get(*i as usize).map_or("", |text| text)),
+            Some(Stored::Empty) | None => Cell::Empty,
+        }
+    }
+
+    /// Whether the row has as many cells as there are columns.
+    ///
+    /// # Errors
+    /// [`RowProblem::Cells`].
+    pub fn check(&self) -> Result<(), RowProblem> {
+        match self.head.start {
+            Some(_) => Ok(()),
+            None => {
+                let last = self.table.heads.last().is_some_and(|last| last.line == self.head.line);
+                let (found, expected) = (self.head.found as usize, self.table.columns.len());
+                Err(RowProblem::Cells { found, expected, cut: last && self.table.cut })
+            }
+        }
+    }
+
+    /// The finite number in a column, in the column's unit.
+    ///
+    /// # Errors
+    /// [`RowProblem`]: the row has a wrong number of cells, or there is no number or one that is not finite.
+    pub fn number(&self, column: usize) -> Result<f64, RowProblem> {
+        self.check()?;
+        let name = || self.table.columns.get(column).map_or_else(|| (column + 1).to_string(), |c| c.name.clone());
+        match self.cell(column) {
+            Cell::Number(value) if value.is_finite() => Ok(value),
+            Cell::Number(value) => Err(RowProblem::NotFinite { column: name(), value }),
+            Cell::Empty => Err(RowProblem::Missing { column: name() }),
+            Cell::Text(text) => Err(RowProblem::no_number(name(), text)),
+        }
+    }
+}

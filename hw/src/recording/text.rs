@@ -1,0 +1,38 @@
+//! Tables of text: names above rows of numbers, with anything before them.
+
+use super::error::TableError;
+use super::heading::{Column, bare_unit};
+use super::layout::{Layout, Line};
+use super::options::TableOptions;
+use super::split::{Lines, Splitter, comment};
+use super::table::{MOST_COLUMNS, Table};
+
+/// Lines that are looked at to find out how a table is written.
+const SAMPLE: usize = 500;
+
+pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Table, TableError> {
+    let lines = Lines::new(bytes).filter(|(_, text)| !text.trim().is_empty());
+    let sample: Vec<Line<'_>> = lines.take(SAMPLE).map(|(number, text)| Line { number, text }).collect();
+    let Layout { delimiter, decimal, header, headings, units, first } = Layout::find(file, &sample, options)?;
+
+    if headings.len() > MOST_COLUMNS {
+        let (file, line, found) = (file.to_owned(), header.unwrap_or(first), headings.len());
+        return Err(TableError::TooManyColumns { file, line, found, most: MOST_COLUMNS });
+    }
+    let mut columns: Vec<Column> = headings.iter().map(|heading| Column::new(heading)).collect();
+    for (column, unit) in columns.iter_mut().zip(units.iter().flatten().map(|unit| bare_unit(unit))) {
+        if !matches!(unit, "" | "-") && column.unit.is_none() {
+            column.unit = Some(unit.to_owned());
+        }
+    }
+    let mut table = Table::new(file, columns, header);
+    let mut splitter = Splitter::new(delimiter);
+    for (number, text) in Lines::new(bytes) {
+        if number >= first {
+            table.add_line(number, &text, &mut splitter, decimal);
+        } else if Some(number) != header && !text.trim().is_empty() {
+            table.add_note(number, comment(&text).unwrap_or(&text));
+        }
+    }
+    Ok(table)
+}
