@@ -39,9 +39,9 @@ pub mod rdt;
 mod reaction_sample;
 #[cfg(feature = "std")]
 mod read_write;
-mod saturation;
 #[cfg(feature = "recordings")]
 pub mod recording;
+mod saturation;
 mod sequence;
 #[cfg(feature = "std")]
 mod serial;
