@@ -26,6 +26,8 @@ mod reaction_sample;
 mod sequence;
 mod source;
 mod stage;
+#[cfg(feature = "tdms")]
+pub mod tdms;
 mod transport;
 mod unit;
 mod wrench;
