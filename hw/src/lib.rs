@@ -48,6 +48,8 @@ mod serial;
 mod source;
 mod stage;
 mod tare;
+#[cfg(feature = "tdms")]
+pub mod tdms;
 mod timing;
 mod transport;
 #[cfg(feature = "rdt")]
