@@ -8,6 +8,7 @@ use crate::reaction_sample::ReactionSample;
 use crate::saturation::{RailError, Rails};
 use crate::source::{RawSource, WrenchSource};
 use crate::stage::{StageError, StageSource};
+use crate::tare::Tare;
 use crate::timing::{Timekeeper, TimingError};
 use crate::wrench_sample::WrenchSample;
 use rod_core::{Pose, Scalar};
@@ -15,18 +16,24 @@ use rod_core::{Pose, Scalar};
 /// What is done to wrenches before they are taken to the clamp: a tare. `()` does nothing, nor does `None`.
 pub trait Correction<T = f64> {
     /// The same sample, corrected.
-    fn correct(&self, sample: &WrenchSample<T>) -> WrenchSample<T>;
+    fn correct(&mut self, sample: &WrenchSample<T>) -> WrenchSample<T>;
 }
 
 impl<T: Copy> Correction<T> for () {
-    fn correct(&self, sample: &WrenchSample<T>) -> WrenchSample<T> {
+    fn correct(&mut self, sample: &WrenchSample<T>) -> WrenchSample<T> {
         *sample
     }
 }
 
+impl<T: Scalar> Correction<T> for Tare<T> {
+    fn correct(&mut self, sample: &WrenchSample<T>) -> WrenchSample<T> {
+        self.apply(sample)
+    }
+}
+
 impl<T: Copy, K: Correction<T>> Correction<T> for Option<K> {
-    fn correct(&self, sample: &WrenchSample<T>) -> WrenchSample<T> {
-        self.as_ref().map_or(*sample, |correction| correction.correct(sample))
+    fn correct(&mut self, sample: &WrenchSample<T>) -> WrenchSample<T> {
+        self.as_mut().map_or(*sample, |correction| correction.correct(sample))
     }
 }
 
