@@ -1,0 +1,114 @@
+//! What a live scan writes while it runs: files that are complete up to the last flush, whatever happens then.
+
+use super::Answer;
+use crate::OutputError;
+use crate::reconstructed::PointRecord;
+use serde::Serialize;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use vibrissa::Pose;
+use vibrissa::hw::recording::{About, Contents, RecordError, Recorder};
+use vibrissa::hw::{LinkCounters, ReactionSample};
+
+/// recording.csv and points.jsonl.
+#[derive(Debug)]
+pub(super) struct Record {
+    directory: PathBuf,
+    about: About,
+    /// Made with the first sample, which tells how many channels there are.
+    recorder: Option<Recorder<BufWriter<File>, ReactionSample>>,
+    points: BufWriter<File>,
+    line: Vec<u8>,
+}
+
+const RECORDING: &str = "recording.csv";
+const POINTS: &str = "points.jsonl";
+
+/// A line of points.jsonl.
+#[derive(Serialize)]
+struct LiveRecord {
+    t: f64,
+    /// What speaks against it.
+    quality: Vec<&'static str>,
+    #[serde(flatten)]
+    point: PointRecord,
+}
+
+impl Record {
+    pub fn new(directory: &Path, about: About) -> Result<Self, OutputError> {
+        fs::create_dir_all(directory)
+            .map_err(|source| OutputError::Directory { directory: directory.to_path_buf(), source })?;
+        let points = BufWriter::new(create(directory, POINTS)?);
+        Ok(Self { directory: directory.to_path_buf(), about, recorder: None, points, line: Vec::new() })
+    }
+
+    pub fn sample(&mut self, sample: &ReactionSample) -> Result<(), OutputError> {
+        let recorder = match self.recorder.take() {
+            Some(recorder) => recorder,
+            None => {
+                let contents = Contents {
+                    raw: Some(sample.raw.channels.len()),
+                    sigma: sample.sigma.is_some(),
+                    systematic: sample.systematic.is_some(),
+                    out_of_plane: true,
+                };
+                let out = BufWriter::new(create(&self.directory, RECORDING)?);
+                Recorder::new(out, &self.about, contents).map_err(self.failed(RECORDING))?
+            }
+        };
+        let written = self.recorder.insert(recorder).write(sample);
+        written.map_err(|error| {
+            self.failed(RECORDING)(match error {
+                RecordError::Io(source) => source,
+                other => io::Error::other(other),
+            })
+        })
+    }
+
+    pub fn answer(&mut self, answer: &Answer) -> Result<(), OutputError> {
+        let Answer { sample, reading } = answer;
+        let Pose { x, y, phi } = sample.pose;
+        let pose = Pose { x, y, phi };
+        let point = match reading {
+            Some(reading) => PointRecord::of_reading(pose, reading),
+            None => PointRecord::without(Some(pose), sample.quality.to_string()),
+        };
+        let record = LiveRecord { t: sample.t, quality: sample.quality.names().collect(), point };
+        self.line.clear();
+        let written = serde_json::to_writer(&mut self.line, &record).map_err(io::Error::from).and_then(|()| {
+            self.line.push(b'\n');
+            self.points.write_all(&self.line)
+        });
+        written.map_err(self.failed(POINTS))
+    }
+
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.points.flush().map_err(self.failed(POINTS))
+    }
+
+    /// Closes both and writes the summary beside them.
+    pub fn finish(mut self, counters: &LinkCounters, summary: &impl Serialize) -> Result<(), OutputError> {
+        self.flush()?;
+        if let Some(recorder) = self.recorder.take() {
+            recorder.finish(Some(counters)).map_err(self.failed(RECORDING))?;
+        }
+        const SUMMARY: &str = "summary.json";
+        let mut out = BufWriter::new(create(&self.directory, SUMMARY)?);
+        serde_json::to_writer_pretty(&mut out, summary)
+            .map_err(io::Error::from)
+            .and_then(|()| out.write_all(b"\n"))
+            .and_then(|()| out.flush())
+            .map_err(self.failed(SUMMARY))
+    }
+
+    fn failed(&self, name: &str) -> impl Fn(io::Error) -> OutputError + use<> {
+        let file = self.directory.join(name);
+        move |source| OutputError::File { file: file.clone(), source }
+    }
+}
+
+fn create(directory: &Path, name: &str) -> Result<File, OutputError> {
+    let file = directory.join(name);
+    File::create(&file).map_err(|source| OutputError::File { file, source })
+}
