@@ -6,7 +6,8 @@
 //!   `&mut source` and `Box<dyn Iterator>` are, too.
 //! - [`Calibration`]: raw values to a wrench. [`StageSource`]: where the clamp is at a time.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
-//!   protocol on a transport, with a deadline.
+//!   protocol on a transport, with a deadline; [`spawn`]: the same in a thread of its own.
+//! - [`rdt`]: sensors over UDP that speak ATI's RDT.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
 //! sample is generic over the number, f32 or f64.
@@ -26,6 +27,8 @@ pub mod rdt;
 mod reaction_sample;
 mod sequence;
 mod source;
+#[cfg(feature = "std")]
+mod spawn;
 mod stage;
 mod transport;
 #[cfg(feature = "rdt")]
@@ -46,6 +49,8 @@ pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
 pub use sequence::{Sequence, Step};
 pub use source::{RawSource, WrenchSource};
+#[cfg(feature = "std")]
+pub use spawn::{Spawned, spawn};
 pub use stage::{FnStage, StageError, StageSource};
 pub use transport::Transport;
 #[cfg(feature = "rdt")]
