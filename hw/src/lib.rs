@@ -11,6 +11,8 @@
 //!   protocol on a transport, with a deadline.
 //! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
 //! - With the feature `recordings`, `recording`: tables of text, LabVIEW's among them, read; samples recorded.
+//!   protocol on a transport, with a deadline; [`spawn`]: the same in a thread of its own.
+//! - [`rdt`]: sensors over UDP that speak ATI's RDT.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
 //! sample is generic over the number, f32 or f64.
@@ -46,6 +48,8 @@ mod sequence;
 #[cfg(feature = "std")]
 mod serial;
 mod source;
+#[cfg(feature = "std")]
+mod spawn;
 mod stage;
 mod tare;
 #[cfg(feature = "tdms")]
@@ -91,6 +95,9 @@ pub use stage::{ConstantSpeed, FnStage, Shifted, StageError, StageSource, Veloci
 pub use stage::{StageTable, StageTableError};
 pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};
 pub use timing::{Timekeeper, TimingError};
+#[cfg(feature = "std")]
+pub use spawn::{Spawned, spawn};
+pub use stage::{FnStage, StageError, StageSource};
 pub use transport::Transport;
 #[cfg(feature = "rdt")]
 pub use udp::{Udp, UdpError};

@@ -8,6 +8,8 @@
 
 #[cfg(feature = "rdt")]
 mod configuration;
+#[cfg(feature = "rdt")]
+mod fake;
 mod profile;
 mod protocol;
 mod record;
@@ -17,6 +19,8 @@ mod scaling;
 
 #[cfg(feature = "rdt")]
 pub use configuration::RdtConfiguration;
+#[cfg(feature = "rdt")]
+pub use fake::{FakeRdt, FakeRdtAccount, FakeRdtSettings, RdtFault};
 pub use profile::RdtProfile;
 pub use protocol::{Rdt, RdtRequestError, RdtSettings};
 pub use record::RdtRecord;
