@@ -90,14 +90,13 @@ pub use serial::{SerialError, SerialPort};
 #[cfg(feature = "std")]
 pub use serial::{SerialProfile, SerialProfileError};
 pub use source::{RawSource, WrenchSource};
+#[cfg(feature = "std")]
+pub use spawn::{Spawned, spawn};
 pub use stage::{ConstantSpeed, FnStage, Shifted, StageError, StageSource, Velocity};
 #[cfg(feature = "std")]
 pub use stage::{StageTable, StageTableError};
 pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};
 pub use timing::{Timekeeper, TimingError};
-#[cfg(feature = "std")]
-pub use spawn::{Spawned, spawn};
-pub use stage::{FnStage, StageError, StageSource};
 pub use transport::Transport;
 #[cfg(feature = "rdt")]
 pub use udp::{Udp, UdpError};
