@@ -1,7 +1,7 @@
 //! Fake devices on pseudo-terminals, read as serial ports. A pseudo-terminal has no baud rate: the fake keeps the pace that the
 //! baud rate would allow.
 #![cfg(all(feature = "serial", unix))]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use rod_hw::fake::{
     End, FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeRobotiq, FakeSensor, Fault, Pace, Script, Served,
@@ -66,35 +66,37 @@ fn nothing_is_lost_at_the_highest_rate() {
         (SerialProfile::OptoForce, Box::new(FakeOptoForce::new(3)), 16),
         (SerialProfile::Robotiq, Box::new(FakeRobotiq::new()), 16),
     ];
-    for (profile, device, length) in fakes {
-        // a byte is 10 bits on the line
-        let highest = profile.baud() / 10 / length;
-        let frames = highest.max(1000);
-        let (path, hold, thread) = serve(device, frames, Pace::Rate(highest.into()), Script::new());
-        let mut link = link(&path, profile.protocol(), settings(5.0));
-        hold.send(()).unwrap();
-        let since = Instant::now();
-        let samples = told(&mut link, frames as usize);
-        let took = since.elapsed().as_secs_f64();
-        let name = profile.name();
-        let per = f64::from(frames) / took;
-        println!(
-            "{name}: {frames} frames of {length} bytes at {highest} Hz, {per:.0} a second read; {}",
-            link.counters()
-        );
-        let count = |(i, sample): (usize, &RawSample)| {
-            let scale = if profile == SerialProfile::Robotiq { 100.0 } else { 1.0 };
-            let rail =
-                if profile == SerialProfile::Bota || profile == SerialProfile::Gsv8 { f64::MAX } else { 32_767.0 };
-            sample.channels[0] == (i as f64 * scale).min(rail) && sample.quality == Quality::empty()
+    let threads =
+        fakes.map(|(profile, device, length)| std::thread::spawn(move || at_highest_rate(profile, device, length)));
+    threads.into_iter().for_each(|thread| thread.join().unwrap());
+}
+
+fn at_highest_rate(profile: SerialProfile, device: Box<dyn FakeDevice + Send>, length: u32) {
+    // a byte is 10 bits on the line; for 3 s
+    let highest = profile.baud() / 10 / length;
+    let frames = 3 * highest;
+    let (path, hold, thread) = serve(device, frames, Pace::Rate(highest.into()), Script::new());
+    let mut link = link(&path, profile.protocol(), settings(5.0));
+    hold.send(()).unwrap();
+    let since = Instant::now();
+    let samples = told(&mut link, frames as usize);
+    let per = f64::from(frames) / since.elapsed().as_secs_f64();
+    let name = profile.name();
+    println!("{name}: {frames} frames of {length} bytes at {highest} Hz, {per:.0} a second read; {}", link.counters());
+    let tells = |(i, sample): (usize, &RawSample)| {
+        let number = match profile {
+            // N in counts of 10 mN, up to the most that there are
+            SerialProfile::Robotiq => (100 * i).min(32_767) as f64,
+            _ => i as f64,
         };
-        assert!(samples.iter().enumerate().all(count), "{name}");
-        let counters = link.counters();
-        assert_eq!((counters.samples, counters.skipped_bytes), (frames.into(), 0), "{name}");
-        drop(hold);
-        let (end, served) = thread.join().unwrap();
-        assert_eq!((end, served.overrun, served.frames), (End::Source, 0, frames.into()), "{name}");
-    }
+        sample.channels[0] == number && sample.quality.is_empty()
+    };
+    assert!(samples.iter().enumerate().all(tells), "{name}");
+    let counters = link.counters();
+    assert_eq!((counters.samples, counters.skipped_bytes), (frames.into(), 0), "{name}");
+    drop(hold);
+    let (end, served) = thread.join().unwrap();
+    assert_eq!((end, served.overrun, served.frames), (End::Source, 0, frames.into()), "{name}");
 }
 
 #[test]

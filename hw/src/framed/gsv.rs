@@ -27,7 +27,6 @@ pub(crate) mod command {
     pub(crate) const START: u8 = 0x24;
     pub(crate) const GET_VALUE: u8 = 0x3b;
     pub(crate) const SET_TX_MODE: u8 = 0x81;
-    pub(crate) const READ_RATE: u8 = 0x8a;
     pub(crate) const WRITE_RATE: u8 = 0x8b;
 }
 
@@ -39,7 +38,7 @@ pub const COUNTS_24: f64 = 8_388_608.0 / 1.05;
 
 /// Frames of a GSV-8 or GSV-6. [`Default`]: values as f32, of any number of channels, nothing changed but that and started.
 ///
-/// Channels are in the unit that the device is set to (f32; [`unit`]), or counts about zero ([`COUNTS_16`], [`COUNTS_24`]).
+/// Channels are in the unit that the device is set to (f32; [`unit()`]), or counts about zero ([`COUNTS_16`], [`COUNTS_24`]).
 /// There is no checksum: what a flipped bit changes within a value is not detected, and one in the number of channels may
 /// make one frame of two unless `channels` says how many there are. A device in another mode of values, or with other
 /// channels than said here, is not read but a fault.
@@ -185,6 +184,11 @@ pub fn start() -> Request {
 /// Request: stop sending.
 pub fn stop() -> Request {
     [SYNC, 0x90, command::STOP, TERMINATOR].into()
+}
+
+/// Request: one frame of what is measured now, of a device that is stopped. It is answered by that frame.
+pub fn get_value() -> Request {
+    [SYNC, 0x90, command::GET_VALUE, TERMINATOR].into()
 }
 
 /// Request: send the values as f32. Taken from the vendor's own library.

@@ -1,5 +1,5 @@
 //! Framed sensors: known frames, damaged streams, a capture of a real device.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 mod capture;
 mod damage;
