@@ -59,3 +59,24 @@ pub enum AdcError<E> {
     #[error("the data line of the converter stays low after a conversion; is it connected, and the clock line?")]
     StuckLine,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn say_what_was_found_and_what_to_do() {
+        type Error = AdcError<embedded_hal::i2c::ErrorKind>;
+        for (error, message) in [
+            (Error::NotReady { waited: 0.5 }, "not ready within 0.500 s; check its power, its clock"),
+            (Error::WrongId { found: 0xFF28, expected: 0xFF24 }, "says it is 0xff28, expected 0xff24; check wiring"),
+            (
+                Error::Register { address: 4, written: 0x7610, read: 0 },
+                "0x04 of the converter is 0x0000, expected 0x7610",
+            ),
+            (Error::Bus(embedded_hal::i2c::ErrorKind::ArbitrationLoss), "fails (ArbitrationLoss); check its wiring"),
+        ] {
+            assert!(error.to_string().contains(message), "{error}");
+        }
+    }
+}

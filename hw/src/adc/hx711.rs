@@ -263,8 +263,11 @@ mod tests {
 
     #[test]
     fn side_by_side() {
-        // the second chip is late by one look
-        let lines = [converted(-5), [vec![Transaction::get(State::High)], converted(8_388_607)].concat()];
+        // the second chip is late by one look, when the first has nothing new
+        let lines = [
+            [converted(-5), vec![Transaction::get(State::High)]].concat(),
+            [vec![Transaction::get(State::High)], converted(8_388_607)].concat(),
+        ];
         let mut data = lines.map(|line| Mock::new(&line));
         let mut clocks = [(); 2].map(|()| Mock::new(&[started(), pulses(25)].concat()));
         let [first, second] = [0, 1]

@@ -1,12 +1,14 @@
 //! Several converters as one.
 
 use super::{Adc, AdcError};
+use crate::quality::Quality;
 use crate::raw::{Channels, RawSample};
 
 /// Several converters side by side as one, whose channels are theirs in a row: a base with one chip a bridge.
 ///
-/// A sample is whole when each chip has converted once. Their clocks are their own, so that values of one sample lie up to a
-/// conversion apart; it has the time of the last. Its status is the bits of all, its temperature that of the first that has one.
+/// A sample is whole when each chip has converted at least once; of a faster chip the last conversion counts. Their clocks are
+/// their own, so that values of one sample lie up to a conversion apart; it has the time of the last. Its status is the bits of
+/// all, its temperature that of the first that has one.
 ///
 /// ```
 /// # use core::convert::Infallible;
@@ -49,13 +51,25 @@ impl<A: Adc, const N: usize> Adc for Side<A, N> {
     type Bus = A::Bus;
     const CHANNELS: usize = N * A::CHANNELS;
 
-    /// What has come is kept over an error of one chip.
+    /// All are asked, whatever one of them says: what one has told must not grow old while another fails.
     fn poll(&mut self, now: f64) -> Result<Option<RawSample>, AdcError<Self::Bus>> {
+        let mut result = Ok(());
         for (chip, have) in self.chips.iter_mut().zip(&mut self.have) {
-            if have.is_none() {
-                *have = chip.poll(now)?;
+            match chip.poll(now) {
+                Ok(Some(mut sample)) => {
+                    // a rail is one of its own conversion, anything else is news of the chip
+                    let before = have.map_or(Quality::empty(), |before| before.quality.difference(Quality::SATURATED));
+                    sample.quality |= before;
+                    *have = Some(sample);
+                }
+                Ok(None) => {}
+                Err(error) => {
+                    *have = None;
+                    result = result.and(Err(error));
+                }
             }
         }
+        result?;
         if self.have.iter().any(Option::is_none) {
             return Ok(None);
         }
@@ -72,5 +86,51 @@ impl<A: Adc, const N: usize> Adc for Side<A, N> {
         }
         whole.channels = values.get(..count).and_then(Channels::new).unwrap_or_default();
         Ok(Some(whole))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::convert::Infallible;
+
+    /// Says what it is told to, then nothing more.
+    struct Script(Vec<Result<Option<f64>, AdcError<Infallible>>>);
+
+    impl Adc for Script {
+        type Bus = Infallible;
+        const CHANNELS: usize = 1;
+        fn poll(&mut self, now: f64) -> Result<Option<RawSample>, AdcError<Infallible>> {
+            let said = if self.0.is_empty() { Ok(None) } else { self.0.remove(0) };
+            let flags = |value| if value == 1.0 { Quality::SATURATED | Quality::RESTARTED } else { Quality::empty() };
+            said.map(|value| {
+                value.map(|value| RawSample { quality: flags(value), ..RawSample::new(now, Channels::from([value])) })
+            })
+        }
+    }
+
+    #[test]
+    fn the_last_conversion_of_a_faster_chip_counts() {
+        let fast = [1.0, 2.0, 3.0].map(|value| Ok(Some(value)));
+        let mut side = Side::new([Script(fast.into()), Script(vec![Ok(None), Ok(None), Ok(Some(9.0))])]);
+        assert_eq!(side.poll(0.1), Ok(None));
+        assert_eq!(side.poll(0.2), Ok(None));
+        let sample = side.poll(0.3).unwrap().unwrap();
+        assert_eq!((*sample.channels).to_vec(), [3.0, 9.0]);
+        assert_eq!((sample.host_time, sample.quality), (0.3, Quality::RESTARTED));
+        assert_eq!(side.poll(0.4), Ok(None), "each conversion once");
+    }
+
+    #[test]
+    fn an_error_of_one_is_that_of_all_and_leaves_nothing_old() {
+        for first in [true, false] {
+            let works = Script([2.0, 3.0, 4.0].map(|value| Ok(Some(value))).into());
+            let fails = Script(vec![Ok(None), Err(AdcError::StuckLine), Ok(Some(5.0))]);
+            let mut side = Side::new(if first { [fails, works] } else { [works, fails] });
+            assert_eq!(side.poll(0.1), Ok(None));
+            assert_eq!(side.poll(0.2), Err(AdcError::StuckLine));
+            let sample = side.poll(0.3).unwrap().unwrap();
+            assert_eq!((*sample.channels).to_vec(), if first { [5.0, 4.0] } else { [4.0, 5.0] });
+        }
     }
 }
