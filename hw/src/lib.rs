@@ -103,9 +103,3 @@ pub use udp::{Udp, UdpError};
 pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;
 pub use wrench_sample::WrenchSample;
-
-/// The page for those who add a sensor, so that `cargo test` runs what it shows.
-#[cfg(doctest)]
-#[cfg(feature = "std")]
-#[doc = include_str!("../../docs/add-a-sensor.md")]
-mod page {}
