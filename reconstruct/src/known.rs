@@ -1,17 +1,18 @@
 //! The rod as its clamp knows it: from pose and reactions up to the first contact, dimensionless.
 
-use nalgebra::{Matrix3, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
+use crate::number::Number;
+use nalgebra::{Matrix3, Matrix4x3, SMatrix, Vector3, Vector4};
 use rod_core::{Pose, Reactions, Section, Units, advance, advance_with_sensitivities};
 
 /// Clamp pose and reactions, dimensionless: x0, y0, phi0 and f0x, f0y, m0z; or their rates along the scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Clamp {
-    pub pose: Vector3<f64>,
-    pub reactions: Vector3<f64>,
+pub(crate) struct Clamp<T = f64> {
+    pub pose: Vector3<T>,
+    pub reactions: Vector3<T>,
 }
 
-impl Clamp {
-    pub fn new(units: Units, pose: Pose, reactions: Reactions) -> Self {
+impl<T: Number> Clamp<T> {
+    pub fn new(units: Units<T>, pose: Pose<T>, reactions: Reactions<T>) -> Self {
         Self {
             pose: Vector3::new(pose.x / units.length, pose.y / units.length, pose.phi),
             reactions: Vector3::new(
@@ -27,45 +28,67 @@ impl Clamp {
     }
 
     /// The cross-section at the clamp: kappa(0) = -m0z.
-    pub fn section(&self) -> Section {
+    pub fn section(&self) -> Section<T> {
         Section { x: self.pose.x, y: self.pose.y, phi: self.pose.z, kappa: -self.reactions.z }
     }
 
     /// The force (A, B) = (f0y, -f0x) that the rod carries next to the clamp.
-    pub fn force(&self) -> [f64; 2] {
+    pub fn force(&self) -> [T; 2] {
         [self.reactions.y, -self.reactions.x]
     }
 
-    pub fn at(&self, s: f64) -> Section {
+    pub fn at(&self, s: T) -> Section<T> {
         let [a, b] = self.force();
         advance(&self.section(), a, b, s)
     }
 
+    /// What [`Self::gradient_at`] gives, but for the derivatives by the clamp, which are left at 0: a third of the work.
+    pub fn slide_at(&self, s: T) -> (Section<T>, Gradient<T>) {
+        let ([a, b], end) = (self.force(), self.at(s));
+        let (sin, cos) = end.phi.sin_cos();
+        let by_s = Vector4::new(cos, sin, end.kappa, a * cos + b * sin);
+        let gradient = Gradient {
+            by_reactions: Matrix4x3::zeros(),
+            #[cfg(feature = "std")]
+            by_phi0: Vector4::zeros(),
+            by_s,
+        };
+        (end, gradient)
+    }
+
     /// The section at arc length s, with its derivatives.
-    pub fn gradient_at(&self, s: f64) -> (Section, Gradient) {
+    pub fn gradient_at(&self, s: T) -> (Section<T>, Gradient<T>) {
         let [a, b] = self.force();
         let (end, by) = advance_with_sensitivities(&self.section(), a, b, s);
-        let column = |c: [f64; 4]| Vector4::from(c);
+        let column = |c: [T; 4]| Vector4::from(c);
         let by_reactions = Matrix4x3::from_columns(&[-column(by.by_b), column(by.by_a), -column(by.by_kappa)]);
-        (end, Gradient { by_reactions, by_phi0: column(by.by_phi), by_s: column(by.by_s) })
+        let gradient = Gradient {
+            by_reactions,
+            #[cfg(feature = "std")]
+            by_phi0: column(by.by_phi),
+            by_s: column(by.by_s),
+        };
+        (end, gradient)
     }
 
     /// The phase criterion K and its derivatives by the reactions (and phi0).
-    pub fn criterion(&self) -> (f64, Vector3<f64>) {
-        let (sin, cos) = self.pose.z.sin_cos();
+    pub fn criterion(&self) -> (T, Vector3<T>) {
+        let (two, (sin, cos)) = (T::from_f64(2.0), self.pose.z.sin_cos());
         let r = &self.reactions;
-        (r.z * r.z - 2.0 * (r.y * sin + r.x * cos), Vector3::new(-2.0 * cos, -2.0 * sin, 2.0 * r.z))
+        (r.z * r.z - two * (r.y * sin + r.x * cos), Vector3::new(-two * cos, -two * sin, two * r.z))
     }
 }
 
 /// Derivatives of a section (x, y, phi, kappa) of the rod; by x0 and y0 it only moves along.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gradient {
-    pub by_reactions: Matrix4x3<f64>,
-    pub by_phi0: Vector4<f64>,
-    pub by_s: Vector4<f64>,
+pub(crate) struct Gradient<T = f64> {
+    pub by_reactions: Matrix4x3<T>,
+    #[cfg(feature = "std")]
+    pub by_phi0: Vector4<T>,
+    pub by_s: Vector4<T>,
 }
 
+#[cfg(feature = "std")]
 impl Gradient {
     /// Rate of the section at a fixed arc length where the clamp and its reactions change at this rate.
     pub fn rate(&self, rate: &Clamp) -> Vector4<f64> {
@@ -75,11 +98,15 @@ impl Gradient {
 }
 
 /// J C J^T.
-pub(crate) fn spread<const N: usize>(jacobian: &SMatrix<f64, N, 3>, covariance: &Matrix3<f64>) -> SMatrix<f64, N, N> {
+pub(crate) fn spread<T: Number, const N: usize>(
+    jacobian: &SMatrix<T, N, 3>,
+    covariance: &Matrix3<T>,
+) -> SMatrix<T, N, N> {
     jacobian * covariance * jacobian.transpose()
 }
 
 /// Variance of a number with this gradient.
-pub(crate) fn variance<const N: usize>(gradient: &SVector<f64, N>, covariance: &SMatrix<f64, N, N>) -> f64 {
+#[cfg(feature = "std")]
+pub(crate) fn variance<const N: usize>(gradient: &nalgebra::SVector<f64, N>, covariance: &SMatrix<f64, N, N>) -> f64 {
     gradient.dot(&(covariance * gradient)).max(0.0)
 }

@@ -1,7 +1,8 @@
 //! The contact phases that can be told from reactions.
 
+use core::fmt;
+#[cfg(feature = "std")]
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// The contact phase of a sample, as far as the clamp can tell: how many contacts beyond two there are it cannot.
 ///
@@ -10,10 +11,11 @@ use std::fmt;
 /// assert_eq!(Label::BA.to_string(), "BA");
 /// assert!(Label::BA.several() && Label::BA.tip() && !Label::B.several());
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "std", derive(Serialize, Deserialize))]
 pub enum Label {
     /// The rod touches nothing.
-    #[serde(rename = "free")]
+    #[cfg_attr(feature = "std", serde(rename = "free"))]
     Free,
     /// One contact, at the tip.
     A,

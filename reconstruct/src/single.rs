@@ -2,19 +2,22 @@
 //! section 3), in closed form and with exact derivatives.
 
 use crate::known::{Clamp, spread};
+use crate::number::Number;
 use crate::touch::Touch;
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
 use rod_core::{Pose, Reactions, Rod, Section, Units, inflection};
 
 /// How far beyond the tip, in lengths of the rod, or how much against the phase criterion, dimensionless, is rounding.
 const SLACK: f64 = 1e-9;
+/// The same in roundings of the numbers computed in, which is more than the above in `f32` only.
+const ROUNDINGS: f64 = 200.0;
 /// How many standard deviations are noise.
 pub(crate) const SIGMAS: f64 = 4.0;
 
 /// Why no single contact can have caused what the clamp felt. Not a failure: an answer, with what there is of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NoContact {
+pub enum NoContact<T: Number = f64> {
     /// The clamp carries no force beyond the noise.
     #[error("no force: the rod is free")]
     Free,
@@ -23,19 +26,19 @@ pub enum NoContact {
     NoMomentZero,
     /// The moment vanishes beyond the tip only, at the point given.
     #[error("the moment vanishes at {} m, beyond the tip", .0.s)]
-    BeyondTip(Touch),
+    BeyondTip(Touch<T>),
     /// The rod at the point given leaves the object instead of pressing on it: the contact would have to pull.
     #[error("the contact at {} m would pull at the rod", .0.s)]
-    Pulling(Touch),
+    Pulling(Touch<T>),
     /// Pose, reactions or covariance are no numbers.
     #[error("pose and reactions are not finite numbers")]
     NotFinite,
 }
 
-impl NoContact {
+impl<T: Number> NoContact<T> {
     /// The point where the moment vanishes all the same, if it does: what a reconstruction that knows single contacts only would
     /// take for the contact.
-    pub fn touch(&self) -> Option<Touch> {
+    pub fn touch(&self) -> Option<Touch<T>> {
         match self {
             Self::BeyondTip(touch) | Self::Pulling(touch) => Some(*touch),
             _ => None,
@@ -66,33 +69,43 @@ impl NoContact {
 ///
 /// # Errors
 /// [`NoContact`], which is as good an answer: no single contact fits, and why.
-pub fn single(rod: &Rod, pose: Pose, reactions: Reactions, covariance: &Matrix3<f64>) -> Result<Touch, NoContact> {
+pub fn single<T: Number>(
+    rod: &Rod<T>,
+    pose: Pose<T>,
+    reactions: Reactions<T>,
+    covariance: &Matrix3<T>,
+) -> Result<Touch<T>, NoContact<T>> {
+    let (one, slack, sigmas) = (T::one(), T::from_f64(SLACK + ROUNDINGS * T::EPSILON), T::from_f64(SIGMAS));
     let units = rod.units();
     let (clamp, covariance) = dimensionless(units, pose, reactions, covariance)?;
-    let first = MomentZero::of(&clamp, &covariance)?;
-    let noise = |gradient: &Vector3<f64>| SIGMAS * spread(&gradient.transpose(), &covariance).x.sqrt();
-    let beyond = |found: &MomentZero| noise(&found.s_by_reactions) + SLACK;
+    // without noise nobody asks for derivatives, which are most of the work
+    let noisy = covariance.iter().any(|v| *v != T::zero());
+    let first = MomentZero::first(&clamp, &covariance, noisy)?;
+    let noise = |gradient: &Vector3<T>| {
+        if noisy { sigmas * spread(&gradient.transpose(), &covariance).x.sqrt() } else { T::zero() }
+    };
+    let beyond = |found: &MomentZero<T>| noise(&found.s_by_reactions) + slack;
     let (k, gradient) = clamp.criterion();
-    let excess = noise(&gradient) + SLACK * (1.0 + first.force);
-    let tip = first.by_tip(&clamp).filter(|tip| k < -excess && (tip.s - 1.0).abs() <= beyond(tip));
-    let found = tip.unwrap_or(first);
+    let excess = noise(&gradient) + slack * (one + first.force);
+    let tip = if k < -excess { first.later(&clamp, noisy) } else { None };
+    let found = tip.filter(|tip| (tip.s - one).abs() <= beyond(tip)).unwrap_or(first);
     let touch = found.touch(&covariance).in_units(units);
-    if found.s > 1.0 + beyond(&found) {
+    if found.s > one + beyond(&found) {
         return Err(NoContact::BeyondTip(touch));
     }
     if k > excess { Err(NoContact::Pulling(touch)) } else { Ok(touch) }
 }
 
 /// What the clamp feels and how well that is known, dimensionless, if these are numbers.
-pub(crate) fn dimensionless(
-    units: Units,
-    pose: Pose,
-    reactions: Reactions,
-    covariance: &Matrix3<f64>,
-) -> Result<(Clamp, Matrix3<f64>), NoContact> {
+pub(crate) fn dimensionless<T: Number>(
+    units: Units<T>,
+    pose: Pose<T>,
+    reactions: Reactions<T>,
+    covariance: &Matrix3<T>,
+) -> Result<(Clamp<T>, Matrix3<T>), NoContact<T>> {
     let clamp = Clamp::new(units, pose, reactions);
-    let unit = Matrix3::from_diagonal(&Vector3::new(units.force, units.force, units.moment).map(f64::recip));
-    let covariance = unit * covariance * unit;
+    let unit = Vector3::new(units.force, units.force, units.moment).map(T::recip);
+    let covariance = Matrix3::from_fn(|i, j| unit[i] * covariance[(i, j)] * unit[j]);
     if clamp.is_finite() && covariance.iter().all(|v| v.is_finite()) {
         Ok((clamp, covariance))
     } else {
@@ -101,82 +114,100 @@ pub(crate) fn dimensionless(
 }
 
 /// Whether reactions with this covariance may be none.
-pub(crate) fn is_free(clamp: &Clamp, covariance: &Matrix3<f64>) -> bool {
-    (0..3).all(|c| clamp.reactions[c].abs() <= SIGMAS * covariance[(c, c)].max(0.0).sqrt())
+pub(crate) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
+    let sigmas = T::from_f64(SIGMAS);
+    (0..3).all(|c| clamp.reactions[c].abs() <= sigmas * covariance[(c, c)].max(T::zero()).sqrt())
 }
 
 /// Where the moment vanishes first, dimensionless, with derivatives by the reactions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct MomentZero {
-    pub s: f64,
-    pub section: Section,
-    pub force: f64,
+pub(crate) struct MomentZero<T = f64> {
+    pub s: T,
+    pub section: Section<T>,
+    pub force: T,
     /// Tangent angle of the contour.
-    pub alpha: f64,
-    pub s_by_reactions: Vector3<f64>,
+    pub alpha: T,
+    pub s_by_reactions: Vector3<T>,
     /// Of (x, y, phi) at this point, which moves along the rod.
-    pub by_reactions: nalgebra::Matrix3<f64>,
+    pub by_reactions: Matrix3<T>,
 }
 
-impl MomentZero {
+impl<T: Number> MomentZero<T> {
     /// Of a rod whose reactions have this covariance: within it they may be none.
-    pub fn of(clamp: &Clamp, covariance: &Matrix3<f64>) -> Result<Self, NoContact> {
+    pub fn of(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> Result<Self, NoContact<T>> {
+        Self::first(clamp, covariance, true)
+    }
+
+    /// The same, with derivatives or with zeros in their place.
+    fn first(clamp: &Clamp<T>, covariance: &Matrix3<T>, derived: bool) -> Result<Self, NoContact<T>> {
         if is_free(clamp, covariance) {
             return Err(NoContact::Free);
         }
         let [a, b] = clamp.force();
         let s = inflection(&clamp.section(), a, b).ok_or(NoContact::NoMomentZero)?;
-        Self::at(clamp, s).ok_or(NoContact::NoMomentZero)
+        Self::at(clamp, s, derived).ok_or(NoContact::NoMomentZero)
     }
 
     /// The zero nearest to the tip, where it is a later one than this, the first: a rod pushed into a notch, or on end,
     /// buckles and is straight several times. Along a segment its zeros are evenly spaced.
-    pub fn by_tip(&self, clamp: &Clamp) -> Option<Self> {
+    #[cfg(feature = "std")]
+    pub fn by_tip(&self, clamp: &Clamp<T>) -> Option<Self> {
+        self.later(clamp, true)
+    }
+
+    /// The same, with derivatives or with zeros in their place.
+    fn later(&self, clamp: &Clamp<T>, derived: bool) -> Option<Self> {
+        // the spacing is no less than the first zero's arc length
+        if self.s * T::from_f64(1.5) > T::one() {
+            return None;
+        }
         let [a, b] = clamp.force();
         let start = clamp.section();
         // the zero before the clamp is the first of the rod gone backwards
-        let back = Section { phi: start.phi + std::f64::consts::PI, kappa: -start.kappa, ..start };
+        let back = Section { phi: start.phi + T::from_f64(core::f64::consts::PI), kappa: -start.kappa, ..start };
         let spacing = self.s + inflection(&back, -a, -b)?;
-        let later = ((1.0 - self.s) / spacing).round();
+        let later = ((T::one() - self.s) / spacing).round();
         // also where it is no number
-        if !(later >= 1.0 && later.is_finite()) {
+        if !(later >= T::one() && later.is_finite()) {
             return None;
         }
-        Self::at(clamp, self.s + later * spacing)
+        Self::at(clamp, self.s + later * spacing, derived)
     }
 
     /// The zero that the tip would be at, if it alone were in contact.
-    pub fn of_tip(clamp: &Clamp) -> Result<Self, NoContact> {
+    #[cfg(feature = "std")]
+    pub fn of_tip(clamp: &Clamp<T>) -> Result<Self, NoContact<T>> {
         let first = Self::of(clamp, &Matrix3::zeros())?;
         Ok(first.by_tip(clamp).unwrap_or(first))
     }
 
-    /// With derivatives, of a zero at arc length `s`.
-    fn at(clamp: &Clamp, s: f64) -> Option<Self> {
+    /// Of a zero at arc length `s`.
+    fn at(clamp: &Clamp<T>, s: T, derived: bool) -> Option<Self> {
         let [a, b] = clamp.force();
-        let (section, gradient) = clamp.gradient_at(s);
+        let (section, gradient) = if derived { clamp.gradient_at(s) } else { clamp.slide_at(s) };
         let kappa_by_s = gradient.by_s[3];
-        if kappa_by_s == 0.0 || !section.x.is_finite() {
+        if kappa_by_s == T::zero() || !section.x.is_finite() {
             return None;
         }
         let at_s = gradient.by_reactions;
         let s_by_reactions = -at_s.row(3).transpose() / kappa_by_s;
         let slide = Vector3::new(gradient.by_s[0], gradient.by_s[1], gradient.by_s[2]);
         let by_reactions = at_s.fixed_rows::<3>(0) + slide * s_by_reactions.transpose();
-        Some(Self { s, section, force: a.hypot(b), alpha: b.atan2(a), s_by_reactions, by_reactions })
+        Some(Self { s, section, force: (a * a + b * b).sqrt(), alpha: b.atan2(a), s_by_reactions, by_reactions })
     }
 
     /// The contact there, dimensionless.
-    pub fn touch(&self, covariance: &Matrix3<f64>) -> Touch {
-        let jacobian: Matrix2x3<f64> = self.by_reactions.fixed_rows::<2>(0).into_owned();
+    pub fn touch(&self, covariance: &Matrix3<T>) -> Touch<T> {
+        let jacobian: Matrix2x3<T> = self.by_reactions.fixed_rows::<2>(0).into_owned();
         let Section { x, y, .. } = self.section;
-        let covariance: Matrix2<f64> = spread(&jacobian, covariance);
+        let covariance: Matrix2<T> = spread(&jacobian, covariance);
         Touch { s: self.s, x, y, alpha: self.alpha, force: self.force, covariance }
     }
 
     /// Normal of the contour there, into the solid.
-    pub fn normal(&self) -> Vector2<f64> {
+    #[cfg(feature = "std")]
+    pub fn normal(&self) -> nalgebra::Vector2<T> {
         let (sin, cos) = self.alpha.sin_cos();
-        Vector2::new(-sin, cos)
+        nalgebra::Vector2::new(-sin, cos)
     }
 }

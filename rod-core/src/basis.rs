@@ -3,7 +3,7 @@
 //! They are Jacobi's elliptic functions scaled so that nothing is ever divided by P or M, hence smooth for every
 //! P, M >= 0: the inflectional, the orbit-like, the separatrix, the circle (P = 0) and the straight line are one formula.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, tolerance};
 
 /// Values of the basis functions at one arc length. S' = C D, C' = -P S D, D' = -M S C, with S(0) = 0, C(0) = D(0) = 1.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +21,8 @@ pub(crate) struct Basis<T> {
 }
 
 /// Largest max(P, M) h^2 at which six terms of the Maclaurin series of S and K are exact to rounding. The coefficients
-/// fall at worst like those of tanh (P = M), by 4 / pi^2 a term: 2 (0.405 * 0.0032)^6 = 1e-17.
+/// fall at worst like those of tanh (P = M), by 4 / pi^2 a term: 2 (0.405 * 0.0032)^6 = 1e-17. For `f64`; less exact numbers
+/// reach farther, by the sixth root.
 const SERIES_REACH: f64 = 3.2e-3;
 
 /// No segment needs more halvings than this: beyond, P or M is not finite in any useful sense.
@@ -36,14 +37,16 @@ const STEEP: f64 = 0.7;
 /// on which everything depends.
 #[inline]
 pub(crate) fn basis<T: Scalar>(p: T, excess: T, s: T) -> Basis<T> {
+    let (half, quarter) = (T::from_f64(0.5), T::from_f64(0.25));
+    let reach = T::from_f64(const { tolerance::<T>(SERIES_REACH, 6) });
     let m = p + excess;
-    let (mut size, mut halvings, mut scale) = (p.to_f64().max(m.to_f64()) * s.to_f64() * s.to_f64(), 0, 1.0);
-    while size > SERIES_REACH && halvings < MOST_HALVINGS {
-        size *= 0.25;
-        scale *= 0.5;
+    let (mut size, mut part, mut halvings) = (if m > p { m } else { p } * s * s, s, 0);
+    while size > reach && halvings < MOST_HALVINGS {
+        size = size * quarter;
+        part = part * half;
         halvings += 1;
     }
-    let mut at = series(p, m, s * T::from_f64(scale));
+    let mut at = series(p, m, part);
     for _ in 0..halvings {
         at = at.doubled(p, m, excess);
     }

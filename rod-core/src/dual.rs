@@ -1,8 +1,8 @@
 //! Dual numbers: a value with its exact first derivatives by `N` variables.
 
 use crate::scalar::Scalar;
-use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Neg, Rem, Sub};
+use core::cmp::Ordering;
+use core::ops::{Add, Div, Mul, Neg, Rem, Sub};
 
 /// A number that carries its derivatives by `N` variables through every operation.
 ///
@@ -31,7 +31,7 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
     /// The variable number `index` (< `N`) itself.
     #[inline(always)]
     pub fn variable(value: T, index: usize) -> Self {
-        Self { value, derivatives: std::array::from_fn(|i| T::from_f64(f64::from(u8::from(i == index)))) }
+        Self { value, derivatives: core::array::from_fn(|i| T::from_f64(f64::from(u8::from(i == index)))) }
     }
 
     /// The value `value` of a function whose derivative by this number is `slope`.
@@ -47,7 +47,7 @@ impl<T: Scalar, const N: usize> Add for Dual<T, N> {
     fn add(self, other: Self) -> Self {
         Self {
             value: self.value + other.value,
-            derivatives: std::array::from_fn(|i| self.derivatives[i] + other.derivatives[i]),
+            derivatives: core::array::from_fn(|i| self.derivatives[i] + other.derivatives[i]),
         }
     }
 }
@@ -58,7 +58,7 @@ impl<T: Scalar, const N: usize> Sub for Dual<T, N> {
     fn sub(self, other: Self) -> Self {
         Self {
             value: self.value - other.value,
-            derivatives: std::array::from_fn(|i| self.derivatives[i] - other.derivatives[i]),
+            derivatives: core::array::from_fn(|i| self.derivatives[i] - other.derivatives[i]),
         }
     }
 }
@@ -70,7 +70,9 @@ impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
-            derivatives: std::array::from_fn(|i| self.derivatives[i] * other.value + self.value * other.derivatives[i]),
+            derivatives: core::array::from_fn(|i| {
+                self.derivatives[i] * other.value + self.value * other.derivatives[i]
+            }),
         }
     }
 }
@@ -83,7 +85,7 @@ impl<T: Scalar, const N: usize> Div for Dual<T, N> {
         let value = self.value * inverse;
         Self {
             value,
-            derivatives: std::array::from_fn(|i| (self.derivatives[i] - value * other.derivatives[i]) * inverse),
+            derivatives: core::array::from_fn(|i| (self.derivatives[i] - value * other.derivatives[i]) * inverse),
         }
     }
 }
@@ -95,7 +97,7 @@ impl<T: Scalar, const N: usize> Rem for Dual<T, N> {
         // self - trunc(self / other) other, the quotient being locally constant
         let value = self.value % other.value;
         let quotient = (self.value - value) / other.value;
-        Self { value, derivatives: std::array::from_fn(|i| self.derivatives[i] - quotient * other.derivatives[i]) }
+        Self { value, derivatives: core::array::from_fn(|i| self.derivatives[i] - quotient * other.derivatives[i]) }
     }
 }
 
@@ -122,6 +124,7 @@ impl<T: Scalar, const N: usize> PartialOrd for Dual<T, N> {
 }
 
 impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
+    const EPSILON: f64 = T::EPSILON;
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::constant(T::from_f64(value))
@@ -145,7 +148,7 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
         let scale = T::from_f64(1.0) / (self.value * self.value + x.value * x.value);
         Self {
             value: self.value.atan2(x.value),
-            derivatives: std::array::from_fn(|i| {
+            derivatives: core::array::from_fn(|i| {
                 (x.value * self.derivatives[i] - self.value * x.derivatives[i]) * scale
             }),
         }

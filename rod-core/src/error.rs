@@ -35,6 +35,7 @@ pub enum RodError {
         most: f64,
     },
     /// An integrator of differential equations gave up.
+    #[cfg(feature = "std")]
     #[error("the integration stopped at arc length {s}: {reason}")]
     Integration {
         /// How far it came.
@@ -43,6 +44,7 @@ pub enum RodError {
         reason: String,
     },
     /// A scalar root-finding failed.
+    #[cfg(feature = "std")]
     #[error("no root of {what} found: {reason}")]
     NoRoot {
         /// Of which function.
@@ -53,6 +55,7 @@ pub enum RodError {
 }
 
 /// An error that says `what` where `value` is not finite.
+#[cfg(feature = "std")]
 pub(crate) fn finite(what: &'static str, value: f64) -> Result<(), RodError> {
     if value.is_finite() { Ok(()) } else { Err(RodError::NotFinite { what, value }) }
 }

@@ -1,11 +1,12 @@
 //! Where a bent segment is straight: the first section without moment, in closed form.
 
 use crate::agm::agm;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, tolerance};
 use crate::segment::{Section, axial};
 
 /// Carlson's expansion is exact to rounding where the three arguments deviate from their mean by no more than this: its
-/// first omitted term is of order 8, and 0.0085^8 = 3e-17.
+/// first omitted term is of order 8, and 0.0085^8 = 3e-17. For `f64`; less exact numbers are content with less, by the eighth
+/// root.
 const NEAR: f64 = 8.5e-3;
 
 /// A duplication brings the arguments nearer by a factor of 4: from 1e-300 apart 500 suffice. NaN stops at once.
@@ -52,8 +53,11 @@ pub fn inflection<T: Scalar>(start: &Section<T>, a: T, b: T) -> Option<T> {
     let (e1, w1) = (e / m, w / m);
     let ahead = size / m * carlson(e1 * (v / m), e1, w1);
     // a quarter of the pendulum's period before the turning point it passes the stable direction
-    let quarter = T::from_f64(std::f64::consts::FRAC_PI_2) / agm(p.sqrt(), e.sqrt());
-    Some(if d * q < zero { quarter + (quarter - ahead) } else { ahead })
+    if d * q >= zero {
+        return Some(ahead);
+    }
+    let quarter = T::from_f64(core::f64::consts::FRAC_PI_2) / agm(p.sqrt(), e.sqrt());
+    Some(quarter + (quarter - ahead))
 }
 
 /// R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x) (t + y) (t + z)), by duplication. At most one argument may be 0, and is none where duals
@@ -61,12 +65,14 @@ pub fn inflection<T: Scalar>(start: &Section<T>, a: T, b: T) -> Option<T> {
 #[inline]
 fn carlson<T: Scalar>(mut x: T, mut y: T, mut z: T) -> T {
     let n = T::from_f64;
-    let (third, quarter) = (n(1.0 / 3.0), n(0.25));
+    let (zero, third, quarter) = (n(0.0), n(1.0 / 3.0), n(0.25));
+    let near = n(const { tolerance::<T>(NEAR, 8) });
     let mut mean = (x + y + z) * third;
     for _ in 0..MOST_DUPLICATIONS {
-        let off = |u: T| ((mean - u) / mean).to_f64().abs();
-        // also where they are not numbers
-        if off(x).max(off(y)).max(off(z)) <= NEAR || !mean.to_f64().is_finite() {
+        let reach = near * mean;
+        let is_near = |u: T| mean - u <= reach && u - mean <= reach;
+        // the difference is 0 of finite numbers only
+        if is_near(x) && is_near(y) && is_near(z) || mean - mean != zero {
             break;
         }
         let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());

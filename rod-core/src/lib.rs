@@ -15,23 +15,38 @@
 //! feels f0x = -B, f0y = A, m0z = -E I kappa(0). (Merker et al. 2021, with the signs of their eq. 10 and Appendix A.)
 //!
 //! This crate knows no contours: supports are whatever implements [`Supports`].
+//!
+//! Without the feature `std` there is no heap: what needs one is left out, what stays are the rod, its clamp and one segment,
+//! generic over the number ([`Scalar`]), for a microcontroller in `f32`.
+#![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod agm;
+#[cfg(feature = "std")]
 mod argmin_newton;
 mod basis;
+#[cfg(feature = "std")]
 mod brent;
+mod circular;
 mod dual;
+#[cfg(feature = "std")]
 mod elastica;
 mod error;
+#[cfg(feature = "std")]
 mod general;
 mod inflection;
+#[cfg(feature = "std")]
 mod linear;
+#[cfg(feature = "std")]
 mod loads;
+#[cfg(feature = "std")]
 mod multipoint;
+#[cfg(feature = "std")]
 mod newton;
+#[cfg(feature = "std")]
 mod ode;
 mod pose;
+#[cfg(feature = "std")]
 mod propagator;
 mod rod;
 mod sample;
@@ -40,17 +55,25 @@ mod segment;
 mod units;
 mod walk;
 
+#[cfg(feature = "std")]
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
+#[cfg(feature = "std")]
 pub use brent::{Root, find_root};
 pub use dual::Dual;
+#[cfg(feature = "std")]
 pub use elastica::{Elastica, Load};
 pub use error::RodError;
+#[cfg(feature = "std")]
 pub use general::GeneralElastica;
 pub use inflection::inflection;
+#[cfg(feature = "std")]
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
+#[cfg(feature = "std")]
 pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
+#[cfg(feature = "std")]
 pub use ode::{Method, Ode};
 pub use pose::{Pose, Reactions};
+#[cfg(feature = "std")]
 pub use propagator::{ClosedForm, Cut, Propagator};
 pub use rod::Rod;
 pub use sample::Sample;

@@ -1,8 +1,9 @@
 //! The rod: length, bending stiffness and, where it is known, the wire behind it.
 
 use crate::error::RodError;
+use crate::scalar::Scalar;
 use crate::units::Units;
-use std::f64::consts::PI;
+use core::f64::consts::PI;
 
 /// A straight, uniform, inextensible rod (Euler-Bernoulli). SI units, checked on construction.
 ///
@@ -14,18 +15,20 @@ use std::f64::consts::PI;
 /// assert!(Rod::new(-0.1, 1e-3).is_err());
 /// # Ok::<(), rod_core::RodError>(())
 /// ```
+///
+/// A rod is made in `f64`; [`cast`](Self::cast) gives the one that computes in `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rod {
-    length: f64,
-    bending_stiffness: f64,
-    wire: Option<Wire>,
-    yield_stress: Option<f64>,
+pub struct Rod<T = f64> {
+    length: T,
+    bending_stiffness: T,
+    wire: Option<Wire<T>>,
+    yield_stress: Option<T>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Wire {
-    diameter: f64,
-    youngs_modulus: f64,
+struct Wire<T> {
+    diameter: T,
+    youngs_modulus: T,
 }
 
 impl Rod {
@@ -46,7 +49,8 @@ impl Rod {
     pub fn from_diameter(length: f64, diameter: f64, youngs_modulus: f64) -> Result<Self, RodError> {
         positive("diameter", diameter)?;
         positive("youngs_modulus", youngs_modulus)?;
-        let rod = Self::new(length, youngs_modulus * PI * diameter.powi(4) / 64.0)?;
+        let square = diameter * diameter;
+        let rod = Self::new(length, youngs_modulus * PI * (square * square) / 64.0)?;
         Ok(Self { wire: Some(Wire { diameter, youngs_modulus }), ..rod })
     }
 
@@ -59,29 +63,50 @@ impl Rod {
         Ok(Self { yield_stress: Some(yield_stress), ..self })
     }
 
+    /// The same rod in numbers of another type, each rounded to the nearest.
+    ///
+    /// ```
+    /// use rod_core::Rod;
+    /// let rod: Rod<f32> = Rod::new(0.1, 2e-3)?.cast();
+    /// assert_eq!((rod.length(), rod.units().moment), (0.1_f32, 2e-3_f32 / 0.1));
+    /// # Ok::<(), rod_core::RodError>(())
+    /// ```
+    pub fn cast<T: Scalar>(&self) -> Rod<T> {
+        let to = T::from_f64;
+        Rod {
+            length: to(self.length),
+            bending_stiffness: to(self.bending_stiffness),
+            wire: self.wire.map(|w| Wire { diameter: to(w.diameter), youngs_modulus: to(w.youngs_modulus) }),
+            yield_stress: self.yield_stress.map(to),
+        }
+    }
+}
+
+impl<T: Scalar> Rod<T> {
     /// Length, m.
-    pub fn length(&self) -> f64 {
+    pub fn length(&self) -> T {
         self.length
     }
 
     /// Bending stiffness E I, N m^2.
-    pub fn bending_stiffness(&self) -> f64 {
+    pub fn bending_stiffness(&self) -> T {
         self.bending_stiffness
     }
 
     /// Yield stress, Pa, where it was given.
-    pub fn yield_stress(&self) -> Option<f64> {
+    pub fn yield_stress(&self) -> Option<T> {
         self.yield_stress
     }
 
     /// Bending stress E d |kappa| / 2 (Pa) at the surface where the curvature is `kappa` (1/m); none for a rod given by its
     /// bending stiffness alone, whose thickness is not known.
-    pub fn bending_stress(&self, kappa: f64) -> Option<f64> {
-        self.wire.map(|w| 0.5 * w.youngs_modulus * w.diameter * kappa.abs())
+    pub fn bending_stress(&self, kappa: T) -> Option<T> {
+        let size = if kappa < T::from_f64(0.0) { -kappa } else { kappa };
+        self.wire.map(|w| T::from_f64(0.5) * w.youngs_modulus * w.diameter * size)
     }
 
     /// What the dimensionless units of this rod are in SI.
-    pub fn units(&self) -> Units {
+    pub fn units(&self) -> Units<T> {
         Units::new(self.length, self.bending_stiffness)
     }
 }

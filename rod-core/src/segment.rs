@@ -62,12 +62,13 @@ pub fn advance<T: Scalar>(start: &Section<T>, a: T, b: T, s: T) -> Section<T> {
     let p = (c * c + d * d).sqrt();
     let (ec, ed) = unit(c, d, p);
     let arc = Arc { q: start.kappa * T::from_f64(0.5), c, d, p, w: axial(c, d, p), cc: c * ec, cd: c * ed };
-    let local = arc.end(&basis(p, arc.excess(), s));
+    let excess = arc.excess();
+    let local = arc.end(&basis(p, excess, s));
     let angle = local.angle();
     Section {
         x: start.x + (cos * local.x - sin * local.y),
         y: start.y + (sin * local.x + cos * local.y),
-        phi: start.phi + angle + arc.whole_turns(angle, s),
+        phi: start.phi + angle + whole_turns(start.kappa, (c, d), (p, excess), angle, s),
         kappa: local.kappa,
     }
 }
@@ -113,7 +114,7 @@ pub fn advance_with_sensitivities<T: Scalar>(start: &Section<T>, a: T, b: T, s: 
     let flat = basis(Dual::variable(p, 0), Dual::variable(excess.value, 1), Dual::constant(s));
     let lift = |f: Dual<T, 2>| Dual {
         value: f.value,
-        derivatives: std::array::from_fn(|i| {
+        derivatives: core::array::from_fn(|i| {
             f.derivatives[0] * arc.p.derivatives[i] + f.derivatives[1] * excess.derivatives[i]
         }),
     };
@@ -121,14 +122,14 @@ pub fn advance_with_sensitivities<T: Scalar>(start: &Section<T>, a: T, b: T, s: 
 
     let (x, y) = (cos * local.x.value - sin * local.y.value, sin * local.x.value + cos * local.y.value);
     let angle = local.angle();
-    let phi = start.phi + angle.value + arc.whole_turns(angle.value, s);
+    let phi = start.phi + angle.value + whole_turns(start.kappa, (c, d), (p, excess.value), angle.value, s);
     let kappa = local.kappa.value;
     let column = |i: usize| {
         let (dx, dy) = (local.x.derivatives[i], local.y.derivatives[i]);
         [cos * dx - sin * dy, sin * dx + cos * dy, angle.derivatives[i], local.kappa.derivatives[i]]
     };
     let (by_kappa, by_c, by_d) = (column(0), column(1), column(2));
-    let combine = |u: T, v: T| std::array::from_fn(|i| u * by_c[i] + v * by_d[i]);
+    let combine = |u: T, v: T| core::array::from_fn(|i| u * by_c[i] + v * by_d[i]);
     let turned: [T; 4] = combine(-d, c);
     let (sin_end, cos_end) = phi.sin_cos();
     (
@@ -225,28 +226,40 @@ impl<T: Scalar> Arc<T> {
             kappa: two * (q * cn - w2 * sd) * inverse,
         }
     }
-
-    /// What to add to the turning angle, known up to 4 pi, of a rod that coils.
-    #[inline]
-    fn whole_turns<U: Scalar>(&self, angle: U, s: U) -> U {
-        use std::f64::consts::PI;
-        // A pendulum that swings (M <= P) stays within a turn of the rod on either side: only one that goes round can coil.
-        let excess = self.excess().to_f64();
-        let most = (self.p.to_f64() + excess).max(0.0).sqrt() * s.to_f64().abs();
-        if excess <= 0.0 || most < LEAST_COIL {
-            return U::from_f64(0.0);
-        }
-        // Walk the segment in parts that cannot coil. NaN and infinity walk once.
-        let parts = if most.is_finite() { (most / LEAST_COIL).ceil().min(1e6) + 1.0 } else { 1.0 };
-        let kappa = 2.0 * self.q.to_f64();
-        let mut walker = Walker::new(kappa, self.c.to_f64(), self.d.to_f64(), s.to_f64() / parts);
-        (0..parts as usize).for_each(|_| walker.step());
-        U::from_f64(((walker.phi - angle.to_f64()) / (4.0 * PI)).round() * 4.0 * PI)
-    }
 }
 
-/// Half the turning angle of a segment is at most sqrt(M) |s|; below this it is known without counting turns.
-pub(crate) const LEAST_COIL: f64 = std::f64::consts::PI;
+/// What to add to the turning angle, known up to 4 pi, of a rod that coils.
+#[inline(always)]
+fn whole_turns<T: Scalar>(kappa: T, force: (T, T), (p, excess): (T, T), angle: T, s: T) -> T {
+    let zero = T::from_f64(0.0);
+    let reach = (p + excess) * s * s;
+    // A pendulum that swings (M <= P) stays within a turn of the rod on either side: only one that goes round can coil.
+    if excess > zero && reach >= T::from_f64(LEAST_COIL) { counted_turns(kappa, force, reach, angle, s) } else { zero }
+}
+
+/// The same where it may coil: the segment is walked in parts that cannot.
+#[cold]
+fn counted_turns<T: Scalar>(kappa: T, (c, d): (T, T), mut reach: T, angle: T, s: T) -> T {
+    let (half, quarter) = (T::from_f64(0.5), T::from_f64(0.25));
+    let (mut part, mut parts) = (s, 1_u32);
+    // infinity is walked once
+    let finite = reach - reach == T::from_f64(0.0);
+    while finite && reach >= T::from_f64(LEAST_COIL) && parts < MOST_PARTS {
+        reach = reach * quarter;
+        part = part * half;
+        parts *= 2;
+    }
+    let mut walker = Walker::new(kappa, c, d, part);
+    (0..parts).for_each(|_| walker.step());
+    let turn = 4.0 * core::f64::consts::PI;
+    T::from_f64(turn * num_traits::Float::round((walker.phi - angle).to_f64() / turn))
+}
+
+/// Half the turning angle of a segment is at most sqrt(M) |s|; where M s^2 is below this it is known without counting turns.
+pub(crate) const LEAST_COIL: f64 = core::f64::consts::PI * core::f64::consts::PI;
+
+/// A coil of more turns than this is none: the angle has no digits left.
+const MOST_PARTS: u32 = 1 << 20;
 
 #[cfg(test)]
 mod tests {

@@ -1,5 +1,7 @@
 //! The one place that converts between SI and the dimensionless quantities inside.
 
+use crate::scalar::Scalar;
+
 /// What one dimensionless unit is in SI: multiply to come out, divide to go in. Lengths are in L, forces in E I / L^2,
 /// moments in E I / L (Merker et al. 2021, eq. 1).
 ///
@@ -23,13 +25,15 @@ pub struct Units<T = f64> {
     pub energy: T,
 }
 
-impl Units {
+impl<T: Scalar> Units<T> {
     /// Units of a rod of `length` (m) and `bending_stiffness` (N m^2).
-    pub(crate) fn new(length: f64, bending_stiffness: f64) -> Self {
+    pub(crate) fn new(length: T, bending_stiffness: T) -> Self {
         let moment = bending_stiffness / length;
-        Self { length, force: moment / length, moment, curvature: 1.0 / length, energy: moment }
+        Self { length, force: moment / length, moment, curvature: T::from_f64(1.0) / length, energy: moment }
     }
+}
 
+impl Units {
     /// The units of a rod that is dimensionless already.
     pub const ONE: Self = Self { length: 1.0, force: 1.0, moment: 1.0, curvature: 1.0, energy: 1.0 };
 }

@@ -1,6 +1,7 @@
 //! Many sections of one segment at equal distances, cheaper than one [`advance`] each.
 
 use crate::basis::{Basis, basis};
+use crate::scalar::Scalar;
 use crate::segment::{Arc, LEAST_COIL, Section, advance, axial};
 
 /// Every so many steps the walk starts anew from the closed form of the whole stretch, so that rounding does not pile up.
@@ -21,15 +22,15 @@ const STRIDE: usize = 64;
 /// assert_eq!(shape.len(), 100);
 /// assert!((shape[49].x - advance(&start, 3.0, -1.0, 0.4).x).abs() < 1e-14);
 /// ```
-pub fn walk(
-    start: &Section,
-    a: f64,
-    b: f64,
-    length: f64,
+pub fn walk<T: Scalar>(
+    start: &Section<T>,
+    a: T,
+    b: T,
+    length: T,
     steps: usize,
-) -> impl ExactSizeIterator<Item = Section> + use<> {
-    let (start, h) = (*start, length / steps as f64);
-    let force = move |sin: f64, cos: f64| (a * sin - b * cos, -(a * cos + b * sin));
+) -> impl ExactSizeIterator<Item = Section<T>> + use<T> {
+    let (start, h) = (*start, length / T::from_f64(steps as f64));
+    let force = move |sin: T, cos: T| (a * sin - b * cos, -(a * cos + b * sin));
     let mut origin = start;
     let (mut sin, mut cos) = origin.phi.sin_cos();
     let (c, d) = force(sin, cos);
@@ -38,7 +39,7 @@ pub fn walk(
     (0..steps).map(move |i| {
         let step = i + 1;
         if coils || step % STRIDE == 0 {
-            origin = advance(&start, a, b, h * step as f64);
+            origin = advance(&start, a, b, h * T::from_f64(step as f64));
             (sin, cos) = origin.phi.sin_cos();
             let (c, d) = force(sin, cos);
             walker.restart(origin.kappa, c, d);
@@ -59,74 +60,69 @@ pub fn walk(
 ///
 /// What is carried from step to step grows by increments with an error relative to themselves, and the curvature follows
 /// from the balance of moments, so that rounding hardly adds up.
-pub(crate) struct Walker {
-    /// Half the turning angle of a step at most.
-    most: f64,
-    at: Basis<f64>,
-    p: f64,
-    over_p: f64,
+pub(crate) struct Walker<T> {
+    /// The square of half the turning angle of a step at most.
+    reach: T,
+    at: Basis<T>,
+    p: T,
+    over_p: T,
     /// Curvature and force components of the origin, as in [`Arc`].
-    origin: (f64, f64, f64),
+    origin: (T, T, T),
     /// Where the walker is: position, angle (sine, cosine) and curvature.
-    pub x: f64,
-    pub y: f64,
-    pub phi: f64,
-    sin: f64,
-    cos: f64,
-    pub kappa: f64,
+    pub x: T,
+    pub y: T,
+    pub phi: T,
+    sin: T,
+    cos: T,
+    pub kappa: T,
 }
 
-impl Walker {
+impl<T: Scalar> Walker<T> {
     /// Steps of length `h` from a section with curvature `kappa` and the force (c, d) in its frame, as in [`Arc`].
     #[inline]
-    pub fn new(kappa: f64, c: f64, d: f64, h: f64) -> Self {
+    pub fn new(kappa: T, c: T, d: T, h: T) -> Self {
+        let n = T::from_f64;
+        let (zero, one) = (n(0.0), n(1.0));
         let p = (c * c + d * d).sqrt();
-        let excess = 0.25 * kappa * kappa - axial(c, d, p);
-        let over_p = if p > f64::MIN_POSITIVE { 1.0 / p } else { 0.0 };
+        let excess = n(0.25) * kappa * kappa - axial(c, d, p);
+        let inverse = one / p;
+        // of finite numbers only the difference is 0
+        let over_p = if inverse - inverse == zero { inverse } else { zero };
         let (at, origin) = (basis(p, excess, h), (kappa, c, d));
-        Self {
-            most: (p + excess).max(0.0).sqrt() * h.abs(),
-            at,
-            p,
-            over_p,
-            origin,
-            x: 0.0,
-            y: 0.0,
-            phi: 0.0,
-            sin: 0.0,
-            cos: 1.0,
-            kappa,
-        }
+        let reach = (p + excess) * h * h;
+        Self { reach, at, p, over_p, origin, x: zero, y: zero, phi: zero, sin: zero, cos: one, kappa }
     }
 
     /// Whether a single step may turn by more than an angle is known to.
     #[inline]
     pub fn may_coil(&self) -> bool {
-        self.most >= LEAST_COIL
+        self.reach >= T::from_f64(LEAST_COIL)
     }
 
     /// The same steps from another section of the segment.
     #[inline]
-    pub fn restart(&mut self, kappa: f64, c: f64, d: f64) {
-        *self = Self { origin: (kappa, c, d), x: 0.0, y: 0.0, phi: 0.0, sin: 0.0, cos: 1.0, kappa, ..*self };
+    pub fn restart(&mut self, kappa: T, c: T, d: T) {
+        let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+        *self = Self { origin: (kappa, c, d), x: zero, y: zero, phi: zero, sin: zero, cos: one, kappa, ..*self };
     }
 
     /// One step on.
     #[inline(always)]
     pub fn step(&mut self) {
+        let (half, two) = (T::from_f64(0.5), T::from_f64(2.0));
         let (kappa0, c0, d0) = self.origin;
         let Self { ref at, p, over_p, sin, cos, .. } = *self;
         let (c, d) = (c0 * cos - d0 * sin, d0 * cos + c0 * sin);
         let scaled = c * over_p;
-        let arc = Arc { q: 0.5 * self.kappa, c, d, p, w: axial(c, d, p), cc: c * scaled, cd: d * scaled };
+        let arc = Arc { q: half * self.kappa, c, d, p, w: axial(c, d, p), cc: c * scaled, cd: d * scaled };
         let end = arc.end(at);
         let (half_sin, half_cos) = (end.sin * end.inverse, end.cos * end.inverse);
-        let (turn, versine) = (2.0 * half_sin * half_cos, 2.0 * half_sin * half_sin);
-        self.x += cos * end.x - sin * end.y;
-        self.y += sin * end.x + cos * end.y;
-        self.phi += end.angle();
-        self.sin += cos * turn - sin * versine;
-        self.cos -= cos * versine + sin * turn;
+        let (turn, versine) = (two * half_sin * half_cos, two * half_sin * half_sin);
+        self.x = self.x + (cos * end.x - sin * end.y);
+        self.y = self.y + (sin * end.x + cos * end.y);
+        self.phi = self.phi + end.angle();
+        self.sin = self.sin + (cos * turn - sin * versine);
+        self.cos = self.cos - (cos * versine + sin * turn);
         self.kappa = kappa0 - (d0 * self.x + c0 * self.y);
     }
 }
