@@ -1,8 +1,8 @@
 //! Why a command fails.
 
 use crate::{
-    FigureError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError, SimulationError,
-    TruthError,
+    FakeError, FigureError, LiveError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError,
+    SimulationError, TruthError,
 };
 use vibrissa::{ContactError, NoiseError};
 
@@ -29,6 +29,12 @@ pub enum Error {
     /// How a recording is to be made.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+    /// A sensor that is played.
+    #[error(transparent)]
+    Fake(#[from] FakeError),
+    /// A live scan.
+    #[error(transparent)]
+    Live(#[from] LiveError),
     /// A recording.
     #[error(transparent)]
     Recording(#[from] RecordingError),

@@ -4,6 +4,7 @@
 
 mod cycle;
 mod error;
+mod fake_sensor;
 mod figure;
 mod interval;
 mod live;
@@ -27,9 +28,13 @@ mod toml_file;
 
 pub use cycle::Cycle;
 pub use error::Error;
+pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;
 pub use interval::Interval;
-pub use live::{AddressError, Answer, Engine, SensorAddress, StageSpec, StageSpecError};
+pub use live::{
+    AddressError, Answer, End, Engine, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor,
+    SensorAddress, StageSpec, StageSpecError,
+};
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged, write_profiles};
 pub use paper::{Paper, PaperScan};

@@ -152,6 +152,11 @@ impl<C, S, K, T> SignalChain<C, S, K, T> {
         Self { timekeeper, ..self }
     }
 
+    /// The calibration.
+    pub fn calibration(&self) -> &C {
+        &self.calibration
+    }
+
     /// Time, to look at its jitter.
     pub fn timekeeper(&self) -> &Timekeeper {
         &self.timekeeper

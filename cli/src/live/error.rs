@@ -64,7 +64,9 @@ pub enum LiveError {
         source: StageTableError,
     },
     /// The sensor cannot be tared.
-    #[error("no tare from the first {seconds} s: {source}; start where the rod is free, or change [tare] of the setup (seconds = 0 for none)")]
+    #[error(
+        "no tare from the first {seconds} s: {source}; start where the rod is free, or change [tare] of the setup (seconds = 0 for none)"
+    )]
     Tare {
         /// How long the window is, s.
         seconds: f64,
@@ -72,7 +74,9 @@ pub enum LiveError {
         source: TareError,
     },
     /// Too little came before the end.
-    #[error("{samples} samples before the end, expected at least {fewest} for the tare and the noise of the sensor{first}")]
+    #[error(
+        "{samples} samples before the end, expected at least {fewest} for the tare and the noise of the sensor{first}"
+    )]
     TooFew {
         /// How many came.
         samples: usize,

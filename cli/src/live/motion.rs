@@ -33,15 +33,6 @@ impl Motion {
             (Some(StageSpec::Table(file)), _) => Ok(Self::Table(table(file)?)),
         }
     }
-
-    /// When it has arrived, s.
-    pub fn end(&self) -> Option<f64> {
-        match self {
-            Self::Told => None,
-            Self::Constant(motion) => Some(motion.motion().1),
-            Self::Table(table) => table.rows().last().map(|row| row.0),
-        }
-    }
 }
 
 impl StageSource for Motion {
@@ -65,11 +56,10 @@ fn table(file: &Path) -> Result<StageTable, LiveError> {
             let number = |role| columns.needed(&row, role);
             let of_line = |problem| LiveError::StageRow { file: file.to_path_buf(), line: row.line(), problem };
             let [t, x, y, phi] = roles.map(number);
-            Ok((t.map_err(of_line)?, Pose {
-                x: x.map_err(of_line)?,
-                y: y.map_err(of_line)?,
-                phi: phi.map_err(of_line)?,
-            }))
+            Ok((
+                t.map_err(of_line)?,
+                Pose { x: x.map_err(of_line)?, y: y.map_err(of_line)?, phi: phi.map_err(of_line)? },
+            ))
         })
         .collect();
     StageTable::new(rows?).map_err(|source| LiveError::StageTable { file: file.to_path_buf(), source })

@@ -34,15 +34,24 @@ impl Sensor {
     /// # Errors
     /// [`Error::Live`].
     pub fn open(address: &SensorAddress, setup: &Setup) -> Result<Self, Error> {
-        let failed = |source: Box<dyn StdError + Send + Sync>| LiveError::Sensor { address: address.to_string(), source };
+        let failed =
+            |source: Box<dyn StdError + Send + Sync>| LiveError::Sensor { address: address.to_string(), source };
         match address {
             SensorAddress::Rdt { host, port, scaling } => {
-                let place = |port: u16| if host.contains(':') { format!("[{host}]:{port}") } else { format!("{host}:{port}") };
+                let place =
+                    |port: u16| if host.contains(':') { format!("[{host}]:{port}") } else { format!("{host}:{port}") };
                 let scale = match setup.scale {
                     Some(scale) => scale,
-                    None => read_scaling(&place(*scaling), PATIENCE)
-                        .and_then(|scaling| scaling.calibration())
-                        .map_err(|error| failed(Box::new(error)))?,
+                    None => {
+                        let told = read_scaling(&place(*scaling), PATIENCE).map_err(|error| failed(Box::new(error)))?;
+                        Scale::from_counts(
+                            told.counts_per_force,
+                            told.force_unit,
+                            told.counts_per_torque,
+                            told.torque_unit,
+                        )
+                        .map_err(|error| failed(Box::new(error)))?
+                    }
                 };
                 let udp = Udp::connect(&place(*port)).map_err(|error| failed(Box::new(error)))?;
                 let protocol = Rdt::new(RdtSettings { clock_rate: setup.rate, ..RdtSettings::new(setup.profile) });

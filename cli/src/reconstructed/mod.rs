@@ -13,7 +13,7 @@ pub use truth::{Comparison, Transition, TruthError};
 
 use crate::output::write_csv;
 use crate::{Error, Recording, Scene, Staged, figure};
-use points::PointRecord;
+pub(crate) use points::PointRecord;
 use report::ReportRecord;
 use std::io::{self, Write};
 use std::ops::Range;

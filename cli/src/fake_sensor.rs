@@ -1,0 +1,212 @@
+//! A sensor that is none, playing what it would feel along a scene.
+
+use crate::{Error, Setup, Simulation, Tick};
+use std::net::{Ipv4Addr, SocketAddr};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+use std::time::Duration;
+use vibrissa::hw::fake::{self, FakeBota, FakeDevice, FakeGsv8, FakeSensor, Pace};
+use vibrissa::hw::framed::GsvValues;
+use vibrissa::hw::rdt::{FakeRdt, FakeRdtSettings, RdtRecord, RdtScaling};
+use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit, open_pty};
+use vibrissa::{Reactions, Stop};
+
+/// Samples that are made in advance.
+const AHEAD: usize = 4096;
+/// How often to look whether it is over.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// What the sensor speaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum FakeProtocol {
+    /// RDT over UDP, as ATI Net F/T sensors do, with the scaling over TCP
+    Rdt,
+    /// ME-Messsysteme GSV-8 on a pseudo-terminal, floats in N and N m
+    Gsv8,
+    /// Bota Systems on a pseudo-terminal
+    Bota,
+}
+
+/// A sensor to be played.
+#[derive(Debug)]
+pub struct FakeScan {
+    /// What it feels, and at which rate it is asked.
+    pub simulation: Simulation,
+    /// How it is mounted, and what its counts are.
+    pub setup: Setup,
+    /// What it speaks.
+    pub protocol: FakeProtocol,
+    /// How much faster than real time it plays.
+    pub faster: f64,
+    /// UDP port of the samples, 0 for any.
+    pub port: u16,
+    /// TCP port of the scaling, 0 for any.
+    pub scaling_port: u16,
+}
+
+/// What was played.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Played {
+    /// Samples made.
+    pub samples: u64,
+    /// Samples sent.
+    pub sent: u64,
+    /// Why the sweep stopped before the end of the path, if it did.
+    pub stop: Option<Stop>,
+}
+
+/// Why a sensor cannot be played.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FakeError {
+    /// Its address cannot be had, or its connection broke.
+    #[error(
+        "cannot play the sensor at {place}: {source}; is another one running there? --port takes another port, 0 any"
+    )]
+    Place {
+        /// Where.
+        place: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A pace that is none.
+    #[error("faster is {value}, expected a positive, finite number of times real time")]
+    Pace {
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// One million counts a unit, as ATI's devices are delivered.
+const COUNTS: f64 = 1e6;
+
+impl FakeScan {
+    /// Plays until all samples are sent or `stopped` says so; a sensor that waits to be started waits. `tell` is handed lines to
+    /// show, the first of them the address.
+    ///
+    /// Poses that a snap jumps over are filled with what was felt before, for a sensor has no gaps.
+    ///
+    /// # Errors
+    /// [`Error::Fake`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
+    pub fn run(self, tell: &mut dyn FnMut(&str), stopped: &dyn Fn() -> bool) -> Result<Played, Error> {
+        if !(self.faster.is_finite() && self.faster > 0.0) {
+            return Err(FakeError::Pace { value: self.faster }.into());
+        }
+        // mistakes are told before anything is played
+        self.simulation.ticks()?;
+        let rate = self.simulation.rate;
+        let pace = rate * self.faster;
+        let Self { simulation, setup, protocol, port, scaling_port, .. } = self;
+        let name = simulation.scene.name.clone();
+        let playing = format!("{name}, {rate} samples a second of the scene, {pace} of the clock on the wall");
+        let scaling = RdtScaling {
+            force_unit: unit("N", Dimension::Force, 1.0),
+            torque_unit: unit("N mm", Dimension::Torque, 1e-3),
+            counts_per_force: COUNTS,
+            counts_per_torque: COUNTS,
+            scale: [1; 6],
+        };
+        let scale = match (protocol, setup.scale) {
+            (_, Some(scale)) => scale,
+            (FakeProtocol::Rdt, None) => scaling.calibration().unwrap_or_else(|_| Scale::si()),
+            (FakeProtocol::Gsv8 | FakeProtocol::Bota, None) => Scale::si(),
+        };
+        let (sender, receiver) = sync_channel(AHEAD);
+        let maker = thread::spawn(move || make(&simulation, &setup, scale, &sender));
+        let sent = match protocol {
+            FakeProtocol::Rdt => {
+                let address = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+                let settings = FakeRdtSettings {
+                    address: address(port),
+                    // counts that the setup tells are not those of the record
+                    scaling_address: setup.scale.is_none().then(|| address(scaling_port)),
+                    profile: setup.profile,
+                    rate: Some(pace),
+                    scaling,
+                    ..FakeRdtSettings::default()
+                };
+                play_rdt(settings, receiver, &playing, tell, stopped)
+            }
+            FakeProtocol::Gsv8 => {
+                play_pty(FakeGsv8::new(6, rate, GsvValues::F32), "gsv8", pace, receiver, &playing, tell, stopped)
+            }
+            FakeProtocol::Bota => play_pty(FakeBota::new(rate), "bota", pace, receiver, &playing, tell, stopped),
+        }?;
+        // ended early, the maker finds nobody who listens
+        let (samples, stop) = maker.join().unwrap_or((sent, None));
+        Ok(Played { samples, sent, stop })
+    }
+}
+
+fn unit(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
+    Unit { name, dimension, factor }
+}
+
+/// Makes the channels of all samples, in order. How many, and why no more.
+fn make(simulation: &Simulation, setup: &Setup, scale: Scale, sender: &SyncSender<[f64; 6]>) -> (u64, Option<Stop>) {
+    let (mut made, mut felt) = (0, Reactions::default());
+    // checked before
+    let Ok(ticks) = simulation.ticks() else { return (0, None) };
+    for tick in ticks {
+        match tick {
+            Ok(Tick { number, pose, reactions }) => {
+                let now = reactions.unwrap_or(felt);
+                for reactions in std::iter::repeat_n(felt, (number as u64).saturating_sub(made) as usize).chain([now]) {
+                    let wrench = setup.mounting.wrench(&reactions, &OutOfPlane::default(), pose);
+                    let channels = scale.channels(&wrench);
+                    if sender.send(std::array::from_fn(|i| channels.get(i).copied().unwrap_or_default())).is_err() {
+                        return (made, None);
+                    }
+                    made += 1;
+                }
+                felt = now;
+            }
+            Err(stop) => return (made, Some(stop)),
+        }
+    }
+    (made, None)
+}
+
+fn play_rdt(
+    settings: FakeRdtSettings,
+    samples: Receiver<[f64; 6]>,
+    playing: &str,
+    tell: &mut dyn FnMut(&str),
+    stopped: &dyn Fn() -> bool,
+) -> Result<u64, Error> {
+    let place = settings.address.to_string();
+    let records = samples.into_iter().map(|channels| {
+        // a conversion to whole numbers that saturates, as a device does
+        RdtRecord { packet: 0, sample: 0, status: 0, counts: channels.map(|value| value.round() as i32) }
+    });
+    let fake = FakeRdt::start(settings, records).map_err(|source| FakeError::Place { place, source })?;
+    let scaling = fake.scaling_address().map(|address| format!("?scaling={}", address.port())).unwrap_or_default();
+    tell(&format!("rdt://{}{scaling}: {playing}; waits to be started", fake.address()));
+    while !fake.ended() && !stopped() {
+        thread::sleep(LOOK);
+    }
+    Ok(fake.account().records)
+}
+
+fn play_pty<D: FakeDevice>(
+    device: D,
+    name: &str,
+    pace: f64,
+    samples: Receiver<[f64; 6]>,
+    playing: &str,
+    tell: &mut dyn FnMut(&str),
+    stopped: &dyn Fn() -> bool,
+) -> Result<u64, Error> {
+    let failed = |source| FakeError::Place { place: "a pseudo-terminal".into(), source };
+    let mut pty = open_pty().map_err(failed)?;
+    tell(&format!("serial:{}:{name}: {playing}", pty.path()));
+    let mut sensor = FakeSensor::new(device, samples.into_iter()).with_pace(Pace::Rate(pace));
+    loop {
+        let end = sensor.serve(&mut pty, |_| !stopped()).map_err(failed)?;
+        if end != fake::End::Closed {
+            // what the other side has not read yet would be gone with the pseudo-terminal
+            thread::sleep(Duration::from_millis(500));
+            return Ok(sensor.served().frames);
+        }
+    }
+}

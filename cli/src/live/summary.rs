@@ -1,0 +1,284 @@
+//! What is said of a live scan.
+
+use super::latency::Latency;
+use super::{Answer, LiveScan};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use vibrissa::hw::{LinkCounters, Quality, ReactionSample, SensorCheck, SensorFinding, Timekeeper};
+use vibrissa::noise_estimate::ChannelNoise;
+use vibrissa::{Label, Touch};
+
+/// Why a live scan ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// The clamp has arrived.
+    Stage,
+    /// There are no more samples.
+    Source,
+    /// The sensor fell silent.
+    Silence,
+    /// It was asked to.
+    Stopped,
+}
+
+/// What a live scan came to.
+#[derive(Clone, Debug)]
+pub struct LiveReport {
+    /// What was listened to.
+    pub sensor: String,
+    /// What came over the connection.
+    pub counters: LinkCounters,
+    /// Samples with reactions.
+    pub samples: u64,
+    /// How late their reactions were known after their arrival.
+    pub latency: Latency,
+    /// Why it ended.
+    pub end: Option<End>,
+    findings: Vec<SensorFinding>,
+    noise: [f64; 3],
+    spacing: f64,
+    delay: usize,
+    labels: BTreeMap<String, u64>,
+    qualities: BTreeMap<&'static str, u64>,
+    points: u64,
+    misses: u64,
+    first_miss: Option<String>,
+    silent: u32,
+    jitter: f64,
+}
+
+impl LiveReport {
+    pub(super) fn new(scan: &LiveScan, sensor: &str) -> Self {
+        let check = scan.setup.rated.map(|rated| SensorCheck::new(scan.rod.units(), &rated, scan.setup.class));
+        let findings = check.and_then(Result::ok).map_or_else(Vec::new, |check| check.findings().collect());
+        Self {
+            sensor: sensor.to_owned(),
+            counters: LinkCounters::default(),
+            samples: 0,
+            latency: Latency::default(),
+            end: None,
+            findings,
+            noise: [0.0; 3],
+            spacing: 0.0,
+            delay: 0,
+            labels: BTreeMap::new(),
+            qualities: BTreeMap::new(),
+            points: 0,
+            misses: 0,
+            first_miss: None,
+            silent: 0,
+            jitter: 0.0,
+        }
+    }
+
+    /// What speaks against this sensor at this rod.
+    pub fn findings(&self) -> &[SensorFinding] {
+        &self.findings
+    }
+
+    /// Whether it went as it should: to the end of the way or of the source, with a sensor that suits the rod.
+    pub fn is_complete(&self) -> bool {
+        !matches!(self.end, None | Some(End::Silence)) && !self.findings.iter().any(SensorFinding::is_misfit)
+    }
+
+    pub(super) fn begin(&mut self, noise: [ChannelNoise; 3], spacing: f64, delay: usize) {
+        (self.noise, self.spacing, self.delay) = (noise.map(|noise| noise.sigma), spacing, delay);
+    }
+
+    pub(super) fn sample(&mut self, sample: &ReactionSample) {
+        self.samples += 1;
+        self.silent = 0;
+        for name in sample.quality.names() {
+            *self.qualities.entry(name).or_default() += 1;
+        }
+    }
+
+    pub(super) fn answer(&mut self, answer: &Answer) {
+        let Some(reading) = &answer.reading else { return };
+        *self.labels.entry(reading.label.to_string()).or_default() += 1;
+        self.points += u64::from(reading.touch.is_ok());
+    }
+
+    /// A sample without reactions.
+    pub(super) fn miss(&mut self, text: &str) {
+        self.misses += 1;
+        self.first_miss.get_or_insert_with(|| text.to_owned());
+    }
+
+    pub(super) fn first_miss(&self) -> Option<&str> {
+        self.first_miss.as_deref()
+    }
+
+    /// Nothing came; how often in a row.
+    pub(super) fn silent(&mut self) -> u32 {
+        self.silent += 1;
+        self.silent
+    }
+
+    pub(super) fn end(&mut self, end: End, counters: LinkCounters, timekeeper: &Timekeeper) {
+        (self.end, self.counters, self.jitter) = (Some(end), counters, timekeeper.jitter());
+    }
+
+    /// A line of progress: the answer, and where the label is new, the one before.
+    pub(super) fn line(&self, answer: &Answer, before: Option<Label>) -> String {
+        let (sample, Some(reading)) = (&answer.sample, &answer.reading) else { return String::new() };
+        let phase = match before {
+            Some(before) => format!("{before} -> {}", reading.label),
+            None => reading.label.to_string(),
+        };
+        let point = match &reading.touch {
+            Ok(touch @ Touch { x, y, force, .. }) => format!(
+                "contact ({:.3}, {:.3}) mm +- {:.0e} mm, {force:.4} N",
+                1e3 * x,
+                1e3 * y,
+                1e3 * touch.sigma_normal()
+            ),
+            Err(reason) => reason.to_string(),
+        };
+        let good = if sample.quality == Quality::empty() { String::new() } else { format!("  [{}]", sample.quality) };
+        format!("{:10.3} s  x0 {:8.3} mm  {phase:<10}  {point}{good}", sample.t, 1e3 * sample.pose.x)
+    }
+
+    /// For people.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.tell(&mut text);
+        text
+    }
+
+    fn tell(&self, text: &mut String) -> std::fmt::Result {
+        let end = match self.end {
+            Some(End::Stage) => "the clamp has arrived",
+            Some(End::Source) => "no more samples",
+            Some(End::Silence) => "the sensor fell silent",
+            Some(End::Stopped) | None => "stopped",
+        };
+        writeln!(text, "{}: {end}; link: {}", self.sensor, self.counters)?;
+        let labels: Vec<String> = self.labels.iter().map(|(label, count)| format!("{label} {count}")).collect();
+        writeln!(text, "{} samples, {} contact points; {}", self.samples, self.points, labels.join(", "))?;
+        if let (Some(median), Some(most)) = (self.latency.quantile(0.5), self.latency.quantile(0.999)) {
+            writeln!(
+                text,
+                "from arrival to reactions: median {:.3} ms, 99.9 % {:.3} ms, largest {:.3} ms",
+                1e3 * median,
+                1e3 * most,
+                1e3 * self.latency.largest()
+            )?;
+        }
+        for (name, count) in &self.qualities {
+            writeln!(text, "flagged {name}: {count}")?;
+        }
+        if let Some(first) = &self.first_miss {
+            writeln!(text, "{} without reactions, the first: {first}", self.misses)?;
+        }
+        self.findings.iter().try_for_each(|finding| writeln!(text, "sensor: {finding}"))
+    }
+
+    /// As it is written.
+    pub(super) fn record(&self) -> impl Serialize {
+        SummaryRecord {
+            sensor: self.sensor.clone(),
+            end: self.end,
+            complete: self.is_complete(),
+            link: LinkRecord::from(&self.counters),
+            samples: self.samples,
+            points: self.points,
+            labels: self.labels.clone(),
+            flagged: self.qualities.clone(),
+            without_reactions: self.misses,
+            first_without: self.first_miss.clone(),
+            noise: NoiseRecord { f0x: self.noise[0], f0y: self.noise[1], m0z: self.noise[2] },
+            spacing: self.spacing,
+            delay: self.delay,
+            latency: LatencyRecord {
+                median: self.latency.quantile(0.5),
+                share_999: self.latency.quantile(0.999),
+                largest: self.latency.largest(),
+            },
+            jitter: self.jitter,
+            findings: self.findings.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// summary.json, SI units.
+#[derive(Serialize)]
+struct SummaryRecord {
+    sensor: String,
+    end: Option<End>,
+    complete: bool,
+    link: LinkRecord,
+    samples: u64,
+    points: u64,
+    labels: BTreeMap<String, u64>,
+    flagged: BTreeMap<&'static str, u64>,
+    without_reactions: u64,
+    first_without: Option<String>,
+    /// Standard deviations.
+    noise: NoiseRecord,
+    /// Way of the clamp from sample to sample, m.
+    spacing: f64,
+    /// So many samples after a sample its answer came.
+    delay: usize,
+    latency: LatencyRecord,
+    /// Of the host's time of arrival, s.
+    jitter: f64,
+    findings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct NoiseRecord {
+    f0x: f64,
+    f0y: f64,
+    m0z: f64,
+}
+
+#[derive(Serialize)]
+struct LatencyRecord {
+    median: Option<f64>,
+    #[serde(rename = "99.9 %")]
+    share_999: Option<f64>,
+    largest: f64,
+}
+
+#[derive(Serialize)]
+struct LinkRecord {
+    samples: u64,
+    lost: u64,
+    gaps: u64,
+    repeated: u64,
+    reordered: u64,
+    malformed: u64,
+    bad_checksum: u64,
+    foreign: u64,
+    skipped_bytes: u64,
+    device_errors: u64,
+    restarts: u64,
+    requests: u64,
+    reconnects: u64,
+    untaken: u64,
+}
+
+impl From<&LinkCounters> for LinkRecord {
+    fn from(c: &LinkCounters) -> Self {
+        Self {
+            samples: c.samples,
+            lost: c.lost,
+            gaps: c.gaps,
+            repeated: c.repeated,
+            reordered: c.reordered,
+            malformed: c.malformed,
+            bad_checksum: c.bad_checksum,
+            foreign: c.foreign,
+            skipped_bytes: c.skipped_bytes,
+            device_errors: c.device_errors,
+            restarts: c.restarts,
+            requests: c.requests,
+            reconnects: c.reconnects,
+            untaken: c.untaken,
+        }
+    }
+}
