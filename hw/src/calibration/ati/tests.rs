@@ -89,6 +89,7 @@ fn temperature_needs_the_thermistor() {
 #[test]
 fn bad_files_are_refused_with_line_and_element() {
     for (from, to, expected) in [
+        ("  3.63015 ", "  3.63025 ", "line 12: `UserAxis` Fx of gauge 2 is 3.63025, but `Axis`, `scale` and "),
         ("<FTSensor", "<Sensor", "line 19: "),
         (
             "NumGages=\"6\"",
