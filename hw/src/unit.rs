@@ -70,7 +70,7 @@ const POUND: f64 = 4.448_221_615_260_5;
 const GRAVITY: f64 = 9.806_65;
 const INCH: f64 = 0.0254;
 
-const UNITS: [Row; 35] = [
+const UNITS: [Row; 36] = [
     ("N", &["Newton", "newton", "Newtons", "newtons"], Force, 1.0),
     ("mN", &[], Force, 1e-3),
     ("uN", &["µN", "μN"], Force, 1e-6),
@@ -96,6 +96,7 @@ const UNITS: [Row; 35] = [
     ("um", &["µm", "μm"], Length, 1e-6),
     ("cm", &[], Length, 1e-2),
     ("in", &["inch"], Length, INCH),
+    ("ft", &["foot", "feet"], Length, 0.3048),
     ("rad", &["radian", "radians"], Angle, 1.0),
     ("mrad", &[], Angle, 1e-3),
     ("deg", &["°", "degree", "degrees"], Angle, PI / 180.0),

@@ -1,6 +1,8 @@
 //! From raw values to a wrench.
 
 mod accuracy;
+#[cfg(feature = "cal")]
+mod ati;
 mod error;
 mod gauge_matrix;
 mod gsv_matrix;
@@ -12,6 +14,8 @@ mod temperature;
 mod wrench_units;
 
 pub use accuracy::Accuracy;
+#[cfg(feature = "cal")]
+pub use ati::{AtiCalibration, AtiFile, AtiFileError};
 pub use error::CalibrationDataError;
 pub use gauge_matrix::GaugeMatrix;
 pub use gsv_matrix::GsvMatrix;
