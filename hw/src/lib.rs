@@ -66,13 +66,9 @@ pub use calibration::{
     Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
     RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
 };
-pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
-pub use calibration::{
-    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
-    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
-};
 #[cfg(feature = "cal")]
 pub use calibration::{AtiCalibration, AtiFile, AtiFileError};
+pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
 pub use clock::Clock;
 #[cfg(feature = "std")]
 pub use clock::HostClock;
