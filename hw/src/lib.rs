@@ -28,6 +28,7 @@ mod chain;
 mod clock;
 mod component;
 mod counters;
+mod despike;
 #[cfg(feature = "std")]
 pub mod fake;
 mod frame;
@@ -69,6 +70,7 @@ pub use clock::Clock;
 pub use clock::HostClock;
 pub use component::Component;
 pub use counters::LinkCounters;
+pub use despike::{Despike, DespikeError};
 pub use frame::{Axis, Frame, FrameError};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 pub use mounting::{Mounting, Sense};
