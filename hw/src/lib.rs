@@ -33,6 +33,8 @@ mod despike;
 pub mod fake;
 mod frame;
 pub mod framed;
+#[cfg(feature = "std")]
+mod lever_arm;
 mod link;
 mod mounting;
 mod protocol;
@@ -72,6 +74,8 @@ pub use component::Component;
 pub use counters::LinkCounters;
 pub use despike::{Despike, DespikeError};
 pub use frame::{Axis, Frame, FrameError};
+#[cfg(feature = "std")]
+pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
