@@ -34,6 +34,8 @@ pub mod fake;
 mod frame;
 pub mod framed;
 #[cfg(feature = "std")]
+mod gaps;
+#[cfg(feature = "std")]
 mod lever_arm;
 mod link;
 mod mounting;
@@ -74,6 +76,8 @@ pub use component::Component;
 pub use counters::LinkCounters;
 pub use despike::{Despike, DespikeError};
 pub use frame::{Axis, Frame, FrameError};
+#[cfg(feature = "std")]
+pub use gaps::fill_gaps;
 #[cfg(feature = "std")]
 pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
