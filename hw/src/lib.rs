@@ -38,6 +38,8 @@ mod gaps;
 #[cfg(feature = "std")]
 mod lever_arm;
 mod link;
+#[cfg(feature = "std")]
+mod low_pass;
 mod mounting;
 mod protocol;
 mod quality;
@@ -81,6 +83,8 @@ pub use gaps::fill_gaps;
 #[cfg(feature = "std")]
 pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
+#[cfg(feature = "std")]
+pub use low_pass::{LowPass, LowPassError};
 pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
 pub use quality::{Quality, QualityError};
