@@ -2,7 +2,6 @@
 
 use crate::calibration::{Calibration, CalibrationError};
 use crate::mounting::Mounting;
-use crate::quality::Quality;
 use crate::raw::RawSample;
 use crate::reaction_sample::ReactionSample;
 use crate::saturation::{RailError, Rails};
@@ -13,7 +12,8 @@ use crate::timing::{Timekeeper, TimingError};
 use crate::wrench_sample::WrenchSample;
 use rod_core::{Pose, Scalar};
 
-/// What is done to wrenches before they are taken to the clamp: a tare. `()` does nothing, nor does `None`.
+/// What is done to wrenches before they are taken to the clamp: a [`Tare`], or something of your own, which then marks what a
+/// restart of the device spoils. `()` does nothing, nor does `None`.
 pub trait Correction<T = f64> {
     /// The same sample, corrected.
     fn correct(&mut self, sample: &WrenchSample<T>) -> WrenchSample<T>;
@@ -77,21 +77,24 @@ pub struct SignalChain<C, S, K = (), T = f64> {
 ///
 /// ```
 /// use rod_core::Pose;
-/// use rod_hw::{FnStage, Frame, Mounting, Quality, Wrench, WrenchChain, WrenchSample};
+/// use rod_hw::{FnStage, Frame, Mounting, Quality, Tare, Wrench, WrenchChain, WrenchSample, Zero};
 /// let stage = FnStage(|t: f64| Ok(Pose { x: -1e-3 * t, y: -0.04, phi: 1.571 }));
-/// let mut chain = WrenchChain::new(stage, Mounting::new(Frame::same()));
-/// let mut sample = WrenchSample::new(2.0, Wrench { force: [0.3, 0.0, 0.0], torque: [0.0; 3] });
-/// assert_eq!(chain.take(&sample)?.reactions.f0x, -0.3);
-/// // the device, and with it its zero, began anew
+/// let mut chain = WrenchChain::new(stage, Mounting::new(Frame::same())).with_tare(None);
+/// let mut sample = WrenchSample::new(2.0, Wrench { force: [0.5, 0.0, 0.0], torque: [0.0; 3] });
+/// assert_eq!(chain.take(&sample)?.reactions.f0x, -0.5);
+/// // what it read without load, once that is known
+/// let unloaded = Wrench { force: [0.25, 0.0, 0.0], torque: [0.0; 3] };
+/// let zero = Zero::known(unloaded, Wrench { force: [1e-3; 3], torque: [1e-5; 3] }, 0.0, 1.0)?;
+/// chain.set_tare(Some(Tare::single(zero)));
+/// assert_eq!(chain.take(&sample)?.reactions.f0x, -0.25);
+/// // the device began anew, and with it its zero
 /// sample.quality = Quality::RESTARTED;
 /// assert!(chain.take(&sample)?.quality.contains(Quality::TARE_STALE));
-/// # Ok::<(), rod_hw::ChainError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrenchChain<S, K = (), T = f64> {
     tare: K,
-    /// The device started anew since the tare.
-    stale: bool,
     stage: S,
     mounting: Mounting<T>,
 }
@@ -201,20 +204,20 @@ impl<C: Calibration<T>, S: StageSource, K: Correction<T>, T: Scalar> SignalChain
 impl<S, T> WrenchChain<S, (), T> {
     /// Without a tare.
     pub fn new(stage: S, mounting: Mounting<T>) -> Self {
-        Self { tare: (), stale: false, stage, mounting }
+        Self { tare: (), stage, mounting }
     }
 
-    /// With a tare, or a place for one: `None::<...>`.
+    /// With a tare, or a place for one: `None`.
     pub fn with_tare<K>(self, tare: K) -> WrenchChain<S, K, T> {
         let Self { stage, mounting, .. } = self;
-        WrenchChain { tare, stale: false, stage, mounting }
+        WrenchChain { tare, stage, mounting }
     }
 }
 
 impl<S, K, T> WrenchChain<S, K, T> {
-    /// Takes another tare, that of this run of the device.
+    /// Takes another tare.
     pub fn set_tare(&mut self, tare: K) {
-        (self.tare, self.stale) = (tare, false);
+        self.tare = tare;
     }
 
     /// The tare.
@@ -234,15 +237,12 @@ impl<S, K, T> WrenchChain<S, K, T> {
 }
 
 impl<S: StageSource, K: Correction<T>, T: Scalar> WrenchChain<S, K, T> {
-    /// The reactions behind a wrench. From a restart of the device on, and until there is another tare, samples are marked
-    /// with [`Quality::TARE_STALE`]: the zero that was subtracted, here or in the device, is gone.
+    /// The reactions behind a wrench.
     ///
     /// # Errors
     /// [`ChainError`]; the next sample may be good.
     pub fn take(&mut self, sample: &WrenchSample<T>) -> Result<ReactionSample<T>, ChainError> {
-        self.stale |= sample.quality.contains(Quality::RESTARTED);
-        let mut tared = finite(&self.tare.correct(&finite(sample, "sensor")?), "tare")?;
-        tared.quality.set(Quality::TARE_STALE, self.stale || tared.quality.contains(Quality::TARE_STALE));
+        let tared = finite(&self.tare.correct(&finite(sample, "sensor")?), "tare")?;
         let Pose { x, y, phi } = self.stage.pose_at(tared.t)?;
         let pose = Pose { x: T::from_f64(x), y: T::from_f64(y), phi: T::from_f64(phi) };
         Ok(self.mounting.reactions(&tared, pose))

@@ -28,11 +28,18 @@ mod chain;
 mod clock;
 mod component;
 mod counters;
+mod despike;
 #[cfg(feature = "std")]
 pub mod fake;
 mod frame;
 pub mod framed;
+#[cfg(feature = "std")]
+mod gaps;
+#[cfg(feature = "std")]
+mod lever_arm;
 mod link;
+#[cfg(feature = "std")]
+mod low_pass;
 mod mounting;
 mod protocol;
 mod quality;
@@ -74,8 +81,15 @@ pub use clock::Clock;
 pub use clock::HostClock;
 pub use component::Component;
 pub use counters::LinkCounters;
+pub use despike::{Despike, DespikeError};
 pub use frame::{Axis, Frame, FrameError};
+#[cfg(feature = "std")]
+pub use gaps::fill_gaps;
+#[cfg(feature = "std")]
+pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
+#[cfg(feature = "std")]
+pub use low_pass::{LowPass, LowPassError};
 pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
 pub use quality::{Quality, QualityError};
