@@ -62,7 +62,10 @@ mod unit;
 mod wrench;
 mod wrench_sample;
 
-pub use calibration::{Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix, RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits};
+pub use calibration::{
+    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
+    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
+};
 pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
 pub use clock::Clock;
 #[cfg(feature = "std")]

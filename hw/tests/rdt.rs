@@ -383,7 +383,7 @@ fn a_busy_consumer_loses_nothing() {
     let mut samples: Vec<RawSample> = Vec::new();
     while let Some(Ok(sample)) = sensor.next() {
         samples.push(sample);
-        if samples.len() % 500 == 0 {
+        if samples.len().is_multiple_of(500) {
             std::thread::sleep(Duration::from_millis(100));
         }
         if sample.channels[0] == 3499.0 {

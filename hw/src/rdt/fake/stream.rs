@@ -172,7 +172,7 @@ impl<'a> Stream<'a> {
             RdtFault::Cut(bytes) => self.datagram.cut = Some(bytes),
             RdtFault::Extended(bytes) => self.datagram.extended = bytes,
             RdtFault::Garbage(bytes) => {
-                let bytes = bytes + usize::from(bytes % RdtRecord::BYTES == 0);
+                let bytes = bytes + usize::from(bytes.is_multiple_of(RdtRecord::BYTES));
                 self.send(client, &vec![0xA5; bytes]);
                 self.shared.lock().account.malformed += 1;
             }
