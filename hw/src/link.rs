@@ -164,10 +164,10 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
     /// Tells the device to stop.
     ///
     /// # Errors
-    /// [`LinkError::Broken`].
-    pub fn stop(&mut self) -> Result<(), LinkError<T::Error>> {
+    /// Where the connection is broken.
+    pub fn stop(&mut self) -> Result<(), T::Error> {
         self.connection = Connection::Ended;
-        self.protocol.farewell().map_or(Ok(()), |bytes| self.transport.send(&bytes)).map_err(LinkError::Broken)
+        self.protocol.farewell().map_or(Ok(()), |bytes| self.transport.send(&bytes))
     }
 
     /// Decodes what has arrived, up to the next thing to tell.

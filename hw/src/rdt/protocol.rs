@@ -259,7 +259,7 @@ impl Rdt {
                     record.packet == first.packet.wrapping_add(1)
                         && record.sample.wrapping_sub(first.sample).wrapping_sub(1) < NEXT
                 };
-                if (packet > 0 || packet < -OVERTAKEN) && candidate.is_some_and(follows) {
+                if !(-OVERTAKEN..=0).contains(&packet) && candidate.is_some_and(follows) {
                     Verdict::Take { lost: if packet > 0 { packet - 1 } else { 1 }, restarted: true }
                 } else {
                     self.candidate = Some(*record);
@@ -325,7 +325,8 @@ impl Protocol for Rdt {
     fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
         while !bytes.is_empty() {
             let found = bytes.len();
-            let whole = if self.settings.buffered { found % RdtRecord::BYTES == 0 } else { found == RdtRecord::BYTES };
+            let whole =
+                if self.settings.buffered { found.is_multiple_of(RdtRecord::BYTES) } else { found == RdtRecord::BYTES };
             let Some((record, rest)) = bytes.split_first_chunk().filter(|_| whole) else {
                 *bytes = &[];
                 self.counters.malformed += 1;
@@ -568,7 +569,7 @@ mod tests {
                     let decoded = rdt.decode(&mut bytes, 0.0);
                     prop_assert!(bytes.len() < before || decoded.is_none());
                 }
-                let whole = if buffered { datagram.len() % 36 == 0 } else { datagram.len() == 36 };
+                let whole = if buffered { datagram.len().is_multiple_of(36) } else { datagram.len() == 36 };
                 records += if whole { datagram.len() / 36 } else { usize::from(!datagram.is_empty()) };
             }
             let counters = rdt.counters();

@@ -1,6 +1,8 @@
 //! What a count is in N and N m.
 
+use crate::calibration::{CalibrationDataError, Scale};
 use crate::unit::{Dimension, Unit, UnitError};
+use rod_core::Scalar;
 use std::io::{Error, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
@@ -179,6 +181,23 @@ impl RdtScaling {
         bytes
     }
 
+    /// From the counts of the records to a wrench.
+    ///
+    /// ```
+    /// use rod_hw::{Calibration, Channels, RawSample, WrenchSample, rdt::FakeRdtSettings};
+    /// let scaling = FakeRdtSettings::default().scaling; // of a sensor: read_scaling
+    /// let raw = RawSample::new(0.0, Channels::from([250_000.0, 0.0, 0.0, 0.0, 0.0, -1000.0]));
+    /// let sample: WrenchSample = scaling.calibration()?.wrench(&raw)?;
+    /// assert_eq!((sample.wrench.force[0], sample.wrench.torque[2]), (0.25, -1e-3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`CalibrationDataError`] where the fields were set to what is no scaling.
+    pub fn calibration<T: Scalar>(&self) -> Result<Scale<T>, CalibrationDataError> {
+        Scale::from_counts(self.counts_per_force, self.force_unit, self.counts_per_torque, self.torque_unit)
+    }
+
     /// One count of Fx, Fy, Fz (N), Tx, Ty, Tz (N m).
     pub fn factors(&self) -> [f64; 6] {
         let force = self.force_unit.factor / self.counts_per_force;
@@ -251,7 +270,7 @@ mod tests {
         for (code, force, torque) in [
             (1, 4.448_221_615_260_5, 0.112_984_829_027_616_7),
             (2, 1.0, 1.355_817_948_331_400_4),
-            (3, 4448.221_615_260_5, 1.0),
+            (3, 4_448.221_615_260_5, 1.0),
             (4, 1000.0, 1e-3),
             (5, 9.806_65, 0.098_066_5),
             (6, 0.009_806_65, 1000.0),

@@ -124,10 +124,11 @@ impl<'a> Stream<'a> {
             let (start, buffered, period) = (state.start, state.buffered, state.period);
             drop(state);
             if self.start != start {
-                let delay = if self.start == 0 { self.start_delay } else { 0.0 };
+                if self.start == 0 {
+                    self.pace.delay(self.start_delay);
+                }
                 self.start = start;
                 self.packet = self.first_packet;
-                self.pace.delay(delay);
             }
             match self.pace.left(period) {
                 Duration::ZERO => return Some((client, buffered)),
@@ -171,7 +172,7 @@ impl<'a> Stream<'a> {
             RdtFault::Cut(bytes) => self.datagram.cut = Some(bytes),
             RdtFault::Extended(bytes) => self.datagram.extended = bytes,
             RdtFault::Garbage(bytes) => {
-                let bytes = bytes + usize::from(bytes % RdtRecord::BYTES == 0);
+                let bytes = bytes + usize::from(bytes.is_multiple_of(RdtRecord::BYTES));
                 self.send(client, &vec![0xA5; bytes]);
                 self.shared.lock().account.malformed += 1;
             }
