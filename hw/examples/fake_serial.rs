@@ -2,20 +2,14 @@
 //! serial port, on which a GSV-8 of six channels sends 0, 1, 2, ... 999, again and again, 1, 2, 3, 4, 5. To be ended by Ctrl-C.
 #![allow(clippy::print_stdout)]
 
-use rod_hw::fake::{FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeRobotiq, FakeSensor, Pace};
-use rod_hw::framed::GsvValues;
+use rod_hw::fake::{FakeSensor, Pace};
 use rod_hw::{SerialProfile, open_pty};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let profile = SerialProfile::parse(&arguments.next().unwrap_or_else(|| "gsv8".to_owned()))?;
     let rate: Option<f64> = arguments.next().map(|rate| rate.parse()).transpose()?;
-    let device: Box<dyn FakeDevice> = match profile {
-        SerialProfile::Bota => Box::new(FakeBota::new(rate.unwrap_or(200.0))),
-        SerialProfile::OptoForce => Box::new(FakeOptoForce::new(3)),
-        SerialProfile::Robotiq => Box::new(FakeRobotiq::new()),
-        _ => Box::new(FakeGsv8::new(6, rate.unwrap_or(100.0), GsvValues::F32)),
-    };
+    let device = profile.fake(rate.unwrap_or(100.0));
     let mut pty = open_pty()?;
     println!("{}", pty.path());
     let source = (0..1000).cycle().map(|i| [f64::from(i), 1.0, 2.0, 3.0, 4.0, 5.0]);

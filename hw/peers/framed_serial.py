@@ -52,10 +52,10 @@ def gsv(path):
 
 
 def optoforce(path):
-    from optoforce import OptoForce16
+    from optoforce import OptoForce22
     from optoforce.reading import FX_SCALE
 
-    with OptoForce16(path, speed_hz=1000, filter_hz=15) as sensor:
+    with OptoForce22(path, speed_hz=1000, filter_hz=15) as sensor:
         readings = [sensor.read(only_latest_data=False) for _ in range(FRAMES)]
     good = [reading for reading in readings if reading.valid_checksum]
     assert len(good) == FRAMES and follows([round(reading.Fx / FX_SCALE) for reading in good])

@@ -4,8 +4,8 @@ use crate::transport::Transport;
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::{Duration, Instant};
 
-/// How long to go on trying to write a request before that is an error.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// How long to go on trying to write a request before that is an error: what a link's deadline may be exceeded by.
+const PATIENCE: Duration = Duration::from_millis(200);
 
 /// How long to sleep between reads of what does not wait by itself.
 const NAP: Duration = Duration::from_millis(1);
@@ -14,7 +14,7 @@ const NAP: Duration = Duration::from_millis(1);
 ///
 /// Reads that find nothing must come back, with [`WouldBlock`](ErrorKind::WouldBlock) or [`TimedOut`](ErrorKind::TimedOut),
 /// for only then a link's deadline holds: set a read timeout, about 0.01 s, or non-blocking mode. A read of nothing at all
-/// (`Ok(0)`) is the end: the other side closed the connection.
+/// (`Ok(0)`) is the end: the other side closed the connection. A request that cannot be written within 0.2 s is an error, too.
 ///
 /// ```
 /// use rod_hw::framed::{Bota, Framed};
@@ -166,6 +166,8 @@ mod tests {
         ReadWrite::new(Scripted(steps)).send(&[1, 2, 3, 4]).unwrap();
         let broken = ReadWrite::new(Scripted(vec![Err(ErrorKind::BrokenPipe.into())])).send(&[1]);
         assert_eq!(broken.unwrap_err().kind(), ErrorKind::BrokenPipe);
+        let stuck = ReadWrite::new(Scripted(vec![Ok(1)])).send(&[1, 2]);
+        assert_eq!(stuck.unwrap_err().kind(), ErrorKind::WouldBlock, "not for ever");
     }
 
     #[test]

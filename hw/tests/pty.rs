@@ -1,11 +1,9 @@
 //! Fake devices on pseudo-terminals, read as serial ports. A pseudo-terminal has no baud rate: the fake keeps the pace that the
 //! baud rate would allow.
-#![cfg(all(feature = "serial", unix))]
+#![cfg(all(feature = "serial", target_os = "linux"))]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-use rod_hw::fake::{
-    End, FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeRobotiq, FakeSensor, Fault, Pace, Script, Served,
-};
+use rod_hw::fake::{End, FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeSensor, Fault, Pace, Script, Served};
 use rod_hw::framed::{
     Bota, BotaFilter, Framed, Gsv, GsvValues, OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup, Robotiq,
 };
@@ -60,22 +58,18 @@ fn told<P: Protocol>(link: &mut SerialLink<P>, count: usize) -> Vec<RawSample> {
 /// At the highest rate that the baud rate lets frames through, and as fast as the program reads.
 #[test]
 fn nothing_is_lost_at_the_highest_rate() {
-    let fakes: [(SerialProfile, Box<dyn FakeDevice + Send>, u32); 4] = [
-        (SerialProfile::Gsv8, Box::new(FakeGsv8::new(6, 100.0, GsvValues::F32)), 28),
-        (SerialProfile::Bota, Box::new(FakeBota::new(200.0)), 37),
-        (SerialProfile::OptoForce, Box::new(FakeOptoForce::new(3)), 16),
-        (SerialProfile::Robotiq, Box::new(FakeRobotiq::new()), 16),
-    ];
-    let threads =
-        fakes.map(|(profile, device, length)| std::thread::spawn(move || at_highest_rate(profile, device, length)));
+    use SerialProfile::{Bota, Gsv6, Gsv8, OptoForce, Robotiq};
+    let lengths = [(Gsv8, 28), (Gsv6, 28), (Bota, 37), (OptoForce, 22), (Robotiq, 16)];
+    assert_eq!(lengths.map(|(profile, _)| profile), SerialProfile::ALL);
+    let threads = lengths.map(|(profile, length)| std::thread::spawn(move || at_highest_rate(profile, length)));
     threads.into_iter().for_each(|thread| thread.join().unwrap());
 }
 
-fn at_highest_rate(profile: SerialProfile, device: Box<dyn FakeDevice + Send>, length: u32) {
+fn at_highest_rate(profile: SerialProfile, length: u32) {
     // a byte is 10 bits on the line; for 3 s
     let highest = profile.baud() / 10 / length;
     let frames = 3 * highest;
-    let (path, hold, thread) = serve(device, frames, Pace::Rate(highest.into()), Script::new());
+    let (path, hold, thread) = serve(profile.fake(100.0), frames, Pace::Rate(highest.into()), Script::new());
     let mut link = link(&path, profile.protocol(), settings(5.0));
     hold.send(()).unwrap();
     let since = Instant::now();

@@ -17,9 +17,11 @@ const BATCH: usize = 64;
 /// use rod_hw::fake::{End, FakeBota, FakeSensor, Fault, Pace, Script};
 /// use rod_hw::framed::{Bota, Framed};
 /// use rod_hw::{HostClock, Link, LinkSettings, Quality, ReadWrite};
-/// use std::os::unix::net::UnixStream;
+/// use std::net::{TcpListener, TcpStream};
 /// use std::time::Duration;
-/// let (mut device, host) = UnixStream::pair()?;
+/// let listener = TcpListener::bind("127.0.0.1:0")?;
+/// let host = TcpStream::connect(listener.local_addr()?)?;
+/// let (mut device, _) = listener.accept()?;
 /// for end in [&device, &host] {
 ///     end.set_read_timeout(Some(Duration::from_millis(1)))?;
 /// }

@@ -111,17 +111,15 @@ impl Profile for Bota {
 
     fn setup(&self, step: usize) -> Option<Step> {
         let filter = self.filter?;
-        let digit = |value: u16, place: u16| b'0' + (value / place % 10) as u8;
-        let [n, chop, fast, no_fir] = [filter.sinc, filter.chop.into(), filter.fast.into(), (!filter.fir).into()];
-        let settings = [
-            [b'f', b',', digit(n, 1000), digit(n, 100), digit(n, 10), digit(n, 1)],
-            [b',', digit(chop, 1), b',', digit(fast, 1), b',', digit(no_fir, 1)],
-        ];
-        let mut bytes = [0; 12];
-        bytes.iter_mut().zip(settings.as_flattened()).for_each(|(byte, setting)| *byte = *setting);
+        let BotaFilter { sinc, chop, fast, fir } = filter;
+        let [chop, fast, no_fir] = [chop, fast, !fir].map(u8::from);
         Some(match step {
             0 => Step { request: [b'C'].into(), command: b'C', until: Await::Answer },
-            1 => Step { request: bytes.into(), command: b'f', until: Await::Answer },
+            1 => Step {
+                request: super::text(format_args!("f,{sinc},{chop},{fast},{no_fir}")),
+                command: b'f',
+                until: Await::Answer,
+            },
             2 => Step { request: [b'R'].into(), command: b'R', until: Await::Sample },
             _ => return None,
         })
@@ -175,7 +173,7 @@ mod tests {
         let mut protocol = Framed::new(Bota { filter: Some(BotaFilter { sinc: 512, ..BotaFilter::default() }) });
         assert_eq!(*protocol.request(0.0).unwrap(), *b"C");
         assert_eq!(protocol.decode(&mut &b"App Init\r\nr,0,C,0\r\n"[..], 0.0), None);
-        assert_eq!(*protocol.request(0.1).unwrap(), *b"f,0512,0,0,1");
+        assert_eq!(*protocol.request(0.1).unwrap(), *b"f,512,0,0,1");
         let refused = protocol.decode(&mut &b"r,0,f,1"[..], 0.1);
         assert_eq!(refused, Some(Err(FrameFault::Refused { request: b'f', code: b'1' })));
         assert_eq!(protocol.decode(&mut &b"r,0,f,0"[..], 0.1), None);

@@ -191,7 +191,7 @@ pub fn get_value() -> Request {
     [SYNC, 0x90, command::GET_VALUE, TERMINATOR].into()
 }
 
-/// Request: send the values as f32. Taken from the vendor's own library.
+/// Request: send the values as f32, as the maker's library asks for it (the comment there says 03 for the 01 it sends).
 pub fn send_floats() -> Request {
     [SYNC, 0x93, command::SET_TX_MODE, 1, 0, 0x10, TERMINATOR].into()
 }

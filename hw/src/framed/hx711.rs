@@ -1,7 +1,7 @@
 //! Strain gauges at HX711 converters, read by an Arduino.
 
 use super::profile::{Await, Content, Framing, Head, Profile, Reading, Step};
-use crate::protocol::{FrameFault, Request};
+use crate::protocol::FrameFault;
 use crate::raw::Channels;
 
 /// Carriage return, line feed, 2024.0 as f32.
@@ -21,7 +21,7 @@ const DELIMITER: [u8; 6] = [0x0d, 0x0a, 0x00, 0x00, 0xfd, 0x44];
 /// use rod_hw::Protocol;
 /// use rod_hw::framed::{Framed, Hx711};
 /// let mut protocol = Framed::new(Hx711::new(2).ok_or("too many")?);
-/// assert_eq!(*protocol.request(0.0).ok_or("none")?, *b"N=02\n");
+/// assert_eq!(*protocol.request(0.0).ok_or("none")?, *b"N=2\n");
 /// let delimiter = [0x0d, 0x0a, 0, 0, 0xfd, 0x44];
 /// let bytes = [&[0x20, 0xc1][..], &delimiter, &[0, 0, 0x80, 0x3f, 0, 0, 0x20, 0xc1], &delimiter].concat();
 /// let sample = protocol.decode(&mut &bytes[..], 0.0).ok_or("no sample")??;
@@ -72,8 +72,7 @@ impl Profile for Hx711 {
     }
 
     fn setup(&self, step: usize) -> Option<Step> {
-        let digits = [self.channels / 10, self.channels % 10].map(|digit| b'0' + digit as u8);
-        let request: Request = [b'N', b'=', digits[0], digits[1], b'\n'].into();
+        let request = super::text(format_args!("N={}\n", self.channels));
         (step == 0).then_some(Step { request, command: b'N', until: Await::Sample })
     }
 }

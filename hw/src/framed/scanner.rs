@@ -10,6 +10,14 @@ pub const LONGEST_FRAME: usize = 128;
 /// within is not lost. It keeps at most [`LONGEST_FRAME`] bytes.
 ///
 /// Every byte is one of: of a good frame, skipped, still held.
+///
+/// ```
+/// use rod_hw::framed::{Bota, Scanner};
+/// let (mut scanner, mut bytes) = (Scanner::default(), &b"noise r,0,C,0 r,0,R"[..]);
+/// assert_eq!(scanner.next(&mut bytes, &Bota::default()), Some(Ok(&b"r,0,C,0"[..])));
+/// assert_eq!(scanner.next(&mut bytes, &Bota::default()), None);
+/// assert_eq!((scanner.skipped(), scanner.held()), (7, 5));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scanner {
     buffer: [u8; LONGEST_FRAME],

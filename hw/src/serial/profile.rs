@@ -1,6 +1,7 @@
 //! Framed sensors by name.
 
-use crate::framed::{Bota, Framed, Gsv, OptoForce, Robotiq};
+use crate::fake::{FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeRobotiq};
+use crate::framed::{Bota, Framed, Gsv, GsvValues, OptoForce, Robotiq};
 use crate::protocol::Protocol;
 use std::fmt;
 
@@ -100,5 +101,38 @@ impl SerialProfile {
             Self::OptoForce => Box::new(Framed::new(OptoForce::default())),
             Self::Robotiq => Box::new(Framed::new(Robotiq)),
         }
+    }
+
+    /// A device of six channels that is a program, for a [`FakeSensor`](crate::fake::FakeSensor), at a rate (Hz) where that can
+    /// be said to such a device.
+    pub fn fake(self, rate: f64) -> Box<dyn FakeDevice + Send> {
+        match self {
+            Self::Gsv8 | Self::Gsv6 => Box::new(FakeGsv8::new(6, rate, GsvValues::F32)),
+            Self::Bota => Box::new(FakeBota::new(rate)),
+            Self::OptoForce => Box::new(FakeOptoForce::new(6)),
+            Self::Robotiq => Box::new(FakeRobotiq::new()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::Quality;
+
+    #[test]
+    fn each_reads_what_its_fake_sends() {
+        for profile in SerialProfile::ALL {
+            assert_eq!(SerialProfile::parse(profile.name()), Ok(profile));
+            let (mut device, mut protocol, mut frame) = (profile.fake(100.0), profile.protocol(), Vec::new());
+            device.measure(&[3.0, -2.0, 1.0, 0.5, 0.25, -0.125], Quality::empty(), &mut frame);
+            let sample = protocol.decode(&mut &frame[..], 0.0).unwrap().unwrap();
+            // counts have no scale here
+            let scales = profile.scales().unwrap_or([1.0; 6]);
+            assert_eq!(sample.channels.len(), 6);
+            assert!((sample.channels[1] * scales[1] + 2.0).abs() < 1e-12, "{}: {sample:?}", profile.name());
+            assert_eq!((sample.quality, protocol.counters().skipped_bytes), (Quality::empty(), 0));
+        }
+        assert!(SerialProfile::parse("GSV8").is_err() && SerialProfile::parse("").is_err());
     }
 }

@@ -22,7 +22,8 @@ pub struct Pty {
 /// use rod_hw::{SerialPort, Transport, open_pty};
 /// use std::io::Read;
 /// let mut pty = open_pty()?;
-/// let mut port = SerialPort::open(pty.path(), 115_200)?;
+/// let baud = if cfg!(target_os = "macos") { 0 } else { 115_200 }; // where it may not be set
+/// let mut port = SerialPort::open(pty.path(), baud)?;
 /// port.send(b"hello")?;
 /// let mut heard = [0; 5];
 /// pty.read_exact(&mut heard)?;
