@@ -15,10 +15,15 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+#[cfg(any(feature = "tdms", feature = "mcap"))]
+#[allow(dead_code, reason = "each format needs a part of it")]
+mod bytes;
 mod calibration;
 mod clock;
 mod counters;
 mod link;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 mod protocol;
 mod quality;
 mod raw;
