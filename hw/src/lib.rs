@@ -23,6 +23,9 @@
 
 #[cfg(feature = "embedded-hal")]
 pub mod adc;
+#[cfg(any(feature = "tdms", feature = "mcap"))]
+#[allow(dead_code, reason = "each format needs a part of it")]
+mod bytes;
 mod calibration;
 mod chain;
 mod clock;
@@ -40,6 +43,8 @@ mod lever_arm;
 mod link;
 #[cfg(feature = "std")]
 mod low_pass;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 mod mounting;
 mod protocol;
 mod quality;

@@ -1,7 +1,7 @@
 //! What values are of.
 
-use super::bytes::Order;
 use super::property::TdmsTimestamp;
+use crate::bytes::Order;
 
 /// What the values of a channel are of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,7 +1,7 @@
 //! How the values of one object lie in a chunk of raw data, as its raw data index says.
 
-use super::bytes::{Cursor, End};
 use super::data_type::DataType;
+use crate::bytes::{Cursor, End};
 
 /// How the values of one object lie in a chunk.
 #[derive(Debug)]

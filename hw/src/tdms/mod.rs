@@ -8,7 +8,6 @@
 //! A file is a slice of bytes, whole: read into memory or mapped by the caller. Beside it there is the index of segments,
 //! not the values, which are decoded as they are asked for.
 
-mod bytes;
 mod channel;
 mod contents;
 mod data_type;

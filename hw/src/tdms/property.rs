@@ -1,7 +1,7 @@
 //! Properties of a file, a group or a channel.
 
-use super::bytes::{Cursor, End, Order};
 use super::data_type::DataType;
+use crate::bytes::{Cursor, End, Order};
 use std::collections::BTreeMap;
 
 /// Properties by name.

@@ -1,11 +1,11 @@
 //! Where the values of a segment lie: one channel after the other, side by side, or as cards deliver them.
 
-use super::bytes::Order;
 use super::contents::{Contents, Target};
 use super::data_type::DataType;
 use super::error::TdmsFault;
 use super::layout::{Kind, Layout};
 use super::run::Run;
+use crate::bytes::Order;
 use std::rc::Rc;
 
 /// The raw data of a segment.

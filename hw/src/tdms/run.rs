@@ -1,7 +1,7 @@
 //! Where values lie in the file.
 
-use super::bytes::Order;
 use super::data_type::DataType;
+use crate::bytes::Order;
 use core::ops::Range;
 
 /// Values at regular places in the file: chunks of rows.

@@ -1,11 +1,11 @@
 //! From segment to segment through a file: which objects there are and where their values lie.
 
-use super::bytes::{Cursor, End, Order};
 use super::contents::{Contents, Target};
 use super::error::TdmsFault;
 use super::layout::{Kind, Layout, Trouble};
 use super::property::TdmsValue;
 use super::raw_data::{self, Raw};
+use crate::bytes::{Cursor, End, Order};
 use std::collections::HashMap;
 use std::rc::Rc;
 

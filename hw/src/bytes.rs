@@ -2,7 +2,7 @@
 
 /// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
+pub(crate) enum Order {
     Little,
     Big,
 }
@@ -26,7 +26,7 @@ numbers!(u8 u8, u16 u16, u32 u32, u64 u64, i8 i8, i16 i16, i32 i32, i64 i64, f32
 
 /// A place in the bytes that moves on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
     order: Order,
@@ -34,7 +34,7 @@ pub(super) struct Cursor<'a> {
 
 /// Where the bytes end too early.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End(pub usize);
+pub(crate) struct End(pub usize);
 
 impl<'a> Cursor<'a> {
     /// From a place on, up to the end of the bytes.
@@ -59,6 +59,11 @@ impl<'a> Cursor<'a> {
         self.advance(found, 1)
     }
 
+    pub fn u16(&mut self) -> Result<u16, End> {
+        let found = self.order.u16(self.bytes, self.at);
+        self.advance(found, 2)
+    }
+
     pub fn u32(&mut self) -> Result<u32, End> {
         let found = self.order.u32(self.bytes, self.at);
         self.advance(found, 4)
@@ -67,6 +72,22 @@ impl<'a> Cursor<'a> {
     pub fn u64(&mut self) -> Result<u64, End> {
         let found = self.order.u64(self.bytes, self.at);
         self.advance(found, 8)
+    }
+
+    pub fn i32(&mut self) -> Result<i32, End> {
+        let found = self.order.i32(self.bytes, self.at);
+        self.advance(found, 4)
+    }
+
+    pub fn f64(&mut self) -> Result<f64, End> {
+        let found = self.order.f64(self.bytes, self.at);
+        self.advance(found, 8)
+    }
+
+    /// On to the next multiple of `size` from the byte `base` on.
+    pub fn align(&mut self, base: usize, size: usize) {
+        let beyond = self.at.saturating_sub(base) % size.max(1);
+        self.at += if beyond == 0 { 0 } else { size - beyond };
     }
 
     pub fn take(&mut self, count: usize) -> Result<&'a [u8], End> {

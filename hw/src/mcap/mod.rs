@@ -1,0 +1,192 @@
+//! Recordings of ROS: MCAP files.
+//!
+//! Wrenches (`geometry_msgs/WrenchStamped`), and for the stage poses (`geometry_msgs/PoseStamped`) and joints
+//! (`sensor_msgs/JointState`), of ROS 2 (CDR, both byte orders) and ROS 1. A file that breaks off gives what is complete,
+//! and a [`McapFault`] that says where. Chunks that are compressed need the feature `mcap-compression`. Bags of ROS 1 and
+//! databases of ROS 2 become MCAP files by `mcap convert`.
+//!
+//! A file is a slice of bytes, whole: read into memory or mapped by the caller. Chunks are
+//! decompressed one by one; where nothing is compressed, memory stays in proportion to the file.
+
+mod error;
+mod message;
+mod records;
+
+pub use error::{McapError, McapFault, McapTopic, MessageFault};
+pub use message::{Message, RosJoints, RosPose, Stamped};
+
+use crate::raw::{Channels, RawSample};
+use crate::wrench::Wrench;
+use crate::wrench_sample::WrenchSample;
+use records::{Event, MAGIC, Records};
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// An MCAP file.
+///
+/// ```
+/// use rod_hw::mcap::{McapFile, RosPose};
+/// let file = McapFile::read("tests/mcap/vectors/wrench.mcap")?;
+/// let sample = file.wrenches("/ft_sensor/wrench")?.next().ok_or("no sample")??;
+/// assert_eq!(sample.wrench.force, [0.1, -0.2, 0.3]); // N
+/// let pose = file.messages::<RosPose>("/stage")?.next().ok_or("no pose")??;
+/// assert_eq!((pose.time(), pose.message.planar().x), (0.001, 0.08)); // s, m
+/// assert!(file.wrenches("/ft").unwrap_err().to_string().starts_with("no topic `/ft`; there are `/ft_sensor/wrench` of "));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct McapFile<'a> {
+    bytes: Cow<'a, [u8]>,
+    /// By the number of the channel; several can be of one topic.
+    channels: HashMap<u16, usize>,
+    topics: Vec<McapTopic>,
+    origin: u64,
+    fault: Option<McapFault>,
+}
+
+impl McapFile<'static> {
+    /// The file at a path, read into memory whole.
+    ///
+    /// # Errors
+    /// [`McapError::Io`], [`McapError::NotMcap`]. A file that breaks off is none: see [`fault`](Self::fault).
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, McapError> {
+        let path = path.as_ref();
+        let io = |source| McapError::Io { path: path.to_owned(), source };
+        Self::new(std::fs::read(path).map_err(io)?.into())
+    }
+}
+
+impl<'a> McapFile<'a> {
+    /// The file of these bytes, which are gone through once for the topics.
+    ///
+    /// # Errors
+    /// [`McapError::NotMcap`].
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, McapError> {
+        Self::new(bytes.into())
+    }
+
+    fn new(bytes: Cow<'a, [u8]>) -> Result<Self, McapError> {
+        if !bytes.starts_with(MAGIC) {
+            return Err(McapError::NotMcap { found: bytes.iter().copied().take(MAGIC.len()).collect() });
+        }
+        let mut schemas: HashMap<u16, String> = HashMap::new();
+        let mut channels: HashMap<u16, usize> = HashMap::new();
+        let mut places: HashMap<(String, String, String), usize> = HashMap::new();
+        let mut topics: Vec<McapTopic> = Vec::new();
+        let mut origin = None;
+        let mut fault = None;
+        for event in Records::new(&bytes).events() {
+            match event {
+                Ok(Event::Schema { id, name }) => {
+                    schemas.insert(id, name);
+                }
+                Ok(Event::Channel { id, schema, topic, encoding }) => {
+                    let type_name = schemas.get(&schema).cloned().unwrap_or_default();
+                    let place =
+                        places.entry((topic.clone(), type_name.clone(), encoding.clone())).or_insert_with(|| {
+                            topics.push(McapTopic { name: topic, type_name, encoding, messages: 0 });
+                            topics.len() - 1
+                        });
+                    channels.insert(id, *place);
+                }
+                Ok(Event::Message { header, .. }) => {
+                    origin.get_or_insert(header.log_time);
+                    if let Some(topic) = channels.get(&header.channel_id).and_then(|&place| topics.get_mut(place)) {
+                        topic.messages += 1;
+                    }
+                }
+                Err(found) => fault = Some(found),
+            }
+        }
+        Ok(Self { bytes, channels, topics, origin: origin.unwrap_or(0), fault })
+    }
+
+    /// Why the file could not be read to its end, if it could not.
+    pub fn fault(&self) -> Option<&McapFault> {
+        self.fault.as_ref()
+    }
+
+    /// The topics, in their order.
+    pub fn topics(&self) -> &[McapTopic] {
+        &self.topics
+    }
+
+    /// When the first message was logged, ns since 1970: the origin of all times.
+    pub fn origin(&self) -> u64 {
+        self.origin
+    }
+
+    /// The messages of a topic, in the order they were logged. An iterator that goes on after a message that is wrong; why the
+    /// file breaks off, if it does, comes last.
+    ///
+    /// # Errors
+    /// [`McapError::NoTopic`] with those there are, [`McapError::Type`] where it has others.
+    pub fn messages<M: Message>(
+        &self,
+        topic: &str,
+    ) -> Result<impl Iterator<Item = Result<Stamped<M>, McapError>> + use<'_, M>, McapError> {
+        let named = || self.topics.iter().enumerate().filter(|(_, found)| found.name == topic);
+        if named().next().is_none() {
+            return Err(McapError::NoTopic {
+                topic: topic.to_owned(),
+                present: self.topics.clone(),
+                fault: self.fault.clone().map(Box::new),
+            });
+        }
+        // one topic can have channels of several types or encodings
+        let is_right = |found: &McapTopic| match found.encoding.as_str() {
+            "cdr" | "ros1" => found.type_name == M::NAME || found.type_name == M::NAME.replace("/msg/", "/"),
+            _ => false,
+        };
+        if let Some((_, found)) = named().find(|(_, found)| !is_right(found)) {
+            return Err(McapError::Type {
+                topic: topic.to_owned(),
+                found: found.type_name.clone(),
+                encoding: found.encoding.clone(),
+                expected: M::NAME,
+            });
+        }
+        let topic = topic.to_owned();
+        Ok(Records::new(&self.bytes).events().filter_map(move |event| {
+            let (header, data) = match event {
+                Ok(Event::Message { header, data }) => (header, data),
+                Ok(_) => return None,
+                Err(fault) => return Some(Err(fault.into())),
+            };
+            let found = self.topics.get(*self.channels.get(&header.channel_id)?).filter(|found| found.name == topic)?;
+            let decoded = message::decode::<M>(&data, found.encoding == "ros1");
+            Some(match decoded {
+                Ok((stamp, frame, message)) => {
+                    let log_time = self.seconds(header.log_time.into());
+                    Ok(Stamped { log_time, stamp: stamp.map(|stamp| self.seconds(stamp)), frame, message })
+                }
+                Err(what) => Err(McapError::Message { topic: topic.clone(), log_time: header.log_time, what }),
+            })
+        }))
+    }
+
+    /// The wrenches of a topic: a [`WrenchSource`](crate::WrenchSource), N and N m as ROS has them. Their time is that of the
+    /// header where it has one, that of the log otherwise; the host's time is that of the log.
+    ///
+    /// # Errors
+    /// As for [`messages`](Self::messages).
+    pub fn wrenches(
+        &self,
+        topic: &str,
+    ) -> Result<impl Iterator<Item = Result<WrenchSample, McapError>> + use<'_>, McapError> {
+        Ok(self.messages::<Wrench>(topic)?.map(|found| {
+            found.map(|Stamped { log_time, stamp, message, .. }| {
+                let channels = Channels::from(message.components());
+                let raw = RawSample { device_time: stamp, ..RawSample::new(log_time, channels) };
+                WrenchSample::of(&raw, message)
+            })
+        }))
+    }
+
+    /// From ns since 1970 to s from the origin: exact before it is rounded once.
+    #[expect(clippy::cast_precision_loss, reason = "to a float's accuracy")]
+    fn seconds(&self, time: i128) -> f64 {
+        (time - i128::from(self.origin)) as f64 / 1e9
+    }
+}
