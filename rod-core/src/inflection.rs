@@ -1,7 +1,7 @@
 //! Where a bent segment is straight: the first section without moment, in closed form.
 
 use crate::agm::agm;
-use crate::scalar::{Scalar, tolerance};
+use crate::scalar::{Scalar, is_finite, tolerance};
 use crate::segment::{Section, axial};
 
 /// Carlson's expansion is exact to rounding where the three arguments deviate from their mean by no more than this: its
@@ -65,14 +65,13 @@ pub fn inflection<T: Scalar>(start: &Section<T>, a: T, b: T) -> Option<T> {
 #[inline]
 fn carlson<T: Scalar>(mut x: T, mut y: T, mut z: T) -> T {
     let n = T::from_f64;
-    let (zero, third, quarter) = (n(0.0), n(1.0 / 3.0), n(0.25));
+    let (third, quarter) = (n(1.0 / 3.0), n(0.25));
     let near = n(const { tolerance::<T>(NEAR, 8) });
     let mut mean = (x + y + z) * third;
     for _ in 0..MOST_DUPLICATIONS {
         let reach = near * mean;
         let is_near = |u: T| mean - u <= reach && u - mean <= reach;
-        // the difference is 0 of finite numbers only
-        if is_near(x) && is_near(y) && is_near(z) || mean - mean != zero {
+        if is_near(x) && is_near(y) && is_near(z) || !is_finite(mean) {
             break;
         }
         let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());

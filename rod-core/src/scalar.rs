@@ -59,6 +59,13 @@ pub(crate) const fn tolerance<T: Scalar>(at_f64: f64, order: u32) -> f64 {
     at_f64 * root(T::EPSILON / f64::EPSILON, order)
 }
 
+/// Whether it is neither infinite nor no number.
+#[inline(always)]
+pub(crate) fn is_finite<T: Scalar>(value: T) -> bool {
+    let zero = T::from_f64(0.0);
+    value * zero == zero
+}
+
 /// The n-th root of a number >= 1 by Newton's method, from above, exactly 1 for 1.
 const fn root(value: f64, n: u32) -> f64 {
     let (mut root, mut left) = (value, 1000);

@@ -5,7 +5,7 @@
 
 use crate::basis::{Basis, basis};
 use crate::dual::Dual;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, is_finite};
 use crate::walk::Walker;
 
 /// A cross-section of the rod: where it is, where it points, how it bends. Dimensionless (length of the rod = bending
@@ -243,7 +243,7 @@ fn counted_turns<T: Scalar>(kappa: T, (c, d): (T, T), mut reach: T, angle: T, s:
     let (half, quarter) = (T::from_f64(0.5), T::from_f64(0.25));
     let (mut part, mut parts) = (s, 1_u32);
     // infinity is walked once
-    let finite = reach - reach == T::from_f64(0.0);
+    let finite = is_finite(reach);
     while finite && reach >= T::from_f64(LEAST_COIL) && parts < MOST_PARTS {
         reach = reach * quarter;
         part = part * half;

@@ -1,7 +1,7 @@
 //! Many sections of one segment at equal distances, cheaper than one [`advance`] each.
 
 use crate::basis::{Basis, basis};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, is_finite};
 use crate::segment::{Arc, LEAST_COIL, Section, advance, axial};
 
 /// Every so many steps the walk starts anew from the closed form of the whole stretch, so that rounding does not pile up.
@@ -86,8 +86,7 @@ impl<T: Scalar> Walker<T> {
         let p = (c * c + d * d).sqrt();
         let excess = n(0.25) * kappa * kappa - axial(c, d, p);
         let inverse = one / p;
-        // of finite numbers only the difference is 0
-        let over_p = if inverse - inverse == zero { inverse } else { zero };
+        let over_p = if is_finite(inverse) { inverse } else { zero };
         let (at, origin) = (basis(p, excess, h), (kappa, c, d));
         let reach = (p + excess) * h * h;
         Self { reach, at, p, over_p, origin, x: zero, y: zero, phi: zero, sin: zero, cos: one, kappa }
