@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use proptest::prelude::*;
-use rod_core::{Pose, Reactions};
+use rod_core::{Elastica, Load, Pose, Reactions, Rod, find_root};
 use rod_hw::{
-    Calibration, ChainError, Channels, ConstantSpeed, Counts, FnCalibration, FnStage, Frame, Mounting, Quality, Rails,
-    RawSample, ReactionSample, Scale, Sense, SensorError, SignalChain, SimulatedSensor, StageError, Tare, Timekeeper,
-    Velocity, Wrench, WrenchChain, WrenchSample, WrenchUnits, Zero,
+    Calibration, ChainError, Channels, ConstantSpeed, Counts, Despike, FnCalibration, FnStage, Frame, Mounting,
+    OutOfPlane, Quality, Rails, RawSample, ReactionSample, Scale, Sense, SensorError, SignalChain, SimulatedSensor,
+    StageError, Tare, Timekeeper, Velocity, Wrench, WrenchChain, WrenchSample, WrenchUnits, Zero,
 };
 use rod_reconstruct::{NoiseModel, noise_estimate};
 use std::convert::Infallible;
@@ -54,6 +54,8 @@ fn close(found: &ReactionSample, clean: &Reactions) -> bool {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     /// What goes in comes out to half a count of each axis, whatever the mounting.
     #[test]
     fn there_and_back(
@@ -88,6 +90,54 @@ proptest! {
         let found = chain.over(sensor).next().unwrap().unwrap().reactions;
         prop_assert!((found.f0x - f0x).abs() <= 1e-4 && (found.f0y - f0y).abs() <= 1e-4 && (found.m0z - m0z).abs() <= 1e-6);
     }
+}
+
+/// The forces that bend a rod, on the sensor by statics, are the reactions that its elastica has at the clamp.
+#[test]
+fn the_sensor_agrees_with_the_elastica() {
+    let rod = Rod::new(0.1, 6.32e-4).unwrap();
+    let pose = Pose { x: 0.03, y: -0.02, phi: 1.3 };
+    let loads = [Load { s: 0.06, force: 0.08, alpha: 0.2 }, Load { s: 0.09, force: 0.05, alpha: 0.5 }];
+    let bent = |m0z| Elastica::from_clamp(rod.units(), pose, m0z, &loads);
+    let free_end = |m0z| Ok(bent(m0z)?.at(0.1).kappa);
+    let rod = bent(find_root("moment at the free end", free_end, -0.02, 0.02, 0.0).unwrap().at).unwrap();
+
+    let (lever, angle) = ([0.004, -0.02, 0.01], 0.7);
+    let mounting = Mounting::new(Frame::planar(angle).unwrap().with_origin(lever).unwrap());
+    let (sin, cos) = f64::sin_cos(angle);
+    let into_sensor = |x: f64, y: f64| [cos * x + sin * y, cos * y - sin * x];
+    let mut wrench = Wrench { force: [0.0; 3], torque: [0.0; 3] };
+    for Load { s, force, alpha } in loads {
+        let at = rod.at(s);
+        let [fx, fy] = into_sensor(force * alpha.sin(), -force * alpha.cos());
+        let [rx, ry] = into_sensor(at.x - pose.x, at.y - pose.y);
+        let [x, y, z] = [lever[0] + rx, lever[1] + ry, lever[2]];
+        wrench = wrench + Wrench { force: [fx, fy, 0.0], torque: [-z * fy, z * fx, x * fy - y * fx] };
+    }
+    let found = mounting.reactions(&WrenchSample::new(0.0, wrench), pose);
+    let expected = rod.reactions();
+    assert!(expected.m0z.abs() > 1e-3 && expected.f0x.abs() > 1e-2 && expected.f0y.abs() > 1e-2);
+    assert!((found.reactions.f0x - expected.f0x).abs() < 1e-15);
+    assert!((found.reactions.f0y - expected.f0y).abs() < 1e-15);
+    assert!((found.reactions.m0z - expected.m0z).abs() < 1e-15, "{} {}", found.reactions.m0z, expected.m0z);
+    let OutOfPlane { f0z, m0x, m0y } = found.out_of_plane;
+    assert!([f0z, m0x, m0y].iter().all(|c| c.abs() < 1e-15));
+}
+
+#[test]
+fn nothing_is_allocated_on_the_way_of_a_sample() {
+    let stage = ConstantSpeed::new(start(), velocity(), 0.0).unwrap();
+    let mounting = Mounting::new(Frame::planar(0.3).unwrap()).turning_with_clamp(1.5).unwrap();
+    let mut chain = SignalChain::new(calibration(), WrenchChain::new(stage, mounting))
+        .with_rails(counts().rails())
+        .with_timekeeper(Timekeeper::counted(None));
+    let mut despike = Despike::<7>::new(5.0, Reactions { f0x: 1e-3, f0y: 1e-3, m0z: 1e-5 }).unwrap();
+    let source = SimulatedSensor::new(states(100, 500.0), Some, mounting, counts());
+    let mut handed_on = 0;
+    let allocated = allocation_counter::measure(|| {
+        handed_on = chain.over(source).filter_map(|sample| despike.push(sample.unwrap())).count();
+    });
+    assert_eq!((allocated.count_total, handed_on), (0, 97));
 }
 
 #[test]
