@@ -7,11 +7,13 @@
 //! - [`Calibration`]: raw values to a wrench, [`Scale`] of counts and [`GaugeMatrix`] among them. [`StageSource`]: where the clamp is at a time.
 //! - [`Accuracy`], [`RatedLoad`]: how far a sensor can be trusted. [`SensorCheck`]: whether it suits a rod.
 //! - [`TareWindow`]: samples without load to a [`Zero`]; [`Tare`]: one or two of them, taken off.
+//! - [`Mounting`]: the wrench at the sensor to the reactions at the clamp. [`SignalChain`]: from raw samples to reactions, all
+//!   of it, with [`Rails`] for what is saturated and a [`Timekeeper`] for when; `SimulatedSensor`: the way back.
+//! - [`Despike`] marks spikes; `LowPass` and `fill_gaps` are for recordings that need them.
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
-//!   protocol on a transport, with a deadline.
+//!   protocol on a transport, with a deadline; `spawn`: the same in a thread of its own.
 //! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
 //! - With the feature `recordings`, `recording`: tables of text, LabVIEW's among them, read; samples recorded.
-//!   protocol on a transport, with a deadline; [`spawn`]: the same in a thread of its own.
 //! - [`rdt`]: sensors over UDP that speak ATI's RDT.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
@@ -59,6 +61,8 @@ mod saturation;
 mod sequence;
 #[cfg(feature = "std")]
 mod serial;
+#[cfg(feature = "std")]
+mod simulated;
 mod source;
 #[cfg(feature = "std")]
 mod spawn;
@@ -107,6 +111,8 @@ pub use serial::{Pty, open_pty};
 pub use serial::{SerialError, SerialPort};
 #[cfg(feature = "std")]
 pub use serial::{SerialProfile, SerialProfileError};
+#[cfg(feature = "std")]
+pub use simulated::{Counts, CountsError, SimulatedSensor};
 pub use source::{RawSource, WrenchSource};
 #[cfg(feature = "std")]
 pub use spawn::{Spawned, spawn};
