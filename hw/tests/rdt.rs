@@ -6,7 +6,10 @@ use rod_hw::rdt::{
     FakeRdt, FakeRdtAccount, FakeRdtSettings, OnRobotFilter, Rdt, RdtFault, RdtProfile, RdtRecord, RdtRequest,
     RdtSettings, read_scaling,
 };
-use rod_hw::{HostClock, Link, LinkCounters, LinkError, LinkSettings, Quality, RawSample, Udp, UdpError, spawn};
+use rod_hw::{
+    Calibration, HostClock, Link, LinkCounters, LinkError, LinkSettings, Quality, RawSample, Tare, Udp, UdpError,
+    Wrench, Zero, spawn,
+};
 use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
 
@@ -218,6 +221,13 @@ fn a_sensor_that_counts_anew() {
     assert_eq!(came(&samples), without(&[50]));
     assert_eq!(flagged(&samples, Quality::RESTARTED | GAP), [51]);
     assert_same(link.counters(), fake.account(), 1);
+    // its zero is another one now
+    let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
+    let begin = samples[0].host_time;
+    let mut tare = Tare::single(Zero::known(Wrench::default(), Wrench::default(), begin, begin + 1e-3).unwrap());
+    let tared = samples.iter().map(|raw| tare.apply(&calibration.wrench(raw).unwrap()));
+    let stale: Vec<bool> = tared.map(|sample| sample.quality.contains(Quality::TARE_STALE)).collect();
+    assert_eq!(stale, came(&samples).iter().map(|count| *count >= 51).collect::<Vec<_>>());
 }
 
 #[test]
