@@ -8,7 +8,7 @@ use crate::quality::Quality;
 use crate::raw::RawSample;
 use crate::transport::Transport;
 use std::io::Error;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
@@ -27,6 +27,8 @@ pub struct Spawned<E> {
 struct Shared {
     stop: AtomicBool,
     counters: Mutex<LinkCounters>,
+    /// Samples and errors that wait for the consumer.
+    waiting: AtomicUsize,
 }
 
 /// Reads a link in a thread of its own, so that a consumer who is busy at times loses nothing: up to `capacity` samples wait
@@ -82,9 +84,13 @@ where
         if let Ok(sample) = &mut item {
             sample.quality |= flags;
         }
+        shared.waiting.fetch_add(1, Ordering::Relaxed);
         let full = match sender.try_send(item) {
             Ok(()) => None,
-            Err(TrySendError::Full(item)) => Some(item),
+            Err(TrySendError::Full(item)) => {
+                shared.waiting.fetch_sub(1, Ordering::Relaxed);
+                Some(item)
+            }
             Err(TrySendError::Disconnected(_)) => break,
         };
         match full {
@@ -108,9 +114,19 @@ impl<E> Spawned<E> {
         *self.shared.counters.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// How many samples wait to be taken. Where they grow more and more the consumer is too slow for this device, and what it
+    /// takes is older and older.
+    pub fn waiting(&self) -> usize {
+        self.shared.waiting.load(Ordering::Relaxed)
+    }
+
     /// The next sample if one is waiting, without waiting for it.
     pub fn try_next(&mut self) -> Option<Result<RawSample, LinkError<E>>> {
-        self.samples.try_recv().ok()
+        self.samples.try_recv().ok().inspect(|_| self.taken())
+    }
+
+    fn taken(&self) {
+        self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
@@ -119,7 +135,7 @@ impl<E> Iterator for Spawned<E> {
 
     /// The next sample, which the link answers for within its deadline.
     fn next(&mut self) -> Option<Self::Item> {
-        self.samples.recv().ok()
+        self.samples.recv().ok().inspect(|_| self.taken())
     }
 }
 
@@ -206,11 +222,13 @@ mod tests {
     #[test]
     fn what_nobody_takes_is_counted_and_flagged() {
         let (mut spawned, _) = start(10, 4);
-        while spawned.counters().samples < 10 {
+        while !spawned.thread.as_ref().unwrap().is_finished() {
             std::thread::sleep(Duration::from_millis(1));
         }
+        assert_eq!(spawned.waiting(), 4);
         let taken: Vec<u64> = std::iter::from_fn(|| spawned.try_next()?.ok()?.sequence).collect();
         assert_eq!((taken, spawned.counters().untaken), (vec![1, 2, 3, 4], 6));
+        assert_eq!(spawned.waiting(), 0);
     }
 
     #[test]

@@ -61,7 +61,6 @@ pub enum UdpError {
 /// assert_eq!(&buffer[..4], b"data");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
 pub struct Udp {
     socket: UdpSocket,
     peer: SocketAddr,
@@ -122,6 +121,12 @@ impl Udp {
 
     fn broken(&self, cause: Error) -> UdpError {
         UdpError::Broken { peer: self.peer, cause }
+    }
+}
+
+impl core::fmt::Debug for Udp {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Udp").field("peer", &self.peer).field("foreign", &self.foreign).finish_non_exhaustive()
     }
 }
 

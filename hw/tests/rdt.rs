@@ -6,7 +6,10 @@ use rod_hw::rdt::{
     FakeRdt, FakeRdtAccount, FakeRdtSettings, OnRobotFilter, Rdt, RdtFault, RdtProfile, RdtRecord, RdtRequest,
     RdtSettings, read_scaling,
 };
-use rod_hw::{HostClock, Link, LinkCounters, LinkError, LinkSettings, Quality, RawSample, Udp, UdpError, spawn};
+use rod_hw::{
+    Calibration, HostClock, Link, LinkCounters, LinkError, LinkSettings, Quality, RawSample, Tare, Udp, UdpError,
+    Wrench, Zero, spawn,
+};
 use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
 
@@ -15,7 +18,7 @@ type Sensor = Link<Udp, Rdt, HostClock>;
 const GAP: Quality = Quality::GAP_BEFORE;
 
 fn link(fake: &FakeRdt, settings: RdtSettings) -> Sensor {
-    link_within(fake, settings, 0.5)
+    link_within(fake, settings, 0.25)
 }
 
 fn link_within(fake: &FakeRdt, settings: RdtSettings, deadline: f64) -> Sensor {
@@ -218,6 +221,13 @@ fn a_sensor_that_counts_anew() {
     assert_eq!(came(&samples), without(&[50]));
     assert_eq!(flagged(&samples, Quality::RESTARTED | GAP), [51]);
     assert_same(link.counters(), fake.account(), 1);
+    // its zero is another one now
+    let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
+    let begin = samples[0].host_time;
+    let mut tare = Tare::single(Zero::known(Wrench::default(), Wrench::default(), begin, begin + 1e-3).unwrap());
+    let tared = samples.iter().map(|raw| tare.apply(&calibration.wrench(raw).unwrap()));
+    let stale: Vec<bool> = tared.map(|sample| sample.quality.contains(Quality::TARE_STALE)).collect();
+    assert_eq!(stale, came(&samples).iter().map(|count| *count >= 51).collect::<Vec<_>>());
 }
 
 #[test]
@@ -252,7 +262,7 @@ fn started_twice_is_no_loss() {
     let fake = FakeRdt::start(settings, counts(100)).unwrap();
     let mut link = link(&fake, net_ft());
     // and one more in the middle
-    let mut samples: Vec<RawSample> = link.by_ref().take(50).map(Result::unwrap).collect();
+    let mut samples: Vec<RawSample> = link.by_ref().filter_map(Result::ok).take(50).collect();
     link.protocol_mut().ask(RdtRequest::Start { count: 0 }).unwrap();
     samples.extend(drain(&mut link, &fake));
     assert_eq!(came(&samples), without(&[]));
@@ -301,7 +311,7 @@ fn a_storm_is_an_error_and_passes() {
     let faults = vec![(20, RdtFault::Garbage(7)); 12];
     let fake = FakeRdt::start(FakeRdtSettings { faults, ..FakeRdtSettings::default() }, counts(100)).unwrap();
     let mut link = link(&fake, net_ft());
-    assert_eq!(link.by_ref().take(20).filter_map(Result::ok).count(), 20);
+    assert_eq!(link.by_ref().filter_map(Result::ok).take(20).count(), 20);
     let error = link.next().unwrap().unwrap_err();
     assert!(matches!(error, LinkError::<UdpError>::Storm { count: 10, .. }));
     assert!(error.to_string().ends_with("a frame of 7 bytes, expected 36; is this the right protocol?"), "{error}");
@@ -358,7 +368,7 @@ fn a_reader_busy_at_times_loses_nothing_unnoticed() {
     let settings = FakeRdtSettings { rate: Some(7000.0), ..FakeRdtSettings::default() };
     let fake = FakeRdt::start(settings, counts(7000)).unwrap();
     // a silence shorter than the reader's own
-    let mut link = link(&fake, RdtSettings { silence: 0.3, ..net_ft() });
+    let mut link = link_within(&fake, RdtSettings { silence: 0.3, ..net_ft() }, 5.0);
     let mut samples: Vec<RawSample> = link.by_ref().take(10).map(Result::unwrap).collect();
     std::thread::sleep(Duration::from_millis(450));
     while let Some(Ok(sample)) = link.next() {
@@ -379,7 +389,7 @@ fn a_reader_busy_at_times_loses_nothing_unnoticed() {
 fn a_busy_consumer_loses_nothing() {
     let settings = FakeRdtSettings { rate: Some(7000.0), ..FakeRdtSettings::default() };
     let fake = FakeRdt::start(settings, counts(3500)).unwrap();
-    let mut sensor = spawn(link(&fake, net_ft()), 10_000).unwrap();
+    let mut sensor = spawn(link_within(&fake, net_ft(), 5.0), 10_000).unwrap();
     let mut samples: Vec<RawSample> = Vec::new();
     while let Some(Ok(sample)) = sensor.next() {
         samples.push(sample);
@@ -470,7 +480,7 @@ fn seven_thousand_a_second() {
     let source = std::iter::from_fn(move || Some([micros(), 0, 0, 0, 0, 0])).take(7000 * 60);
     let settings = FakeRdtSettings { rate: Some(7000.0), ..FakeRdtSettings::default() };
     let fake = FakeRdt::start(settings, source).unwrap();
-    let mut link = link(&fake, net_ft());
+    let mut link = link_within(&fake, net_ft(), 5.0);
     let (mut delays, mut made) = (Vec::new(), Vec::new());
     for _ in 0..7000 * 60 {
         let Some(Ok(sample)) = link.next() else { break };

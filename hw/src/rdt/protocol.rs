@@ -71,7 +71,8 @@ pub enum RdtRequestError {
 /// The stream of an RDT sensor (ATI Net F/T and Axia, OnRobot): starts it, again every 0.1 s until data comes and after a
 /// silence, decodes its records, and keeps account of what is missing.
 ///
-/// A sample has the counts of Fx, Fy, Fz, Tx, Ty, Tz as its channels, `ft_sequence` as its number, and the status word as sent.
+/// A sample has the counts of Fx, Fy, Fz, Tx, Ty, Tz as its channels, `ft_sequence` as its number, which goes up by more than 1
+/// where the records are fewer than the samples of the sensor's clock, and the status word as sent.
 /// Two counters tell more than one: each start makes `rdt_sequence` begin at 1 again, `ft_sequence` goes on. So
 /// - a record of the same sample as the one before is a repetition, whatever the number of its packet;
 /// - an earlier packet with a later sample is the answer to one more start, and nothing is lost;
