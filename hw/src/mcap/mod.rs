@@ -32,7 +32,8 @@ use std::path::Path;
 /// assert_eq!(sample.wrench.force, [0.1, -0.2, 0.3]); // N
 /// let pose = file.messages::<RosPose>("/stage")?.next().ok_or("no pose")??;
 /// assert_eq!((pose.time(), pose.message.planar().x), (0.001, 0.08)); // s, m
-/// assert!(file.wrenches("/ft").unwrap_err().to_string().starts_with("no topic `/ft`; there are `/ft_sensor/wrench` of "));
+/// let error = file.wrenches("/ft").err().ok_or("expected none")?.to_string();
+/// assert!(error.starts_with("no topic `/ft`; there are `/ft_sensor/wrench` of geometry_msgs/msg/WrenchStamped"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
