@@ -6,7 +6,8 @@
 //! databases of ROS 2 become MCAP files by `mcap convert`.
 //!
 //! A file is a slice of bytes, whole: read into memory or mapped by the caller. Chunks are
-//! decompressed one by one; where nothing is compressed, memory stays in proportion to the file.
+//! decompressed one by one; where nothing is compressed, memory stays in proportion to the file; a record
+//! that is may have 64 MiB.
 
 mod error;
 mod message;
