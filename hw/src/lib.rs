@@ -42,6 +42,7 @@ pub mod framed;
 mod gaps;
 #[cfg(feature = "std")]
 mod lever_arm;
+mod iio;
 mod link;
 #[cfg(feature = "std")]
 mod low_pass;
@@ -93,6 +94,7 @@ pub use frame::{Axis, Frame, FrameError};
 pub use gaps::fill_gaps;
 #[cfg(feature = "std")]
 pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
+pub use iio::{IioError, IioRecord, ScanType};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 #[cfg(feature = "std")]
 pub use low_pass::{LowPass, LowPassError};

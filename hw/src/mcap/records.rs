@@ -3,8 +3,8 @@
 use super::error::McapFault;
 use crate::bytes::{Cursor, End, Order};
 use core::iter::from_fn;
-use mcap::read::ChunkReader;
-use mcap::records::{ChunkHeader, MessageHeader, Record, op};
+use mcap::records::{ChunkHeader, MessageHeader, op};
+use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use std::borrow::Cow;
 
 /// What is of interest in a file.
@@ -12,6 +12,16 @@ pub(super) enum Event<'a> {
     Schema { id: u16, name: String },
     Channel { id: u16, schema: u16, topic: String, encoding: String },
     Message { header: MessageHeader, data: Cow<'a, [u8]> },
+}
+
+impl Event<'_> {
+    fn into_owned(self) -> Event<'static> {
+        match self {
+            Self::Schema { id, name } => Event::Schema { id, name },
+            Self::Channel { id, schema, topic, encoding } => Event::Channel { id, schema, topic, encoding },
+            Self::Message { header, data } => Event::Message { header, data: data.into_owned().into() },
+        }
+    }
 }
 
 pub(super) const MAGIC: &[u8] = mcap::MAGIC;
@@ -83,7 +93,8 @@ impl<'a> Records<'a> {
         let whole = usize::try_from(length).ok().and_then(|length| body.get(..length));
         if code == op::CHUNK {
             self.at = at.saturating_add(HEAD).saturating_add(usize::try_from(length).unwrap_or(end));
-            return chunk(at, whole.unwrap_or(body), whole.is_none().then_some(truncated));
+            let record = rest.get(..HEAD + whole.unwrap_or(body).len()).unwrap_or(rest);
+            return chunk(at, record, whole.is_none().then_some(truncated));
         }
         let body = whole.ok_or(truncated)?;
         self.at = at + HEAD + body.len();
@@ -147,27 +158,13 @@ fn decode(code: u8, body: &[u8]) -> Result<Option<Event<'_>>, End> {
     }))
 }
 
-fn of_record(record: Record<'_>) -> Option<Event<'_>> {
-    Some(match record {
-        Record::Schema { header, .. } => Event::Schema { id: header.id, name: header.name },
-        Record::Channel(channel) => Event::Channel {
-            id: channel.id,
-            schema: channel.schema_id,
-            topic: channel.topic,
-            encoding: channel.message_encoding,
-        },
-        Record::Message { header, data } => Event::Message { header, data },
-        _ => return None,
-    })
-}
-
 fn bad(at: usize, error: &mcap::McapError) -> McapFault {
     McapFault::Record { at, what: error.to_string() }
 }
 
 /// The events of a chunk, of which the end may be missing; then the fault of that.
-fn chunk<'a>(at: usize, body: &'a [u8], cut: Option<McapFault>) -> Result<Step<'a>, McapFault> {
-    let Some((header, data)) = chunk_header(body) else {
+fn chunk<'a>(at: usize, record: &'a [u8], cut: Option<McapFault>) -> Result<Step<'a>, McapFault> {
+    let Some((header, data)) = record.get(HEAD..).and_then(chunk_header) else {
         let what = "the chunk is shorter than its header".to_owned();
         return Err(cut.unwrap_or(McapFault::Record { at, what }));
     };
@@ -183,34 +180,44 @@ fn chunk<'a>(at: usize, body: &'a [u8], cut: Option<McapFault>) -> Result<Step<'
         let what = "a record in the chunk is not what it should be".to_owned();
         return Ok(Step::Chunk(plain(at, data, cut.unwrap_or(McapFault::Record { at, what }))));
     }
-    let format = header.compression.clone();
-    let mut reader = ChunkReader::new(header, data).map_err(|error| match error {
-        mcap::McapError::UnsupportedCompression(_) => McapFault::Compression { at, format, known: KNOWN },
-        error => bad(at, &error),
-    })?;
-    let mut cut = cut;
-    let mut is_done = false;
+    let format = header.compression;
+    let options = LinearReaderOptions::default()
+        .with_skip_start_magic(true)
+        .with_skip_end_magic(true)
+        .with_validate_chunk_crcs(true)
+        .with_record_length_limit(MOST);
+    let mut reader = LinearReader::new_with_options(options);
+    let (mut rest, mut cut, mut is_done) = (record, cut, false);
     Ok(Step::Chunk(Box::new(from_fn(move || {
         while !is_done {
-            match reader.next() {
-                Some(Ok(record)) => {
-                    if let Some(event) = of_record(record) {
-                        return Some(Ok(event));
-                    }
+            let fault = match reader.next_event() {
+                Some(Ok(LinearReadEvent::ReadRequest(need))) => {
+                    let (now, later) = rest.split_at(need.min(rest.len()));
+                    reader.insert(now.len()).copy_from_slice(now);
+                    reader.notify_read(now.len());
+                    rest = later;
+                    continue;
                 }
-                Some(Err(error)) => {
-                    is_done = true;
-                    return Some(Err(cut.take().unwrap_or_else(|| bad(at, &error))));
+                Some(Ok(LinearReadEvent::Record { data, opcode })) => match event(at, opcode, data) {
+                    Ok(Step::Event(event)) => return Some(Ok(event.into_owned())),
+                    Ok(_) => continue,
+                    Err(fault) => Some(fault),
+                },
+                Some(Err(mcap::McapError::UnsupportedCompression(_))) => {
+                    Some(McapFault::Compression { at, format: format.clone(), known: KNOWN })
                 }
-                None => {
-                    is_done = true;
-                    return cut.take().map(Err);
-                }
-            }
+                Some(Err(error)) => cut.take().or_else(|| Some(bad(at, &error))),
+                None => cut.take(),
+            };
+            is_done = true;
+            return fault.map(Err);
         }
         None
     }))))
 }
+
+/// Most bytes of a record in a compressed chunk, which says itself how long it is.
+const MOST: usize = 1 << 26;
 
 /// Header and records of a chunk, also where these are not all there.
 fn chunk_header(body: &[u8]) -> Option<(ChunkHeader, &[u8])> {
