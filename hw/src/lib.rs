@@ -40,9 +40,9 @@ mod frame;
 pub mod framed;
 #[cfg(feature = "std")]
 mod gaps;
+mod iio;
 #[cfg(feature = "std")]
 mod lever_arm;
-mod iio;
 mod link;
 #[cfg(feature = "std")]
 mod low_pass;
@@ -92,9 +92,9 @@ pub use despike::{Despike, DespikeError};
 pub use frame::{Axis, Frame, FrameError};
 #[cfg(feature = "std")]
 pub use gaps::fill_gaps;
+pub use iio::{IioError, IioRecord, ScanType};
 #[cfg(feature = "std")]
 pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
-pub use iio::{IioError, IioRecord, ScanType};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
 #[cfg(feature = "std")]
 pub use low_pass::{LowPass, LowPassError};
