@@ -2,13 +2,14 @@
 
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
+use vibrissa_cli::{FakeProtocol, SensorAddress, StageSpec};
 
 /// A thin elastic rod swept along an object: contact phases, transitions and clamp reactions.
 #[derive(Debug, Parser)]
 #[command(
     version,
-    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording that does not \
-                  fit its rod or its units."
+    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording or \
+                  sensor that does not fit its rod or its units, a sensor that fell silent."
 )]
 pub struct Arguments {
     /// What to do.
@@ -22,6 +23,14 @@ Turn a recording of clamp reactions back into contact points, phases and the con
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
 labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout.";
+
+const LIVE: &str = "\
+Listen to a sensor and tell contact points and phases as they come.
+
+The scan begins where the rod is free: its first second is the tare and tells the noise. The stage sets off with the first
+sample. Writes recording.csv (clamp poses, reactions and raw values; `vibrissa reconstruct` reads it), points.jsonl (one object for each
+sample) and summary.json (losses, flags, latency), the first two as it goes. Ends when the clamp has arrived, the recording
+ends, the sensor is silent for 3 s, or with Ctrl-C.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -66,6 +75,31 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Listen to a sensor: contact points, phases and flags as they come
+    #[command(long_about = LIVE)]
+    Live {
+        /// Where it is: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
+        /// or file:RECORDING
+        #[arg(long, value_name = "ADDRESS")]
+        sensor: SensorAddress,
+        /// The rod, a TOML file with the table [rod] of a scene; or a scene
+        #[arg(long, value_name = "FILE")]
+        rod: PathBuf,
+        /// How the clamp moves: constant:SPEED (m/s, or rad/s where it only turns) or table:FILE (t,x0,y0,phi0)
+        #[arg(long, value_name = "STAGE")]
+        stage: Option<StageSpec>,
+        /// The scene whose path a constant speed is along [default: that of --rod]
+        #[arg(long, value_name = "SCENE")]
+        path: Option<PathBuf>,
+        /// How the sensor is set up, a TOML file: units and counts, mounting, accuracy, tare
+        #[arg(long, value_name = "FILE")]
+        setup: Option<PathBuf>,
+        /// Directory of the results
+        #[arg(long, value_name = "DIR", default_value = "out/live")]
+        out: PathBuf,
+    },
+    /// Play what a sensor would send along a scene, for tests without one
+    FakeSensor(FakeSensor),
     /// Run the nine scans of Merker et al. (2021) and compare their phases with the paper's
     Paper {
         /// Directory of the results
@@ -97,4 +131,38 @@ pub struct Simulate {
     /// The CSV file [default: out/<name of the scene>/recording.csv]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+}
+
+/// A sensor to be played.
+#[derive(Debug, Args)]
+pub struct FakeSensor {
+    /// The scene, a TOML file; its step is not used
+    pub scene: PathBuf,
+    /// What the sensor speaks
+    #[arg(long, value_enum)]
+    pub protocol: FakeProtocol,
+    /// Samples in a second
+    #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
+    pub rate: f64,
+    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
+    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
+    pub speed: f64,
+    /// How many times faster than real time to play
+    #[arg(long, value_name = "TIMES", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub faster: f64,
+    /// The noise of the sensor, a TOML file [default: a sensor that reads the truth]
+    #[arg(long, value_name = "FILE")]
+    pub noise: Option<PathBuf>,
+    /// Seed of the noise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// How the sensor is set up, a TOML file, as for `live`
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+    /// UDP port of the samples, 0 for any that is free
+    #[arg(long, value_name = "PORT", default_value_t = 49152)]
+    pub port: u16,
+    /// TCP port of the scaling, 0 for any that is free
+    #[arg(long, value_name = "PORT", default_value_t = 49151)]
+    pub scaling_port: u16,
 }

@@ -2,16 +2,18 @@
 
 mod arguments;
 
-use arguments::{Arguments, Command, Simulate};
+use arguments::{Arguments, Command, FakeSensor, Simulate};
 use clap::Parser;
 use indicatif::ProgressBar;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::{NoiseModel, Stop};
 use vibrissa_cli::{
-    Error, Paper, Reconstructed, Recording, Scan, Scene, Simulated, Simulation, Staged, read_noise, read_rod,
-    write_profiles,
+    Error, FakeScan, LiveScan, Paper, Played, Reconstructed, Recording, Scan, Scene, Sensor, SensorAddress, Setup,
+    Simulated, Simulation, StageSpec, Staged, read_noise, read_rod, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -23,6 +25,10 @@ fn main() -> ExitCode {
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Reconstruct { recording, rod, truth, out } => reconstruct(&recording, &rod, truth, out),
+        Command::Live { sensor, rod, stage, path, setup, out } => {
+            live(&sensor, &rod, stage, path.as_deref(), setup.as_deref(), &out)
+        }
+        Command::FakeSensor(arguments) => fake_sensor(arguments),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| {
@@ -98,6 +104,59 @@ fn reconstruct(file: &Path, rod: &Path, truth: Option<PathBuf>, out: Option<Path
         warn(&format!("warning: {}: {finding}\n", file.display()));
     }
     Ok(ExitCode::from(UNFINISHED))
+}
+
+fn live(
+    address: &SensorAddress,
+    rod: &Path,
+    stage: Option<StageSpec>,
+    path: Option<&Path>,
+    setup: Option<&Path>,
+    out: &Path,
+) -> Result<ExitCode, Error> {
+    let setup = setup.map_or_else(|| Ok(Setup::default()), Setup::read)?;
+    let path = match (path, &stage) {
+        (Some(scene), _) => Some(Scene::read(scene)?.path),
+        // a file with nothing but a rod is no scene: then the path is missed where it is needed
+        (None, Some(StageSpec::Constant(_))) => Scene::read(rod).ok().map(|scene| scene.path),
+        (None, _) => None,
+    };
+    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path };
+    let sensor = Sensor::open(address, &setup)?;
+    let interrupted = interrupted();
+    let report =
+        scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupted.load(Ordering::Relaxed))?;
+    say(&report.text());
+    say(&format!("written to {}\n", out.display()));
+    Ok(if report.is_complete() { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })
+}
+
+fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
+    let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
+    let scene = Scene::read(&scene)?;
+    let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
+    let setup = setup.map_or_else(|| Ok(Setup::default()), |file| Setup::read(&file))?;
+    let name = scene.name.clone();
+    let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
+    let interrupted = interrupted();
+    let scan = FakeScan { simulation, setup, protocol, faster, port, scaling_port };
+    let Played { samples, sent, stop } =
+        scan.run(&mut |line| say(&format!("{line}\n")), &|| interrupted.load(Ordering::Relaxed))?;
+    say(&format!("{sent} of {samples} samples sent\n"));
+    Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
+}
+
+/// Set once somebody presses Ctrl-C; a second time ends the process.
+fn interrupted() -> Arc<AtomicBool> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&flag);
+    // without a handler Ctrl-C ends the process at once, which loses the summary only
+    let _ = ctrlc::set_handler(move || {
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    flag
 }
 
 fn paper(out: &Path) -> Result<ExitCode, Error> {

@@ -98,11 +98,12 @@ impl FromStr for SensorAddress {
             return Ok(Self::Rdt { host: host.to_owned(), port, scaling });
         }
         if let Some(rest) = text.strip_prefix("serial:") {
-            let parts: Vec<&str> = rest.split(':').collect();
-            let (path, profile, baud) = match parts[..] {
-                [path, profile] => (path, profile, None),
-                [path, profile, baud] => (path, profile, Some(number("the baud rate", baud, 100_000_000)?)),
-                _ => return Err(form()),
+            // from the right: a path may have colons
+            let (before, last) = rest.rsplit_once(':').ok_or_else(form)?;
+            let (path, profile, baud) = match (before.rsplit_once(':'), last.starts_with(|c: char| c.is_ascii_digit()))
+            {
+                (Some((path, profile)), true) => (path, profile, Some(number("the baud rate", last, 100_000_000)?)),
+                _ => (before, last, None),
             };
             if path.is_empty() || profile.is_empty() {
                 return Err(form());
@@ -142,6 +143,7 @@ mod tests {
             ("rdt://[::1]", rdt("::1", 49_152, 49_151)),
             ("serial:/dev/ttyUSB0:gsv8", serial("/dev/ttyUSB0", None)),
             ("serial:COM3:gsv8:230400", serial("COM3", Some(230_400))),
+            ("serial:/dev/serial/by-path/pci-0:14:gsv8", serial("/dev/serial/by-path/pci-0:14", None)),
             ("file:a:b.csv", SensorAddress::File("a:b.csv".into())),
         ] {
             assert_eq!(text.parse(), Ok(address), "{text}");
@@ -154,7 +156,7 @@ mod tests {
             ("serial:/dev/tty", "`serial:/dev/tty` is no address"),
             ("rdt://a:0", "the port in `rdt://a:0` is `0`, expected a whole number from 1 to 65535"),
             ("rdt://a:70000", "the port in `rdt://a:70000` is `70000`"),
-            ("serial:a:b:fast", "the baud rate in `serial:a:b:fast` is `fast`"),
+            ("serial:a:b:9600bd", "the baud rate in `serial:a:b:9600bd` is `9600bd`"),
         ] {
             let error = text.parse::<SensorAddress>().unwrap_err().to_string();
             assert!(error.starts_with(message), "{error}");

@@ -44,13 +44,7 @@ impl Sensor {
                     Some(scale) => scale,
                     None => {
                         let told = read_scaling(&place(*scaling), PATIENCE).map_err(|error| failed(Box::new(error)))?;
-                        Scale::from_counts(
-                            told.counts_per_force,
-                            told.force_unit,
-                            told.counts_per_torque,
-                            told.torque_unit,
-                        )
-                        .map_err(|error| failed(Box::new(error)))?
+                        told.calibration().map_err(|error| failed(Box::new(error)))?
                     }
                 };
                 let udp = Udp::connect(&place(*port)).map_err(|error| failed(Box::new(error)))?;
