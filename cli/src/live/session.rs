@@ -1,6 +1,6 @@
 //! A live scan, from the first sample to the last.
 
-use super::feed::{Fed, Feed, Miss};
+use super::feed::{Fed, Miss};
 use super::motion::Motion;
 use super::record::Record;
 use super::summary::{End, LiveReport};
@@ -15,6 +15,8 @@ use vibrissa::hw::{
 use vibrissa::noise_estimate::{ChannelNoise, estimate};
 use vibrissa::{Label, Live, LiveSettings, Travel};
 
+/// Change within a tare window that does not matter, in units of the rod.
+const SMALL: f64 = 0.01;
 /// Fewest samples that tell noise and spacing.
 const FEWEST: usize = 100;
 /// How long to listen before the first answer where there is no tare, s.
@@ -87,6 +89,8 @@ pub(super) fn run(
         recorded.sample(&sample);
         engine.push(sample, |answer| recorded.answer(&answer));
     }
+    // those that came before had to wait for the tare
+    let ready = sensor.feed.now();
     let end = loop {
         if let Some(error) = recorded.fault.take() {
             return Err(error.into());
@@ -115,7 +119,11 @@ pub(super) fn run(
         match taken {
             Ok(sample) => {
                 recorded.sample(&sample);
-                recorded.late(sensor.feed.as_ref(), &sample);
+                if let Some((now, ready)) = sensor.feed.now().zip(ready)
+                    && sample.raw.host_time > ready
+                {
+                    recorded.report.latency.push(now - sample.raw.host_time);
+                }
                 engine.push(sample, |answer| recorded.answer(&answer));
             }
             Err(ChainError::Stage(StageError::Outside { .. })) => break End::Stage,
@@ -231,9 +239,9 @@ fn timekeeper(scan: &LiveScan, sensor: &Sensor, first: &RawSample) -> Timekeeper
 
 fn zero(scan: &LiveScan, wrenches: &[WrenchSample]) -> Result<vibrissa::hw::Zero, vibrissa::hw::TareError> {
     let units = scan.rod.units();
-    let tenth = Wrench { force: [0.1 * units.force; 3], torque: [0.1 * units.moment; 3] };
+    let small = Wrench { force: [SMALL * units.force; 3], torque: [SMALL * units.moment; 3] };
     // samples are a period apart: the window of n of them lasts n periods, but not exactly the seconds asked for
-    let limits = TareLimits::new(0.9 * scan.setup.tare.seconds, scan.setup.tare.change.unwrap_or(tenth))?;
+    let limits = TareLimits::new(0.9 * scan.setup.tare.seconds, scan.setup.tare.change.unwrap_or(small))?;
     let mut window = TareWindow::new(limits);
     wrenches.iter().try_for_each(|wrench| window.push(wrench))?;
     window.finish()
@@ -293,13 +301,6 @@ impl Recorded<'_> {
         self.report.sample(sample);
         if let Err(error) = self.record.sample(sample) {
             self.fault.get_or_insert(error);
-        }
-    }
-
-    /// How late the sample's reactions are known.
-    fn late(&mut self, feed: &dyn Feed, sample: &ReactionSample) {
-        if let Some(now) = feed.now() {
-            self.report.latency.push(now - sample.raw.host_time);
         }
     }
 

@@ -39,7 +39,7 @@ pub struct Setup {
 pub struct TareSetup {
     /// How long it is, s.
     pub seconds: f64,
-    /// Largest change of a component within it, N and N m; where it is not given, a tenth of E I / L^2 and E I / L.
+    /// Largest change of a component within it, N and N m; where it is not given, a hundredth of E I / L^2 and E I / L.
     pub change: Option<Wrench>,
 }
 
