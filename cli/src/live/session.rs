@@ -17,6 +17,8 @@ use vibrissa::{Label, Live, LiveSettings, Travel};
 
 /// Change within a tare window that does not matter, in units of the rod.
 const SMALL: f64 = 0.01;
+/// So many samples from one step of a rounded signal to the next, about.
+const STEP: f64 = 64.0;
 /// Fewest samples that tell noise and spacing.
 const FEWEST: usize = 100;
 /// How long to listen before the first answer where there is no tare, s.
@@ -266,7 +268,11 @@ fn noise(scan: &LiveScan, samples: &[ReactionSample], chain: &Chain<'_>) -> Resu
     let noise = [0, 1, 2].map(|c| {
         let channel: Vec<f64> = rows.iter().map(|row| row.1[c]).collect();
         let found = estimate(&tau, &channel);
-        ChannelNoise { sigma: found.sigma.max(rounding[c]), ..found }
+        if found.sigma > rounding[c] {
+            return found;
+        }
+        // without noise to blur it, rounding is off by the same for as many samples as the signal takes from step to step
+        ChannelNoise { sigma: rounding[c], lag1: 1.0 - 1.0 / STEP, long_run: STEP }
     });
     Ok((noise, spacing))
 }
