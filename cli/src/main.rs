@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::{NoiseModel, Stop};
 use vibrissa_cli::{
-    Error, Paper, Reconstructed, Recording, Scan, Scene, Simulated, Simulation, Staged, read_noise, read_rod,
+    Error, Paper, Reading, Reconstructed, Recording, Scan, Scene, Simulated, Simulation, Staged, read_noise, read_rod,
     write_profiles,
 };
 
@@ -22,7 +22,9 @@ fn main() -> ExitCode {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
-        Command::Reconstruct { recording, rod, truth, out } => reconstruct(&recording, &rod, truth, out),
+        Command::Reconstruct { recording, written, rod, truth, out } => {
+            reconstruct(&recording, &written.into(), &rod, truth, out)
+        }
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| {
@@ -74,10 +76,16 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(name, &stop)))
 }
 
-fn reconstruct(file: &Path, rod: &Path, truth: Option<PathBuf>, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+fn reconstruct(
+    file: &Path,
+    how: &Reading,
+    rod: &Path,
+    truth: Option<PathBuf>,
+    out: Option<PathBuf>,
+) -> Result<ExitCode, Error> {
     let rod = read_rod(rod)?;
     let truth = truth.map(|scene| Scene::read(&scene)).transpose()?;
-    let recording = Recording::read(file, &rod)?;
+    let recording = Recording::read(file, &rod, how)?;
     for warning in recording.warnings() {
         warn(&format!("warning: {warning}\n"));
     }

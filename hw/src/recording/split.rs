@@ -1,6 +1,7 @@
 //! From text to lines, and from lines to cells.
 
 use super::options::Delimiter;
+use super::table::MOST_COLUMNS;
 use csv_core::ReadRecordResult;
 use std::borrow::Cow;
 
@@ -125,9 +126,14 @@ impl Splitter {
         }
     }
 
+    /// The cells of a line, as many as a table may have and one more, so that a long line takes no more room than it has to.
     pub fn cells(&mut self, line: &str) -> Vec<String> {
         let mut cells = Vec::new();
-        self.each(line, |_, cell| cells.push(cell.to_owned()));
+        self.each(line, |i, cell| {
+            if i <= MOST_COLUMNS {
+                cells.push(cell.to_owned());
+            }
+        });
         cells
     }
 }

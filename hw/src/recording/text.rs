@@ -16,8 +16,8 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
     let Layout { delimiter, decimal, header, headings, units, first } = Layout::find(file, &sample, options)?;
 
     if headings.len() > MOST_COLUMNS {
-        let (file, line, found) = (file.to_owned(), header.unwrap_or(first), headings.len());
-        return Err(TableError::TooManyColumns { file, line, found, most: MOST_COLUMNS });
+        let (file, line) = (file.to_owned(), header.unwrap_or(first));
+        return Err(TableError::TooManyColumns { file, line, most: MOST_COLUMNS });
     }
     let mut columns: Vec<Column> = headings.iter().map(|heading| Column::new(heading)).collect();
     for (column, unit) in columns.iter_mut().zip(units.iter().flatten().map(|unit| bare_unit(unit))) {
