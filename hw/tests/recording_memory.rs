@@ -19,6 +19,7 @@ fn of_files_that_mean_harm() {
         ("one line of delimiters", ",".repeat(count), 100.0),
         ("one line of quotes", "a,b\n1,2\n".to_owned() + &"\"".repeat(count), 100.0),
         ("few wide lines", (",1".repeat(4000) + "\n").repeat(count / 8000), 100.0),
+        ("wide names above short rows", ",a".repeat(4000) + "\n" + &"1\n".repeat(count / 2), 100.0),
         ("comments", "#\n".repeat(count / 2), 100.0),
         ("numbers of 15 digits", "a,b,c\n".to_owned() + &digits.collect::<String>(), 4.0),
     ];

@@ -105,7 +105,7 @@ def compare_text(directory, rng):
             lines = [delimiter.join(["t", "Fx", "Fy", "Fz", "Mz"])] + [delimiter.join(row) for row in text]
             file = directory / "table.csv"
             file.write_bytes((first + end.join(lines) + end).encode())
-            theirs = pandas.read_csv(file, sep=delimiter, decimal=mark, float_precision="round_trip", encoding="utf-8-sig")
+            theirs = pandas.read_csv(file, sep=delimiter, decimal=mark, encoding="utf-8-sig")
             (table,) = ours(file)
             assert [column["name"] for column in table["columns"]] == list(theirs.columns)
             assert not table["faults"] and len(table["rows"]) == len(theirs)

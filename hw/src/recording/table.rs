@@ -208,6 +208,13 @@ impl Table {
         self.rows().filter_map(|row| row.check().err().map(|problem| RowFault { line: row.line(), problem }))
     }
 
+    /// Makes room for about so many rows of a text of so many bytes.
+    pub(super) fn reserve(&mut self, rows: usize, bytes: usize) {
+        self.heads.reserve(rows);
+        // a cell has a byte and a delimiter at least, whatever the first rows look like
+        self.cells.reserve(rows.saturating_mul(self.columns.len()).min(bytes / 2));
+    }
+
     pub(super) fn add_note(&mut self, line: u64, text: &str) {
         let (key, text) = text.split_once(": ").unwrap_or(("", text));
         self.add_pair(line, key, text);

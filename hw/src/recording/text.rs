@@ -26,6 +26,8 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
         }
     }
     let mut table = Table::new(file, columns, header);
+    let length: usize = sample.iter().map(|line| line.text.len() + 1).sum();
+    table.reserve(bytes.len() / (length / sample.len().max(1)).max(1), bytes.len());
     let mut splitter = Splitter::new(delimiter);
     for (number, text) in Lines::new(bytes) {
         if number >= first {
