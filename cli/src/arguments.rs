@@ -1,8 +1,10 @@
 //! The command line.
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
-use vibrissa_cli::{FakeProtocol, SensorAddress, StageSpec};
+use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
+use vibrissa_cli::{FakeProtocol, Reading, SensorAddress, StageSpec};
 
 /// A thin elastic rod swept along an object: contact phases, transitions and clamp reactions.
 #[derive(Debug, Parser)]
@@ -62,9 +64,11 @@ pub enum Command {
     /// Turn a recording of clamp reactions back into contact points, phases and the contour
     #[command(long_about = RECONSTRUCT)]
     Reconstruct {
-        /// The recording: CSV with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
-        /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z
+        /// The recording: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
+        /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z; other units in the names, as `f0x [mN]`
         recording: PathBuf,
+        #[command(flatten)]
+        written: Written,
         /// The rod, a TOML file with the table [rod] of a scene; or a scene
         #[arg(long, value_name = "FILE")]
         rod: PathBuf,
@@ -106,6 +110,62 @@ pub enum Command {
         #[arg(long, value_name = "DIR", default_value = "out")]
         out: PathBuf,
     },
+}
+
+/// How a recording is written, where the file alone does not tell.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "How the recording is written, where the file does not tell")]
+pub struct Written {
+    /// What separates its cells
+    #[arg(long, value_parser = PossibleValuesParser::new(["comma", "semicolon", "tab", "blanks"]))]
+    delimiter: Option<String>,
+    /// The mark before fractions
+    #[arg(long, value_parser = PossibleValuesParser::new(["point", "comma"]))]
+    decimal: Option<String>,
+    /// The line that names its columns, from 1
+    #[arg(long, value_name = "LINE")]
+    header: Option<u64>,
+    /// The unit of a column
+    #[arg(long, value_name = "COLUMN=UNIT", value_parser = pair)]
+    unit: Vec<(String, String)>,
+    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ...
+    #[arg(long, value_name = "MEANING=COLUMN", value_parser = meaning)]
+    column: Vec<(Role, String)>,
+    /// Which of the segments of an LVM file, from 1
+    #[arg(long, value_name = "N")]
+    segment: Option<usize>,
+}
+
+impl From<Written> for Reading {
+    fn from(written: Written) -> Self {
+        let delimiter = written.delimiter.map(|name| match name.as_str() {
+            "comma" => Delimiter::Comma,
+            "semicolon" => Delimiter::Semicolon,
+            "tab" => Delimiter::Tab,
+            _ => Delimiter::Blanks,
+        });
+        let decimal = written.decimal.map(|name| if name == "comma" { Decimal::Comma } else { Decimal::Point });
+        let header = written.header.map_or(Header::Find, Header::Line);
+        let (units, segment) = (written.unit, written.segment);
+        let columns = written.column.into_iter().fold(ColumnMap::new(), |map, (role, name)| map.with(role, name));
+        Self {
+            options: TableOptions { delimiter, decimal, header, units, segment, ..TableOptions::default() },
+            columns,
+        }
+    }
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.rsplit_once('=').ok_or("expected two names with = between them")?;
+    Ok((name.to_owned(), value.to_owned()))
+}
+
+fn meaning(text: &str) -> Result<(Role, String), String> {
+    let (name, column) = text.split_once('=').ok_or("expected two names with = between them")?;
+    let role = Role::of_name(name).ok_or_else(|| {
+        format!("`{name}` means nothing, expected x0, y0, phi0, f0x, f0y, m0z, t or another name of docs/recordings.md")
+    })?;
+    Ok((role, column.to_owned()))
 }
 
 /// A recording to be made.

@@ -41,7 +41,7 @@ pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
-pub use recording::{Recording, RecordingError, Row, RowFault, RowProblem};
+pub use recording::{Reading, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
 pub use setup::{Setup, TareSetup};

@@ -12,8 +12,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::{NoiseModel, Stop};
 use vibrissa_cli::{
-    Error, FakeScan, LiveScan, Paper, Played, Reconstructed, Recording, Scan, Scene, Sensor, SensorAddress, Setup,
-    Simulated, Simulation, StageSpec, Staged, read_noise, read_rod, write_profiles,
+    Error, FakeScan, LiveScan, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene, Sensor, SensorAddress,
+    Setup, Simulated, Simulation, StageSpec, Staged, read_noise, read_rod, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -24,7 +24,9 @@ fn main() -> ExitCode {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
-        Command::Reconstruct { recording, rod, truth, out } => reconstruct(&recording, &rod, truth, out),
+        Command::Reconstruct { recording, written, rod, truth, out } => {
+            reconstruct(&recording, &written.into(), &rod, truth, out)
+        }
         Command::Live { sensor, rod, stage, path, setup, out } => {
             live(&sensor, &rod, stage, path.as_deref(), setup.as_deref(), &out)
         }
@@ -80,10 +82,16 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(name, &stop)))
 }
 
-fn reconstruct(file: &Path, rod: &Path, truth: Option<PathBuf>, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+fn reconstruct(
+    file: &Path,
+    how: &Reading,
+    rod: &Path,
+    truth: Option<PathBuf>,
+    out: Option<PathBuf>,
+) -> Result<ExitCode, Error> {
     let rod = read_rod(rod)?;
     let truth = truth.map(|scene| Scene::read(&scene)).transpose()?;
-    let recording = Recording::read(file, &rod)?;
+    let recording = Recording::read(file, &rod, how)?;
     for warning in recording.warnings() {
         warn(&format!("warning: {warning}\n"));
     }

@@ -287,6 +287,55 @@ fn recordings_that_are_none() {
 }
 
 #[test]
+fn recordings_written_in_another_way() {
+    let directory = recorded(&["--rate", "20"]);
+    let (path, rows) = (directory.path(), rows(directory.path()));
+    assert_eq!(reconstruct(path, &[]).status.code(), Some(0));
+    let expected = fs::read(path.join("out/r/points.jsonl")).unwrap();
+    let write = |header: &str, delimiter: &str, comma: bool| {
+        let body = rows.iter().map(|row| joined(row).replace(',', delimiter));
+        let body = body.map(|row| if comma { row.replace('.', ",") } else { row }).collect::<Vec<_>>().join("\n");
+        fs::write(path.join("r.csv"), format!("Messung 3\n\n{header}\n{body}\n")).unwrap();
+    };
+    let same = |arguments: &[&str]| {
+        let output = reconstruct(path, arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+        assert!(fs::read(path.join("out/r/points.jsonl")).unwrap() == expected);
+    };
+    write("t [s];x0 [m];y0 [m];phi0 [rad];f0x [N];f0y [N];m0z [Nm]", ";", true);
+    same(&[]);
+    write("t x0 y0 phi0 f0x f0y m0z", " ", true);
+    same(&[]);
+    write("Zeit;x0;y0;phi0;f0x;Kraft y (N);Moment", "\t", false);
+    fs::write(path.join("r.csv"), fs::read_to_string(path.join("r.csv")).unwrap().replace(';', "\t")).unwrap();
+    fs::remove_dir_all(path.join("out")).unwrap();
+    refuses(path, &[], &["r.csv:3: no column f0y, m0z, found Zeit, x0, "]);
+    refuses(
+        path,
+        &["--column", "f0y=Kraft y", "--column", "m0z=Moment"],
+        &["r.csv:3: no unit of Moment, expected one of torque"],
+    );
+    let meaning = [
+        "--column",
+        "f0y=Kraft y",
+        "--column",
+        "m0z=Moment",
+        "--unit",
+        "Moment=N m",
+        "--column",
+        "t=Zeit",
+        "--unit",
+        "Zeit=s",
+    ];
+    same(&meaning);
+    fs::remove_dir_all(path.join("out")).unwrap();
+    write("t,x0,y0,phi0,f0x,f0y,m0z", ",", true);
+    refuses(path, &[], &["could be numbers with decimal commas or numbers separated by commas"]);
+    let output = reconstruct(path, &["--column", "moment=m0z"]);
+    assert!(complaint(&output).contains("`moment` means nothing, expected x0, y0"), "{}", complaint(&output));
+}
+
+#[test]
 fn rods_and_truths_that_are_none() {
     let directory = recorded(&["--rate", "2"]);
     let path = directory.path();

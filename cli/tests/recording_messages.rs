@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use vibrissa::{Pose, Rod};
-use vibrissa_cli::{Recording, RecordingError, RowProblem};
+use vibrissa_cli::{Reading, Recording, RecordingError, RowProblem};
 
 const HEADER: &str = "x0,y0,phi0,f0x,f0y,m0z";
 
@@ -77,18 +77,19 @@ fn missing_columns() {
         ],
     );
     refuses(
-        "x0,y0,PHI0,f0x_mN,f0y [mN],m0z\n",
+        "x0,y0,PHI0,f0x-mean,f0y,m0z\n",
         &[
-            "no column phi0, f0x, f0y, found x0, y0, PHI0, f0x_mN, f0y [mN], m0z; expected",
+            "no column phi0, f0x, found x0, y0, PHI0, f0x-mean, f0y, m0z; expected",
             "; `PHI0` is phi0 but for its letters' case",
-            "; is `f0x_mN` f0x? Give it in N and name it f0x",
-            "; is `f0y [mN]` f0y? Give it in N and name it f0y",
+            "; is `f0x-mean` f0x? Give it in N and name it f0x",
         ],
     );
-    refuses("x0;y0;phi0;f0x;f0y;m0z\n0;0;0;0;0;0\n", &["the names are separated by semicolons, expected commas"]);
-    refuses("0.1,0.2,0.3,0,0,0\n", &["the first line holds numbers, expected the names of the columns"]);
+    refuses(
+        "0.1,0.2,0.3,0,0,0\n",
+        &["rec.csv:1: the first line holds numbers, expected the names of the columns above them; add such a line"],
+    );
     refuses(&format!("{HEADER},sigma_f0x\n"), &["no column sigma_f0y, sigma_m0z, found x0", "all of sigma_f0x"]);
-    refuses(&format!("{HEADER},f0x\n"), &["rec.csv:1: two columns are named f0x, expected one"]);
+    refuses(&format!("{HEADER},f0x\n"), &["rec.csv:1: two columns are named f0x, expected one; say which"]);
     refuses("", &["rec.csv: no line that names columns, expected x0, y0 (m)"]);
     refuses("# only this\n\n", &["rec.csv: no line that names columns"]);
 }
@@ -96,7 +97,7 @@ fn missing_columns() {
 #[test]
 fn cells_that_are_no_numbers() {
     leaves_out(7, "75,-0.04,1.5,abc,-0.2,3e-3", "f0x is `abc`, expected a number");
-    leaves_out(7, "75,-0.04,1.5,,-0.2,3e-3", "f0x is ``, expected a number");
+    leaves_out(7, "75,-0.04,1.5,,-0.2,3e-3", "f0x is empty, expected a number");
     leaves_out(7, "75 mm,-0.04,1.5,0.1,-0.2,3e-3", "x0 is `75 mm`, expected a number");
     leaves_out(2, "80,-0.04,1.5,0.1,-0.2,nan", "m0z is NaN, expected a finite number");
     leaves_out(21, "61,-0.04,1.5,0.1,-inf,0", "f0y is -inf, expected a finite number");
@@ -236,10 +237,141 @@ fn too_few_usable_rows() {
     );
 }
 
+/// The same rows as [`with_rows`], written in another way.
+fn written(header: &str, delimiter: &str, comma: bool, scale: [f64; 6]) -> String {
+    let mut text = header.to_owned() + "\n";
+    for k in 0..20 {
+        let row = [0.08 - 1e-3 * f64::from(k), -0.04, 1.5, 0.125, -0.25, 3e-3];
+        let cells: Vec<String> = row.iter().zip(scale).map(|(value, scale)| format!("{:?}", value * scale)).collect();
+        let row = cells.join(delimiter);
+        text += &(if comma { row.replace('.', ",") } else { row } + "\n");
+    }
+    text
+}
+
+#[test]
+fn tables_of_other_programs() {
+    let ones = [1.0; 6];
+    let names = ["x0", "y0", "phi0", "f0x", "f0y", "m0z"];
+    let units = "x0 [mm];y0 [mm];phi0 [rad];f0x [mN];f0y [mN];m0z [N mm]";
+    let thousand = [1e3, 1e3, 1.0, 1e3, 1e3, 1e3];
+    let lvm = "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tOne\n***End_of_Header***\t\n\t\n\
+        Channels\t5\nY_Unit_Label\tmm\trad\tmN\tmN\tN mm\n***End_of_Header***\nX_Value\ty0\tphi0\tf0x\tf0y\tm0z\tx0 [mm]\tComment";
+    let expected = parse(&written(HEADER, ",", false, ones)).unwrap();
+    for (text, scale) in [
+        (written(&names.join("\t"), "\t", false, ones), 1.0),
+        (written(&names.join(";"), ";", true, ones), 1.0),
+        (written(&names.join(" "), " ", true, ones), 1.0),
+        (written(&format!("Messung 3; Probe 1\n\n{units}"), ";", true, thousand), 1e3),
+        (written(&units.replace(" [", "_").replace(']', "").replace("N mm", "Nmm"), ";", false, thousand), 1e3),
+        (written(&format!("{}\nmm,mm,rad,mN,mN,N mm", names.join(",")), ",", false, thousand), 1e3),
+        (lvm.to_owned() + &lvm_rows(), 1e3),
+    ] {
+        let found = parse(&text).unwrap();
+        assert_eq!(found.samples().count(), 20, "{text}");
+        for (found, expected) in found.samples().zip(expected.samples()) {
+            let (f, e) = (found.reactions, expected.reactions);
+            let pairs = [
+                (found.pose.x, expected.pose.x),
+                (found.pose.y, expected.pose.y),
+                (f.f0x, e.f0x),
+                (f.f0y, e.f0y),
+                (f.m0z, e.m0z),
+            ];
+            for (found, expected) in pairs {
+                // a product and a quotient by 1000 are rounded once each
+                let bound = if scale == 1.0 { 0.0 } else { 4.0 * f64::EPSILON * expected.abs() };
+                assert!((found - expected).abs() <= bound, "{found} {expected} in {text}");
+            }
+        }
+    }
+}
+
+fn lvm_rows() -> String {
+    let rows = (0..20).map(|k| format!("{k},0\t-40,0\t1,5\t125,0\t-250,0\t3,0\t{},0", 80 - k));
+    "\n".to_owned() + &rows.collect::<Vec<_>>().join("\n") + "\n"
+}
+
+#[test]
+fn tables_that_are_ambiguous() {
+    let comma = written(HEADER, ",", true, [1.0; 6]);
+    refuses(
+        &comma,
+        &[
+            "rec.csv:2: `0,08,-0,04,1,5,0,125,-0,` could be numbers with decimal commas or numbers separated by commas (12 of them, under 6 names)",
+        ],
+    );
+    refuses(
+        "x0,y0,phi0f0x,f0y,m0z\n80,-0.04,1.5,0.1,-0.2,3e-3\n",
+        &["rec.csv:1: 5 names, but 6 cells in most rows", "a delimiter is missing in `phi0f0x`; mend line 1"],
+    );
+    refuses(
+        &written("x0 [mm],y0 [mm],phi0 [rad],f0x [N m],f0y [mN],m0z", ",", false, [1.0; 6]),
+        &["rec.csv:1: the unit of f0x [N m]: `N m` is a unit of torque, expected one of force: N, mN"],
+    );
+    refuses(
+        &written("F0x,y0,phi0,x0,f0y,m0z", ",", false, [1.0; 6]),
+        &["rec.csv:1: no unit of F0x, expected one of force, as in `F0x [N]`"],
+    );
+}
+
+#[test]
+fn a_file_that_was_cut() {
+    let text = with_rows(&[]);
+    let recording = parse(text.trim_end().trim_end_matches(",3e-3")).unwrap();
+    assert_eq!(recording.samples().count(), 19);
+    let cell = "the number of cells is 5, expected 6; the file was cut there";
+    assert_eq!(
+        recording.warnings(),
+        [
+            format!("rec.csv: 1 of 20 rows cannot be used, line 21: {cell}"),
+            "rec.csv: the end of the recording is missing".into()
+        ]
+    );
+}
+
+#[test]
+fn what_a_recorder_wrote() {
+    use vibrissa::hw::recording::{About, Contents, Recorder};
+    use vibrissa::hw::{OutOfPlane, Quality, RawSample, ReactionSample};
+    let contents = Contents { raw: Some(0), sigma: true, ..Contents::default() };
+    let mut recorder = Recorder::new(Vec::new(), &About::default(), contents).unwrap();
+    let sample = |k: i32| ReactionSample {
+        t: 0.1 * f64::from(k),
+        pose: Pose { x: 1e-3 * f64::from(k), y: -0.04, phi: 1.5 },
+        reactions: vibrissa::Reactions { f0x: 0.1, f0y: 0.2, m0z: 1e-3 },
+        sigma: Some(vibrissa::Reactions { f0x: 1e-3, f0y: 1e-3, m0z: 1e-5 }),
+        systematic: None,
+        out_of_plane: OutOfPlane::default(),
+        quality: match k {
+            3 => Quality::GAP_BEFORE,
+            7 => Quality::SATURATED | Quality::GAP_BEFORE,
+            _ => Quality::empty(),
+        },
+        raw: RawSample::default(),
+    };
+    for k in 0..20 {
+        recorder.write(&sample(k)).unwrap();
+    }
+    let file = recorder.finish(None).unwrap();
+    let rod = Rod::new(0.1, 6.32e-4).unwrap();
+    let recording = Recording::parse("rec.csv".as_ref(), &file, &rod).unwrap();
+    let expected: Vec<_> = (0..20).filter(|k| *k != 7).map(|k| sample(k).sample()).collect();
+    assert_eq!(recording.samples().copied().collect::<Vec<_>>(), expected);
+    let warnings = recording.warnings();
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert!(warnings[0].starts_with("rec.csv: columns not looked at: host_time, device_time"), "{warnings:?}");
+    let flagged = "line 11: the quality is saturated, gap before, expected values that the sensor stands for";
+    assert_eq!(warnings[1], format!("rec.csv: 1 of 20 rows cannot be used, {flagged}"));
+
+    let cut = Recording::parse("rec.csv".as_ref(), &file[..file.len() - 40], &rod).unwrap();
+    assert!(cut.warnings().contains(&"rec.csv: the end of the recording is missing".to_owned()));
+}
+
 #[test]
 fn a_file_that_cannot_be_read() {
     let rod = Rod::new(0.1, 6.32e-4).unwrap();
-    let message = Recording::read("nowhere.csv".as_ref(), &rod).unwrap_err().to_string();
+    let message = Recording::read("nowhere.csv".as_ref(), &rod, &Reading::default()).unwrap_err().to_string();
     assert!(message.starts_with("cannot read the recording nowhere.csv: "), "{message}");
     // Bytes that are no text are names and cells like others.
     let image = Recording::parse("image.csv".as_ref(), b"\xff\xd8\xff\xe0,\x00\n", &rod).unwrap_err().to_string();

@@ -2,8 +2,8 @@
 
 use super::RowFault;
 use super::columns::EXPECTED;
-use std::fmt::Write;
 use std::path::PathBuf;
+use vibrissa::hw::recording::{ColumnError, TableError};
 
 /// Why a file is no recording.
 #[derive(Debug, thiserror::Error)]
@@ -24,7 +24,7 @@ pub enum RecordingError {
         file: PathBuf,
     },
     /// Columns are missing.
-    #[error("{}:{line}: no column {}, found {}; expected {EXPECTED}{hint}", file.display(), listed(missing), listed(found))]
+    #[error("{}:{line}: no column {}, found {found}; expected {EXPECTED}{hint}", file.display(), missing.join(", "))]
     Missing {
         /// Which file.
         file: PathBuf,
@@ -33,20 +33,16 @@ pub enum RecordingError {
         /// Which columns.
         missing: Vec<String>,
         /// All columns there are.
-        found: Vec<String>,
+        found: String,
         /// What may have been meant, or nothing.
         hint: String,
     },
-    /// Two columns of one name.
-    #[error("{}:{line}: two columns are named {column}, expected one", file.display())]
-    Twice {
-        /// Which file.
-        file: PathBuf,
-        /// Line of the names.
-        line: u64,
-        /// Their name.
-        column: &'static str,
-    },
+    /// It is no table.
+    #[error(transparent)]
+    Table(TableError),
+    /// Columns are ambiguous, or without a unit.
+    #[error(transparent)]
+    Columns(ColumnError),
     /// Most rows cannot be used.
     #[error(
         "{}: {} of {rows} rows cannot be used, expected at most half of them; {}",
@@ -74,23 +70,12 @@ pub enum RecordingError {
     },
 }
 
-/// Most columns that are named in a message.
-const MOST_NAMES: usize = 20;
-
-fn listed(names: &[String]) -> String {
-    let mut text = names.iter().take(MOST_NAMES).map(String::as_str).collect::<Vec<_>>().join(", ");
-    if names.len() > MOST_NAMES {
-        let _ = write!(text, " and {} more", names.len() - MOST_NAMES);
-    }
-    text
-}
-
 /// The first fault of each kind.
 fn firsts(faults: &[RowFault]) -> String {
     let mut kinds = Vec::new();
     let mut texts = Vec::new();
     for fault in faults {
-        let kind = std::mem::discriminant(&fault.problem);
+        let kind = super::warnings::kind_of(&fault.problem);
         if !kinds.contains(&kind) {
             kinds.push(kind);
             texts.push(fault.to_string());

@@ -1,6 +1,6 @@
-//! Recordings: what a clamp felt along its way, read from a CSV file.
+//! Recordings: what a clamp felt along its way, read from a table of text.
 //!
-//! `columns` finds the columns by name, `row` reads one row, `read` puts them together, and `warnings` says what is wrong with single rows. A row that cannot be used keeps its place.
+//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together, and `warnings` says what is wrong with single rows. A row that cannot be used keeps its place.
 
 mod columns;
 mod error;
@@ -13,15 +13,17 @@ pub use row::{RowFault, RowProblem};
 
 use std::path::PathBuf;
 use vibrissa::Sample;
+use vibrissa::hw::recording::{ColumnMap, TableOptions};
 
 /// A row of a recording: a sample, or what is wrong with it.
 pub type Row = Result<Sample, RowFault>;
 
 /// What a clamp felt along its way, SI units.
 ///
-/// The file is CSV, separated by commas, with the columns x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N m) in any order,
-/// perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m), the standard deviations. Empty lines
-/// and lines that start with # are no rows.
+/// The file is a table of text (CSV, TSV, LVM: [`Table`](vibrissa::hw::recording::Table)) with the columns x0, y0 (m), phi0 (rad),
+/// f0x, f0y (N), m0z (N m) in any order, perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m), the
+/// standard deviations; or in other units that are written in the names, as `f0x [mN]`. Rows that a column quality calls
+/// saturated, wrong or a spike cannot be used.
 ///
 /// The clamp must go on: a row with the pose of the last usable one, or one that turns back, cannot be used. Distances
 /// of poses are those of (x, y, L phi), and no movement is one of less than 1e-12 L. The direction is that of the last
@@ -37,6 +39,17 @@ pub struct Recording {
     pub ignored: Vec<String>,
     /// Lines of usable rows whose time is not later than that of the usable row before.
     pub late: Vec<u64>,
+    /// Whether the end is missing, as far as that can be told.
+    pub cut: bool,
+}
+
+/// How to read a recording, where the file alone does not tell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// How the table is written.
+    pub options: TableOptions,
+    /// Which column means what.
+    pub columns: ColumnMap,
 }
 
 impl Recording {

@@ -1,10 +1,10 @@
 //! From a file to a recording.
 
-use super::columns::{Columns, Wrong};
-use super::row::{RowFault, RowProblem, plain, sample};
-use super::{Recording, RecordingError, Row};
-use csv::ByteRecord;
+use super::columns::find;
+use super::row::{RowFault, RowProblem, sample};
+use super::{Reading, Recording, RecordingError, Row};
 use std::path::Path;
+use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError};
 use vibrissa::{Halt, Rod, Travel};
 
 /// Fewer samples than this are no scan: a curve through them would leave nothing to judge it by.
@@ -16,10 +16,8 @@ impl Recording {
     /// # Errors
     /// [`RecordingError`]: the file cannot be read, columns are missing, more than half of the rows cannot be used, or
     /// fewer than 10 can.
-    pub fn read(file: &Path, rod: &Rod) -> Result<Self, RecordingError> {
-        let text =
-            std::fs::read(file).map_err(|source| RecordingError::Unreadable { file: file.to_path_buf(), source })?;
-        Self::parse(file, &text, rod)
+    pub fn read(file: &Path, rod: &Rod, how: &Reading) -> Result<Self, RecordingError> {
+        Self::of_table(file, Table::read(file, &how.options), rod, how)
     }
 
     /// The recording in a text. `file` names it in messages; it is not opened.
@@ -41,33 +39,32 @@ impl Recording {
     /// # Errors
     /// As [`read`](Self::read), but for an unreadable file.
     pub fn parse(file: &Path, text: &[u8], rod: &Rod) -> Result<Self, RecordingError> {
-        let file = file.to_path_buf();
-        // Numbers need no quotes, and a quote in a comment must not swallow the lines after it.
-        let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-        let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).quoting(false).from_reader(text);
-        let mut lines = Lines::new(text);
-        let mut record = ByteRecord::new();
-        if !next(&mut reader, &mut record) {
-            return Err(RecordingError::Empty { file });
-        }
-        let line = lines.of(&record);
-        let columns = Columns::find(&record).map_err(|wrong| {
-            let file = file.clone();
-            match wrong {
-                Wrong::Missing { missing, found, hint } => RecordingError::Missing { file, line, missing, found, hint },
-                Wrong::Twice(column) => RecordingError::Twice { file, line, column },
-            }
-        })?;
+        let how = Reading::default();
+        Self::of_table(file, Table::parse(&file.display().to_string(), text, &how.options), rod, &how)
+    }
 
-        let mut rows: Vec<Row> = Vec::new();
+    fn of_table(
+        file: &Path,
+        table: Result<Table, TableError>,
+        rod: &Rod,
+        how: &Reading,
+    ) -> Result<Self, RecordingError> {
+        let file = file.to_path_buf();
+        let table = table.map_err(|error| match error {
+            TableError::Empty { .. } => RecordingError::Empty { file: file.clone() },
+            TableError::Unreadable { source, .. } => RecordingError::Unreadable { file: file.clone(), source },
+            other => RecordingError::Table(other),
+        })?;
+        let columns = find(&file, &table, &how.columns)?;
+        let mut rows: Vec<Row> = Vec::with_capacity(table.len());
         let mut late = Vec::new();
         let mut time = f64::NEG_INFINITY;
         let mut travel = Travel::new(rod);
         // line of the last usable row
-        let mut of = line;
-        while next(&mut reader, &mut record) {
-            let line = lines.of(&record);
-            let row = sample(&record, &columns).and_then(|sample| match travel.go(&sample.pose) {
+        let mut of = table.header_line().unwrap_or_default();
+        for row in table.rows() {
+            let line = row.line();
+            let row = sample(&row, &columns).and_then(|sample| match travel.go(&sample.pose) {
                 Ok(_) => {
                     of = line;
                     Ok(sample)
@@ -92,43 +89,13 @@ impl Recording {
         if usable < FEWEST {
             return Err(RecordingError::TooFew { file, usable, expected: FEWEST });
         }
-        Ok(Self { file, rows, ignored: columns.ignored, late })
+        let ignored = columns.ignored(&table).map(str::to_owned).collect();
+        let cut = rows.last().is_some_and(|row| matches!(row, Err(RowFault { problem, .. }) if is_cut(problem)));
+        let cut = cut || table.is_whole() == Some(false);
+        Ok(Self { file, rows, ignored, late, cut })
     }
 }
 
-/// The next record that is neither blank nor a comment. Bytes in memory can always be read.
-fn next(reader: &mut csv::Reader<&[u8]>, record: &mut ByteRecord) -> bool {
-    while reader.read_byte_record(record).unwrap_or(false) {
-        let first = plain(record.get(0).unwrap_or_default());
-        let blank = first.is_empty() && record.len() == 1;
-        if !blank && !first.starts_with(b"#") {
-            return true;
-        }
-    }
-    false
-}
-
-/// Counts lines.
-struct Lines<'a> {
-    text: &'a [u8],
-    at: usize,
-    line: u64,
-}
-
-impl<'a> Lines<'a> {
-    fn new(text: &'a [u8]) -> Self {
-        Self { text, at: 0, line: 1 }
-    }
-
-    /// Line of the next record, from 1. The reader's own count leaves out the blank lines just before it.
-    fn of(&mut self, record: &ByteRecord) -> u64 {
-        let start = record.position().map_or(0, |position| position.byte() as usize).min(self.text.len());
-        let blank = self.text[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
-        let start = start + blank;
-        if let Some(passed) = self.text.get(self.at..start) {
-            self.line += passed.iter().filter(|byte| **byte == b'\n').count() as u64;
-            self.at = start;
-        }
-        self.line
-    }
+fn is_cut(problem: &RowProblem) -> bool {
+    matches!(problem, RowProblem::Cell(CellProblem::Cells { cut: true, .. }))
 }

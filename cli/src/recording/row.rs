@@ -1,8 +1,9 @@
 //! One row of a recording.
 
-use super::columns::{Columns, NAMES, SIGMA, TIME};
-use csv::ByteRecord;
+use super::columns::{POSE, REACTIONS, SIGMAS};
 use std::fmt;
+use vibrissa::hw::Quality;
+use vibrissa::hw::recording::{Columns, Role, Row, RowProblem as CellProblem};
 use vibrissa::{Pose, Reactions, Sample};
 
 /// A row that cannot be used.
@@ -26,30 +27,9 @@ impl fmt::Display for RowFault {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowProblem {
-    /// Too few cells, or too many.
-    #[error("the number of cells is {found}, expected {expected}")]
-    Cells {
-        /// How many there are.
-        found: usize,
-        /// How many columns there are.
-        expected: usize,
-    },
-    /// A cell that is no number.
-    #[error("{column} is `{text}`, expected a number")]
-    NoNumber {
-        /// Name of its column.
-        column: &'static str,
-        /// What is written there, cut where it is long.
-        text: String,
-    },
-    /// A number that is none.
-    #[error("{column} is {value}, expected a finite number")]
-    NotFinite {
-        /// Name of its column.
-        column: &'static str,
-        /// Its value.
-        value: f64,
-    },
+    /// A wrong number of cells, or one that is no number.
+    #[error(transparent)]
+    Cell(#[from] CellProblem),
     /// A standard deviation that is none.
     #[error("{column} is {value}, expected a positive number")]
     NoSigma {
@@ -57,6 +37,12 @@ pub enum RowProblem {
         column: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// Flags that speak against it.
+    #[error("the quality is {quality}, expected values that the sensor stands for")]
+    Flagged {
+        /// The flags.
+        quality: Quality,
     },
     /// The clamp stands where it stood in the last usable row.
     #[error("the pose of line {of} is repeated, expected a clamp that moves")]
@@ -76,9 +62,12 @@ impl RowProblem {
     /// Its kind, in few words.
     pub(crate) fn name(&self) -> &'static str {
         match self {
-            Self::Cells { .. } => "number of cells",
-            Self::NoNumber { .. } => "no number",
-            Self::NotFinite { .. } => "not finite",
+            Self::Cell(CellProblem::Cells { .. }) => "number of cells",
+            Self::Cell(CellProblem::NotFinite { .. }) => "not finite",
+            Self::Cell(CellProblem::Missing { .. }) => "empty",
+            Self::Cell(CellProblem::NoFlag { .. }) => "no flag",
+            Self::Cell(_) => "no number",
+            Self::Flagged { .. } => "flagged",
             Self::NoSigma { .. } => "no standard deviation",
             Self::Repeated { .. } => "pose repeated",
             Self::TurnsBack { .. } => "turns back",
@@ -86,59 +75,44 @@ impl RowProblem {
     }
 }
 
-/// Most characters of a cell that are shown.
-const MOST_SHOWN: usize = 24;
-
-/// A cell without blanks and quotes around it.
-pub(super) fn plain(cell: &[u8]) -> &[u8] {
-    let cell = cell.trim_ascii();
-    match cell {
-        [b'"', inner @ .., b'"'] => inner.trim_ascii(),
-        _ => cell,
-    }
-}
-
 /// The sample, but for its place in the travel; or its problem, with the pose where there is one.
-pub(super) fn sample(row: &ByteRecord, columns: &Columns) -> Result<Sample, (Option<Pose>, RowProblem)> {
-    let extra = row.iter().skip(columns.width).any(|cell| !plain(cell).is_empty());
-    if row.len() < columns.width || extra {
-        return Err((None, RowProblem::Cells { found: row.len(), expected: columns.width }));
-    }
-    let mut values = [0.0; NAMES.len()];
-    let mut problem = None;
-    for (i, place) in columns.present() {
-        match number(row.get(place).unwrap_or_default(), i) {
-            Ok(value) => values[i] = value,
-            // The pose, which is first, is as good as nothing if one part of it is missing.
-            Err(what) if i < 3 => return Err((None, what)),
-            Err(what) => problem = problem.or(Some(what)),
-        }
-    }
-    let [x, y, phi, f0x, f0y, m0z, sigma_f0x, sigma_f0y, sigma_m0z, t] = values;
+pub(super) fn sample(row: &Row<'_>, columns: &Columns) -> Result<Sample, (Option<Pose>, RowProblem)> {
+    let number = |role| columns.needed(row, role).map_err(RowProblem::from);
+    // The pose, which is first, is as good as nothing if one part of it is missing.
+    let [x, y, phi] = all(POSE, number).map_err(|problem| (None, problem))?;
     let pose = Pose { x, y, phi };
-    if let Some(problem) = problem {
-        return Err((Some(pose), problem));
-    }
-    Ok(Sample {
-        t: columns.has(TIME).then_some(t),
-        pose,
-        reactions: Reactions { f0x, f0y, m0z },
-        sigma: columns.has(SIGMA).then_some(Reactions { f0x: sigma_f0x, f0y: sigma_f0y, m0z: sigma_m0z }),
-    })
+    rest(row, columns, pose).map_err(|problem| (Some(pose), problem))
 }
 
-fn number(cell: &[u8], i: usize) -> Result<f64, RowProblem> {
-    let column = NAMES[i].0;
-    let cell = plain(cell);
-    let Some(value) = std::str::from_utf8(cell).ok().and_then(|text| text.parse::<f64>().ok()) else {
-        let text = String::from_utf8_lossy(cell).chars().take(MOST_SHOWN).collect();
-        return Err(RowProblem::NoNumber { column, text });
+fn rest(row: &Row<'_>, columns: &Columns, pose: Pose) -> Result<Sample, RowProblem> {
+    let number = |role| columns.needed(row, role).map_err(RowProblem::from);
+    let [f0x, f0y, m0z] = all(REACTIONS, number)?;
+    let sigma = if columns.has(Role::SigmaF0x) {
+        let [f0x, f0y, m0z] = all(SIGMAS, |role| match number(role) {
+            Err(RowProblem::Cell(CellProblem::Negative { value, .. })) | Ok(value @ ..=0.0) => {
+                Err(RowProblem::NoSigma { column: role.name(), value })
+            }
+            other => other,
+        })?;
+        Some(Reactions { f0x, f0y, m0z })
+    } else {
+        None
     };
-    if !value.is_finite() {
-        return Err(RowProblem::NotFinite { column, value });
+    let t = if columns.has(Role::Time) { Some(number(Role::Time)?) } else { None };
+    let quality = columns.quality(row, Role::Quality)?;
+    if !quality.is_usable() {
+        return Err(RowProblem::Flagged { quality });
     }
-    if (SIGMA..TIME).contains(&i) && value <= 0.0 {
-        return Err(RowProblem::NoSigma { column, value });
+    Ok(Sample { t, pose, reactions: Reactions { f0x, f0y, m0z }, sigma })
+}
+
+fn all<const N: usize>(
+    roles: [Role; N],
+    number: impl Fn(Role) -> Result<f64, RowProblem>,
+) -> Result<[f64; N], RowProblem> {
+    let mut values = [0.0; N];
+    for (value, role) in values.iter_mut().zip(roles) {
+        *value = number(role)?;
     }
-    Ok(value)
+    Ok(values)
 }

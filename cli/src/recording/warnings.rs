@@ -3,6 +3,7 @@
 use super::{Recording, RowFault, RowProblem};
 use std::fmt::Write;
 use std::mem::{Discriminant, discriminant};
+use vibrissa::hw::recording::RowProblem as CellProblem;
 
 /// Most lines that are named for each kind of fault.
 const MOST_LINES: usize = 5;
@@ -16,9 +17,9 @@ impl Recording {
         if !self.ignored.is_empty() {
             warnings.push(format!("{file}: columns not looked at: {}", self.ignored.join(", ")));
         }
-        let mut kinds: Vec<(Discriminant<RowProblem>, Vec<&RowFault>)> = Vec::new();
+        let mut kinds: Vec<(Kind, Vec<&RowFault>)> = Vec::new();
         for fault in self.faults() {
-            let kind = discriminant(&fault.problem);
+            let kind = kind_of(&fault.problem);
             match kinds.iter_mut().find(|(known, _)| *known == kind) {
                 Some((_, faults)) => faults.push(fault),
                 None => kinds.push((kind, vec![fault])),
@@ -38,8 +39,19 @@ impl Recording {
             let at = place(&self.late);
             warnings.push(format!("{file}: the time does not grow in {count} of {rows} rows, {at}"));
         }
+        if self.cut {
+            warnings.push(format!("{file}: the end of the recording is missing"));
+        }
         warnings
     }
+}
+
+/// What kind of problem, also among those of cells.
+pub(super) type Kind = (Discriminant<RowProblem>, Option<Discriminant<CellProblem>>);
+
+pub(super) fn kind_of(problem: &RowProblem) -> Kind {
+    let of_cell = if let RowProblem::Cell(problem) = problem { Some(discriminant(problem)) } else { None };
+    (discriminant(problem), of_cell)
 }
 
 /// "line 3", or "lines 3, 4, 5, 6, 7 and 12 more".

@@ -22,12 +22,6 @@ pub enum TableError {
         /// What is allowed.
         most: u64,
     },
-    /// Two bytes a letter.
-    #[error("{file}: written in UTF-16, expected UTF-8; save it as UTF-8 text")]
-    Utf16 {
-        /// Which file.
-        file: String,
-    },
     /// There is nothing in it.
     #[error("{file}: no line that names columns, expected one, and rows of numbers below it")]
     Empty {
@@ -108,14 +102,12 @@ pub enum TableError {
         comma_line: u64,
     },
     /// More columns than any sensor has.
-    #[error("{file}:{line}: {found} columns, expected at most {most}; is this a table?")]
+    #[error("{file}:{line}: more than {most} columns, expected no more; is this a table?")]
     TooManyColumns {
         /// Which file.
         file: String,
         /// Which line.
         line: u64,
-        /// How many.
-        found: usize,
         /// How many there may be.
         most: usize,
     },

@@ -164,8 +164,7 @@ impl<'t> Reader<'_, 't> {
             names.pop();
         }
         if names.len() > MOST_COLUMNS {
-            let (file, found) = (self.file.to_owned(), names.len());
-            return Err(TableError::TooManyColumns { file, line, found, most: MOST_COLUMNS });
+            return Err(TableError::TooManyColumns { file: self.file.to_owned(), line, most: MOST_COLUMNS });
         }
         let commented = names.last().is_some_and(|name| name == COMMENT);
         let columns = header.columns(&names);

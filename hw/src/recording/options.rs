@@ -72,8 +72,8 @@ pub struct TableOptions {
     pub units: Vec<(String, String)>,
     /// Which of several segments of an LVM file, from 1.
     pub segment: Option<usize>,
-    /// Files longer than this are refused, bytes. A table takes up to about 30 times as much memory as its file where cells
-    /// and rows are as short as can be, about twice as much where numbers have 15 digits.
+    /// Files longer than this are refused, bytes. A table takes at most 100 times as much memory as its file, where rows are as
+    /// short as can be, and less than 4 times where numbers have 15 digits.
     pub most_bytes: u64,
 }
 

@@ -184,6 +184,16 @@ impl Role {
         ROLES[self as usize].1
     }
 
+    /// The role of this name.
+    ///
+    /// ```
+    /// use rod_hw::recording::Role;
+    /// assert_eq!((Role::of_name("m0z"), Role::of_name("moment")), (Some(Role::M0z), None));
+    /// ```
+    pub fn of_name(name: &str) -> Option<Self> {
+        ROLES.iter().find(|line| line.1 == name).map(|line| line.0)
+    }
+
     /// What it is measured in; none for numbers and flags.
     pub fn dimension(self) -> Option<Dimension> {
         ROLES[self as usize].2

@@ -1,8 +1,10 @@
 //! From text to lines, and from lines to cells.
 
 use super::options::Delimiter;
+use super::table::MOST_COLUMNS;
 use csv_core::ReadRecordResult;
 use std::borrow::Cow;
+use std::io::BufRead;
 
 /// Lines with their numbers, from 1, as an editor counts them. A file without any line feed has carriage returns.
 #[derive(Clone, Debug)]
@@ -26,11 +28,11 @@ impl<'t> Iterator for Lines<'t> {
         if self.rest.is_empty() {
             return None;
         }
-        let end = self.rest.iter().position(|byte| *byte == self.end);
-        let (line, rest) = match end {
-            Some(end) => (&self.rest[..end], &self.rest[end + 1..]),
-            None => (self.rest, &[][..]),
-        };
+        let (all, mut rest) = (self.rest, self.rest);
+        // bytes in memory can always be read; this looks for the end many bytes at a time
+        let length = rest.skip_until(self.end).unwrap_or(all.len());
+        let (line, rest) = all.split_at(length.min(all.len()));
+        let line = line.strip_suffix(&[self.end]).unwrap_or(line);
         self.rest = rest;
         self.number += 1;
         Some((self.number, text(line.strip_suffix(b"\r").unwrap_or(line))))
@@ -47,17 +49,30 @@ pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
 
 /// What a comment says, if the line is one.
 pub(super) fn comment(line: &str) -> Option<&str> {
+    if is_plain(line) && !line.starts_with(['#', '%']) {
+        return None;
+    }
     let line = plain(line);
     line.starts_with(['#', '%']).then(|| line.trim_start_matches(['#', '%']).trim())
 }
 
 /// A cell without blanks and quotes around it.
 pub(super) fn plain(cell: &str) -> &str {
+    if is_plain(cell) {
+        return cell;
+    }
     let cell = cell.trim();
     match cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')) {
         Some(inner) => inner.trim(),
         None => cell,
     }
+}
+
+/// Whether there is nothing to take away, as far as the first and last byte tell: most cells are such.
+fn is_plain(cell: &str) -> bool {
+    let bytes = cell.as_bytes();
+    let solid = |byte: Option<&u8>| byte.is_some_and(|byte| byte.is_ascii_graphic() && *byte != b'"');
+    solid(bytes.first()) && solid(bytes.last())
 }
 
 /// Splits lines at a delimiter. A quoted cell may hold delimiters, but no ends of lines: a quote that is not closed spoils one
@@ -90,9 +105,15 @@ impl Splitter {
             return line.split_whitespace().map(plain).enumerate().map(|(i, cell)| f(i, cell)).count();
         }
         if !self.quotes || !line.contains('"') {
-            // as bytes, which is several times faster, and cuts no letter in two
-            let cells = line.split(char::from(byte(self.delimiter)));
-            return cells.map(plain).enumerate().map(|(i, cell)| f(i, cell)).count();
+            let delimiter = byte(self.delimiter);
+            let (mut start, mut count) = (0, 0);
+            // byte by byte, for cells are short
+            for (at, _) in line.bytes().enumerate().filter(|(_, byte)| *byte == delimiter) {
+                f(count, plain(line.get(start..at).unwrap_or_default()));
+                (start, count) = (at + 1, count + 1);
+            }
+            f(count, plain(line.get(start..).unwrap_or_default()));
+            return count + 1;
         }
         let count = self.unquote(line);
         let mut start = 0;
@@ -125,9 +146,14 @@ impl Splitter {
         }
     }
 
+    /// The cells of a line, as many as a table may have and one more, so that a long line takes no more room than it has to.
     pub fn cells(&mut self, line: &str) -> Vec<String> {
         let mut cells = Vec::new();
-        self.each(line, |_, cell| cells.push(cell.to_owned()));
+        self.each(line, |i, cell| {
+            if i <= MOST_COLUMNS {
+                cells.push(cell.to_owned());
+            }
+        });
         cells
     }
 }

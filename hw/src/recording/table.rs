@@ -7,6 +7,7 @@ use super::number::number;
 use super::options::{Decimal, TableOptions};
 use super::split::{Splitter, comment};
 use super::{lvm, text};
+use std::borrow::Cow;
 use std::io::Read;
 use std::path::Path;
 
@@ -125,9 +126,7 @@ impl Table {
     /// # Errors
     /// As [`read_all`](Self::read_all).
     pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
-        if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-            return Err(TableError::Utf16 { file: file.to_owned() });
-        }
+        let bytes = &*utf8(bytes);
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let mut tables = if lvm::is_lvm(bytes) {
             lvm::tables(file, bytes, options)?
@@ -207,6 +206,13 @@ impl Table {
     /// What is wrong with rows of a wrong number of cells.
     pub fn faults(&self) -> impl Iterator<Item = RowFault> {
         self.rows().filter_map(|row| row.check().err().map(|problem| RowFault { line: row.line(), problem }))
+    }
+
+    /// Makes room for about so many rows of a text of so many bytes.
+    pub(super) fn reserve(&mut self, rows: usize, bytes: usize) {
+        self.heads.reserve(rows);
+        // a cell has a byte and a delimiter at least, whatever the first rows look like
+        self.cells.reserve(rows.saturating_mul(self.columns.len()).min(bytes / 2));
     }
 
     pub(super) fn add_note(&mut self, line: u64, text: &str) {
@@ -297,6 +303,19 @@ fn stored(texts: &mut Vec<Box<str>>, cell: &str, decimal: Decimal) -> Stored {
     }
     // more than 2^32 texts are not in a file of 4 GiB
     Stored::Text(u32::try_from(texts.len() - 1).unwrap_or(u32::MAX))
+}
+
+/// The text in UTF-8 where its mark says that it has two bytes a letter, as spreadsheets write it.
+fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let (letters, letter): (_, fn([u8; 2]) -> u16) = match bytes {
+        [0xff, 0xfe, letters @ ..] => (letters, u16::from_le_bytes),
+        [0xfe, 0xff, letters @ ..] => (letters, u16::from_be_bytes),
+        _ => return Cow::Borrowed(bytes),
+    };
+    let letters = letters.chunks_exact(2).map(|pair| letter([pair[0], pair[1]]));
+    let text: String =
+        char::decode_utf16(letters).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+    Cow::Owned(text.into_bytes())
 }
 
 fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {

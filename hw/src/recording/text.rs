@@ -16,8 +16,8 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
     let Layout { delimiter, decimal, header, headings, units, first } = Layout::find(file, &sample, options)?;
 
     if headings.len() > MOST_COLUMNS {
-        let (file, line, found) = (file.to_owned(), header.unwrap_or(first), headings.len());
-        return Err(TableError::TooManyColumns { file, line, found, most: MOST_COLUMNS });
+        let (file, line) = (file.to_owned(), header.unwrap_or(first));
+        return Err(TableError::TooManyColumns { file, line, most: MOST_COLUMNS });
     }
     let mut columns: Vec<Column> = headings.iter().map(|heading| Column::new(heading)).collect();
     for (column, unit) in columns.iter_mut().zip(units.iter().flatten().map(|unit| bare_unit(unit))) {
@@ -26,6 +26,8 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
         }
     }
     let mut table = Table::new(file, columns, header);
+    let length: usize = sample.iter().map(|line| line.text.len() + 1).sum();
+    table.reserve(bytes.len() / (length / sample.len().max(1)).max(1), bytes.len());
     let mut splitter = Splitter::new(delimiter);
     for (number, text) in Lines::new(bytes) {
         if number >= first {
