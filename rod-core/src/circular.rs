@@ -33,6 +33,7 @@ pub(crate) fn sin_cos(angle: f32) -> (f32, f32) {
 
 /// The same angle within half a turn; what is not finite is not a number.
 #[cold]
+#[inline(never)]
 fn brought_near(angle: f32) -> f32 {
     const ROUNDING: f64 = 1.5 * 4_503_599_627_370_496.0;
     let mut angle = f64::from(angle);
