@@ -79,7 +79,10 @@ mod unit;
 mod wrench;
 mod wrench_sample;
 
-pub use calibration::{Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix, RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits};
+pub use calibration::{
+    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
+    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
+};
 #[cfg(feature = "cal")]
 pub use calibration::{AtiCalibration, AtiFile, AtiFileError};
 pub use chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};

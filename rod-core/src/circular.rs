@@ -63,7 +63,9 @@ mod tests {
 
     #[test]
     fn small_angles_and_quarter_turns_keep_their_digits() {
-        for angle in [1e-30_f32, -1e-3, 0.1, core::f32::consts::PI, core::f32::consts::TAU, 1.570_796_3] {
+        for angle in
+            [1e-30_f32, -1e-3, 0.1, core::f32::consts::PI, core::f32::consts::TAU, core::f32::consts::FRAC_PI_2]
+        {
             let ((sin, cos), (s, c)) = (sin_cos(angle), f64::from(angle).sin_cos());
             for (ours, exact) in [(sin, s), (cos, c)] {
                 assert!((f64::from(ours) - exact).abs() <= 1.2e-7 * exact.abs(), "{angle}: {ours:e} {exact:e}");
