@@ -13,6 +13,8 @@
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
 //! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
+//!
+//! Without the feature `std` there is no heap, and [`single`] is left, in `f32` or `f64`, for a microcontroller.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 

@@ -186,6 +186,12 @@ fn no_contact_is_told_as_in_double_precision() {
     assert_eq!(felt(0.0, 0.0, 1.0), Err(NoContact::NoMomentZero));
     assert_eq!(felt(f64::NAN, 0.0, 1.0), Err(NoContact::NotFinite));
     assert_eq!(felt(1e300, 0.0, 1.0), Err(NoContact::NotFinite), "infinite in single precision");
+    for (length, stiffness) in [(1e-60, 1.0), (1.0, 1e-60), (1e60, 1.0)] {
+        let rod: Rod<f32> = Rod::new(length, stiffness).unwrap().cast();
+        let felt = Reactions { f0x: 0.1, f0y: 0.2, m0z: 0.3 };
+        let found = single(&rod, Pose { x: 0.1, y: 0.2, phi: 1.5 }, felt, &Matrix3::zeros());
+        assert_eq!(found, Err(NoContact::NotFinite), "{length} {stiffness}");
+    }
     assert!(matches!(felt(-0.5, 0.1, 0.9), Err(NoContact::BeyondTip(_))), "{:?}", felt(-0.5, 0.1, 0.9));
     let message = felt(-0.5, 0.1, 0.9).unwrap_err().to_string();
     assert!(message.contains("beyond the tip"), "{message}");

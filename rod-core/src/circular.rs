@@ -31,10 +31,17 @@ pub(crate) fn sin_cos(angle: f32) -> (f32, f32) {
     }
 }
 
-/// The same angle within a turn; what is not finite is not a number.
+/// The same angle within half a turn; what is not finite is not a number.
 #[cold]
+#[inline(never)]
 fn brought_near(angle: f32) -> f32 {
-    (f64::from(angle) % core::f64::consts::TAU) as f32
+    const ROUNDING: f64 = 1.5 * 4_503_599_627_370_496.0;
+    let mut angle = f64::from(angle);
+    // once is enough up to 2^52 turns; of more a number of single precision knows nothing, but the result is an angle
+    for _ in 0..3 {
+        angle -= core::f64::consts::TAU * ((angle / core::f64::consts::TAU + ROUNDING) - ROUNDING);
+    }
+    angle as f32
 }
 
 #[cfg(test)]
@@ -56,13 +63,23 @@ mod tests {
 
     #[test]
     fn small_angles_and_quarter_turns_keep_their_digits() {
-        for angle in [1e-30_f32, -1e-3, 0.1, core::f32::consts::PI, core::f32::consts::TAU, 1.570_796_3] {
+        for angle in
+            [1e-30_f32, -1e-3, 0.1, core::f32::consts::PI, core::f32::consts::TAU, core::f32::consts::FRAC_PI_2]
+        {
             let ((sin, cos), (s, c)) = (sin_cos(angle), f64::from(angle).sin_cos());
             for (ours, exact) in [(sin, s), (cos, c)] {
                 assert!((f64::from(ours) - exact).abs() <= 1.2e-7 * exact.abs(), "{angle}: {ours:e} {exact:e}");
             }
         }
         assert_eq!(sin_cos(0.0), (0.0, 1.0));
+    }
+
+    #[test]
+    fn of_any_number_they_are_of_an_angle() {
+        for angle in [1e15, -3e22, 1e30, f32::MAX] {
+            let (sin, cos) = sin_cos(angle);
+            assert!((sin * sin + cos * cos - 1.0).abs() < 1e-6, "{angle}: {sin} {cos}");
+        }
     }
 
     #[test]

@@ -63,7 +63,8 @@ impl Rod {
         Ok(Self { yield_stress: Some(yield_stress), ..self })
     }
 
-    /// The same rod in numbers of another type, each rounded to the nearest.
+    /// The same rod in numbers of another type, each rounded to the nearest. What is too small or too large for them becomes 0
+    /// or infinite: of such a rod nothing that is computed is finite.
     ///
     /// ```
     /// use rod_core::Rod;

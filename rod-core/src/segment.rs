@@ -239,6 +239,7 @@ fn whole_turns<T: Scalar>(kappa: T, force: (T, T), (p, excess): (T, T), angle: T
 
 /// The same where it may coil: the segment is walked in parts that cannot.
 #[cold]
+#[inline(never)]
 fn counted_turns<T: Scalar>(kappa: T, (c, d): (T, T), mut reach: T, angle: T, s: T) -> T {
     let (half, quarter) = (T::from_f64(0.5), T::from_f64(0.25));
     let (mut part, mut parts) = (s, 1_u32);

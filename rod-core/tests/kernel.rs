@@ -163,6 +163,48 @@ fn single_precision() {
     assert!(found[1_000] < 8e-7 && found[1_999] < 2e-5);
 }
 
+/// The error of the end in `f32` of these numbers, exactly as they are: by `advance`, and by `walk` in so many steps.
+fn errors_in_f32(start: &Section, a: f64, b: f64, s: f64, steps: usize) -> [f64; 2] {
+    let [x, y, phi, kappa, a, b, s] = [start.x, start.y, start.phi, start.kappa, a, b, s].map(|v| v as f32);
+    let start = Section { x, y, phi, kappa };
+    let wide = |v: Section<f32>| Section {
+        x: f64::from(v.x),
+        y: f64::from(v.y),
+        phi: f64::from(v.phi),
+        kappa: f64::from(v.kappa),
+    };
+    let exact = exact(&wide(start), f64::from(a), f64::from(b), f64::from(s));
+    let walked = walk(&start, a, b, s, steps).last().unwrap();
+    [advance(&start, a, b, s), walked].map(|end| largest(errors(&wide(end), &exact)))
+}
+
+#[test]
+fn walks_in_single_precision() {
+    let mut random = Random::new(7);
+    let worst = (0..2_000)
+        .map(|_| {
+            let (start, a, b, s) = segment(&mut random);
+            errors_in_f32(&start, a, b, s, 1 + (random.within(1.0).abs() * 300.0) as usize)[1]
+        })
+        .fold(0.0, f64::max);
+    println!("f32 walk: worst {worst:.1e}");
+    assert!(worst < 4e-5);
+}
+
+#[test]
+fn coils_are_counted_in_single_precision() {
+    let mut random = Random::new(8);
+    let worst = (0..300)
+        .map(|_| {
+            let (start, a, b, s) = segment(&mut random);
+            let start = Section { kappa: random.within(100.0), ..start };
+            errors_in_f32(&start, a, b, s, 10)[0] / start.kappa.abs().max(6.0)
+        })
+        .fold(0.0, f64::max);
+    println!("f32 coils: worst {worst:.1e} of kappa");
+    assert!(worst < 5e-6);
+}
+
 #[test]
 fn sensitivities_are_the_slopes_of_the_exact_solution() {
     // central differences of the 32-digit solution are good to h^2 = 1e-16 of the third derivative

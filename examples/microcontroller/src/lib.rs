@@ -1,0 +1,23 @@
+//! What the programs share: a sensor, and what it once said.
+#![no_std]
+
+mod scan;
+mod sensor;
+
+pub use scan::{Recorded, SCAN, rod};
+pub use sensor::Sensor;
+
+use cortex_m_semihosting::debug::{self, ExitStatus};
+
+/// Ends the emulator.
+pub fn exit(status: ExitStatus) -> ! {
+    debug::exit(status);
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    exit(debug::EXIT_FAILURE)
+}
