@@ -33,6 +33,15 @@ impl Motion {
             (Some(StageSpec::Table(file)), _) => Ok(Self::Table(table(file)?)),
         }
     }
+
+    /// When it has arrived, s; infinite where that is not known.
+    pub fn end(&self) -> f64 {
+        match self {
+            Self::Told => f64::INFINITY,
+            Self::Constant(motion) => motion.motion().1,
+            Self::Table(table) => table.rows().last().map_or(f64::INFINITY, |row| row.0),
+        }
+    }
 }
 
 impl StageSource for Motion {

@@ -91,6 +91,7 @@ pub(super) fn run(
         recorded.sample(&sample);
         engine.push(sample, |answer| recorded.answer(&answer));
     }
+    let (mut last, mut period) = (f64::NEG_INFINITY, 0.0);
     // those that came before had to wait for the tare
     let ready = sensor.feed.now();
     let end = loop {
@@ -104,6 +105,10 @@ pub(super) fn run(
             None => break End::Source,
             Some(Ok(fed)) => fed,
             Some(Err(Miss::Silence(text))) => {
+                // the next sample would have come after the end of the way
+                if last + period >= chain.wrenches().stage().end() {
+                    break End::Stage;
+                }
                 if recorded.silent(&text) {
                     break End::Silence;
                 }
@@ -120,6 +125,7 @@ pub(super) fn run(
         };
         match taken {
             Ok(sample) => {
+                (period, last) = (sample.t - last, sample.t);
                 recorded.sample(&sample);
                 if let Some((now, ready)) = sensor.feed.now().zip(ready)
                     && sample.raw.host_time > ready
