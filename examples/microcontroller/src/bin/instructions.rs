@@ -56,15 +56,15 @@ impl Counter {
         (ticks * TICK) as f32 / REPETITIONS as f32 - self.empty
     }
 
-    /// Mean and most over the samples of the scan, printed.
-    fn show(&mut self, what: &str, work: &mut dyn FnMut(&Recorded)) {
+    /// Prints mean and most over the samples.
+    fn show<S>(&mut self, what: &str, samples: &[S], work: &mut dyn FnMut(&S)) {
         let (mut sum, mut most) = (0.0, 0.0_f32);
-        for sample in &SCAN {
+        for sample in samples {
             let count = self.of(&mut || work(black_box(sample)));
             sum += count;
             most = most.max(count);
         }
-        hprintln!("{:44} {:9.0} {:9.0}", what, sum / SCAN.len() as f32, most);
+        hprintln!("  {:42} {:9.0} {:9.0}", what, sum / samples.len() as f32, most);
     }
 }
 
@@ -75,7 +75,7 @@ struct Steps<T: Number> {
     covariance: Matrix3<T>,
 }
 
-/// A sample, and what a rod of length 1 and bending stiffness 1 has in common with it.
+/// A sample, and the same for a rod of length 1 and bending stiffness 1: section at the clamp, force, arc length of the contact.
 #[derive(Clone, Copy)]
 struct Scaled<T> {
     pose: Pose<T>,
@@ -100,15 +100,7 @@ impl<T: Number> Steps<T> {
 
     fn show(&self, name: &str, counter: &mut Counter, scan: &[Scaled<T>; SCAN.len()]) {
         hprintln!("{}", name);
-        let mut all = |what: &str, work: &mut dyn FnMut(&Scaled<T>)| {
-            let (mut sum, mut most) = (0.0, 0.0_f32);
-            for sample in scan {
-                let count = counter.of(&mut || work(black_box(sample)));
-                sum += count;
-                most = most.max(count);
-            }
-            hprintln!("  {:42} {:9.0} {:9.0}", what, sum / scan.len() as f32, most);
-        };
+        let mut all = |what: &str, work: &mut dyn FnMut(&Scaled<T>)| counter.show(what, scan, work);
         all("sine and cosine", &mut |at| _ = black_box(Scalar::sin_cos(at.pose.phi)));
         all("square root", &mut |at| _ = black_box(Scalar::sqrt(at.length)));
         all("segment: advance", &mut |at| _ = black_box(advance(&at.clamp, at.force[0], at.force[1], at.length)));
@@ -164,7 +156,7 @@ fn measure() -> Option<()> {
     });
     hprintln!("five instructions that do nothing count {:.1}", nops);
     hprintln!("{:44} {:>9} {:>9}", "instructions", "mean", "most");
-    counter.show("counts to reactions (rod-hw)", &mut |sample| {
+    counter.show("counts to reactions (rod-hw)", &SCAN, &mut |sample| {
         black_box(sensor.reactions(0.0, sample.counts, sample.pose()).ok());
     });
     let single = Steps { rod, none: Matrix3::zeros(), covariance: Sensor::covariance() };
