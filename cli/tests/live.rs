@@ -1,6 +1,6 @@
 //! From a sensor that is played to contact points, over the connections that real ones have, and what is said where that
 //! cannot be.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 mod common;
 
