@@ -30,7 +30,7 @@ const TICK: f64 = 1.0;
 /// Window of a device's clock, s.
 const WINDOW: f64 = 10.0;
 /// Half-window of the identification: in lengths of the rod, but no fewer samples than this.
-const HALF_WINDOW: f64 = 0.01;
+const HALF_WINDOW: f64 = 0.02;
 const FEWEST_IN_HALF_WINDOW: f64 = 200.0;
 
 /// What a sample is in N and N m, and how far it can be trusted.
