@@ -237,7 +237,7 @@ impl<T: Transport, P: Protocol, C: Clock> Iterator for Link<T, P, C> {
             let left = self.settings.deadline - (now - since);
             match self.connection {
                 Connection::Ended => return None,
-                _ if left < INSTANT => {
+                _ if left.is_nan() || left < INSTANT => {
                     return Some(Err(LinkError::Timeout { waited: now - since, counters: self.counters() }));
                 }
                 Connection::Down { at } if now + INSTANT < at => self.clock.wait(left.min(at - now)),
@@ -415,6 +415,12 @@ mod tests {
         }
         bench.link.transport.events.push_back(Bytes(&[7]));
         assert_eq!(bench.sample(), (7.0, Quality::empty()));
+    }
+
+    #[test]
+    fn a_deadline_that_is_no_number_has_passed() {
+        let mut bench = bench(LinkSettings { deadline: f64::NAN, ..LinkSettings::default() }, [Bytes(&[1])], &[]);
+        assert!(matches!(bench.link.next(), Some(Err(LinkError::Timeout { .. }))));
     }
 
     #[test]
