@@ -128,8 +128,8 @@ impl Default for Nau7802Settings {
 ///
 /// All these chips have the same address: several of them ([`Side`](super::Side)) need a bus each, or a multiplexer.
 ///
-/// Source: datasheet revision 1.7, sections 8.6, 9.1 and 11; checked against the drivers of SparkFun and Adafruit, which differ
-/// on when a calibration has ended: it has when its bit is 0.
+/// Registers as in Nuvoton's datasheet, as far as it was at hand, and in the drivers of SparkFun and Adafruit. These differ on when
+/// a calibration has ended: it is taken to have when its bit is 0. No chip was at hand.
 ///
 /// ```
 /// use embedded_hal::{delay::DelayNs, i2c::I2c};
