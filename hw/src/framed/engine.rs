@@ -1,12 +1,12 @@
 //! The engine of all framed sensors.
 
-use super::profile::{Await, Content, Profile, Reading, Step};
+use super::profile::{Await, Content, Profile, Reading, SetupStep};
 use super::scanner::Scanner;
 use crate::counters::LinkCounters;
 use crate::protocol::{FrameFault, Protocol, Request};
 use crate::quality::Quality;
 use crate::raw::RawSample;
-use crate::sequence::{self, Sequence};
+use crate::sequence::{Sequence, SequenceStep};
 
 /// A request that is not answered is sent again after so long, s: longer than any of these devices takes.
 const RETRY: f64 = 0.5;
@@ -126,25 +126,25 @@ impl<P: Profile> Framed<P> {
         let mut device_time = None;
         if let (Some(sequence), Some(number)) = (&mut self.sequence, reading.number) {
             match sequence.step(number) {
-                sequence::Step::First => {
+                SequenceStep::First => {
                     let least = self.number.map_or(0, |last| last + 1);
                     self.base = least.saturating_sub(sequence.unwrapped());
                 }
-                sequence::Step::Next => {}
-                sequence::Step::Gap(missing) => {
+                SequenceStep::Next => {}
+                SequenceStep::Gap(missing) => {
                     self.counters.gaps += 1;
                     self.counters.lost += u64::from(missing);
                     self.flags |= Quality::GAP_BEFORE;
                 }
-                sequence::Step::Repeated => {
+                SequenceStep::Repeated => {
                     self.counters.repeated += 1;
                     return None;
                 }
-                sequence::Step::Late => {
+                SequenceStep::Late => {
                     self.counters.reordered += 1;
                     return None;
                 }
-                sequence::Step::Restarted => {
+                SequenceStep::Restarted => {
                     self.counters.restarts += 1;
                     self.flags |= Quality::GAP_BEFORE | Quality::RESTARTED;
                 }
@@ -189,7 +189,7 @@ impl<P: Profile> Framed<P> {
             return None;
         };
         let Setup::Sent { step, .. } = self.setup else { return None };
-        self.profile.setup(step).map(|Step { command: request, .. }| FrameFault::Refused { request, code })
+        self.profile.setup(step).map(|SetupStep { command: request, .. }| FrameFault::Refused { request, code })
     }
 }
 
@@ -236,7 +236,7 @@ impl<P: Profile> Protocol for Framed<P> {
             }
             _ => return None,
         };
-        let Some(Step { request, until, .. }) = self.profile.setup(step) else {
+        let Some(SetupStep { request, until, .. }) = self.profile.setup(step) else {
             self.setup = Setup::Done { quiet: Some(now) };
             return None;
         };
