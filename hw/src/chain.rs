@@ -2,6 +2,7 @@
 
 use crate::calibration::{Calibration, CalibrationError};
 use crate::mounting::Mounting;
+use crate::quality::Quality;
 use crate::raw::RawSample;
 use crate::reaction_sample::ReactionSample;
 use crate::saturation::{RailError, Rails};
@@ -10,6 +11,7 @@ use crate::stage::{StageError, StageSource};
 use crate::tare::Tare;
 use crate::timing::{Timekeeper, TimingError};
 use crate::wrench_sample::WrenchSample;
+use core::mem::take;
 use rod_core::{Pose, Scalar};
 
 /// What is done to wrenches before they are taken to the clamp: a [`Tare`], or something of your own, which then marks what a
@@ -38,7 +40,7 @@ impl<T: Copy, K: Correction<T>> Correction<T> for Option<K> {
 }
 
 /// Raw samples of a sensor to the reactions of the clamp, one by one and without allocation: rails, time, calibration, then
-/// the [`WrenchChain`].
+/// the [`WrenchChain`]. Where a sample goes no further, the next one says what it said of a restart or a gap.
 ///
 /// ```
 /// use rod_core::Pose;
@@ -70,7 +72,12 @@ pub struct SignalChain<C, S, K = (), T = f64> {
     timekeeper: Timekeeper,
     calibration: C,
     wrenches: WrenchChain<S, K, T>,
+    /// What a sample that went no further says of the next one.
+    news: Quality,
 }
+
+/// What is true of the next sample where the one that says it goes no further.
+const NEWS: Quality = Quality::RESTARTED.union(Quality::GAP_BEFORE);
 
 /// Wrenches at the sensor to the reactions of the clamp: tare, pose of the clamp, mounting. Also on its own, for sensors that
 /// deliver wrenches.
@@ -97,6 +104,10 @@ pub struct WrenchChain<S, K = (), T = f64> {
     tare: K,
     stage: S,
     mounting: Mounting<T>,
+    /// What a sample that went no further says of the next one.
+    news: Quality,
+    /// Time of the last sample, s.
+    last: f64,
 }
 
 /// Why a sample gives no reactions.
@@ -115,6 +126,17 @@ pub enum ChainError {
     /// No pose.
     #[error("stage: {0}")]
     Stage(#[from] StageError),
+    /// A wrench that is older than the one before.
+    #[error(
+        "the wrench at {t} s comes after that at {before} s, expected times that do not run back; sort the recording, or leave \
+         it out"
+    )]
+    Backwards {
+        /// Its time, s.
+        t: f64,
+        /// That of the one before, s.
+        before: f64,
+    },
     /// A wrench that is none.
     #[error("the wrench at {t} s is not finite after the {step}, expected finite numbers of N and N m")]
     NotFinite {
@@ -140,7 +162,8 @@ pub enum SensorError<E> {
 impl<C, S, T> SignalChain<C, S, (), T> {
     /// Without rails, at the host's time.
     pub fn new<K>(calibration: C, wrenches: WrenchChain<S, K, T>) -> SignalChain<C, S, K, T> {
-        SignalChain { rails: Rails::none(), timekeeper: Timekeeper::host(), calibration, wrenches }
+        let (rails, timekeeper) = (Rails::none(), Timekeeper::host());
+        SignalChain { rails, timekeeper, calibration, wrenches, news: Quality::empty() }
     }
 }
 
@@ -186,9 +209,18 @@ impl<C: Calibration<T>, S: StageSource, K: Correction<T>, T: Scalar> SignalChain
     /// # Errors
     /// [`ChainError`]; the next sample may be good.
     pub fn wrench(&mut self, raw: &RawSample) -> Result<WrenchSample<T>, ChainError> {
-        let quality = raw.quality | self.rails.check(raw)?;
+        let mut raw = RawSample { quality: raw.quality | take(&mut self.news), ..*raw };
+        let result = self.calibrated(&mut raw);
+        if result.is_err() {
+            self.news = raw.quality & NEWS;
+        }
+        result
+    }
+
+    fn calibrated(&mut self, raw: &mut RawSample) -> Result<WrenchSample<T>, ChainError> {
+        raw.quality |= self.rails.check(raw)?;
         let t = self.timekeeper.time(raw)?;
-        let sample = self.calibration.wrench(&RawSample { quality, ..*raw })?;
+        let sample = self.calibration.wrench(raw)?;
         finite(&WrenchSample { t, ..sample }, "calibration")
     }
 
@@ -204,13 +236,13 @@ impl<C: Calibration<T>, S: StageSource, K: Correction<T>, T: Scalar> SignalChain
 impl<S, T> WrenchChain<S, (), T> {
     /// Without a tare.
     pub fn new(stage: S, mounting: Mounting<T>) -> Self {
-        Self { tare: (), stage, mounting }
+        Self { tare: (), stage, mounting, news: Quality::empty(), last: f64::NEG_INFINITY }
     }
 
     /// With a tare, or a place for one: `None`.
     pub fn with_tare<K>(self, tare: K) -> WrenchChain<S, K, T> {
-        let Self { stage, mounting, .. } = self;
-        WrenchChain { tare, stage, mounting }
+        let Self { stage, mounting, news, last, .. } = self;
+        WrenchChain { tare, stage, mounting, news, last }
     }
 }
 
@@ -242,9 +274,23 @@ impl<S: StageSource, K: Correction<T>, T: Scalar> WrenchChain<S, K, T> {
     /// # Errors
     /// [`ChainError`]; the next sample may be good.
     pub fn take(&mut self, sample: &WrenchSample<T>) -> Result<ReactionSample<T>, ChainError> {
-        let tared = finite(&self.tare.correct(&finite(sample, "sensor")?), "tare")?;
+        let sample = WrenchSample { quality: sample.quality | take(&mut self.news), ..*sample };
+        let result = self.reactions(&sample);
+        if result.is_err() {
+            self.news = sample.quality & NEWS;
+        }
+        result
+    }
+
+    fn reactions(&mut self, sample: &WrenchSample<T>) -> Result<ReactionSample<T>, ChainError> {
+        let sample = finite(sample, "sensor")?;
+        if sample.t < self.last {
+            return Err(ChainError::Backwards { t: sample.t, before: self.last });
+        }
+        let tared = finite(&self.tare.correct(&sample), "tare")?;
         let Pose { x, y, phi } = self.stage.pose_at(tared.t)?;
         let pose = Pose { x: T::from_f64(x), y: T::from_f64(y), phi: T::from_f64(phi) };
+        self.last = sample.t;
         Ok(self.mounting.reactions(&tared, pose))
     }
 

@@ -198,8 +198,8 @@ impl<T: Scalar> Frame<T> {
 
     /// A wrench in the old axes about the old origin, in the new axes about the new one.
     pub fn wrench(&self, old: &Wrench<T>) -> Wrench<T> {
-        let moment = minus(old.torque, cross(self.origin, old.force));
-        Wrench { force: product(&self.rotation, old.force), torque: product(&self.rotation, moment) }
+        let Wrench { force, torque } = old.about(self.origin);
+        Wrench { force: product(&self.rotation, force), torque: product(&self.rotation, torque) }
     }
 
     /// The way back.
@@ -290,10 +290,6 @@ pub(crate) fn cross<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn minus<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    from_fn(|i| a[i] - b[i])
-}
-
 fn product<T: Scalar>(rows: &[[T; 3]; 3], vector: [T; 3]) -> [T; 3] {
     rows.map(|row| dot(row, vector))
 }
@@ -315,96 +311,4 @@ fn nearest_rotation<T: Scalar>(mut rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    pub(crate) fn frames() -> impl Strategy<Value = Frame> {
-        let quaternion = proptest::array::uniform4(-1.0_f64..1.0).prop_filter_map("too short", |q| {
-            let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
-            (norm > 0.1).then(|| q.map(|c| c / norm))
-        });
-        (quaternion, proptest::array::uniform3(-0.1..0.1))
-            .prop_map(|(q, d)| Frame::from_quaternion(q).unwrap().with_origin(d).unwrap())
-    }
-
-    pub(crate) fn wrenches() -> impl Strategy<Value = Wrench> {
-        proptest::array::uniform6(-2.0..2.0).prop_map(Wrench::from_components)
-    }
-
-    pub(crate) fn close(a: &Wrench, b: &Wrench) -> bool {
-        (*a - *b).components().iter().all(|c| c.abs() < 1e-13)
-    }
-
-    proptest! {
-        #[test]
-        fn there_and_back(frame in frames(), wrench in wrenches()) {
-            prop_assert!(close(&frame.inverse().wrench(&frame.wrench(&wrench)), &wrench));
-            prop_assert!(close(&frame.wrench(&frame.inverse().wrench(&wrench)), &wrench));
-        }
-
-        #[test]
-        fn two_hops_are_one(a in frames(), b in frames(), wrench in wrenches()) {
-            prop_assert!(close(&a.then(&b).wrench(&wrench), &b.wrench(&a.wrench(&wrench))));
-        }
-
-        #[test]
-        fn what_stays(frame in frames(), wrench in wrenches()) {
-            let new = frame.wrench(&wrench);
-            prop_assert!((dot(new.force, new.force) - dot(wrench.force, wrench.force)).abs() < 1e-13);
-            prop_assert!((dot(new.force, new.torque) - dot(wrench.force, wrench.torque)).abs() < 1e-13);
-            // the rows say the same
-            let rows = frame.rows();
-            let by_rows = rows.map(|row| row.iter().zip(wrench.components()).map(|(r, c)| r * c).sum::<f64>());
-            prop_assert!(close(&Wrench::from_components(by_rows), &new));
-        }
-
-        #[test]
-        fn a_force_through_the_new_origin_has_no_moment_there(frame in frames(), force in proptest::array::uniform3(-2.0..2.0)) {
-            let new = frame.wrench(&Wrench { force, torque: cross(frame.origin(), force) });
-            prop_assert!(new.torque.iter().all(|c| c.abs() < 1e-14));
-        }
-
-        #[test]
-        fn digits_that_were_cut(frame in frames()) {
-            let rounded = frame.rotation().map(|row| row.map(|c| (c * 1e4).round() / 1e4));
-            let rotation = Frame::from_matrix(rounded).unwrap().rotation();
-            for i in 0..3 {
-                for k in 0..3 {
-                    prop_assert!((rotation[i][k] - frame.rotation()[i][k]).abs() < 2e-4);
-                    prop_assert!((dot(rotation[i], rotation[k]) - f64::from(u8::from(i == k))).abs() < 1e-15);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_tool_transform_of_the_plane() {
-        // m_z' = m_z - (d_x f_y - d_y f_x)
-        let frame = Frame::same().with_origin([0.02, -0.05, 0.3]).unwrap();
-        let found = frame.wrench(&Wrench { force: [0.3, -0.4, 0.0], torque: [0.0, 0.0, 0.011] });
-        assert!((found.torque[2] - (0.011 - (0.02_f64 * -0.4 - -0.05 * 0.3))).abs() < 1e-17);
-    }
-
-    #[test]
-    fn refuses() {
-        let message = |rows| Frame::from_matrix(rows).unwrap_err().to_string();
-        assert_eq!(
-            message([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]),
-            "axes 2 and 2 have the product 4, expected 1 to within 1e-3; are these the columns or rows of a rotation?"
-        );
-        assert_eq!(
-            message([[1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 1.0]]),
-            "an entry of the rotation matrix is NaN, expected a finite number"
-        );
-        assert_eq!(Frame::<f64>::from_axes([Axis::X, Axis::MinusY, Axis::Z]), Err(FrameError::LeftHanded));
-        assert!(Frame::<f64>::from_axes([Axis::X, Axis::X, Axis::Z]).is_err());
-        for quaternion in [[1.0, 1.0, 0.0, 0.0], [f64::NAN; 4]] {
-            let error = Frame::from_quaternion(quaternion).unwrap_err().to_string();
-            assert!(error.contains("expected 1 to within 1e-3"), "{error}");
-        }
-        assert!(Frame::planar(f64::INFINITY).is_err());
-        assert!(Frame::same().with_origin([0.0, f64::NAN, 0.0]).is_err());
-        assert_eq!("X".parse::<Axis>(), Err(FrameError::NoAxis));
-    }
-}
+pub(crate) mod tests;

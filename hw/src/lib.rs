@@ -1,20 +1,33 @@
 //! From force/torque sensors and recordings to what the clamp of a rod feels, and where the clamp is.
 //!
+//! What comes and goes:
 //! - [`RawSample`]: what a device said, counts or volts with its own time, sequence number and status. [`WrenchSample`]: force
 //!   and torque at the sensor's origin. [`ReactionSample`]: clamp pose and reactions. [`Quality`] travels with all of them.
 //! - [`RawSource`], [`WrenchSource`]: any iterator of results is one, so that closures (`core::iter::from_fn`), adapters,
-//!   `&mut source` and `Box<dyn Iterator>` are, too.
-//! - [`Calibration`]: raw values to a wrench, [`Scale`] of counts and [`GaugeMatrix`] among them. [`StageSource`]: where the clamp is at a time.
+//!   `&mut source` and `Box<dyn Iterator>` are, too. [`StageSource`]: where the clamp is at a time, by constant speed, a table
+//!   or a closure.
+//!
+//! From raw values to reactions:
+//! - [`SignalChain`]: all of it, in this order: [`Rails`] for what is saturated, a [`Timekeeper`] for when, a [`Calibration`], a
+//!   [`Tare`], the stage, the [`Mounting`] of the sensor to the clamp. `SimulatedSensor`: the way back.
+//! - [`Calibration`]: raw values to a wrench; [`Scale`] of counts, [`GaugeMatrix`] and [`GsvMatrix`], and with the feature `cal`
+//!   `AtiCalibration` from a file of ATI. [`Unit`]s by name, checked.
+//! - [`TareWindow`]: samples without load to a [`Zero`], of which one or two make a [`Tare`].
 //! - [`Accuracy`], [`RatedLoad`]: how far a sensor can be trusted. [`SensorCheck`]: whether it suits a rod.
-//! - [`TareWindow`]: samples without load to a [`Zero`]; [`Tare`]: one or two of them, taken off.
-//! - [`Mounting`]: the wrench at the sensor to the reactions at the clamp. [`SignalChain`]: from raw samples to reactions, all
-//!   of it, with [`Rails`] for what is saturated and a [`Timekeeper`] for when; `SimulatedSensor`: the way back.
-//! - [`Despike`] marks spikes; `LowPass` and `fill_gaps` are for recordings that need them.
+//! - [`Despike`] marks spikes; `LowPass` and `fill_gaps` are for recordings that need them, `fit_lever_arm` for a mounting that
+//!   was not measured.
+//!
+//! From bytes to raw values:
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
-//!   protocol on a transport, with a deadline; `spawn`: the same in a thread of its own.
-//! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins.
-//! - With the feature `recordings`, `recording`: tables of text, LabVIEW's among them, read; samples recorded.
-//! - [`rdt`]: sensors over UDP that speak ATI's RDT.
+//!   protocol on a transport, with a deadline and [`LinkCounters`]; `spawn`: the same in a thread of its own.
+//! - [`rdt`]: sensors over UDP that speak ATI's RDT; with the feature `rdt` the transport `Udp` and a fake sensor.
+//! - [`framed`]: sensors on a serial line; the transport `ReadWrite`, with the feature `serial` `SerialPort`; `fake`: devices that
+//!   fail by a script.
+//! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins. [`IioRecord`]: those of Linux.
+//!
+//! From recordings:
+//! - `recording` (feature `recordings`): tables of text, LabVIEW's among them, read; samples recorded.
+//! - `tdms` (feature `tdms`): files of LabVIEW and NI-DAQmx. `mcap` (feature `mcap`): files of ROS.
 //!
 //! Units are SI throughout: N, N m, m, rad, s. Without the feature `std` there is no allocation, and what is on the way of a
 //! sample is generic over the number, f32 or f64.
@@ -109,7 +122,7 @@ pub use reaction_sample::{OutOfPlane, ReactionSample};
 #[cfg(feature = "std")]
 pub use read_write::ReadWrite;
 pub use saturation::{RailError, Rails};
-pub use sequence::{Sequence, Step};
+pub use sequence::{Sequence, SequenceStep};
 #[cfg(all(feature = "serial", unix))]
 pub use serial::{Pty, open_pty};
 #[cfg(feature = "serial")]

@@ -6,10 +6,10 @@
 /// again, which looks late at first: two numbers in a row that are behind and follow each other are a restart.
 ///
 /// ```
-/// use rod_hw::{Sequence, Step};
+/// use rod_hw::{Sequence, SequenceStep};
 /// let mut sequence = Sequence::new(32, 1);
-/// let steps: Vec<Step> = [u32::MAX - 1, u32::MAX, 0, 3, 3, 2, 4].map(|n| sequence.step(n)).into();
-/// use Step::*;
+/// let steps: Vec<SequenceStep> = [u32::MAX - 1, u32::MAX, 0, 3, 3, 2, 4].map(|n| sequence.step(n)).into();
+/// use SequenceStep::*;
 /// assert_eq!(steps, [First, Next, Next, Gap(2), Repeated, Late, Next]);
 /// assert_eq!(sequence.unwrapped(), u64::from(u32::MAX) + 5);
 /// ```
@@ -25,7 +25,7 @@ pub struct Sequence {
 
 /// What a number says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum SequenceStep {
     /// The first one.
     First,
     /// The one that was due.
@@ -47,30 +47,30 @@ impl Sequence {
     }
 
     /// Takes the number of a sample.
-    pub fn step(&mut self, number: u32) -> Step {
+    pub fn step(&mut self, number: u32) -> SequenceStep {
         let Some(last) = self.last else {
             self.last = Some(number);
             self.unwrapped = u64::from(number);
-            return Step::First;
+            return SequenceStep::First;
         };
         let mask = u32::MAX >> (32 - self.bits);
         let ahead = number.wrapping_sub(last) & mask;
         let candidate = self.candidate.take();
         if ahead == 0 {
-            Step::Repeated
+            SequenceStep::Repeated
         } else if ahead <= mask / 2 {
             self.last = Some(number);
             self.unwrapped += u64::from(ahead);
             let missing = ahead.div_ceil(self.stride) - 1;
-            if missing == 0 { Step::Next } else { Step::Gap(missing) }
+            if missing == 0 { SequenceStep::Next } else { SequenceStep::Gap(missing) }
         } else if candidate == Some(number) {
             self.last = Some(number);
             // goes on growing
             self.unwrapped += 1;
-            Step::Restarted
+            SequenceStep::Restarted
         } else {
             self.candidate = Some(number.wrapping_add(self.stride) & mask);
-            Step::Late
+            SequenceStep::Late
         }
     }
 
@@ -117,10 +117,16 @@ mod tests {
     fn restart_and_its_look_alike() {
         let mut sequence = Sequence::new(32, 1);
         let steps = [1000, 1001, 1, 2, 3].map(|n| sequence.step(n));
-        assert_eq!(steps, [Step::First, Step::Next, Step::Late, Step::Restarted, Step::Next]);
+        assert_eq!(
+            steps,
+            [SequenceStep::First, SequenceStep::Next, SequenceStep::Late, SequenceStep::Restarted, SequenceStep::Next]
+        );
         let mut sequence = Sequence::new(16, 2);
         let steps = [65_534, 0, 4, 2, 6].map(|n| sequence.step(n));
-        assert_eq!(steps, [Step::First, Step::Next, Step::Gap(1), Step::Late, Step::Next]);
+        assert_eq!(
+            steps,
+            [SequenceStep::First, SequenceStep::Next, SequenceStep::Gap(1), SequenceStep::Late, SequenceStep::Next]
+        );
         assert_eq!(sequence.unwrapped(), 65_536 + 6);
     }
 
@@ -132,7 +138,7 @@ mod tests {
             let (mut number, mut missing) = (start, 0);
             for gap in &gaps {
                 number = number.wrapping_add(*gap);
-                if let Step::Gap(n) = sequence.step(number) { missing += n }
+                if let SequenceStep::Gap(n) = sequence.step(number) { missing += n }
             }
             prop_assert_eq!(missing, gaps.iter().map(|gap| gap - 1).sum::<u32>());
             prop_assert_eq!(sequence.unwrapped(), u64::from(start) + gaps.iter().map(|gap| u64::from(*gap)).sum::<u64>());

@@ -78,10 +78,20 @@ pub enum TimingError {
         /// Its value.
         value: f64,
     },
+    /// The host's time as it is, earlier than before.
+    #[error(
+        "the host's time is {t} s after one of {before} s, expected none that runs back; sort the recording, or leave the sample out"
+    )]
+    Backwards {
+        /// The time, s.
+        t: f64,
+        /// That of the sample before, s.
+        before: f64,
+    },
 }
 
 impl Timekeeper {
-    /// The host's time as it is.
+    /// The host's time as it is; where it runs back, that is an error.
     pub fn host() -> Self {
         Self::of(Way::Host)
     }
@@ -143,7 +153,10 @@ impl Timekeeper {
         let host = number("host's", raw.host_time)?;
         let anew = raw.quality.contains(Quality::RESTARTED);
         let (time, residual, restarted) = match &mut self.way {
-            Way::Host => (host, 0.0, false),
+            Way::Host => match self.last {
+                Some(before) if host < before => return Err(TimingError::Backwards { t: host, before }),
+                _ => (host, 0.0, false),
+            },
             Way::Device(device) => {
                 let own = number("device's", raw.device_time.ok_or(TimingError::NoDeviceTime)?)?;
                 device.time(host, own, anew)
@@ -244,15 +257,17 @@ impl Counted {
     /// Time, what the host's stamp is off, and whether the line started anew.
     fn time(&mut self, host: f64, number: Option<u64>, anew: bool) -> (f64, f64, bool) {
         let known = self.last.filter(|_| !anew).and_then(|(last, line, handed)| {
-            let number = number.unwrap_or(last + 1);
+            let number = number.unwrap_or(last.saturating_add(1));
             number.checked_sub(last).filter(|steps| *steps > 0).map(|steps| (number, steps as f64, line, handed))
         });
         let Some((reached, steps, line, handed)) = known else {
-            return self.start(host, number.or(self.last.map(|last| last.0 + 1)).unwrap_or(0));
+            return self.start(host, number.or(self.last.map(|last| last.0.saturating_add(1))).unwrap_or(0));
         };
         let period = self.period.unwrap_or((host - line) / steps);
         let residual = host - (line + period * steps);
-        let most = if self.seen < FAMILIAR { f64::INFINITY } else { CLIP * self.usual.max(QUIET * period) };
+        let usual = CLIP * self.usual.max(QUIET * period);
+        // of samples that all came at once nothing is usual
+        let most = if self.seen >= FAMILIAR && usual > 0.0 { usual } else { f64::INFINITY };
         let counts = residual.clamp(-most, most);
         if number.is_none() && self.lost(residual, most) {
             return self.start(host, reached);
@@ -260,6 +275,10 @@ impl Counted {
         let n = f64::from(self.fitted);
         let line = line + period * steps + counts * 2.0 * (2.0 * n + 1.0) / ((n + 1.0) * (n + 2.0));
         let period = period + counts / steps * 6.0 / ((n + 1.0) * (n + 2.0));
+        if !(line.is_finite() && period.is_finite()) {
+            *self = Self::new(None);
+            return (self.start(host, reached).0, 0.0, true);
+        }
         let handed = line.max(handed + LEAST_STEP * period.max(0.0) * steps);
         (self.period, self.last) = (Some(period), Some((reached, line, handed)));
         self.fitted = (self.fitted + 1).min(Self::MEMORY);
@@ -303,7 +322,7 @@ impl Paced {
     /// Time, what the host's stamp is off, and whether it started anew.
     fn time(&mut self, host: f64, number: Option<u64>, anew: bool) -> (f64, f64, bool) {
         let going = self.first.filter(|_| !anew);
-        let number = number.unwrap_or(if going.is_some() { self.last + 1 } else { 0 });
+        let number = number.unwrap_or(if going.is_some() { self.last.saturating_add(1) } else { 0 });
         let (Some((first, start)), true) = (going, number >= self.last) else {
             let restarted = self.first.is_some();
             (self.first, self.last) = (Some((number, host)), number);
@@ -317,169 +336,4 @@ impl Paced {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::raw::Channels;
-    use proptest::prelude::*;
-
-    fn stamped(host: f64) -> RawSample {
-        RawSample::new(host, Channels::default())
-    }
-
-    fn numbered(host: f64, sequence: u64) -> RawSample {
-        RawSample { sequence: Some(sequence), ..stamped(host) }
-    }
-
-    /// Between 0 and 1, without a generator.
-    fn scattered(n: u32) -> f64 {
-        (f64::from(n) * 0.618_033_988_749_895).fract()
-    }
-
-    #[test]
-    fn the_hosts_time_never_runs_back() {
-        let mut timekeeper = Timekeeper::host();
-        let times = [0.0, 1.0, 0.9, 1.1].map(|host| timekeeper.time(&stamped(host)).unwrap());
-        assert_eq!(times, [0.0, 1.0, 1.0, 1.1]);
-        assert_eq!((timekeeper.jitter(), timekeeper.period()), (0.0, None));
-    }
-
-    #[test]
-    fn before_many_samples_the_line_is_that_of_least_squares() {
-        let host = [0.0, 1.1, 1.9, 3.2, 3.9, 5.1, 5.8];
-        let mut counted = Counted::new(None);
-        let found = host.map(|host| counted.time(host, None, false).0)[6];
-        let n = host.len() as f64;
-        let (mean_x, mean_y) = (0.5 * (n - 1.0), host.iter().sum::<f64>() / n);
-        let (sxy, sxx) = host.iter().zip(0..).fold((0.0, 0.0), |(sxy, sxx), (y, i)| {
-            let x = f64::from(i) - mean_x;
-            (sxy + x * (y - mean_y), sxx + x * x)
-        });
-        assert!((counted.period.unwrap() - sxy / sxx).abs() < 1e-14);
-        assert!((found - (mean_y + sxy / sxx * (n - 1.0 - mean_x))).abs() < 1e-14);
-    }
-
-    #[test]
-    fn a_late_heap_of_samples_moves_little() {
-        for with_number in [true, false] {
-            let mut timekeeper = Timekeeper::counted(None);
-            let mut worst = 0.0_f64;
-            for n in 0..8000_u32 {
-                let taken = 2e-3 * f64::from(n);
-                // nothing is read for 0.2 s
-                let read = if (5000..5100).contains(&n) { 2e-3 * 5100.0 } else { taken };
-                let host = read + 2e-4 * scattered(n);
-                let raw = if with_number { numbered(host, n.into()) } else { stamped(host) };
-                let time = timekeeper.time(&raw).unwrap();
-                if n > 100 {
-                    worst = worst.max((time - taken - 1e-4).abs());
-                }
-            }
-            assert!(worst < 4e-5, "{worst}");
-            assert_eq!(timekeeper.restarts(), 0);
-        }
-    }
-
-    #[test]
-    fn samples_lost_without_a_number_are_noticed() {
-        let mut timekeeper = Timekeeper::counted(Some(2e-3));
-        let mut off = 0.0;
-        for n in 0..4000_u32 {
-            let taken = 2e-3 * f64::from(if n < 2000 { n } else { n + 70 });
-            off = timekeeper.time(&stamped(taken + 2e-4 * scattered(n))).unwrap() - taken;
-        }
-        assert_eq!(timekeeper.restarts(), 1);
-        assert!((off - 1e-4).abs() < 3e-5, "{off}");
-        assert!((timekeeper.period().unwrap() - 2e-3).abs() < 1e-7);
-    }
-
-    #[test]
-    fn lost_and_numbered_samples_leave_their_place() {
-        let mut timekeeper = Timekeeper::counted(None);
-        let mut worst = 0.0_f64;
-        for n in (0..6000_u32).filter(|n| n % 7 != 3 && !(2000..2500).contains(n)) {
-            let taken = 1e-3 * f64::from(n);
-            let time = timekeeper.time(&numbered(taken + 3e-4 * scattered(n), n.into())).unwrap();
-            if n > 100 {
-                worst = worst.max((time - taken - 1.5e-4).abs());
-            }
-        }
-        assert!(worst < 5e-5, "{worst}");
-    }
-
-    #[test]
-    fn a_device_that_starts_anew() {
-        let anew = |raw: RawSample| RawSample { quality: Quality::RESTARTED, ..raw };
-        let mut counted = Timekeeper::counted(None);
-        for n in 0..100_u32 {
-            counted.time(&numbered(1e-3 * f64::from(n), n.into())).unwrap();
-        }
-        assert_eq!(counted.time(&anew(numbered(5.0, 101))).unwrap(), 5.0);
-        assert!((counted.time(&numbered(5.001, 102)).unwrap() - 5.001).abs() < 1e-12);
-
-        let of_device = |own: f64, host: f64| RawSample { device_time: Some(own), ..stamped(host) };
-        let mut device = Timekeeper::device(10.0);
-        device.time(&of_device(70.0, 1.0)).unwrap();
-        assert_eq!(device.time(&anew(of_device(0.5, 3.0))).unwrap(), 3.0);
-        // also where nobody says so
-        assert_eq!(device.time(&of_device(0.1, 4.0)).unwrap(), 4.0);
-        assert_eq!((counted.restarts(), device.restarts()), (1, 2));
-    }
-
-    /// 100 ppm of drift against the host, delays of 0.2 ms and more.
-    #[test]
-    fn the_device_clock_drifts() {
-        let mut timekeeper = Timekeeper::device(10.0);
-        let mut worst = 0.0_f64;
-        for n in 0..120_000_u32 {
-            let taken = 1e-3 * f64::from(n);
-            let delay = 2e-4 + 5e-3 * scattered(n).powi(4);
-            let raw = RawSample { device_time: Some(7.0 + taken * 1.0001), ..stamped(taken + delay) };
-            let time = timekeeper.time(&raw).unwrap();
-            if n > 2000 {
-                worst = worst.max((time - taken - 2e-4).abs());
-            }
-        }
-        // as much as the clocks drift apart in the window
-        assert!(worst < 1.1e-3, "{worst}");
-        assert!((timekeeper.jitter() - 1.9e-3).abs() < 0.5e-3, "{}", timekeeper.jitter());
-    }
-
-    #[test]
-    fn refuses() {
-        let message = |mut timekeeper: Timekeeper, raw| timekeeper.time(&raw).unwrap_err().to_string();
-        assert_eq!(
-            message(Timekeeper::device(1.0), stamped(0.0)),
-            "the sample has no time of the device, expected one; take the host's time, or count the samples"
-        );
-        assert_eq!(
-            message(Timekeeper::host(), stamped(f64::NAN)),
-            "the host's time is NaN, expected a finite number of seconds"
-        );
-        let own = RawSample { device_time: Some(f64::INFINITY), ..stamped(0.0) };
-        assert!(message(Timekeeper::device(1.0), own).starts_with("the device's time is inf"));
-    }
-
-    proptest! {
-        /// Whatever the stamps and numbers are, time is finite and never runs back.
-        #[test]
-        fn monotonic(
-            way in 0..4,
-            samples in proptest::collection::vec((0.0_f64..10.0, 0_u64..50, 0.0_f64..10.0, any::<bool>()), 1..200),
-        ) {
-            let mut timekeeper = match way {
-                0 => Timekeeper::host(),
-                1 => Timekeeper::device(1.0),
-                2 => Timekeeper::paced(1e-2),
-                _ => Timekeeper::counted(None),
-            };
-            let mut last = f64::NEG_INFINITY;
-            for (host, sequence, own, anew) in samples {
-                let quality = if anew { Quality::RESTARTED } else { Quality::empty() };
-                let raw = RawSample { device_time: Some(own), quality, ..numbered(host, sequence) };
-                let time = timekeeper.time(&raw).unwrap();
-                prop_assert!(time.is_finite() && time >= last);
-                last = time;
-            }
-        }
-    }
-}
+mod tests;

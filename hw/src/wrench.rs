@@ -1,5 +1,6 @@
 //! Force and torque.
 
+use crate::frame::cross;
 use core::array::from_fn;
 use core::ops::{Add, Mul, Neg, Sub};
 use rod_core::Scalar;
@@ -29,6 +30,18 @@ impl<T: Scalar> Wrench<T> {
     pub fn components(&self) -> [T; 6] {
         let ([fx, fy, fz], [tx, ty, tz]) = (self.force, self.torque);
         [fx, fy, fz, tx, ty, tz]
+    }
+
+    /// The same about a point at d (m) from the origin, in the same axes: the torque becomes M - d x F.
+    ///
+    /// ```
+    /// use rod_hw::Wrench;
+    /// let wrench = Wrench { force: [0.0, 0.5, 0.0], torque: [0.0, 0.0, 7e-3] };
+    /// assert!((wrench.about([0.012, 0.0, 0.0]).torque[2] - 1e-3).abs() < 1e-15);
+    /// ```
+    pub fn about(&self, d: [T; 3]) -> Self {
+        let lever = cross(d, self.force);
+        Self { force: self.force, torque: from_fn(|i| self.torque[i] - lever[i]) }
     }
 
     /// Whether all components are numbers.

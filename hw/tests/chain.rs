@@ -213,6 +213,59 @@ fn a_tare_goes_stale_with_the_device() {
     assert_eq!(chain.take(&raw(0.5, good)).unwrap().quality, good);
 }
 
+/// The first sample after a restart may be one that goes no further; the next one brings the news.
+#[test]
+fn a_restart_is_not_lost_with_its_sample() {
+    let good = Channels::from([0.0; 6]);
+    let zero = Zero::known(Wrench::default(), Wrench::default(), 0.0, 0.1).unwrap();
+    let news = Quality::RESTARTED | Quality::GAP_BEFORE;
+    for broken in [
+        RawSample::new(1.0, Channels::from([f64::NAN; 6])),
+        RawSample::new(1.0, Channels::from([0.0; 3])),
+        RawSample::new(f64::NAN, good),
+        RawSample::new(1.5, good),
+    ] {
+        let stage = FnStage(|t| if t == 1.5 { Err(StageError::NotFinite { t }) } else { Ok(start()) });
+        let wrenches = WrenchChain::new(stage, Mounting::new(Frame::same())).with_tare(Tare::single(zero));
+        let mut chain = SignalChain::new(calibration(), wrenches).with_timekeeper(Timekeeper::paced(0.5));
+        assert_eq!(chain.take(&RawSample::new(0.5, good)).unwrap().quality, Quality::empty());
+        let broken = RawSample { quality: news | Quality::SATURATED, ..broken };
+        assert!(chain.take(&broken).is_err(), "{broken:?}");
+        let first = chain.take(&RawSample::new(2.0, good)).unwrap();
+        assert_eq!((first.t, first.quality), (2.0, news | Quality::TARE_STALE), "{broken:?}");
+        assert_eq!(chain.take(&RawSample::new(3.0, good)).unwrap().quality, Quality::TARE_STALE);
+    }
+    // of wrenches, too
+    let mut chain =
+        WrenchChain::new(FnStage(|_| Ok(start())), Mounting::new(Frame::same())).with_tare(Tare::single(zero));
+    let sample = WrenchSample::new(1.0, Wrench::default());
+    let broken = Wrench { force: [f64::NAN; 3], torque: [0.0; 3] };
+    assert!(chain.take(&WrenchSample { wrench: broken, quality: news, ..sample }).is_err());
+    assert_eq!(chain.take(&sample).unwrap().quality, news | Quality::TARE_STALE);
+}
+
+#[test]
+fn time_that_runs_back_is_refused() {
+    let good = Channels::from([0.0; 6]);
+    let wrenches = WrenchChain::new(FnStage(|_| Ok(start())), Mounting::new(Frame::same()));
+    let mut chain = SignalChain::new(calibration(), wrenches);
+    let times = [1.0, 0.9, 1.0, 1.1].map(|t| chain.take(&RawSample::new(t, good)).map(|sample| sample.t));
+    assert_eq!((times[0], times[2], times[3]), (Ok(1.0), Ok(1.0), Ok(1.1)));
+    assert_eq!(
+        times[1].unwrap_err().to_string(),
+        "time: the host's time is 0.9 s after one of 1 s, expected none that runs back; sort the recording, or leave the \
+         sample out"
+    );
+    let mut chain = WrenchChain::new(FnStage(|_| Ok(start())), Mounting::new(Frame::same()));
+    let times =
+        [1.0, 0.9, 1.1].map(|t| chain.take(&WrenchSample::new(t, Wrench::<f64>::default())).map(|sample| sample.t));
+    assert_eq!((times[0], times[2]), (Ok(1.0), Ok(1.1)));
+    assert_eq!(
+        times[1].unwrap_err().to_string(),
+        "the wrench at 0.9 s comes after that at 1 s, expected times that do not run back; sort the recording, or leave it out"
+    );
+}
+
 #[test]
 fn what_goes_wrong_is_named_and_the_next_sample_is_good() {
     let good = Channels::from([0.0; 6]);

@@ -2,13 +2,14 @@
 #![cfg(feature = "rdt")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+use rod_core::Pose;
 use rod_hw::rdt::{
     FakeRdt, FakeRdtAccount, FakeRdtSettings, OnRobotFilter, Rdt, RdtFault, RdtProfile, RdtRecord, RdtRequest,
     RdtSettings, read_scaling,
 };
 use rod_hw::{
-    Calibration, HostClock, Link, LinkCounters, LinkError, LinkSettings, Quality, RawSample, Tare, Udp, UdpError,
-    Wrench, Zero, spawn,
+    Calibration, FnStage, Frame, HostClock, Link, LinkCounters, LinkError, LinkSettings, Mounting, Quality, RawSample,
+    SignalChain, Tare, TareLimits, TareWindow, Udp, UdpError, Wrench, WrenchChain, Zero, spawn,
 };
 use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
@@ -228,6 +229,42 @@ fn a_sensor_that_counts_anew() {
     let tared = samples.iter().map(|raw| tare.apply(&calibration.wrench(raw).unwrap()));
     let stale: Vec<bool> = tared.map(|sample| sample.quality.contains(Quality::TARE_STALE)).collect();
     assert_eq!(stale, came(&samples).iter().map(|count| *count >= 51).collect::<Vec<_>>());
+}
+
+/// From the datagrams to the reactions: what is measured after a restart is not good any more, until there is a new tare.
+#[test]
+fn a_restart_spoils_the_tare_of_the_chain() {
+    let loads = std::iter::repeat_n([1000, -2000, 300, 10, -20, 30], 300);
+    let faults = vec![(150, RdtFault::CountAnew)];
+    let fake =
+        FakeRdt::start(FakeRdtSettings { faults, first_sample: 1, ..FakeRdtSettings::default() }, loads).unwrap();
+    let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
+    let stage = FnStage(|_| Ok(Pose { x: 0.08, y: -0.04, phi: 1.571 }));
+    let wrenches = WrenchChain::new(stage, Mounting::new(Frame::same())).with_tare(None);
+    let mut chain = SignalChain::new(calibration, wrenches);
+    let limits = TareLimits::new(1e-3, Wrench { force: [1e-3; 3], torque: [1e-3; 3] }).unwrap();
+    let mut link = link(&fake, net_ft());
+    let samples = drain(&mut link, &fake);
+    assert_eq!((samples.len(), link.counters().restarts), (299, 1));
+
+    let (unloaded, rest) = samples.split_at(100);
+    let tare = |chain: &mut SignalChain<_, _, _>, samples: &[RawSample]| {
+        let mut window = TareWindow::new(limits);
+        samples.iter().for_each(|raw| window.push(&chain.wrench(raw).unwrap()).unwrap());
+        chain.wrenches().set_tare(Some(Tare::single(window.finish().unwrap())));
+    };
+    tare(&mut chain, unloaded);
+    let (before, after) = rest.split_at(50);
+    for raw in before {
+        let found = chain.take(raw).unwrap();
+        assert!(found.quality.is_empty() && found.reactions.f0y.abs() < 1e-12, "{found:?}");
+    }
+    for (i, raw) in after[..50].iter().enumerate() {
+        let expected = if i == 0 { Quality::TARE_STALE | Quality::RESTARTED | GAP } else { Quality::TARE_STALE };
+        assert_eq!(chain.take(raw).unwrap().quality, expected);
+    }
+    tare(&mut chain, &after[50..90]);
+    assert!(after[90..].iter().all(|raw| chain.take(raw).unwrap().quality.is_empty()));
 }
 
 #[test]

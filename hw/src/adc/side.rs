@@ -32,13 +32,15 @@ pub struct Side<A, const N: usize> {
     chips: [A; N],
     /// What has come of the next sample.
     have: [Option<RawSample>; N],
+    /// What those that an error threw away said of their chip.
+    news: Quality,
 }
 
 impl<A: Adc, const N: usize> Side<A, N> {
     /// These, in this order. More channels than a sample holds do not compile.
     pub fn new(chips: [A; N]) -> Self {
         const { assert!(N > 0 && N * A::CHANNELS <= Channels::MOST, "1 to 16 channels") };
-        Self { chips, have: [None; N] }
+        Self { chips, have: [None; N], news: Quality::empty() }
     }
 
     /// The converters, to set them otherwise.
@@ -56,15 +58,12 @@ impl<A: Adc, const N: usize> Adc for Side<A, N> {
         let mut result = Ok(());
         for (chip, have) in self.chips.iter_mut().zip(&mut self.have) {
             match chip.poll(now) {
-                Ok(Some(mut sample)) => {
-                    // a rail is one of its own conversion, anything else is news of the chip
-                    let before = have.map_or(Quality::empty(), |before| before.quality.difference(Quality::SATURATED));
-                    sample.quality |= before;
-                    *have = Some(sample);
+                Ok(Some(sample)) => {
+                    self.news |= have.replace(sample).map_or(Quality::empty(), news);
                 }
                 Ok(None) => {}
                 Err(error) => {
-                    *have = None;
+                    self.news |= have.take().map_or(Quality::empty(), news);
                     result = result.and(Err(error));
                 }
             }
@@ -73,7 +72,8 @@ impl<A: Adc, const N: usize> Adc for Side<A, N> {
         if self.have.iter().any(Option::is_none) {
             return Ok(None);
         }
-        let mut whole = RawSample { host_time: now, ..RawSample::default() };
+        let quality = core::mem::take(&mut self.news);
+        let mut whole = RawSample { host_time: now, quality, ..RawSample::default() };
         let (mut values, mut count) = ([0.0; Channels::MOST], 0);
         for sample in self.have.iter_mut().filter_map(Option::take) {
             whole.status |= sample.status;
@@ -87,6 +87,11 @@ impl<A: Adc, const N: usize> Adc for Side<A, N> {
         whole.channels = values.get(..count).and_then(Channels::new).unwrap_or_default();
         Ok(Some(whole))
     }
+}
+
+/// What a sample that is not handed on says of its chip: a rail is one of its own conversion, anything else is news.
+fn news(sample: RawSample) -> Quality {
+    sample.quality.difference(Quality::SATURATED)
 }
 
 #[cfg(test)]
@@ -119,6 +124,16 @@ mod tests {
         assert_eq!((*sample.channels).to_vec(), [3.0, 9.0]);
         assert_eq!((sample.host_time, sample.quality), (0.3, Quality::RESTARTED));
         assert_eq!(side.poll(0.4), Ok(None), "each conversion once");
+    }
+
+    #[test]
+    fn news_of_a_chip_outlive_its_error() {
+        let restarts = Script(vec![Ok(Some(1.0)), Err(AdcError::StuckLine), Ok(Some(3.0))]);
+        let works = Script(vec![Ok(None), Ok(None), Ok(Some(4.0)), Ok(Some(5.0))]);
+        let mut side = Side::new([restarts, works]);
+        assert_eq!(side.poll(0.1), Ok(None));
+        assert_eq!(side.poll(0.2), Err(AdcError::StuckLine));
+        assert_eq!(side.poll(0.3).unwrap().unwrap().quality, Quality::RESTARTED);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::wrench_units::{WrenchUnits, finite};
 use super::{Calibration, CalibrationDataError, CalibrationError};
 use crate::component::Component;
 use crate::raw::{Channels, RawSample};
+use crate::wrench::Wrench;
 use crate::wrench_sample::WrenchSample;
 use core::array::from_fn;
 use rod_core::Scalar;
@@ -197,19 +198,11 @@ impl<const N: usize, T: Scalar> Calibration<T> for GaugeMatrix<N, T> {
     }
 }
 
-/// Rows in SI with torques about a point at d (m) from the origin: M - d x F.
-pub(super) fn about<const N: usize>(rows: [[f64; N]; 6], [dx, dy, dz]: [f64; 3]) -> [[f64; N]; 6] {
-    let [fx, fy, fz, tx, ty, tz] = rows;
-    [
-        fx,
-        fy,
-        fz,
-        from_fn(|j| tx[j] - (dy * fz[j] - dz * fy[j])),
-        from_fn(|j| ty[j] - (dz * fx[j] - dx * fz[j])),
-        from_fn(|j| tz[j] - (dx * fy[j] - dy * fx[j])),
-    ]
+/// Rows in SI with torques about a point at d (m) from the origin.
+pub(super) fn about<const N: usize>(rows: [[f64; N]; 6], d: [f64; 3]) -> [[f64; N]; 6] {
+    let columns: [[f64; 6]; N] = from_fn(|j| Wrench::from_components(rows.map(|row| row[j])).about(d).components());
+    from_fn(|i| columns.map(|column| column[i]))
 }
 
 #[cfg(test)]
-#[path = "gauge_matrix_tests.rs"]
 mod tests;

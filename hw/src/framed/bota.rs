@@ -1,6 +1,6 @@
 //! Bota Systems SensONE, Rokubi.
 
-use super::profile::{Await, Content, Framing, Head, Profile, Reading, Step};
+use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
 use super::{double_at, word_at};
 use crate::protocol::FrameFault;
 use crate::quality::Quality;
@@ -109,18 +109,18 @@ impl Profile for Bota {
         })
     }
 
-    fn setup(&self, step: usize) -> Option<Step> {
+    fn setup(&self, step: usize) -> Option<SetupStep> {
         let filter = self.filter?;
         let BotaFilter { sinc, chop, fast, fir } = filter;
         let [chop, fast, no_fir] = [chop, fast, !fir].map(u8::from);
         Some(match step {
-            0 => Step { request: [b'C'].into(), command: b'C', until: Await::Answer },
-            1 => Step {
+            0 => SetupStep { request: [b'C'].into(), command: b'C', until: Await::Answer },
+            1 => SetupStep {
                 request: super::text(format_args!("f,{sinc},{chop},{fast},{no_fir}")),
                 command: b'f',
                 until: Await::Answer,
             },
-            2 => Step { request: [b'R'].into(), command: b'R', until: Await::Sample },
+            2 => SetupStep { request: [b'R'].into(), command: b'R', until: Await::Sample },
             _ => return None,
         })
     }

@@ -1,23 +1,25 @@
 //! The engine of all framed sensors.
 
-use super::profile::{Await, Content, Profile, Reading, Step};
+use super::profile::{Await, Content, Profile, Reading, SetupStep};
 use super::scanner::Scanner;
 use crate::counters::LinkCounters;
 use crate::protocol::{FrameFault, Protocol, Request};
 use crate::quality::Quality;
 use crate::raw::RawSample;
-use crate::sequence::{self, Sequence};
+use crate::sequence::{Sequence, SequenceStep};
 
 /// A request that is not answered is sent again after so long, s: longer than any of these devices takes.
 const RETRY: f64 = 0.5;
 
-/// A device that was set up and is silent for so long is set up again, s: it may have been switched off and on.
+/// A device that was set up and sends nothing for so long, although asked for it, is set up again, s: it may have been switched
+/// off and on.
 const SILENCE: f64 = 2.0;
 
 /// A framed device as a [`Protocol`], for a [`Link`](crate::Link).
 ///
 /// Where the device does not number its samples, one after skipped bytes is flagged [`Quality::GAP_BEFORE`]; one with a value
-/// that is not a finite number, [`Quality::DEVICE_ERROR`].
+/// that is not a finite number, [`Quality::DEVICE_ERROR`]. A device that was silent for 2 s is set up again; the first sample
+/// after that is [`Quality::RESTARTED`].
 ///
 /// ```
 /// use rod_hw::Protocol;
@@ -55,8 +57,8 @@ enum Setup {
     Due { step: usize, at: f64 },
     /// It was sent, and what it waits for did not come.
     Sent { step: usize, at: f64 },
-    /// Nothing more to do; when the last sample came.
-    Done { last: f64 },
+    /// Nothing more to do; since when no samples came although asked for.
+    Done { quiet: Option<f64> },
 }
 
 /// Microseconds of 32 bits, unwrapped.
@@ -118,31 +120,31 @@ impl<P: Profile> Framed<P> {
     /// The sample, unless it is to be left out.
     fn sample(&mut self, reading: Reading, now: f64) -> Option<RawSample> {
         self.came(Await::Sample, now);
-        if let Setup::Done { last } = &mut self.setup {
-            *last = now;
+        if let Setup::Done { quiet } = &mut self.setup {
+            *quiet = None;
         }
         let mut device_time = None;
         if let (Some(sequence), Some(number)) = (&mut self.sequence, reading.number) {
             match sequence.step(number) {
-                sequence::Step::First => {
+                SequenceStep::First => {
                     let least = self.number.map_or(0, |last| last + 1);
                     self.base = least.saturating_sub(sequence.unwrapped());
                 }
-                sequence::Step::Next => {}
-                sequence::Step::Gap(missing) => {
+                SequenceStep::Next => {}
+                SequenceStep::Gap(missing) => {
                     self.counters.gaps += 1;
                     self.counters.lost += u64::from(missing);
                     self.flags |= Quality::GAP_BEFORE;
                 }
-                sequence::Step::Repeated => {
+                SequenceStep::Repeated => {
                     self.counters.repeated += 1;
                     return None;
                 }
-                sequence::Step::Late => {
+                SequenceStep::Late => {
                     self.counters.reordered += 1;
                     return None;
                 }
-                sequence::Step::Restarted => {
+                SequenceStep::Restarted => {
                     self.counters.restarts += 1;
                     self.flags |= Quality::GAP_BEFORE | Quality::RESTARTED;
                 }
@@ -187,7 +189,7 @@ impl<P: Profile> Framed<P> {
             return None;
         };
         let Setup::Sent { step, .. } = self.setup else { return None };
-        self.profile.setup(step).map(|Step { command: request, .. }| FrameFault::Refused { request, code })
+        self.profile.setup(step).map(|SetupStep { command: request, .. }| FrameFault::Refused { request, code })
     }
 }
 
@@ -220,14 +222,22 @@ impl<P: Profile> Protocol for Framed<P> {
     }
 
     fn request(&mut self, now: f64) -> Option<Request> {
-        let step = match self.setup {
-            Setup::Due { step, at } if now >= at => step,
-            Setup::Sent { step, at } if now - at >= RETRY => step,
-            Setup::Done { last } if now - last >= SILENCE => 0,
+        let step = match &mut self.setup {
+            Setup::Due { step, at } if now >= *at => *step,
+            Setup::Sent { step, at } if now - *at >= RETRY => *step,
+            // that nobody asked for samples is no silence of the device
+            Setup::Done { quiet: quiet @ None } => {
+                *quiet = Some(now);
+                return None;
+            }
+            Setup::Done { quiet: Some(since) } if now - *since >= SILENCE => {
+                self.flags |= Quality::GAP_BEFORE | Quality::RESTARTED;
+                0
+            }
             _ => return None,
         };
-        let Some(Step { request, until, .. }) = self.profile.setup(step) else {
-            self.setup = Setup::Done { last: now };
+        let Some(SetupStep { request, until, .. }) = self.profile.setup(step) else {
+            self.setup = Setup::Done { quiet: Some(now) };
             return None;
         };
         self.setup = match until {
@@ -249,5 +259,48 @@ impl<P: Profile> Protocol for Framed<P> {
 
     fn counters(&self) -> LinkCounters {
         LinkCounters { skipped_bytes: self.scanner.skipped(), ..self.counters }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::framed::{Gsv, gsv};
+
+    fn started(gsv: Gsv) -> Framed<Gsv> {
+        let mut protocol = Framed::new(gsv);
+        while protocol.request(0.0).is_some() {
+            assert_eq!(protocol.decode(&mut &[0xaa, 0x50, 0, 0x85][..], 0.0), None);
+        }
+        protocol
+    }
+
+    fn sample(protocol: &mut Framed<Gsv>, now: f64) -> Quality {
+        let frame = [0xaa, 0x10, 0xb0, 0x3d, 0xcc, 0xcc, 0xcd, 0x85];
+        protocol.decode(&mut &frame[..], now).unwrap().unwrap().quality
+    }
+
+    /// A reader that pauses must not have the device take a load for zero.
+    #[test]
+    fn that_nobody_asked_is_no_silence_of_the_device() {
+        let mut protocol = started(Gsv { zero: true, ..Gsv::default() });
+        assert_eq!(sample(&mut protocol, 0.1), Quality::empty());
+        assert_eq!(protocol.request(60.0), None);
+        assert_eq!(sample(&mut protocol, 60.1), Quality::empty());
+        assert_eq!(protocol.request(60.2), None);
+        assert_eq!(protocol.request(62.1), None);
+        assert_eq!(protocol.request(62.3), Some(gsv::stop()));
+    }
+
+    /// It may have been off, and what it calls zero is another one when it was asked for it again.
+    #[test]
+    fn after_a_silence_the_tare_is_stale() {
+        let mut protocol = started(Gsv { zero: true, ..Gsv::default() });
+        assert_eq!(sample(&mut protocol, 0.1), Quality::empty());
+        for now in [0.2, 2.3] {
+            protocol.request(now);
+        }
+        assert_eq!(sample(&mut protocol, 3.0), Quality::GAP_BEFORE | Quality::RESTARTED);
+        assert_eq!(sample(&mut protocol, 3.1), Quality::empty());
     }
 }

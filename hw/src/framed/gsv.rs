@@ -11,7 +11,7 @@
 //!
 //! By default they send at 115,200 baud (GSV-8) and 230,400 baud (GSV-6), 8 bits, no parity, 1 stop bit.
 
-use super::profile::{Await, Content, Framing, Head, Profile, Reading, Step};
+use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
 use crate::protocol::{FrameFault, Request};
 use crate::quality::Quality;
 use crate::raw::Channels;
@@ -154,8 +154,8 @@ impl Profile for Gsv {
         Content::Sample(Reading { status: status.into(), quality, ..Reading::new(channels) })
     }
 
-    fn setup(&self, step: usize) -> Option<Step> {
-        let answered = |command, request| Step { request, command, until: Await::Answer };
+    fn setup(&self, step: usize) -> Option<SetupStep> {
+        let answered = |command, request| SetupStep { request, command, until: Await::Answer };
         let zeroed = if self.zero { self.channels.unwrap_or(6).min(Channels::MOST) as u8 } else { 0 };
         let steps = [
             Some(answered(command::STOP, stop())),

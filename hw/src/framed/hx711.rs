@@ -1,6 +1,6 @@
 //! Strain gauges at HX711 converters, read by an Arduino.
 
-use super::profile::{Await, Content, Framing, Head, Profile, Reading, Step};
+use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
 use crate::protocol::FrameFault;
 use crate::raw::Channels;
 
@@ -71,8 +71,8 @@ impl Profile for Hx711 {
         Content::Sample(Reading::new(super::channels(values)))
     }
 
-    fn setup(&self, step: usize) -> Option<Step> {
+    fn setup(&self, step: usize) -> Option<SetupStep> {
         let request = super::text(format_args!("N={}\n", self.channels));
-        (step == 0).then_some(Step { request, command: b'N', until: Await::Sample })
+        (step == 0).then_some(SetupStep { request, command: b'N', until: Await::Sample })
     }
 }

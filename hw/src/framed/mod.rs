@@ -30,7 +30,7 @@ pub use engine::Framed;
 pub use gsv::{Gsv, GsvValues};
 pub use hx711::Hx711;
 pub use optoforce::{OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup};
-pub use profile::{Await, Content, Counter, Framing, Head, Profile, Reading, Step};
+pub use profile::{Await, Content, Counter, Framing, Head, Profile, Reading, SetupStep};
 pub use robotiq::Robotiq;
 pub use scanner::{LONGEST_FRAME, Scanner};
 

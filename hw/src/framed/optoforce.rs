@@ -1,6 +1,6 @@
 //! OptoForce and OnRobot sensors with the USB converter.
 
-use super::profile::{Await, Content, Counter, Framing, Head, Profile, Reading, Step};
+use super::profile::{Await, Content, Counter, Framing, Head, Profile, Reading, SetupStep};
 use super::word_at;
 use crate::protocol::{FrameFault, Request};
 use crate::quality::Quality;
@@ -133,9 +133,9 @@ impl Profile for OptoForce {
         })
     }
 
-    fn setup(&self, step: usize) -> Option<Step> {
+    fn setup(&self, step: usize) -> Option<SetupStep> {
         let OptoForceSetup { rate, filter, zero } = self.setup.filter(|_| step == 0)?;
-        Some(Step {
+        Some(SetupStep {
             request: configure(rate.milliseconds(), filter as u8, if zero { 255 } else { 0 }),
             command: 0x32,
             until: Await::Answer,

@@ -70,7 +70,7 @@ pub trait Profile: Framing {
 
     /// The requests that set the device up and start it, from step 0 on; none after the last one, or where it sends by
     /// itself.
-    fn setup(&self, step: usize) -> Option<Step> {
+    fn setup(&self, step: usize) -> Option<SetupStep> {
         let _ = step;
         None
     }
@@ -134,7 +134,7 @@ pub struct Counter {
 
 /// A request, and what shows that it was heard.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct SetupStep {
     /// What to send.
     pub request: Request,
     /// Its command, for messages.

@@ -1,6 +1,6 @@
 //! Robotiq FT 300 and FT 150.
 
-use super::profile::{Await, Content, Framing, Head, Profile, Reading, Step};
+use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
 use super::word_at;
 use crate::protocol::{FrameFault, Request};
 use crc::{CRC_16_MODBUS, Crc};
@@ -74,11 +74,11 @@ impl Profile for Robotiq {
         }
     }
 
-    fn setup(&self, step: usize) -> Option<Step> {
+    fn setup(&self, step: usize) -> Option<SetupStep> {
         match step {
             // it hears no request while it sends
-            0 => Some(Step { request: STOP.into(), command: 0xff, until: Await::Pause(0.1) }),
-            1 => Some(Step { request: START.into(), command: 0x10, until: Await::Sample }),
+            0 => Some(SetupStep { request: STOP.into(), command: 0xff, until: Await::Pause(0.1) }),
+            1 => Some(SetupStep { request: START.into(), command: 0x10, until: Await::Sample }),
             _ => None,
         }
     }

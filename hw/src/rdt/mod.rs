@@ -1,8 +1,8 @@
 //! RDT, "raw data transfer": the UDP protocol of ATI Net F/T and Ethernet Axia sensors and of OnRobot's (before OptoForce's)
 //! Ethernet converter. One decoder, [`Rdt`], for all of them; their [status words](RdtProfile) differ.
 //!
-//! With the feature `rdt`: the scaling asked for over TCP ([`read_scaling`]), and a sensor that is none, [`FakeRdt`], for tests
-//! without hardware. The transport is [`crate::Udp`].
+//! With the feature `rdt`: the scaling asked for over TCP (`read_scaling`), and a sensor that is none, `FakeRdt`, for tests
+//! without hardware. The transport is `Udp` of this crate.
 //!
 //! Sources: ATI 9620-05-Net FT (11 and C-Ethernet Axia-02), OptoForce Ethernet Converter 2.0 (2017).
 

@@ -3,7 +3,7 @@
 use crate::{samples, tell};
 use rod_hw::fake::{FakeDevice, FakeOptoForce};
 use rod_hw::framed::{Framed, OptoForce};
-use rod_hw::{Protocol, Quality, Step};
+use rod_hw::{Protocol, Quality, SequenceStep};
 use std::path::Path;
 
 /// What a capture tells: valid, damaged, gaps, all of them of one.
@@ -70,7 +70,7 @@ fn of_a_fake_one() {
 #[test]
 fn stride() {
     let mut sequence = rod_hw::Sequence::new(16, 10);
-    assert_eq!([0, 10, 40].map(|n| sequence.step(n)), [Step::First, Step::Next, Step::Gap(2)]);
+    assert_eq!([0, 10, 40].map(|n| sequence.step(n)), [SequenceStep::First, SequenceStep::Next, SequenceStep::Gap(2)]);
     let mut protocol = Framed::new(OptoForce { stride: 10, ..OptoForce::default() });
     let mut stream = Vec::new();
     for count in [65_520, 65_530, 4, 44, 44, 34, 54] {
