@@ -16,7 +16,7 @@ use vibrissa::hw::{AtiFile, Frame, Mounting, OutOfPlane};
 use vibrissa_cli::{Reading, Recording, Scene};
 use writer::{Endian, F64, Index, Object, segment};
 
-const NOISE: &str = "[white]\nforce = 1e-5\nmoment = 1e-7\n";
+const NOISE: &str = "[white]\nforce = 1e-5\nm0z = 1e-7\n";
 const TARE: &str = "[tare]\nseconds = 0.1\n";
 
 fn data(file: &str) -> PathBuf {
