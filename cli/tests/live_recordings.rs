@@ -66,11 +66,12 @@ fn listen(directory: &Path, file: &str, setup: &str, arguments: &[&str]) -> Hear
     let output = vibrissa(directory, &[&always, arguments].concat());
     let said = String::from_utf8(output.stdout.clone()).unwrap() + &complaint(&output);
     let read = |name: &str| fs::read_to_string(directory.join("out").join(name)).unwrap_or_else(|_| panic!("{said}"));
-    let points = read("points.jsonl")
-        .lines()
-        .map(|line| serde_json::from_str::<Value>(line).unwrap())
-        .map(|point| (point["label"].as_str().map(str::to_owned), [point["x"].as_f64(), point["y"].as_f64()]));
-    (said, points.collect(), serde_json::from_str(&read("summary.json")).unwrap())
+    let points = read("points.jsonl");
+    let points = points.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let points =
+        points.map(|point| (point["label"].as_str().map(str::to_owned), [point["x"].as_f64(), point["y"].as_f64()]));
+    let (points, summary) = (points.collect(), serde_json::from_str(&read("summary.json")).unwrap());
+    (said, points, summary)
 }
 
 fn same(found: &Heard, expected: &Heard) {
@@ -110,10 +111,7 @@ fn volts_give_the_points_of_the_wrench() {
     let columns = "columns = ['Ai0', 'Ai1', 'Ai2', 'Ai3', 'Ai4', 'Ai5']";
     let of_file = format!("[sensor]\ncalibration = 'turned.cal'\n[recording]\ntime = 'Zeit'\n{columns}");
     let written = ["--unit", "Zeit=s", "--decimal", "comma", "--delimiter", "semicolon"];
-    let found = listen(dir, "volts.csv", &of_file, &[&STAGE[..], &written].concat());
-    same(&found, &expected);
-    // rated for 12 N: far more than this rod can give, which is said
-    assert!(found.2["findings"].to_string().contains("12"), "{}", found.2["findings"]);
+    same(&listen(dir, "volts.csv", &of_file, &[&STAGE[..], &written].concat()), &expected);
 
     // the same matrix as rows; a stage from a table that is written like the recording
     let rows_of = |factor: f64, from: usize| {
@@ -139,9 +137,8 @@ fn volts_give_the_points_of_the_wrench() {
     let table = ["--stage", "table:stage.csv", "--column", "t=Zeit"];
     same(&listen(dir, "volts.csv", &of_rows, &[&table[..], &written].concat()), &expected);
 
-    let columns = [&rows.iter().map(|row| row.0).collect::<Vec<_>>()[..]].concat();
     let mut objects = vec![Object::new("/'Measured'/'Time'", Index::Values(F64, rows.len() as u64))];
-    let mut raw = Endian::Little.f64s(&columns);
+    let mut raw = Endian::Little.f64s(&rows.iter().map(|row| row.0).collect::<Vec<_>>());
     for (i, path) in [
         "/'Measured'/'Ai0'",
         "/'Measured'/'Ai1'",
