@@ -83,9 +83,11 @@ pub enum Command {
     #[command(long_about = LIVE)]
     Live {
         /// Where it is: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
-        /// or file:RECORDING
+        /// or file:RECORDING (CSV, TSV, LVM, TDMS, MCAP)
         #[arg(long, value_name = "ADDRESS")]
         sensor: SensorAddress,
+        #[command(flatten)]
+        written: Written,
         /// The rod, a TOML file with the table [rod] of a scene; or a scene
         #[arg(long, value_name = "FILE")]
         rod: PathBuf,
@@ -95,7 +97,8 @@ pub enum Command {
         /// The scene whose path a constant speed is along [default: that of --rod]
         #[arg(long, value_name = "SCENE")]
         path: Option<PathBuf>,
-        /// How the sensor is set up, a TOML file: units and counts, mounting, accuracy, tare
+        /// How the sensor is set up, a TOML file: units and counts, calibration, mounting, accuracy, tare,
+        /// what of a recording is meant
         #[arg(long, value_name = "FILE")]
         setup: Option<PathBuf>,
         /// Directory of the results
@@ -112,7 +115,7 @@ pub enum Command {
     },
 }
 
-/// How a recording is written, where the file alone does not tell.
+/// How a recording, or the table of a stage, is written, where the file alone does not tell.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "How the recording is written, where the file does not tell")]
 pub struct Written {

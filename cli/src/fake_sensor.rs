@@ -1,6 +1,6 @@
 //! A sensor that is none, playing what it would feel along a scene.
 
-use crate::{Error, Setup, Simulation, Tick};
+use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -69,6 +69,12 @@ pub enum FakeError {
         /// Why.
         source: std::io::Error,
     },
+    /// There is no way back from a wrench to the gauges.
+    #[error(
+        "the setup has a calibration of gauges, from which a wrench can be told, but not the gauges from a wrench; give units, \
+         or counts, in the table [sensor]"
+    )]
+    Gauges,
     /// A pace that is none.
     #[error("faster is {value}, expected a positive, finite number of times real time")]
     Pace {
@@ -106,11 +112,17 @@ impl FakeScan {
             counts_per_torque: COUNTS,
             scale: [1; 6],
         };
-        let scale = match (protocol, setup.scale) {
+        let told = match &setup.calibration {
+            None => None,
+            Some(SensorCalibration::Scale(scale)) => Some(*scale),
+            Some(SensorCalibration::Gauges(_)) => return Err(FakeError::Gauges.into()),
+        };
+        let scale = match (protocol, told) {
             (_, Some(scale)) => scale,
             (FakeProtocol::Rdt, None) => scaling.calibration().unwrap_or_else(|_| Scale::si()),
             (FakeProtocol::Gsv8 | FakeProtocol::Bota, None) => Scale::si(),
         };
+        let profile = setup.profile;
         let (sender, receiver) = sync_channel(AHEAD);
         let maker = thread::spawn(move || make(&simulation, &setup, scale, &sender));
         let sent = match protocol {
@@ -119,8 +131,8 @@ impl FakeScan {
                 let settings = FakeRdtSettings {
                     address: address(port),
                     // counts that the setup tells are not those of the record
-                    scaling_address: setup.scale.is_none().then(|| address(scaling_port)),
-                    profile: setup.profile,
+                    scaling_address: told.is_none().then(|| address(scaling_port)),
+                    profile,
                     rate: Some(pace),
                     scaling,
                     ..FakeRdtSettings::default()

@@ -44,6 +44,6 @@ pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transiti
 pub use recording::{Reading, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
-pub use setup::{Setup, TareSetup};
+pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
 pub use toml_file::{Invalid, SceneError};

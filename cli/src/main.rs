@@ -27,8 +27,8 @@ fn main() -> ExitCode {
         Command::Reconstruct { recording, written, rod, truth, out } => {
             reconstruct(&recording, &written.into(), &rod, truth, out)
         }
-        Command::Live { sensor, rod, stage, path, setup, out } => {
-            live(&sensor, &rod, stage, path.as_deref(), setup.as_deref(), &out)
+        Command::Live { sensor, written, rod, stage, path, setup, out } => {
+            live(&sensor, written.into(), &rod, stage, path.as_deref(), setup.as_deref(), &out)
         }
         Command::FakeSensor(arguments) => fake_sensor(arguments),
         Command::Paper { out } => paper(&out),
@@ -116,6 +116,7 @@ fn reconstruct(
 
 fn live(
     address: &SensorAddress,
+    reading: Reading,
     rod: &Path,
     stage: Option<StageSpec>,
     path: Option<&Path>,
@@ -129,8 +130,8 @@ fn live(
         (None, Some(StageSpec::Constant(_))) => Scene::read(rod).ok().map(|scene| scene.path),
         (None, _) => None,
     };
-    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path };
-    let sensor = Sensor::open(address, &setup)?;
+    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, reading };
+    let sensor = Sensor::open(address, &scan.setup, &scan.reading)?;
     let interrupted = interrupted();
     let report =
         scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupted.load(Ordering::Relaxed))?;

@@ -19,11 +19,53 @@ pub enum LiveError {
     /// It is not known what the numbers of the sensor are.
     #[error(
         "{address}: nothing tells what its numbers are in N and N m; give force_unit and torque_unit, and the counts per unit of \
-         each where it sends counts, in the table [sensor] of a setup (--setup FILE)"
+         each where it sends counts, or a calibration or matrix, in the table [sensor] of a setup (--setup FILE)"
     )]
     NoScale {
         /// Where it is.
         address: String,
+    },
+    /// Something of a recording is to be chosen.
+    #[error("{}: expected {field} = .. in the table [recording] of a setup (--setup FILE), of those there are: {found}", file.display())]
+    Choose {
+        /// Which file.
+        file: PathBuf,
+        /// The field that is missing, or names what is not there.
+        field: &'static str,
+        /// What there is.
+        found: String,
+    },
+    /// Samples without a time of their own.
+    #[error(
+        "{}: a rate is for TDMS files, a table needs a column of times; name it by time = \"NAME\" in the table [recording] of \
+         the setup", file.display()
+    )]
+    Rate {
+        /// Which file.
+        file: PathBuf,
+    },
+    /// A calibration of what is calibrated.
+    #[error(
+        "{}: its wrenches are in N and N m already, expected no calibration, matrix, units or counts in the table [sensor] of \
+         the setup", file.display()
+    )]
+    Calibrated {
+        /// Which file.
+        file: PathBuf,
+    },
+    /// A table of something else.
+    #[error(
+        "{file}{}: found {found}; expected times and reactions (x0, y0, phi0, f0x, f0y, m0z), a wrench (fx to tz) or raw values \
+         (channel1, channel2, ...; others by columns = [..] in the table [recording] of a setup)",
+        line.map_or_else(String::new, |line| format!(":{line}"))
+    )]
+    NoSamples {
+        /// Which file.
+        file: String,
+        /// Line of the names.
+        line: Option<u64>,
+        /// All columns there are.
+        found: String,
     },
     /// A constant speed along no path.
     #[error(

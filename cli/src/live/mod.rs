@@ -1,6 +1,7 @@
 //! A sensor, read and reconstructed as it measures.
 //!
-//! `address` and `stage` are what the command line tells of both, `sensor` connects to the one and `motion` is the other;
+//! `address` and `stage` are what the command line tells of both, `sensor` connects to the one, or `played` opens a recording, and
+//! `motion` is the other;
 //! `session` is the scan from the first sample to the last, with `engine` for the answers, `record` for the files and
 //! `summary` for what is said of it.
 
@@ -10,6 +11,7 @@ mod error;
 mod feed;
 mod latency;
 mod motion;
+mod played;
 mod record;
 mod sensor;
 mod session;
@@ -25,7 +27,7 @@ pub use sensor::Sensor;
 pub use stage::{StageSpec, StageSpecError};
 pub use summary::{End, LiveReport};
 
-use crate::{Error, Setup};
+use crate::{Error, Reading, Setup};
 use std::path::Path;
 use vibrissa::{ClampPath, Rod};
 
@@ -40,6 +42,8 @@ pub struct LiveScan {
     pub stage: Option<StageSpec>,
     /// Its path, which a constant speed needs.
     pub path: Option<ClampPath>,
+    /// How the table of a stage is written.
+    pub reading: Reading,
 }
 
 impl LiveScan {

@@ -1,10 +1,10 @@
 //! The stage of a live scan.
 
 use super::StageSpec;
-use crate::Error;
 use crate::live::LiveError;
+use crate::{Error, Reading};
 use std::path::Path;
-use vibrissa::hw::recording::{ColumnMap, Role, Table, TableOptions};
+use vibrissa::hw::recording::{Role, Table};
 use vibrissa::hw::{ConstantSpeed, StageError, StageSource, StageTable};
 use vibrissa::{ClampPath, Pose};
 
@@ -21,7 +21,7 @@ pub(super) enum Motion {
 
 impl Motion {
     /// What is asked for, a constant speed from time `start` (s) on.
-    pub fn new(spec: Option<&StageSpec>, path: Option<&ClampPath>, start: f64) -> Result<Self, Error> {
+    pub fn new(spec: Option<&StageSpec>, path: Option<&ClampPath>, start: f64, how: &Reading) -> Result<Self, Error> {
         match (spec, path) {
             (None, _) => Ok(Self::Told),
             (Some(StageSpec::Constant(_)), None) => Err(LiveError::NoPath.into()),
@@ -30,7 +30,7 @@ impl Motion {
                 let motion = ConstantSpeed::within(path.at(0.0), path.at(path.length()), start, start + duration);
                 Ok(Self::Constant(motion.map_err(LiveError::Stage)?))
             }
-            (Some(StageSpec::Table(file)), _) => Ok(Self::Table(table(file)?)),
+            (Some(StageSpec::Table(file)), _) => Ok(Self::Table(table(file, how)?)),
         }
     }
 
@@ -55,10 +55,10 @@ impl StageSource for Motion {
 }
 
 /// The table of poses in a file.
-fn table(file: &Path) -> Result<StageTable, LiveError> {
-    let table = Table::read(file, &TableOptions::default()).map_err(LiveError::Table)?;
+fn table(file: &Path, how: &Reading) -> Result<StageTable, LiveError> {
+    let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let roles = [Role::Time, Role::X0, Role::Y0, Role::Phi0];
-    let columns = ColumnMap::new().find(&table, &roles, &[]).map_err(LiveError::Columns)?;
+    let columns = how.columns.find(&table, &roles, &[]).map_err(LiveError::Columns)?;
     let rows: Result<Vec<(f64, Pose)>, _> = table
         .rows()
         .map(|row| {

@@ -5,7 +5,7 @@ use super::motion::Motion;
 use super::record::Record;
 use super::summary::{End, LiveReport};
 use super::{Answer, Engine, LiveError, LiveScan, Sensor};
-use crate::Error;
+use crate::{Error, SensorCalibration};
 use std::path::Path;
 use vibrissa::hw::recording::About;
 use vibrissa::hw::{
@@ -35,13 +35,13 @@ const FEWEST_IN_HALF_WINDOW: f64 = 200.0;
 
 /// What a sample is in N and N m, and how far it can be trusted.
 struct Scaled<'a> {
-    scale: Scale,
+    calibration: SensorCalibration,
     scan: &'a LiveScan,
 }
 
 impl Calibration for Scaled<'_> {
     fn wrench(&self, raw: &RawSample) -> Result<WrenchSample, CalibrationError> {
-        let sample = self.scale.wrench(raw)?;
+        let sample = self.calibration.wrench(raw)?;
         let setup = &self.scan.setup;
         let sample = setup.rated.map_or(sample, |rated| rated.flag(&sample));
         Ok(setup.accuracy.map_or(sample, |accuracy| accuracy.fill(&sample)))
@@ -73,7 +73,8 @@ pub(super) fn run(
     let Head { mut chain, samples, tare } = head(scan, &mut sensor, &mut report, tell, stopped)?;
     tell(&format!("tare: {tare}"));
     let (noise, spacing) = noise(scan, &samples, &chain)?;
-    let half_window = (HALF_WINDOW * scan.rod.length()).max(FEWEST_IN_HALF_WINDOW * spacing);
+    let usual = (HALF_WINDOW * scan.rod.length()).max(FEWEST_IN_HALF_WINDOW * spacing);
+    let half_window = scan.setup.half_window.unwrap_or(usual);
     let live = Live::new(&scan.rod, &LiveSettings { half_window, ..LiveSettings::new(noise, spacing) })?;
     report.begin(noise, spacing, live.delay());
     tell(&format!(
@@ -155,11 +156,11 @@ fn head<'a>(
 ) -> Result<Head<'a>, Error> {
     let seconds = scan.setup.tare.seconds;
     let listen = if seconds > 0.0 { seconds } else { LISTEN };
-    let scale = sensor.scale.unwrap_or_else(Scale::si);
+    let calibration = sensor.calibration.clone().unwrap_or_else(|| SensorCalibration::Scale(Scale::si()));
+    let scaled = || Scaled { calibration: calibration.clone(), scan };
     let mut chain: Option<Chain<'a>> = None;
     let mut wrenches: Vec<WrenchSample> = Vec::new();
     let mut samples: Vec<ReactionSample> = Vec::new();
-    let mut first_miss = None;
     let mut silent = 0.0;
     loop {
         let heard = |from: Option<f64>, to: Option<f64>| from.zip(to).is_some_and(|(from, to)| to - from >= listen);
@@ -173,7 +174,8 @@ fn head<'a>(
             Some(Ok(Fed::Raw(raw))) => {
                 let chain = chain.get_or_insert_with(|| {
                     let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting).with_tare(None);
-                    SignalChain::new(Scaled { scale, scan }, wrench_chain)
+                    SignalChain::new(scaled(), wrench_chain)
+                        .with_rails(calibration.rails())
                         .with_timekeeper(timekeeper(scan, sensor, &raw))
                 });
                 match chain.wrench(&raw) {
@@ -186,7 +188,6 @@ fn head<'a>(
                 let (Miss::Silence(text) | Miss::Fault(text)) = &miss;
                 report.miss(text);
                 tell(&format!("warning: {text}"));
-                first_miss.get_or_insert_with(|| text.clone());
                 silent += if matches!(miss, Miss::Silence(_)) { 1.0 } else { 0.0 };
                 if silent >= PATIENCE {
                     break;
@@ -196,16 +197,16 @@ fn head<'a>(
     }
     let count = wrenches.len().max(samples.len());
     if count < FEWEST {
-        let first = first_miss.map_or_else(String::new, |text| format!("; {text}"));
+        let first = report.first_miss().map_or_else(String::new, |text| format!("; {text}"));
         return Err(LiveError::TooFew { samples: count, fewest: FEWEST, first }.into());
     }
     let (Some(mut chain), Some(start)) = (chain, wrenches.first().map(|wrench| wrench.t)) else {
         // everything is done already: nothing is left for a chain to do
         let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting).with_tare(None);
-        let chain = SignalChain::new(Scaled { scale, scan }, wrench_chain);
+        let chain = SignalChain::new(scaled(), wrench_chain);
         return Ok(Head { chain, samples, tare: "as recorded".into() });
     };
-    let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start)?;
+    let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, &scan.reading)?;
     if matches!(motion, Motion::Told) {
         return Err(LiveError::NoStage { address: sensor.name.clone() }.into());
     }
@@ -285,12 +286,14 @@ fn noise(scan: &LiveScan, samples: &[ReactionSample], chain: &Chain<'_>) -> Resu
 
 /// Standard deviation of numbers rounded to one unit of the device: q / sqrt 12.
 fn rounding(scaled: &Scaled<'_>, mounting: &Mounting, at: &ReactionSample) -> [f64; 3] {
-    let one = RawSample::new(0.0, scaled.scale.channels(&Wrench::default()));
+    // the converter behind gauges is not known
+    let SensorCalibration::Scale(scale) = &scaled.calibration else { return [0.0; 3] };
+    let one = RawSample::new(0.0, scale.channels(&Wrench::default()));
     let ones = one.channels.iter().map(|_| 1.0).collect::<Vec<f64>>();
     let raw = vibrissa::hw::Channels::new(&ones).map(|channels| RawSample { channels, ..one });
-    let quantum = raw.and_then(|raw| scaled.scale.wrench(&raw).ok()).map(|sample| sample.wrench).unwrap_or_default();
+    let quantum = raw.and_then(|raw| scale.wrench(&raw).ok()).map(|sample| sample.wrench).unwrap_or_default();
     // sensors that send N and N m as floats have no unit to round to
-    let is_si = scaled.scale == Scale::si();
+    let is_si = *scale == Scale::si();
     let sigma = quantum * if is_si { 0.0 } else { 12.0_f64.sqrt().recip() };
     let sample = WrenchSample { sigma: Some(sigma), ..WrenchSample::new(0.0, Wrench::default()) };
     mounting.reactions(&sample, at.pose).sigma.map_or([0.0; 3], |sigma| [sigma.f0x, sigma.f0y, sigma.m0z])

@@ -1,9 +1,12 @@
 //! From a document to a setup: every number checked where it stands.
 
 use super::document::{AccuracyTable, Document, MountingTable, SensorTable, TareTable};
-use super::{Setup, TareSetup};
+use super::gauges::gauges;
+use super::recording::recording;
+use super::{SensorCalibration, Setup, TareSetup};
 use crate::toml_file::{Fault, place_of};
 use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
 use vibrissa::hw::rdt::RdtProfile;
@@ -12,19 +15,27 @@ use vibrissa::hw::{
     Unit, Wrench, WrenchUnits,
 };
 
-pub(super) fn setup(document: &Document, tree: &DeTable<'_>) -> Result<Setup, Fault> {
-    let Document { sensor, mounting, accuracy, tare } = document;
+/// The setup of a document; files that it names are in the directory.
+pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -> Result<Setup, Fault> {
+    let Document { sensor, mounting, accuracy, tare, identification, recording: played } = document;
     let table = |name| place_of(tree, name).unwrap_or(0..0);
-    let (rated, class, accuracy) = trust(accuracy, table("accuracy"))?;
+    let (calibration, rated) = match gauges(sensor, table("sensor"), directory)? {
+        Some((gauges, rated)) => (Some(SensorCalibration::Gauges(gauges)), rated),
+        None => (scale(sensor, table("sensor"))?.map(SensorCalibration::Scale), None),
+    };
+    let (rated, class, accuracy) = trust(accuracy, rated, table("accuracy"))?;
+    let half_window = identification.half_window.as_ref();
     Ok(Setup {
         profile: profile(sensor)?,
         rate: sensor.rate.as_ref().map(|rate| positive("rate", rate, "Hz")).transpose()?,
-        scale: scale(sensor, table("sensor"))?,
+        recording: recording(played, calibration.as_ref())?,
+        calibration,
         mounting: seat(mounting, table("mounting"))?,
         rated,
         class,
         accuracy,
         tare: window(tare)?,
+        half_window: half_window.map(|half| positive("half_window", half, "m")).transpose()?,
     })
 }
 
@@ -39,20 +50,13 @@ fn profile(table: &SensorTable) -> Result<RdtProfile, Fault> {
 }
 
 fn scale(table: &SensorTable, place: Range<usize>) -> Result<Option<Scale>, Fault> {
-    let SensorTable { force_unit, torque_unit, counts_per_force_unit, counts_per_torque_unit, channels, .. } = table;
-    let units = match (force_unit, torque_unit) {
-        (Some(force), Some(torque)) => [unit(force, Dimension::Force)?, unit(torque, Dimension::Torque)?],
-        (None, None) if counts_per_force_unit.is_none() && counts_per_torque_unit.is_none() && channels.is_none() => {
-            return Ok(None);
-        }
-        _ => {
-            return Err(Fault::new(
-                place,
-                "expected both units, force_unit and torque_unit, beside counts or channels",
-            ));
-        }
+    let SensorTable { counts_per_force_unit, counts_per_torque_unit, channels, .. } = table;
+    let Some([force, torque]) = units(table)? else {
+        let nothing = counts_per_force_unit.is_none() && counts_per_torque_unit.is_none() && channels.is_none();
+        let one = table.force_unit.is_some() || table.torque_unit.is_some();
+        let message = "expected both units, force_unit and torque_unit, beside counts or channels";
+        return if nothing && !one { Ok(None) } else { Err(Fault::new(place, message)) };
     };
-    let [force, torque] = units;
     let scale = match (counts_per_force_unit, counts_per_torque_unit) {
         (Some(f), Some(t)) => Scale::from_counts(*f.get_ref(), force, *t.get_ref(), torque).map_err(|error| {
             let of_torque = matches!(error, CalibrationDataError::CountsPerUnit { component, .. }
@@ -70,25 +74,25 @@ fn scale(table: &SensorTable, place: Range<usize>) -> Result<Option<Scale>, Faul
         }
     };
     let Some(channels) = channels else { return Ok(Some(scale)) };
-    let components: Result<Vec<Option<Component>>, Fault> = channels
-        .get_ref()
-        .iter()
-        .map(|name| match Component::parse(name) {
-            Some(component) => Ok(Some(component)),
-            None if name.is_empty() => Ok(None),
-            None => {
-                let message =
-                    format!("`{name}` is no component, expected Fx to Tz, or \"\" for a channel that is none");
-                Err(Fault::new(channels.span(), message))
-            }
-        })
-        .collect();
+    let of_channel = |name| component(name, channels.span(), "Fx to Tz, or \"\" for a channel that is none").map(Some);
+    let components: Result<Vec<Option<Component>>, Fault> =
+        channels.get_ref().iter().map(|name| if name.is_empty() { Ok(None) } else { of_channel(name) }).collect();
     let scale = scale.with_channels(&components?).map_err(|error| Fault::new(channels.span(), error.to_string()))?;
     Ok(Some(scale))
 }
 
-fn unit(text: &Spanned<String>, dimension: Dimension) -> Result<Unit, Fault> {
-    Unit::parse(text.get_ref(), dimension).map_err(|error| Fault::new(text.span(), error.to_string()))
+pub(super) fn component(name: &str, place: Range<usize>, expected: &str) -> Result<Component, Fault> {
+    let fault = || Fault::new(place, format!("`{name}` is no component, expected {expected}"));
+    Component::parse(name).ok_or_else(fault)
+}
+
+/// Both units, or none where one is not given.
+pub(super) fn units(table: &SensorTable) -> Result<Option<[Unit; 2]>, Fault> {
+    let unit = |text: &Spanned<String>, dimension| {
+        Unit::parse(text.get_ref(), dimension).map_err(|error| Fault::new(text.span(), error.to_string()))
+    };
+    let (Some(force), Some(torque)) = (&table.force_unit, &table.torque_unit) else { return Ok(None) };
+    Ok(Some([unit(force, Dimension::Force)?, unit(torque, Dimension::Torque)?]))
 }
 
 fn seat(table: &MountingTable, place: Range<usize>) -> Result<Mounting, Fault> {
@@ -152,7 +156,8 @@ fn seat(table: &MountingTable, place: Range<usize>) -> Result<Mounting, Fault> {
 
 type Trust = (Option<RatedLoad>, Wrench, Option<Accuracy>);
 
-fn trust(table: &AccuracyTable, place: Range<usize>) -> Result<Trust, Fault> {
+/// What is said of the accuracy; ranges that are not are those of the calibration file.
+fn trust(table: &AccuracyTable, of_file: Option<RatedLoad>, place: Range<usize>) -> Result<Trust, Fault> {
     let AccuracyTable { force_range, torque_range, force_class, torque_class, force_sigma, torque_sigma } = table;
     let of = |force: &Option<Spanned<f64>>, torque: &Option<Spanned<f64>>, missing: f64| {
         let [force, torque] = [force, torque].map(|field| field.as_ref().map_or(missing, |field| *field.get_ref()));
@@ -168,15 +173,19 @@ fn trust(table: &AccuracyTable, place: Range<usize>) -> Result<Trust, Fault> {
         Fault::new(field.as_ref().map_or(place.clone(), Spanned::span), error.to_string())
     };
     let class = of(force_class, torque_class, 0.0);
-    let rated = RatedLoad::new(of(force_range, torque_range, f64::INFINITY))
-        .map_err(|error| pair(force_range, torque_range, error))?;
+    let mut largest = of(force_range, torque_range, f64::INFINITY);
+    if let Some(Wrench { force, torque }) = of_file.map(|rated| rated.largest()) {
+        largest.force = if force_range.is_some() { largest.force } else { force };
+        largest.torque = if torque_range.is_some() { largest.torque } else { torque };
+    }
+    let rated = RatedLoad::new(largest).map_err(|error| pair(force_range, torque_range, error))?;
     let accuracy = Accuracy::of_class(&rated, class).map_err(|error| pair(force_class, torque_class, error))?;
     let sigma = match (force_sigma, torque_sigma) {
         (None, None) => None,
         (Some(_), Some(_)) => Some(of(force_sigma, torque_sigma, 0.0)),
         _ => return Err(Fault::new(place, "expected both force_sigma and torque_sigma, or neither")),
     };
-    let known = force_range.is_some() || torque_range.is_some();
+    let known = force_range.is_some() || torque_range.is_some() || of_file.is_some();
     let classed = force_class.is_some() || torque_class.is_some();
     let accuracy = match sigma {
         Some(sigma) => Some(accuracy.with_sigma(sigma).map_err(|error| pair(force_sigma, torque_sigma, error))?),
@@ -208,7 +217,7 @@ fn window(table: &TareTable) -> Result<TareSetup, Fault> {
     Ok(tare)
 }
 
-fn positive(what: &str, value: &Spanned<f64>, unit: &str) -> Result<f64, Fault> {
+pub(super) fn positive(what: &str, value: &Spanned<f64>, unit: &str) -> Result<f64, Fault> {
     let number = *value.get_ref();
     if number.is_finite() && number > 0.0 {
         Ok(number)
@@ -219,7 +228,7 @@ fn positive(what: &str, value: &Spanned<f64>, unit: &str) -> Result<f64, Fault> 
 
 #[cfg(test)]
 mod tests {
-    use crate::Setup;
+    use crate::{RecordingSetup, RecordingTime, Setup};
 
     fn parse(text: &str) -> Result<Setup, String> {
         Setup::parse("s.toml".as_ref(), text).map_err(|error| error.to_string())
@@ -227,7 +236,7 @@ mod tests {
 
     #[test]
     fn nothing_is_the_default_and_everything_is_taken() {
-        assert_eq!(parse("").unwrap(), Setup::default());
+        assert_eq!(format!("{:?}", parse("").unwrap()), format!("{:?}", Setup::default()));
         let text = "
             [sensor]\nprofile = 'axia'\nrate = 7e3\nforce_unit = 'N'\ntorque_unit = 'N mm'
             counts_per_force_unit = 1e6\ncounts_per_torque_unit = 1e3\nchannels = ['', 'Fx', 'Fy', 'Tz']
@@ -235,11 +244,19 @@ mod tests {
             most_force_across = 0.1\nmost_moment_across = 1e-3
             [accuracy]\nforce_range = 2\ntorque_range = 0.05\nforce_class = 0.5\ntorque_class = 0.1
             force_sigma = 1e-3\ntorque_sigma = 1e-5
+            [identification]\nhalf_window = 1e-3
+            [recording]\ncolumns = ['a', 'b']\ngroup = 'g'\ntime = { rate = 500 }\ntopic = '/ft'
             [tare]\nseconds = 0\nforce_change = 1e-2\ntorque_change = 1e-3";
         let setup = parse(text).unwrap();
         assert!(
-            setup.scale.is_some() && setup.rated.is_some() && setup.accuracy.is_some() && setup.tare.change.is_some()
+            setup.calibration.is_some()
+                && setup.rated.is_some()
+                && setup.accuracy.is_some()
+                && setup.tare.change.is_some()
         );
+        let RecordingSetup { columns, group, time, topic } = setup.recording;
+        assert_eq!((columns.unwrap().len(), group.unwrap().len(), topic.unwrap().len()), (2, 1, 3));
+        assert_eq!((time, setup.half_window), (RecordingTime::Rate(500.0), Some(1e-3)));
         assert_eq!((setup.rate, setup.tare.seconds, setup.class.force[0]), (Some(7e3), 0.0, 0.5));
     }
 

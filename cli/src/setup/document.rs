@@ -1,7 +1,7 @@
 //! The setup as written: names, types and spans.
 
 use serde::Deserialize;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 /// A setup file.
 #[derive(Default, Deserialize)]
@@ -15,6 +15,10 @@ pub(super) struct Document {
     pub accuracy: AccuracyTable,
     #[serde(default)]
     pub tare: TareTable,
+    #[serde(default)]
+    pub identification: IdentificationTable,
+    #[serde(default)]
+    pub recording: RecordingTable,
 }
 
 /// `[sensor]`: what it sends.
@@ -28,6 +32,12 @@ pub(super) struct SensorTable {
     pub counts_per_force_unit: Option<Spanned<f64>>,
     pub counts_per_torque_unit: Option<Spanned<f64>>,
     pub channels: Option<Spanned<Vec<String>>>,
+    pub calibration: Option<Spanned<String>>,
+    pub part: Option<Spanned<String>>,
+    pub compensate: Option<Spanned<bool>>,
+    pub matrix: Option<Spanned<Vec<Spanned<Vec<f64>>>>>,
+    pub components: Option<Spanned<Vec<String>>>,
+    pub bias: Option<Spanned<Vec<f64>>>,
 }
 
 /// `[mounting]`: how it sits under the clamp.
@@ -63,4 +73,21 @@ pub(super) struct TareTable {
     pub seconds: Option<Spanned<f64>>,
     pub force_change: Option<Spanned<f64>>,
     pub torque_change: Option<Spanned<f64>>,
+}
+
+/// `[identification]`: how contacts and phases are told.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct IdentificationTable {
+    pub half_window: Option<Spanned<f64>>,
+}
+
+/// `[recording]`: what of a recording is meant.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RecordingTable {
+    pub columns: Option<Spanned<Vec<String>>>,
+    pub group: Option<Spanned<String>>,
+    pub time: Option<Spanned<Value>>,
+    pub topic: Option<Spanned<String>>,
 }

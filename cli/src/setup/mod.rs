@@ -1,9 +1,16 @@
-//! The setup of a sensor, read from a TOML file: what it sends, how it sits under the clamp, how far it can be trusted.
+//! The setup of a sensor, read from a TOML file: what it sends, how it sits under the clamp, how far it can be trusted; and what
+//! of a recording is meant.
 //!
-//! `document` is the file as written, `check` turns it into what the library takes.
+//! `document` is the file as written, `check` turns it into what the library takes, with `gauges` and `recording` for parts of it.
 
+mod calibration;
 mod check;
 mod document;
+mod gauges;
+mod recording;
+
+pub use calibration::{Gauges, SensorCalibration};
+pub use recording::{RecordingSetup, RecordingTime};
 
 use crate::{SceneError, toml_file};
 use document::Document;
@@ -11,17 +18,17 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::de::Deserializer;
 use vibrissa::hw::rdt::RdtProfile;
-use vibrissa::hw::{Accuracy, Frame, Mounting, RatedLoad, Scale, Wrench};
+use vibrissa::hw::{Accuracy, Frame, Mounting, RatedLoad, Wrench};
 
 /// How a sensor is set up.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Setup {
     /// Family of an RDT sensor.
     pub profile: RdtProfile,
     /// Rate of its own counter, Hz: where it is known, times are counted.
     pub rate: Option<f64>,
-    /// What its numbers are in N and N m; none where the device or its protocol tells.
-    pub scale: Option<Scale>,
+    /// What its numbers are in N and N m; none where the device, its protocol or the recording tells.
+    pub calibration: Option<SensorCalibration>,
     /// How it sits under the clamp.
     pub mounting: Mounting,
     /// How much it may be loaded.
@@ -32,6 +39,10 @@ pub struct Setup {
     pub accuracy: Option<Accuracy>,
     /// The window for the tare.
     pub tare: TareSetup,
+    /// Half of the window in which contacts and phases are told, m; where it is not given, 1 % of the rod, or 200 samples.
+    pub half_window: Option<f64>,
+    /// What of a recording is meant.
+    pub recording: RecordingSetup,
 }
 
 /// The window without contact that a scan begins with.
@@ -49,18 +60,20 @@ impl Default for Setup {
         Self {
             profile: RdtProfile::NetFt,
             rate: None,
-            scale: None,
+            calibration: None,
             mounting: Mounting::new(Frame::same()),
             rated: None,
             class: Wrench::default(),
             accuracy: None,
             tare: TareSetup { seconds: 1.0, change: None },
+            half_window: None,
+            recording: RecordingSetup::default(),
         }
     }
 }
 
 impl Setup {
-    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`.
+    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`, `identification`, `recording`.
     ///
     /// # Errors
     /// [`SceneError`]: the file cannot be read, or is no setup.
@@ -68,7 +81,7 @@ impl Setup {
         Self::parse(file, &toml_file::text("the setup", file)?)
     }
 
-    /// The setup in a text; `file` names it in messages.
+    /// The setup in a text; `file` names it in messages, and a calibration file that it names is beside it.
     ///
     /// ```
     /// use vibrissa_cli::Setup;
@@ -79,7 +92,8 @@ impl Setup {
     ///     axes = ["-y", "x", "z"]      # of the scene, along which its x, y, z lie
     ///     lever = [0.0, 0.012, 0.0]    # m, from its origin to the clamp, in its axes
     /// "#)?;
-    /// assert_eq!((setup.rate, setup.scale), (Some(7000.0), None));
+    /// assert_eq!(setup.rate, Some(7000.0));
+    /// assert!(setup.calibration.is_none());
     /// # Ok::<(), vibrissa_cli::SceneError>(())
     /// ```
     ///
@@ -88,7 +102,8 @@ impl Setup {
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         toml_file::parse(file, text, |table| {
             let tree = table.get_ref().clone();
-            check::setup(&Document::deserialize(Deserializer::from(table))?, &tree)
+            let directory = file.parent().unwrap_or(file);
+            check::setup(&Document::deserialize(Deserializer::from(table))?, &tree, directory)
         })
     }
 }

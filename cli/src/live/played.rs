@@ -1,0 +1,171 @@
+//! Recordings, played back.
+
+use super::feed::{Fed, Feed, Miss};
+use super::{LiveError, Sensor};
+use crate::{Error, Reading, RecordingSetup, RecordingTime, SensorCalibration, Setup};
+use std::error::Error as StdError;
+use std::fmt::Display;
+use std::path::Path;
+use vibrissa::hw::mcap::{McapError, McapFile};
+use vibrissa::hw::recording::{ColumnError, ColumnMap, Recorded, Role, RowFault, Table};
+use vibrissa::hw::tdms::{TdmsError, TdmsFile, TdmsTime};
+use vibrissa::hw::{LinkCounters, RawSample, ReactionSample, Scale, WrenchSample};
+
+/// A recording, played back as fast as it is asked for.
+struct Played {
+    samples: std::vec::IntoIter<Result<Fed, Miss>>,
+    handed: u64,
+}
+
+/// The samples of a recording, and what makes N and N m of them where that is to be done.
+type Samples = (Vec<Result<Fed, Miss>>, Option<SensorCalibration>);
+
+/// Opens a recording: TDMS and MCAP by the end of its name, anything else as a table.
+pub(super) fn open(file: &Path, setup: &Setup, how: &Reading) -> Result<Sensor, Error> {
+    let is = |end: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(end));
+    let (samples, calibration) = if is("tdms") {
+        tdms(file, setup)
+    } else if is("mcap") {
+        mcap(file, setup)
+    } else {
+        table(file, setup, how)
+    }?;
+    let feed = Box::new(Played { samples: samples.into_iter(), handed: 0 });
+    Ok(Sensor { feed, calibration, name: address(file) })
+}
+
+fn address(file: &Path) -> String {
+    format!("file:{}", file.display())
+}
+
+fn failed<E: StdError + Send + Sync + 'static>(file: &Path) -> impl Fn(E) -> LiveError {
+    move |error| LiveError::Sensor { address: address(file), source: Box::new(error) }
+}
+
+/// What the raw values are, which is for the setup to say.
+fn told(file: &Path, setup: &Setup) -> Result<SensorCalibration, LiveError> {
+    setup.calibration.clone().ok_or_else(|| LiveError::NoScale { address: address(file) })
+}
+
+/// Something of the file that is to be chosen.
+fn choose<T: Display>(
+    file: &Path,
+    field: &'static str,
+    there: impl Iterator<Item = T>,
+    fault: Option<&impl Display>,
+) -> LiveError {
+    let there: Vec<String> = there.map(|name| name.to_string()).collect();
+    let found = if there.is_empty() { "none".to_owned() } else { there.join(", ") };
+    let fault = fault.map_or_else(String::new, |fault| format!(" ({fault})"));
+    LiveError::Choose { file: file.to_path_buf(), field, found: found + &fault }
+}
+
+/// A wrench in N and N m.
+fn of_wrench(sample: WrenchSample) -> Fed {
+    let WrenchSample { t, wrench, quality, raw, .. } = sample;
+    Fed::Raw(RawSample { channels: wrench.components().into(), host_time: t, quality, ..raw })
+}
+
+fn of_file<E: Display>(file: &Path) -> impl Fn(E) -> Miss {
+    move |error| Miss::Fault(format!("{}: {error}", file.display()))
+}
+
+/// Raw values of the channels of a group.
+fn tdms(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
+    let opened = TdmsFile::read(file).map_err(failed::<TdmsError>(file))?;
+    let RecordingSetup { columns, group, time, .. } = &setup.recording;
+    let group = group.as_ref().and_then(|name| opened.group(name)).ok_or_else(|| {
+        choose(file, "group", opened.groups().map(|group| format!("`{}`", group.name())), opened.fault())
+    })?;
+    let columns = columns.as_ref().ok_or_else(|| {
+        choose(file, "columns", group.channels().map(|channel| format!("`{}`", channel.name())), opened.fault())
+    })?;
+    let time = match time {
+        RecordingTime::Own => TdmsTime::Waveform,
+        RecordingTime::Named(channel) => TdmsTime::Channel(channel),
+        RecordingTime::Rate(rate) => TdmsTime::Rate(*rate),
+    };
+    let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+    let samples = opened.samples(group.name(), &names, time).map_err(failed::<TdmsError>(file))?;
+    let calibration = told(file, setup)?;
+    Ok((samples.map(|sample| sample.map(Fed::Raw).map_err(of_file(file))).collect(), Some(calibration)))
+}
+
+/// Wrenches of a topic.
+fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
+    let opened = McapFile::read(file).map_err(failed::<McapError>(file))?;
+    let topic = setup.recording.topic.as_ref().ok_or_else(|| {
+        let named = |topic: &vibrissa::hw::mcap::McapTopic| format!("`{}` of {}", topic.name, topic.type_name);
+        choose(file, "topic", opened.topics().iter().map(named), opened.fault())
+    })?;
+    if setup.calibration.is_some() {
+        return Err(LiveError::Calibrated { file: file.to_path_buf() });
+    }
+    let wrenches = opened.wrenches(topic).map_err(failed::<McapError>(file))?;
+    let samples = wrenches.map(|sample| sample.map(of_wrench).map_err(of_file(file)));
+    Ok((samples.collect(), Some(SensorCalibration::Scale(Scale::si()))))
+}
+
+/// Rows of a table: raw values where the setup has a matrix for them or names their columns; otherwise reactions with poses,
+/// wrenches in units that the file tells, or raw values, whatever there is.
+fn table(file: &Path, setup: &Setup, how: &Reading) -> Result<Samples, LiveError> {
+    let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
+    let RecordingSetup { columns, time, .. } = &setup.recording;
+    let mut map = how.columns.clone();
+    match time {
+        RecordingTime::Own => {}
+        RecordingTime::Named(column) => map = map.with(Role::Time, column),
+        RecordingTime::Rate(_) => return Err(LiveError::Rate { file: file.to_path_buf() }),
+    }
+    if let Some(columns) = columns {
+        map = map.with_channels(columns);
+    }
+    let mut complaint = None;
+    if columns.is_none() && !matches!(setup.calibration, Some(SensorCalibration::Gauges(_))) {
+        match rows::<ReactionSample>(&table, &map, Fed::Reactions) {
+            Ok(samples) => return Ok((samples, None)),
+            Err(error) => complaint = telling(error),
+        }
+        match rows::<WrenchSample>(&table, &map, of_wrench) {
+            Ok(samples) => return Ok((samples, Some(SensorCalibration::Scale(Scale::si())))),
+            Err(error) => complaint = complaint.or(telling(error)),
+        }
+    }
+    match rows::<RawSample>(&table, &map, Fed::Raw) {
+        Ok(samples) => Ok((samples, Some(told(file, setup)?))),
+        Err(error) => Err(match complaint.unwrap_or(error) {
+            ColumnError::NoChannels { file, line, found } => LiveError::NoSamples { file, line, found },
+            error => LiveError::Columns(error),
+        }),
+    }
+}
+
+/// An error that says more than that columns are missing, which is no error of a table of another kind.
+fn telling(error: ColumnError) -> Option<ColumnError> {
+    (!matches!(error, ColumnError::Missing { .. })).then_some(error)
+}
+
+fn rows<S: Recorded>(
+    table: &Table,
+    map: &ColumnMap,
+    fed: impl Fn(S) -> Fed,
+) -> Result<Vec<Result<Fed, Miss>>, ColumnError> {
+    let fault = |error: RowFault| Miss::Fault(format!("{}: {error}", table.file()));
+    Ok(table.samples::<S>(map)?.map(|row| row.map(&fed).map_err(fault)).collect())
+}
+
+impl Feed for Played {
+    fn next(&mut self) -> Option<Result<Fed, Miss>> {
+        let next = self.samples.next()?;
+        self.handed += u64::from(next.is_ok());
+        Some(next)
+    }
+
+    fn counters(&self) -> LinkCounters {
+        LinkCounters { samples: self.handed, ..LinkCounters::default() }
+    }
+
+    fn now(&self) -> Option<f64> {
+        None
+    }
+}
