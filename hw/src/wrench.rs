@@ -36,7 +36,7 @@ impl<T: Scalar> Wrench<T> {
     ///
     /// ```
     /// use rod_hw::Wrench;
-    /// let wrench = Wrench { force: [0.0, 0.5, 0.0], torque: [0.0, 0.0, 7e-3] };
+    /// let wrench: Wrench = Wrench { force: [0.0, 0.5, 0.0], torque: [0.0, 0.0, 7e-3] };
     /// assert!((wrench.about([0.012, 0.0, 0.0]).torque[2] - 1e-3).abs() < 1e-15);
     /// ```
     pub fn about(&self, d: [T; 3]) -> Self {
