@@ -67,8 +67,6 @@ pub enum Command {
         /// The recording: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
         /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z; other units in the names, as `f0x [mN]`
         recording: PathBuf,
-        #[command(flatten)]
-        written: Written,
         /// The rod, a TOML file with the table [rod] of a scene; or a scene
         #[arg(long, value_name = "FILE")]
         rod: PathBuf,
@@ -78,6 +76,8 @@ pub enum Command {
         /// Directory of the results [default: out/<name of the recording>]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        #[command(flatten)]
+        written: Written,
     },
     /// Listen to a sensor: contact points, phases and flags as they come
     #[command(long_about = LIVE)]
@@ -86,8 +86,6 @@ pub enum Command {
         /// or file:RECORDING (CSV, TSV, LVM, TDMS, MCAP)
         #[arg(long, value_name = "ADDRESS")]
         sensor: SensorAddress,
-        #[command(flatten)]
-        written: Written,
         /// The rod, a TOML file with the table [rod] of a scene; or a scene
         #[arg(long, value_name = "FILE")]
         rod: PathBuf,
@@ -104,6 +102,8 @@ pub enum Command {
         /// Directory of the results
         #[arg(long, value_name = "DIR", default_value = "out/live")]
         out: PathBuf,
+        #[command(flatten)]
+        written: Written,
     },
     /// Play what a sensor would send along a scene, for tests without one
     FakeSensor(FakeSensor),

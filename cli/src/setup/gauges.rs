@@ -247,7 +247,7 @@ mod tests {
             ),
             (rows("[[1, 2], [3]]"), "5:19: sensor.matrix[2]: found 1 numbers, expected 2, as in the first row"),
             (rows("[[1, 2]]"), "4:14: sensor.components: found 2 components, expected 1: one of each row"),
-            (rows("[[1, 2], [2, 4]]"), "5:19: sensor.matrix[2]: the row of Tz is a combination of the other rows"),
+            (rows("[[1, 2], [2, 4]]"), "5:11: sensor.matrix[1]: the row of Fx is a combination of the other rows"),
             (rows("[[0, 0], [2, 4]]"), "5:11: sensor.matrix[1]: the row of Fx is zero throughout"),
             (rows("[[1], [2]]"), "5:10: sensor.matrix: 1 gauges for 2 components"),
             (rows("[[], []]"), "5:10: sensor.matrix: expected rows of 1 to 8 numbers"),
