@@ -39,7 +39,7 @@ pub struct Setup {
     pub accuracy: Option<Accuracy>,
     /// The window for the tare.
     pub tare: TareSetup,
-    /// Half of the window in which contacts and phases are told, m; where it is not given, 1 % of the rod, or 200 samples.
+    /// Half of the window in which contacts and phases are told, m; where it is not given, 2 % of the rod, or 200 samples.
     pub half_window: Option<f64>,
     /// What of a recording is meant.
     pub recording: RecordingSetup,
