@@ -6,6 +6,12 @@ use allocation_counter::measure;
 use rod_hw::recording::{About, Contents, Recorder, Table, TableOptions};
 use rod_hw::{Channels, RawSample};
 
+/// A header that takes half of the file, and as many segments as there is room for.
+fn many_segments(length: usize) -> String {
+    let head = format!("LabVIEW Measurement\t\nNotes\t{}\n***End_of_Header***\t\n", "a".repeat(length / 2));
+    head + &"X_Value\n\n".repeat(length / 18)
+}
+
 #[test]
 fn of_files_that_mean_harm() {
     let count = 200_000;
@@ -21,10 +27,11 @@ fn of_files_that_mean_harm() {
         ("few wide lines", (",1".repeat(4000) + "\n").repeat(count / 8000), 100.0),
         ("wide names above short rows", ",a".repeat(4000) + "\n" + &"1\n".repeat(count / 2), 100.0),
         ("comments", "#\n".repeat(count / 2), 100.0),
+        ("many segments below a long header", many_segments(count), 100.0),
         ("numbers of 15 digits", "a,b,c\n".to_owned() + &digits.collect::<String>(), 4.0),
     ];
     for (what, text, most) in texts {
-        let used = measure(|| drop(Table::parse("f.csv", text.as_bytes(), &TableOptions::default())));
+        let used = measure(|| drop(Table::parse_all("f.csv", text.as_bytes(), &TableOptions::default())));
         // the first lines are looked at whole
         let ratio = used.bytes_max as f64 / text.len() as f64;
         assert!(ratio < most, "{what}: {ratio} bytes a byte");

@@ -1,5 +1,7 @@
 //! What can be wrong with an MCAP file and its messages.
 
+use std::sync::Arc;
+
 /// Why there is no file, topic or message.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -131,7 +133,7 @@ pub struct McapTopic {
     /// Its name.
     pub name: String,
     /// The type of its messages; empty where it is not told.
-    pub type_name: String,
+    pub type_name: Arc<str>,
     /// Their encoding.
     pub encoding: String,
     /// How many there are.
@@ -147,6 +149,9 @@ impl core::fmt::Display for Because<'_> {
     }
 }
 
+/// Most topics that are named in a message.
+const MOST_NAMES: usize = 20;
+
 /// Topics, for messages.
 struct List<'a>(&'a [McapTopic]);
 
@@ -155,9 +160,12 @@ impl core::fmt::Display for List<'_> {
         if self.0.is_empty() {
             return f.write_str("none");
         }
-        for (i, topic) in self.0.iter().enumerate() {
+        for (i, topic) in self.0.iter().take(MOST_NAMES).enumerate() {
             write!(f, "{}`{}` of {}", if i == 0 { "" } else { ", " }, topic.name, topic.type_name)?;
         }
-        Ok(())
+        match self.0.len().saturating_sub(MOST_NAMES) {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
     }
 }

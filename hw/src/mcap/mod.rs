@@ -23,6 +23,7 @@ use records::{Event, MAGIC, Records};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// An MCAP file.
 ///
@@ -72,19 +73,20 @@ impl<'a> McapFile<'a> {
         if !bytes.starts_with(MAGIC) {
             return Err(McapError::NotMcap { found: bytes.iter().copied().take(MAGIC.len()).collect() });
         }
-        let mut schemas: HashMap<u16, String> = HashMap::new();
+        let mut schemas: HashMap<u16, Arc<str>> = HashMap::new();
         let mut channels: HashMap<u16, usize> = HashMap::new();
-        let mut places: HashMap<(String, String, String), usize> = HashMap::new();
+        let mut places: HashMap<(String, Arc<str>, String), usize> = HashMap::new();
         let mut topics: Vec<McapTopic> = Vec::new();
         let mut origin = None;
         let mut fault = None;
         for event in Records::new(&bytes).events() {
             match event {
                 Ok(Event::Schema { id, name }) => {
-                    schemas.insert(id, name);
+                    schemas.insert(id, name.into());
                 }
                 Ok(Event::Channel { id, schema, topic, encoding }) => {
-                    let type_name = schemas.get(&schema).cloned().unwrap_or_default();
+                    // far more channels than there is room for their types' names may share one
+                    let type_name = schemas.get(&schema).map_or_else(|| "".into(), Arc::clone);
                     let place =
                         places.entry((topic.clone(), type_name.clone(), encoding.clone())).or_insert_with(|| {
                             topics.push(McapTopic { name: topic, type_name, encoding, messages: 0 });
@@ -138,13 +140,13 @@ impl<'a> McapFile<'a> {
         }
         // one topic can have channels of several types or encodings
         let is_right = |found: &McapTopic| match found.encoding.as_str() {
-            "cdr" | "ros1" => found.type_name == M::NAME || found.type_name == M::NAME.replace("/msg/", "/"),
+            "cdr" | "ros1" => *found.type_name == *M::NAME || *found.type_name == M::NAME.replace("/msg/", "/"),
             _ => false,
         };
         if let Some((_, found)) = named().find(|(_, found)| !is_right(found)) {
             return Err(McapError::Type {
                 topic: topic.to_owned(),
-                found: found.type_name.clone(),
+                found: found.type_name.to_string(),
                 encoding: found.encoding.clone(),
                 expected: M::NAME,
             });

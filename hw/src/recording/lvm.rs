@@ -8,8 +8,9 @@ use super::heading::Column;
 use super::number::{has_fraction, number};
 use super::options::{Decimal, Delimiter, TableOptions};
 use super::split::{Lines, Splitter};
-use super::table::{MOST_COLUMNS, Table};
+use super::table::{MOST_COLUMNS, MOST_NOTES, Note, Table};
 use std::iter::Peekable;
+use std::sync::Arc;
 
 const END: &str = "***End_of_Header***";
 const X: &str = "X_Value";
@@ -24,7 +25,8 @@ struct Format {
     delimiter: Delimiter,
     decimal: Decimal,
     x_columns: XColumns,
-    pairs: Vec<(u64, String, String)>,
+    /// Held once: a file can have far more segments than its header has lines.
+    notes: Arc<[Note]>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -79,7 +81,7 @@ impl Format {
         options: &TableOptions,
     ) -> Result<Self, TableError> {
         let (mut separator, mut decimal, mut x_columns) = (None, options.decimal, XColumns::One);
-        let mut pairs = Vec::new();
+        let mut notes = Vec::new();
         let mut last = 0;
         let mut ended = false;
         for (line, text) in lines {
@@ -107,7 +109,9 @@ impl Format {
                 }
                 _ => {}
             }
-            pairs.push((line, key.to_owned(), value.to_owned()));
+            if notes.len() < MOST_NOTES {
+                notes.push(Note::new(line, key, value));
+            }
         }
         if !ended {
             let (file, what) = (file.to_owned(), format!("the file ends without `{END}`"));
@@ -116,7 +120,7 @@ impl Format {
         let delimiter = options.delimiter.or(separator).unwrap_or(Delimiter::Tab);
         let decimal =
             decimal.unwrap_or_else(|| if delimiter == Delimiter::Comma { Decimal::Point } else { mark(bytes) });
-        Ok(Self { delimiter, decimal, x_columns, pairs })
+        Ok(Self { delimiter, decimal, x_columns, notes: notes.into() })
     }
 }
 
@@ -169,7 +173,8 @@ impl<'t> Reader<'_, 't> {
         let commented = names.last().is_some_and(|name| name == COMMENT);
         let columns = header.columns(&names);
         let mut table = Table::new(self.file, columns, Some(line));
-        for (line, key, value) in self.format.pairs.iter().chain(&header.pairs) {
+        table.share_notes(&self.format.notes);
+        for (line, key, value) in &header.pairs {
             table.add_pair(*line, key, value);
         }
         while let Some((line, text)) = self.lines.next_if(|(_, text)| !ends(text)) {

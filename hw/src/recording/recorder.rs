@@ -44,7 +44,7 @@ impl About {
         let note = |key: &str| table.note(key).unwrap_or_default().to_owned();
         let first = table.header_line().unwrap_or(u64::MAX);
         let known = ["sensor", "calibration", "tare", "mounting", "clock", "units", ""];
-        let others = table.notes().iter().filter(|note| note.line < first && !known.contains(&note.key.as_str()));
+        let others = table.notes().filter(|note| note.line < first && !known.contains(&note.key.as_str()));
         Self {
             sensor: note("sensor"),
             calibration: note("calibration"),
@@ -193,7 +193,7 @@ impl Table {
     /// Of a recording of a [`Recorder`]: whether it is whole, with as many rows as were written. None of other tables.
     pub fn is_whole(&self) -> Option<bool> {
         let title = comment_of(TITLE);
-        let ours = self.notes().iter().any(|note| note.key.is_empty() && note.text == title);
+        let ours = self.notes().any(|note| note.key.is_empty() && note.text == title);
         ours.then(|| self.note(END).and_then(|count| count.parse().ok()) == Some(self.len()))
     }
 }

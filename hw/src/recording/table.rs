@@ -10,6 +10,7 @@ use super::{lvm, text};
 use std::borrow::Cow;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Named columns with their units, and rows of cells with their lines in the file.
 ///
@@ -32,7 +33,9 @@ pub struct Table {
     pub(super) file: String,
     pub(super) columns: Vec<Column>,
     pub(super) header_line: Option<u64>,
-    pub(super) notes: Vec<Note>,
+    /// Of the header of the file, which all its segments share.
+    common: Arc<[Note]>,
+    notes: Vec<Note>,
     heads: Vec<Head>,
     cells: Vec<Stored>,
     texts: Vec<Box<str>>,
@@ -48,6 +51,12 @@ pub struct Note {
     pub key: String,
     /// What it says.
     pub text: String,
+}
+
+impl Note {
+    pub(super) fn new(line: u64, key: &str, text: &str) -> Self {
+        Self { line, key: key.trim().to_owned(), text: text.trim().to_owned() }
+    }
 }
 
 /// What stands in one place of a table.
@@ -88,7 +97,7 @@ pub struct Row<'t> {
 /// Columns there may be.
 pub(super) const MOST_COLUMNS: usize = 4096;
 /// Notes that are kept; so many lines say nothing to a person.
-const MOST_NOTES: usize = 4096;
+pub(super) const MOST_NOTES: usize = 4096;
 
 impl Table {
     /// The table in a file.
@@ -145,6 +154,7 @@ impl Table {
             file: file.to_owned(),
             columns,
             header_line,
+            common: Arc::default(),
             notes: Vec::new(),
             heads: Vec::new(),
             cells: Vec::new(),
@@ -189,13 +199,13 @@ impl Table {
     }
 
     /// Comments, and what headers say, in order.
-    pub fn notes(&self) -> &[Note] {
-        &self.notes
+    pub fn notes(&self) -> impl Iterator<Item = &Note> + Clone {
+        self.common.iter().chain(&self.notes)
     }
 
     /// What is said of this, the first time that it is.
     pub fn note(&self, key: &str) -> Option<&str> {
-        self.notes.iter().find(|note| note.key == key).map(|note| note.text.as_str())
+        self.notes().find(|note| note.key == key).map(|note| note.text.as_str())
     }
 
     /// Whether the last line has no end, as where a file was cut: the last number may lack digits.
@@ -206,6 +216,11 @@ impl Table {
     /// What is wrong with rows of a wrong number of cells.
     pub fn faults(&self) -> impl Iterator<Item = RowFault> {
         self.rows().filter_map(|row| row.check().err().map(|problem| RowFault { line: row.line(), problem }))
+    }
+
+    /// Puts notes in front that other tables have, too.
+    pub(super) fn share_notes(&mut self, notes: &Arc<[Note]>) {
+        self.common = Arc::clone(notes);
     }
 
     /// Makes room for about so many rows of a text of so many bytes.
@@ -222,7 +237,7 @@ impl Table {
 
     pub(super) fn add_pair(&mut self, line: u64, key: &str, text: &str) {
         if self.notes.len() < MOST_NOTES {
-            self.notes.push(Note { line, key: key.trim().to_owned(), text: text.trim().to_owned() });
+            self.notes.push(Note::new(line, key, text));
         }
     }
 

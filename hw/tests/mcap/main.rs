@@ -140,10 +140,16 @@ fn bits_that_flipped_are_noticed() {
     assert!(fault.contains("Chunk CRC failed"), "{fault}");
 }
 
+fn text(text: &str) -> Vec<u8> {
+    [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat()
+}
+
+fn record(code: u8, body: Vec<u8>) -> Vec<u8> {
+    [vec![code], (body.len() as u64).to_le_bytes().to_vec(), body].concat()
+}
+
 /// A file of messages on the topic, without chunks.
 fn file_of(encoding: &str, messages: &[&[u8]]) -> Vec<u8> {
-    let text = |text: &str| [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat();
-    let record = |code: u8, body: Vec<u8>| [vec![code], (body.len() as u64).to_le_bytes().to_vec(), body].concat();
     let id = 1_u16.to_le_bytes().to_vec();
     let schema = [id.clone(), text("geometry_msgs/msg/WrenchStamped"), text("ros2msg"), vec![0; 4]].concat();
     let channel = [id.clone(), id.clone(), text(TOPIC), text(encoding), vec![0; 4]].concat();
@@ -153,6 +159,24 @@ fn file_of(encoding: &str, messages: &[&[u8]]) -> Vec<u8> {
     }
     bytes.extend(record(15, vec![0; 4]));
     bytes
+}
+
+#[test]
+fn memory_for_many_channels_of_a_long_type() {
+    let id = 1_u16.to_le_bytes().to_vec();
+    let schema = [id.clone(), text(&"a".repeat(50_000)), text("ros2msg"), vec![0; 4]].concat();
+    let mut bytes = [b"\x89MCAP0\r\n".to_vec(), record(3, schema)].concat();
+    for i in 0..1000_u16 {
+        let channel = [i.to_le_bytes().to_vec(), id.clone(), text(&i.to_string()), text("cdr"), vec![0; 4]].concat();
+        bytes.extend(record(4, channel));
+    }
+    let used = allocation_counter::measure(|| {
+        let file = McapFile::parse(&bytes).unwrap();
+        assert_eq!(file.topics().len(), 1000);
+        let error = file.wrenches(TOPIC).map(drop).unwrap_err().to_string();
+        assert!(error.contains(" and 980 more ("), "{}", error.len());
+    });
+    assert!(used.bytes_max < 100 * bytes.len() as u64, "{} bytes for {}", used.bytes_max, bytes.len());
 }
 
 /// Stamp 1.5 s, frame `ft`, six numbers, as ROS 2 has it: the numbers begin at byte 4 + 16.

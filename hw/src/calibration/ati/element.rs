@@ -4,8 +4,15 @@ use super::AtiFileError;
 use crate::unit::{Dimension, Unit};
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// The document of a text.
+/// The document of a text. One that declares entities is refused: a short text can have them mean any amount of memory.
 pub(super) fn document(text: &str) -> Result<Document<'_>, AtiFileError> {
+    if let Some(at) = text.find("<!ENTITY") {
+        let line = text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1;
+        return Err(AtiFileError::Malformed {
+            line: u32::try_from(line).unwrap_or(u32::MAX),
+            message: "an entity is declared, expected none".to_owned(),
+        });
+    }
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(text.trim_start_matches('\u{feff}'), options)
         .map_err(|error| AtiFileError::Malformed { line: error.pos().row, message: error.to_string() })

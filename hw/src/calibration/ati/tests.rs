@@ -91,6 +91,12 @@ fn bad_files_are_refused_with_line_and_element() {
     for (from, to, expected) in [
         ("  3.63015 ", "  3.63025 ", "line 12: `UserAxis` Fx of gauge 2 is 3.63025, but `Axis`, `scale` and "),
         ("<FTSensor", "<Sensor", "line 19: "),
+        // 3 kB of entities of entities would be 100 MB of text
+        (
+            "<FTSensor",
+            "<!DOCTYPE FTSensor [<!ENTITY a \"&b;&b;\">]><FTSensor",
+            "line 3: an entity is declared, expected none; is it a .cal file",
+        ),
         (
             "NumGages=\"6\"",
             "NumGages=\"17\"",
@@ -162,6 +168,7 @@ fn bad_files_are_refused_with_line_and_element() {
     assert!(AtiFile::parse("").unwrap_err().to_string().starts_with("line 1: "));
     // a byte order mark is none of the text
     assert!(AtiFile::parse(&format!("\u{feff}{TURNED}")).is_ok());
+    assert!(parse(|text| text.replace("<FTSensor", "<!DOCTYPE FTSensor>\n<FTSensor")).is_ok());
 }
 
 #[test]
