@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{complaint, vibrissa};
+use common::{complaint, edited, vibrissa};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -14,29 +14,14 @@ use vibrissa::{NoiseModel, Pose, Reactions, Sample, single};
 use vibrissa_cli::{Reading, Recording, Scene, Simulation, Tick};
 
 /// O1 at q = 0.4 L: A, B, BB, BA, B, A.
-const SCENE: &str = "\
-[rod]
-length = 0.1
-diameter = 0.5e-3
-youngs_modulus = 206e9
-[[contour.piece]]
-shape = \"parabola\"
-vertex = [0.0, 0.0]
-coefficient = 50.0
-[[contour.piece]]
-shape = \"parabola\"
-vertex = [0.03, 0.0]
-coefficient = 50.0
-[sweep]
-from = [0.08, -0.04]
-to = [-0.09, -0.04]
-angle = 90.0
-step = 1e-3
-";
+fn scene() -> String {
+    let (from, to) = ("from = [0.07, -0.04]\nto = [0.03, -0.04]", "from = [0.08, -0.04]\nto = [-0.09, -0.04]");
+    edited(from, to)
+}
 
 fn prepared(setup: &str) -> tempfile::TempDir {
     let directory = tempfile::tempdir().unwrap();
-    fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
+    fs::write(directory.path().join("scene.toml"), scene()).unwrap();
     fs::write(directory.path().join("setup.toml"), setup).unwrap();
     directory
 }
@@ -307,12 +292,13 @@ fn stages_and_tares_that_are_none() {
     let files = [files[0], files[1], ("stage.csv", "t,x0,y0,phi0\n5,0,0,1\n9,1e-3,0,1\n")];
     refuses("", &files, &with(&["--stage", "table:stage.csv"]), &["the stage is known from 5 s to 9 s"]);
 
+    let scene = scene();
     let loaded = wrenches(3000, |k| if k > 600 { 0.1 } else { 0.0 });
-    let files = [("free.csv", loaded.as_str()), ("rod.toml", SCENE)];
+    let files = [("free.csv", loaded.as_str()), ("rod.toml", scene.as_str())];
     refuses("", &files, &with(&["--stage", "constant:1e-3"]), &["no tare from the first 1 s", "Fx changes by"]);
     refuses(
         "",
-        &[("free.csv", &wrenches(30, |_| 0.0)), ("rod.toml", SCENE)],
+        &[("free.csv", &wrenches(30, |_| 0.0)), ("rod.toml", scene.as_str())],
         &with(&["--stage", "constant:1e-3"]),
         &["30 samples before the end, expected at least 100"],
     );

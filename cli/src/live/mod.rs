@@ -2,15 +2,17 @@
 //!
 //! `address` and `stage` are what the command line tells of both, `sensor` connects to the one, or `played` opens a recording, and
 //! `motion` is the other;
-//! `session` is the scan from the first sample to the last, with `engine` for the answers, `record` for the files and
+//! `head` listens until there is a tare and `noise`, `session` is the scan from the first sample to the last, with `engine` for the answers, `record` for the files and
 //! `summary` for what is said of it.
 
 mod address;
 mod engine;
 mod error;
 mod feed;
+mod head;
 mod latency;
 mod motion;
+mod noise;
 mod played;
 mod record;
 mod sensor;

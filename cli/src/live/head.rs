@@ -1,0 +1,157 @@
+//! What is heard before the first answer: the free rod, its tare, and when the stage sets off.
+
+use super::feed::{Fed, Miss};
+use super::motion::Motion;
+use super::summary::LiveReport;
+use super::{LiveError, LiveScan, Sensor};
+use crate::{Error, SensorCalibration};
+use vibrissa::hw::{
+    Calibration, CalibrationError, RawSample, ReactionSample, Scale, SignalChain, Tare, TareError, TareLimits,
+    TareWindow, Timekeeper, Wrench, WrenchChain, WrenchSample, Zero,
+};
+
+/// Change within a tare window that does not matter, in units of the rod.
+const SMALL: f64 = 0.01;
+/// Fewest samples that tell noise and spacing.
+pub(super) const FEWEST: usize = 100;
+/// How long to listen before the first answer where there is no tare, s.
+const LISTEN: f64 = 0.5;
+/// Seconds without a sample that end a scan.
+pub(super) const PATIENCE: f64 = 3.0;
+/// Window of a device's clock, s.
+const WINDOW: f64 = 10.0;
+
+/// What a sample is in N and N m, and how far it can be trusted.
+pub(super) struct Scaled<'a> {
+    pub calibration: SensorCalibration,
+    scan: &'a LiveScan,
+}
+
+impl Calibration for Scaled<'_> {
+    fn wrench(&self, raw: &RawSample) -> Result<WrenchSample, CalibrationError> {
+        let sample = self.calibration.wrench(raw)?;
+        let setup = &self.scan.setup;
+        let sample = setup.rated.map_or(sample, |rated| rated.flag(&sample));
+        Ok(setup.accuracy.map_or(sample, |accuracy| accuracy.fill(&sample)))
+    }
+}
+
+pub(super) type Chain<'a> = SignalChain<Scaled<'a>, Motion, Option<Tare>>;
+
+/// What was heard before the first answer.
+pub(super) struct Head<'a> {
+    pub chain: Chain<'a>,
+    pub samples: Vec<ReactionSample>,
+    /// In words.
+    pub tare: String,
+}
+
+/// Listens to the rod without contact: tare, time of the first sample, start of the stage.
+pub(super) fn head<'a>(
+    scan: &'a LiveScan,
+    sensor: &mut Sensor,
+    report: &mut LiveReport,
+    tell: &mut dyn FnMut(&str),
+    stopped: &dyn Fn() -> bool,
+) -> Result<Head<'a>, Error> {
+    let seconds = scan.setup.tare.seconds;
+    let listen = if seconds > 0.0 { seconds } else { LISTEN };
+    let calibration = sensor.calibration.clone().unwrap_or_else(|| SensorCalibration::Scale(Scale::si()));
+    let scaled = || Scaled { calibration: calibration.clone(), scan };
+    let mut chain: Option<Chain<'a>> = None;
+    let mut wrenches: Vec<WrenchSample> = Vec::new();
+    let mut samples: Vec<ReactionSample> = Vec::new();
+    let mut silent = 0.0;
+    loop {
+        let heard = |from: Option<f64>, to: Option<f64>| from.zip(to).is_some_and(|(from, to)| to - from >= listen);
+        let enough = heard(wrenches.first().map(|w| w.t), wrenches.last().map(|w| w.t))
+            || heard(samples.first().map(|s| s.t), samples.last().map(|s| s.t));
+        if stopped() || (enough && wrenches.len().max(samples.len()) >= FEWEST) {
+            break;
+        }
+        match sensor.feed.next() {
+            None => break,
+            Some(Ok(Fed::Raw(raw))) => {
+                let chain = chain.get_or_insert_with(|| {
+                    let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting).with_tare(None);
+                    SignalChain::new(scaled(), wrench_chain)
+                        .with_rails(calibration.rails())
+                        .with_timekeeper(timekeeper(scan, sensor, &raw))
+                });
+                match chain.wrench(&raw) {
+                    Ok(wrench) => wrenches.push(wrench),
+                    Err(error) => report.miss(&error.to_string()),
+                }
+            }
+            Some(Ok(Fed::Reactions(sample))) => samples.push(sample),
+            Some(Err(miss)) => {
+                let (Miss::Silence(text) | Miss::Fault(text)) = &miss;
+                report.miss(text);
+                tell(&format!("warning: {text}"));
+                silent += if matches!(miss, Miss::Silence(_)) { 1.0 } else { 0.0 };
+                if silent >= PATIENCE {
+                    break;
+                }
+            }
+        }
+    }
+    let count = wrenches.len().max(samples.len());
+    if count < FEWEST {
+        let first = report.first_miss().map_or_else(String::new, |text| format!("; {text}"));
+        return Err(LiveError::TooFew { samples: count, fewest: FEWEST, first }.into());
+    }
+    let (Some(mut chain), Some(start)) = (chain, wrenches.first().map(|wrench| wrench.t)) else {
+        // everything is done already: nothing is left for a chain to do
+        let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting).with_tare(None);
+        let chain = SignalChain::new(scaled(), wrench_chain);
+        return Ok(Head { chain, samples, tare: "as recorded".into() });
+    };
+    let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, &scan.reading)?;
+    if matches!(motion, Motion::Told) {
+        return Err(LiveError::NoStage { address: sensor.name.clone() }.into());
+    }
+    *chain.wrenches().stage() = motion;
+    let mut tare = "none".to_owned();
+    if seconds > 0.0 {
+        let zero = zero(scan, &wrenches).map_err(|source| LiveError::Tare { seconds, source })?;
+        let [fx, fy, fz, tx, ty, tz] = zero.wrench().components();
+        tare = format!(
+            "{fx:.4e} {fy:.4e} {fz:.4e} N, {tx:.4e} {ty:.4e} {tz:.4e} N m, the mean of {} samples",
+            zero.count()
+        );
+        chain.wrenches().set_tare(Some(Tare::single(zero)));
+    }
+    for wrench in &wrenches {
+        match chain.wrenches().take(wrench) {
+            Ok(sample) => samples.push(sample),
+            // the first ones, at the edge of a table, may be outside
+            Err(error) => report.miss(&error.to_string()),
+        }
+    }
+    if samples.len() < FEWEST {
+        let first = report.first_miss().map_or_else(String::new, |text| format!("; {text}"));
+        return Err(LiveError::TooFew { samples: samples.len(), fewest: FEWEST, first }.into());
+    }
+    Ok(Head { chain, samples, tare })
+}
+
+/// How samples get their times: counted where the rate is known, by the device's clock where it has one.
+fn timekeeper(scan: &LiveScan, sensor: &Sensor, first: &RawSample) -> Timekeeper {
+    match scan.setup.rate {
+        // recordings have their own times
+        _ if sensor.feed.now().is_none() => Timekeeper::host(),
+        Some(rate) => Timekeeper::paced(rate.recip()),
+        None if first.device_time.is_some() => Timekeeper::device(WINDOW),
+        None => Timekeeper::counted(None),
+    }
+}
+
+fn zero(scan: &LiveScan, wrenches: &[WrenchSample]) -> Result<Zero, TareError> {
+    let units = scan.rod.units();
+    let small = Wrench { force: [SMALL * units.force; 3], torque: [SMALL * units.moment; 3] };
+    // samples are a period apart: the window of n of them lasts n periods, but not exactly the seconds asked for
+    let limits = TareLimits::new(0.9 * scan.setup.tare.seconds, scan.setup.tare.change.unwrap_or(small))?;
+    let mut window = TareWindow::new(limits);
+    wrenches.iter().try_for_each(|wrench| window.push(wrench))?;
+    window.finish()
+}
