@@ -10,8 +10,8 @@ use vibrissa_cli::{FakeProtocol, Reading, SensorAddress, StageSpec};
 #[derive(Debug, Parser)]
 #[command(
     version,
-    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording or \
-                  sensor that does not fit its rod or its units, a sensor that fell silent."
+    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording that does not \
+                  fit its rod or its units, a sensor that does not suit the rod or fell silent."
 )]
 pub struct Arguments {
     /// What to do.
