@@ -62,6 +62,7 @@ mod low_pass;
 #[cfg(feature = "mcap")]
 pub mod mcap;
 mod mounting;
+mod onrobot_filter;
 mod protocol;
 mod quality;
 mod raw;

@@ -25,11 +25,12 @@ mod profile;
 mod robotiq;
 mod scanner;
 
+pub use crate::onrobot_filter::OnRobotFilter as OptoForceFilter;
 pub use bota::{Bota, BotaFilter};
 pub use engine::Framed;
 pub use gsv::{Gsv, GsvValues};
 pub use hx711::Hx711;
-pub use optoforce::{OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup};
+pub use optoforce::{OptoForce, OptoForceRate, OptoForceSetup};
 pub use profile::{Await, Content, Counter, Framing, Head, Profile, Reading, SetupStep};
 pub use robotiq::Robotiq;
 pub use scanner::{LONGEST_FRAME, Scanner};

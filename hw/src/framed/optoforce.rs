@@ -2,6 +2,7 @@
 
 use super::profile::{Await, Content, Counter, Framing, Head, Profile, Reading, SetupStep};
 use super::word_at;
+use crate::onrobot_filter::OnRobotFilter;
 use crate::protocol::{FrameFault, Request};
 use crate::quality::Quality;
 
@@ -49,19 +50,23 @@ pub struct OptoForceSetup {
     /// Frames a second.
     pub rate: OptoForceRate,
     /// Low-pass filter.
-    pub filter: OptoForceFilter,
+    pub filter: OnRobotFilter,
     /// Whether what is measured now is zero.
     pub zero: bool,
 }
 
 /// Rates of an OptoForce sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum OptoForceRate {
+    /// 1000 frames a second.
     Hz1000,
+    /// 333 frames a second.
     Hz333,
+    /// 100 frames a second.
     Hz100,
+    /// 30 frames a second.
     Hz30,
+    /// 10 frames a second.
     Hz10,
 }
 
@@ -76,19 +81,6 @@ impl OptoForceRate {
             Self::Hz10 => 100,
         }
     }
-}
-
-/// Low-pass filters of an OptoForce sensor, by cutoff.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum OptoForceFilter {
-    None,
-    Hz500,
-    Hz150,
-    Hz50,
-    Hz15,
-    Hz5,
-    Hz1_5,
 }
 
 /// The sum of bytes.

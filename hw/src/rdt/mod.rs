@@ -17,6 +17,7 @@ mod request;
 #[cfg(feature = "rdt")]
 mod scaling;
 
+pub use crate::onrobot_filter::OnRobotFilter;
 #[cfg(feature = "rdt")]
 pub use configuration::RdtConfiguration;
 #[cfg(feature = "rdt")]
@@ -24,6 +25,6 @@ pub use fake::{FakeRdt, FakeRdtAccount, FakeRdtSettings, RdtFault};
 pub use profile::RdtProfile;
 pub use protocol::{Rdt, RdtRequestError, RdtSettings};
 pub use record::RdtRecord;
-pub use request::{OnRobotFilter, RdtRequest};
+pub use request::RdtRequest;
 #[cfg(feature = "rdt")]
 pub use scaling::{RdtScaling, RdtScalingError, read_scaling};

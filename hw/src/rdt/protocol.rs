@@ -2,8 +2,9 @@
 
 use super::profile::RdtProfile;
 use super::record::RdtRecord;
-use super::request::{OnRobotFilter, RdtRequest};
+use super::request::RdtRequest;
 use crate::counters::LinkCounters;
+use crate::onrobot_filter::OnRobotFilter;
 use crate::protocol::{FrameFault, Protocol, Request};
 use crate::quality::Quality;
 use crate::raw::{Channels, RawSample};

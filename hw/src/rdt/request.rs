@@ -1,5 +1,6 @@
 //! What is asked of a sensor.
 
+use crate::onrobot_filter::OnRobotFilter;
 use crate::protocol::Request;
 use core::num::NonZeroU8;
 
@@ -35,31 +36,6 @@ pub enum RdtRequest {
     Filter(OnRobotFilter),
     /// Send at this distance, ms. OnRobot only.
     Period(NonZeroU8),
-}
-
-/// Corner frequency of the filter in an OnRobot converter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum OnRobotFilter {
-    /// No filter.
-    None,
-    /// 500 Hz.
-    Hz500,
-    /// 150 Hz.
-    Hz150,
-    /// 50 Hz.
-    Hz50,
-    /// 15 Hz, after power-on.
-    Hz15,
-    /// 5 Hz.
-    Hz5,
-    /// 1.5 Hz.
-    Hz1_5,
-}
-
-impl OnRobotFilter {
-    /// In the order of their numbers.
-    const ALL: [Self; 7] = [Self::None, Self::Hz500, Self::Hz150, Self::Hz50, Self::Hz15, Self::Hz5, Self::Hz1_5];
 }
 
 impl RdtRequest {
