@@ -19,8 +19,6 @@ use rod_core::{Pose, Reactions, Sample};
 pub trait Recorded: Sized + sealed::Sealed {
     /// Columns that must be there.
     const NEEDED: &'static [Role];
-    /// Columns that are read where they are there.
-    const WELCOME: &'static [Role];
     /// Whether the raw values must be there.
     const CHANNELS: bool = false;
 
@@ -33,7 +31,7 @@ pub trait Recorded: Sized + sealed::Sealed {
     /// Time, s.
     fn time(&self) -> f64;
 
-    /// What is written, in order, the raw values aside.
+    /// What is written, in order, the raw values aside; of everything, what is read where it is there.
     fn roles(contents: &Contents) -> Vec<Role>;
 
     /// A number in SI units, where it is known.
@@ -93,8 +91,6 @@ fn of_raw(raw: &RawSample, role: Role) -> Option<f64> {
 
 impl Recorded for RawSample {
     const NEEDED: &'static [Role] = &[];
-    const WELCOME: &'static [Role] =
-        &[Role::Time, Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::Quality];
     const CHANNELS: bool = true;
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
@@ -125,27 +121,6 @@ impl Recorded for RawSample {
 
 impl Recorded for WrenchSample {
     const NEEDED: &'static [Role] = &[Role::Time, Role::Fx, Role::Fy, Role::Fz, Role::Tx, Role::Ty, Role::Tz];
-    const WELCOME: &'static [Role] = &[
-        Role::SigmaFx,
-        Role::SigmaFy,
-        Role::SigmaFz,
-        Role::SigmaTx,
-        Role::SigmaTy,
-        Role::SigmaTz,
-        Role::SystematicFx,
-        Role::SystematicFy,
-        Role::SystematicFz,
-        Role::SystematicTx,
-        Role::SystematicTy,
-        Role::SystematicTz,
-        Role::Quality,
-        Role::HostTime,
-        Role::DeviceTime,
-        Role::Sequence,
-        Role::Status,
-        Role::Temperature,
-        Role::RawQuality,
-    ];
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
         let t = columns.needed(row, Role::Time)?;
@@ -199,24 +174,6 @@ impl Recorded for WrenchSample {
 
 impl Recorded for ReactionSample {
     const NEEDED: &'static [Role] = &REACTIONS;
-    const WELCOME: &'static [Role] = &[
-        Role::SigmaF0x,
-        Role::SigmaF0y,
-        Role::SigmaM0z,
-        Role::SystematicF0x,
-        Role::SystematicF0y,
-        Role::SystematicM0z,
-        Role::F0z,
-        Role::M0x,
-        Role::M0y,
-        Role::Quality,
-        Role::HostTime,
-        Role::DeviceTime,
-        Role::Sequence,
-        Role::Status,
-        Role::Temperature,
-        Role::RawQuality,
-    ];
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
         let need = |role| columns.needed(row, role);

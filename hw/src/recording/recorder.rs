@@ -21,6 +21,11 @@ pub struct Contents {
     pub out_of_plane: bool,
 }
 
+impl Contents {
+    /// All columns there may be; how many channels matters to nobody who only asks for these.
+    pub(super) const EVERYTHING: Self = Self { raw: Some(0), sigma: true, systematic: true, out_of_plane: true };
+}
+
 /// What a recording is of, in words: one line each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct About {

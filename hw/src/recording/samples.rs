@@ -4,6 +4,7 @@ use super::column_map::{ColumnError, ColumnMap};
 use super::columns::Columns;
 use super::fault::{RowFault, RowProblem};
 use super::recorded::Recorded;
+use super::recorder::Contents;
 use super::role::Role;
 use super::table::Table;
 use std::marker::PhantomData;
@@ -50,10 +51,14 @@ impl Table {
     /// # Errors
     /// [`ColumnError`]: columns are missing, ambiguous, or of no unit.
     pub fn samples<S: Recorded>(&self, map: &ColumnMap) -> Result<Samples<'_, S>, ColumnError> {
-        let mut columns = map.find(self, S::NEEDED, S::WELCOME)?;
+        // a time of any kind, and whatever a recorder would write
+        let mut welcome = vec![Role::Time];
+        welcome.extend(S::roles(&Contents::EVERYTHING));
+        welcome.retain(|role| !S::NEEDED.contains(role));
+        let mut columns = map.find(self, S::NEEDED, &welcome)?;
         if S::NEEDED.is_empty() && ![Role::Time, Role::HostTime, Role::DeviceTime].iter().any(|role| columns.has(*role))
         {
-            columns = map.find(self, &[Role::Time], S::WELCOME)?;
+            columns = map.find(self, &[Role::Time], &welcome)?;
         }
         if S::CHANNELS && columns.channels.is_empty() {
             let found = super::listed(self.columns().iter().map(|column| column.heading.as_str()));
