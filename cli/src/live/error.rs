@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnError, RowProblem, TableError};
-use vibrissa::hw::{ChainError, StageError, StageTableError, TareError};
+use vibrissa::hw::{StageError, StageTableError, TareError};
 
 /// Why there is no live scan, or none any more.
 #[derive(Debug, thiserror::Error)]
@@ -126,13 +126,5 @@ pub enum LiveError {
         fewest: usize,
         /// What was wrong with the first one that was no sample.
         first: String,
-    },
-    /// The samples cannot be used.
-    #[error("sample at {t:.6} s: {source}")]
-    Chain {
-        /// When it came, s.
-        t: f64,
-        /// Why.
-        source: ChainError,
     },
 }

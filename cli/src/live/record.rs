@@ -7,7 +7,6 @@ use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use vibrissa::Pose;
 use vibrissa::hw::recording::{About, Contents, RecordError, Recorder};
 use vibrissa::hw::{LinkCounters, ReactionSample};
 
@@ -68,11 +67,9 @@ impl Record {
 
     pub fn answer(&mut self, answer: &Answer) -> Result<(), OutputError> {
         let Answer { sample, reading } = answer;
-        let Pose { x, y, phi } = sample.pose;
-        let pose = Pose { x, y, phi };
         let point = match reading {
-            Some(reading) => PointRecord::of_reading(pose, reading),
-            None => PointRecord::without(Some(pose), sample.quality.to_string()),
+            Some(reading) => PointRecord::of_reading(sample.pose, reading),
+            None => PointRecord::without(Some(sample.pose), sample.quality.to_string()),
         };
         let record = LiveRecord { t: sample.t, quality: sample.quality.names().collect(), point };
         self.line.clear();
