@@ -9,7 +9,8 @@ const NEAR: f64 = 2e-8;
 /// From any ratio above 1e-8 this many steps exhaust the digits.
 const MOST_STEPS: usize = 8;
 
-/// Arithmetic-geometric mean of two positive numbers: half the period of the pendulum is pi / agm(sqrt P, sqrt (P - M)).
+/// Arithmetic-geometric mean of two positive numbers: half the period of the pendulum is pi / agm(sqrt P, sqrt (P - M));
+/// one that goes round takes pi / agm(sqrt M, sqrt (M - P)) a turn of the rod.
 #[inline]
 pub(crate) fn agm<T: Scalar>(mut a: T, mut g: T) -> T {
     let (half, near) = (T::from_f64(0.5), T::from_f64(const { tolerance::<T>(NEAR, 2) }));

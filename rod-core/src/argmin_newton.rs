@@ -144,7 +144,7 @@ impl<S: System> Solver<RootProblem<S>, NewtonState> for NewtonSolver {
                 }
                 StepOutcome::Continue(length) => (None, length),
             };
-            *done = status.map(|how| workspace.report(&p.0, u.as_slice(), how, *iterations, correction));
+            *done = status.map(|how| workspace.finish(&p.0, u.as_mut_slice(), how, *iterations, correction));
             Ok((correction, p.residual(&u)))
         })?;
         let mut kv = KV::new();
@@ -235,8 +235,10 @@ mod tests {
             // and step by step
             let (mut u, mut workspace) = (vec![x, y], NewtonWorkspace::new());
             workspace.prepare(&system, &u);
-            for iterate in seen.iter() {
-                newton_step(&system, &mut u, &options, &mut workspace);
+            for (iterate, count) in seen.iter().zip(1..) {
+                if let StepOutcome::Done(how, length) = newton_step(&system, &mut u, &options, &mut workspace) {
+                    workspace.finish(&system, &mut u, how, count, length);
+                }
                 prop_assert_eq!(iterate.as_slice(), u.as_slice());
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::agm::agm;
 use crate::scalar::{Scalar, is_finite, tolerance};
-use crate::segment::{Section, axial};
+use crate::segment::{Section, axial, in_frame};
 
 /// Carlson's expansion is exact to rounding where the three arguments deviate from their mean by no more than this: its
 /// first omitted term is of order 8, and 0.0085^8 = 3e-17. For `f64`; less exact numbers are content with less, by the eighth
@@ -36,7 +36,7 @@ const MOST_DUPLICATIONS: usize = 600;
 pub fn inflection<T: Scalar>(start: &Section<T>, a: T, b: T) -> Option<T> {
     let (zero, half) = (T::from_f64(0.0), T::from_f64(0.5));
     let (sin, cos) = start.phi.sin_cos();
-    let (c, d) = (a * sin - b * cos, -(a * cos + b * sin));
+    let (c, d) = in_frame((a, b), (sin, cos));
     let p = (c * c + d * d).sqrt();
     let q = start.kappa * half;
     if q == zero {

@@ -2,7 +2,7 @@
 //!
 //! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts.
 //! - [`Sample`]: where the clamp was and what it felt, as a sensor measures it.
-//! - [`advance`], [`advance_with_sensitivities`], [`walk`]: one segment between two contacts in closed form.
+//! - [`advance`], [`advance_with_sensitivities`], [`walk`], [`stations`]: one segment between two contacts in closed form.
 //! - [`inflection`]: where a segment is straight.
 //! - [`Elastica`]: the whole rod under any number of forces. [`GeneralElastica`] and [`Propagator`]: the same through the closed
 //!   form or through differential equations ([`Ode`]), the way for rods that vary along their length.
@@ -80,4 +80,4 @@ pub use sample::Sample;
 pub use scalar::Scalar;
 pub use segment::{Section, Sensitivities, advance, advance_with_sensitivities};
 pub use units::Units;
-pub use walk::walk;
+pub use walk::{Station, stations, walk};

@@ -25,9 +25,9 @@ pub trait System {
 /// When to stop, and when to give up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {
-    /// Largest error of the solution that is left, in the weighted maximum norm. The default, 1e-13, is what rounding
-    /// leaves of a well-conditioned problem; an ill-conditioned one ends as [`SolveStatus::Stalled`] at what rounding
-    /// allows.
+    /// Largest error of the solution that is left, in the weighted maximum norm, before one more correction by the
+    /// residual that is reported: of the default, 1e-13, that leaves rounding. An ill-conditioned problem ends as
+    /// [`SolveStatus::Stalled`] at what rounding allows.
     pub tolerance: f64,
     /// Largest number of steps (Jacobians).
     pub max_iterations: u32,
@@ -55,7 +55,8 @@ pub enum SolveStatus {
     TooManyIterations,
     /// No damped step passed the monotonicity test.
     NoDescent,
-    /// The Jacobian has no inverse, or something was not finite.
+    /// The Jacobian has no inverse, none that rounding leaves a digit of (the condition number is above 1 / 2.2e-16), or
+    /// something was not finite.
     Singular,
 }
 
@@ -73,7 +74,8 @@ pub struct SolveReport {
     pub status: SolveStatus,
     /// Number of steps.
     pub iterations: u32,
-    /// Largest |F_i| at the solution.
+    /// Largest |F_i| at the solution; where it converged, just before the last correction, which is made without looking
+    /// again.
     pub residual: f64,
     /// Condition number of the last Jacobian in the 1-norm.
     pub condition: f64,
@@ -133,7 +135,30 @@ impl NewtonWorkspace {
         system.evaluate(u, &mut self.residual, None);
         let residual = largest(&self.residual);
         let condition = self.condition(system.dimension());
+        let lost = status.is_solved() && condition > NO_DIGIT && self.weighted_condition(system.dimension()) > NO_DIGIT;
+        let status = if lost { SolveStatus::Singular } else { status };
         SolveReport { status, iterations, residual, condition, correction }
+    }
+
+    /// The [`report`](Self::report) on `u`, and, where that has converged, one more simplified correction of it: the
+    /// residual is known, so that it costs no evaluation, and of an error of the tolerance it leaves rounding. In an
+    /// ill-conditioned problem it would be nothing but rounding, and is not made.
+    pub(crate) fn finish(
+        &mut self,
+        system: &impl System,
+        u: &mut [f64],
+        status: SolveStatus,
+        iterations: u32,
+        correction: f64,
+    ) -> SolveReport {
+        let report = self.report(system, u, status, iterations, correction);
+        if status == SolveStatus::Converged {
+            multiply(&self.inverse, &self.residual, -1.0, &mut self.bar);
+            if self.norm(&self.bar) <= LAST_STEP {
+                add(u, 1.0, &self.bar);
+            }
+        }
+        report
     }
 
     /// The inverse of the Jacobian that the last step used, column-major.
@@ -150,17 +175,29 @@ impl NewtonWorkspace {
         largest_of(v.iter().zip(&self.weights).map(|(v, w)| v * w))
     }
 
+    /// The condition number for unknowns in their natural sizes.
+    fn weighted_condition(&self, n: usize) -> f64 {
+        let columns = self.jacobian.chunks_exact(n).zip(&self.weights);
+        let most = largest_of(columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w));
+        let columns = self.inverse.chunks_exact(n);
+        most * largest_of(columns.map(|column| column.iter().zip(&self.weights).map(|(v, w)| (v * w).abs()).sum()))
+    }
+
     fn condition(&self, n: usize) -> f64 {
         if n == 0 { 1.0 } else { norm_1(n, &self.jacobian) * norm_1(n, &self.inverse) }
     }
 }
 
+/// Condition number from which on rounding leaves no digit of a solution.
+const NO_DIGIT: f64 = 1.0 / f64::EPSILON;
 /// Corrections that shrink less than this per simplified step are not worth the old Jacobian.
 const WORTH_A_CHORD: f64 = 0.05;
 /// Most simplified steps with one Jacobian.
 const MOST_CHORDS: usize = 4;
 /// Corrections that no longer shrink are rounding, not error, if they are below this and the residual below the next.
 const ROUNDING_STEP: f64 = 1e-9;
+/// Longest correction of what has converged.
+const LAST_STEP: f64 = 1e-10;
 /// What rounding leaves of a residual of order 1 to 10.
 const ROUNDING_RESIDUAL: f64 = 1e-13;
 /// What the rounding of the unknowns leaves of it besides, relative to their weighted norm: the parameter of a long contour
@@ -182,7 +219,7 @@ pub fn newton_step(
         return StepOutcome::Done(SolveStatus::Singular, f64::INFINITY);
     }
     multiply(&w.inverse, &w.residual, -1.0, &mut w.step);
-    let length = w.norm(&w.step);
+    let (length, before) = (w.norm(&w.step), largest(&w.residual));
     if !length.is_finite() {
         return StepOutcome::Done(SolveStatus::Singular, f64::INFINITY);
     }
@@ -206,7 +243,12 @@ pub fn newton_step(
             return chords(system, u, options, w, length, simplified);
         }
         let rounding = ROUNDING_RESIDUAL + ROUNDING_UNKNOWNS * w.norm(u);
-        if simplified <= ROUNDING_STEP && largest(&w.residual) <= rounding {
+        let left = largest(&w.residual);
+        if simplified <= ROUNDING_STEP && left <= rounding {
+            // what the full step came from may be much farther off
+            if left <= before {
+                u.copy_from_slice(&w.trial);
+            }
             return StepOutcome::Done(SolveStatus::Stalled, simplified);
         }
         damping *= 0.5;
@@ -295,7 +337,7 @@ pub fn solve(
             }
         }
     }
-    workspace.report(system, u, status, iterations, correction)
+    workspace.finish(system, u, status, iterations, correction)
 }
 
 #[cfg(test)]
@@ -317,6 +359,65 @@ mod tests {
                 jacobian[0] = u[0].cos();
             }
         }
+    }
+
+    /// u^2 + v = 2 twice, but for 1e-6: condition 1e7.
+    struct NearlySingular;
+
+    impl System for NearlySingular {
+        fn dimension(&self) -> usize {
+            2
+        }
+
+        fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+            let square = u[0] * u[0];
+            residual.copy_from_slice(&[square + u[1] - 2.0, square + (1.0 + 1e-6) * u[1] - (2.0 + 1e-6)]);
+            if let Some(jacobian) = jacobian {
+                jacobian.copy_from_slice(&[2.0 * u[0], 2.0 * u[0], 1.0, 1.0 + 1e-6]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_solve_that_stalls_leaves_nothing_but_rounding() {
+        let mut stalled = 0;
+        for k in 0..1000 {
+            let mut u = [1.0 + 3e-6 * f64::from(k), 1.0 - 2e-6 * f64::from(k % 7)];
+            let report = solve(&NearlySingular, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
+            stalled += u32::from(report.status == SolveStatus::Stalled);
+            if report.status.is_solved() {
+                assert!(report.residual <= 2e-13, "{k}: {report:?}");
+            }
+        }
+        assert!(stalled > 10, "{stalled}");
+    }
+
+    /// u^3 = 2.
+    struct CubeRoot;
+
+    impl System for CubeRoot {
+        fn dimension(&self) -> usize {
+            1
+        }
+
+        fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+            residual[0] = u[0].powi(3) - 2.0;
+            if let Some(jacobian) = jacobian {
+                jacobian[0] = 3.0 * u[0] * u[0];
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_converged_is_exact_to_rounding() {
+        let mut converged = 0;
+        for guess in 1..1000 {
+            let mut u = [1.0 + 1e-3 * f64::from(guess)];
+            let report = solve(&CubeRoot, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
+            converged += u32::from(report.status == SolveStatus::Converged);
+            assert!((u[0] - 2.0_f64.cbrt()).abs() <= 2.0 * f64::EPSILON, "{guess}: {u:?} {report:?}");
+        }
+        assert!(converged > 900, "{converged}");
     }
 
     #[test]

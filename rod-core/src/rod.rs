@@ -35,11 +35,15 @@ impl Rod {
     /// A rod of `length` (m) and `bending_stiffness` E I (N m^2).
     ///
     /// # Errors
-    /// [`RodError::NotPositive`] where one of them is not a positive, finite number.
+    /// [`RodError::NotPositive`] where one of them, or a [unit](Self::units) made of them, is not a positive, finite number.
     pub fn new(length: f64, bending_stiffness: f64) -> Result<Self, RodError> {
         positive("length", length)?;
         positive("bending_stiffness", bending_stiffness)?;
-        Ok(Self { length, bending_stiffness, wire: None, yield_stress: None })
+        let rod = Self { length, bending_stiffness, wire: None, yield_stress: None };
+        positive("1 / length", rod.units().curvature)?;
+        positive("bending_stiffness / length^2, the unit of force,", rod.units().force)?;
+        positive("bending_stiffness / length, the unit of moment,", rod.units().moment)?;
+        Ok(rod)
     }
 
     /// A round wire of `length` (m), `diameter` (m) and `youngs_modulus` (Pa): E I = E pi d^4 / 64.
@@ -125,6 +129,9 @@ mod tests {
         for (result, what) in [
             (Rod::new(0.0, 1.0), "length"),
             (Rod::new(1.0, f64::NAN), "bending_stiffness"),
+            (Rod::new(1e-300, 1.0), "force"),
+            (Rod::new(1e300, 1.0), "force"),
+            (Rod::new(1e-310, 1e-310), "1 / length"),
             (Rod::from_diameter(1.0, -1.0, 1.0), "diameter"),
             (Rod::from_diameter(1.0, 1.0, f64::INFINITY), "youngs_modulus"),
             (Rod::new(1.0, 1.0).unwrap().with_yield_stress(0.0), "yield_stress"),

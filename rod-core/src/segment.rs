@@ -3,10 +3,10 @@
 //! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2021, eq. 10), a pendulum arc.
 //! It is evaluated by the addition theorem of its flow, without any case distinction.
 
+use crate::agm::agm;
 use crate::basis::{Basis, basis};
 use crate::dual::Dual;
-use crate::scalar::{Scalar, is_finite};
-use crate::walk::Walker;
+use crate::scalar::Scalar;
 
 /// A cross-section of the rod: where it is, where it points, how it bends. Dimensionless (length of the rod = bending
 /// stiffness = 1) inside the library; the kernel itself takes any consistent units.
@@ -58,7 +58,7 @@ pub struct Sensitivities<T = f64> {
 #[inline]
 pub fn advance<T: Scalar>(start: &Section<T>, a: T, b: T, s: T) -> Section<T> {
     let (sin, cos) = start.phi.sin_cos();
-    let (c, d) = (a * sin - b * cos, -(a * cos + b * sin));
+    let (c, d) = in_frame((a, b), (sin, cos));
     let p = (c * c + d * d).sqrt();
     let (ec, ed) = unit(c, d, p);
     let arc = Arc { q: start.kappa * T::from_f64(0.5), c, d, p, w: axial(c, d, p), cc: c * ec, cd: c * ed };
@@ -68,7 +68,7 @@ pub fn advance<T: Scalar>(start: &Section<T>, a: T, b: T, s: T) -> Section<T> {
     Section {
         x: start.x + (cos * local.x - sin * local.y),
         y: start.y + (sin * local.x + cos * local.y),
-        phi: start.phi + angle + whole_turns(start.kappa, (c, d), (p, excess), angle, s),
+        phi: start.phi + angle + whole_turns(start.kappa, (p, excess), angle, s),
         kappa: local.kappa,
     }
 }
@@ -91,7 +91,7 @@ pub fn advance_with_sensitivities<T: Scalar>(start: &Section<T>, a: T, b: T, s: 
     let n = T::from_f64;
     let (zero, one, half) = (n(0.0), n(1.0), n(0.5));
     let (sin, cos) = start.phi.sin_cos();
-    let (c, d) = (a * sin - b * cos, -(a * cos + b * sin));
+    let (c, d) = in_frame((a, b), (sin, cos));
     let p = (c * c + d * d).sqrt();
     // Direction of the force. Where it vanishes any direction serves: the flow is smooth in (A, B), only its parts are not.
     let (ec, ed) = unit(c, d, p);
@@ -122,7 +122,7 @@ pub fn advance_with_sensitivities<T: Scalar>(start: &Section<T>, a: T, b: T, s: 
 
     let (x, y) = (cos * local.x.value - sin * local.y.value, sin * local.x.value + cos * local.y.value);
     let angle = local.angle();
-    let phi = start.phi + angle.value + whole_turns(start.kappa, (c, d), (p, excess.value), angle.value, s);
+    let phi = start.phi + angle.value + whole_turns(start.kappa, (p, excess.value), angle.value, s);
     let kappa = local.kappa.value;
     let column = |i: usize| {
         let (dx, dy) = (local.x.derivatives[i], local.y.derivatives[i]);
@@ -142,6 +142,12 @@ pub fn advance_with_sensitivities<T: Scalar>(start: &Section<T>, a: T, b: T, s: 
             by_s: [cos_end, sin_end, kappa, a * cos_end + b * sin_end],
         },
     )
+}
+
+/// The force (A, B) as (c, d) of [`Arc`] in the frame of a section with this direction (sine, cosine).
+#[inline(always)]
+pub(crate) fn in_frame<T: Scalar>((a, b): (T, T), (sin, cos): (T, T)) -> (T, T) {
+    (a * sin - b * cos, -(a * cos + b * sin))
 }
 
 /// Direction (c, d) / P, and a fixed one where P = 0.
@@ -230,37 +236,26 @@ impl<T: Scalar> Arc<T> {
 
 /// What to add to the turning angle, known up to 4 pi, of a rod that coils.
 #[inline(always)]
-fn whole_turns<T: Scalar>(kappa: T, force: (T, T), (p, excess): (T, T), angle: T, s: T) -> T {
+fn whole_turns<T: Scalar>(kappa: T, (p, excess): (T, T), angle: T, s: T) -> T {
     let zero = T::from_f64(0.0);
-    let reach = (p + excess) * s * s;
+    let m = p + excess;
     // A pendulum that swings (M <= P) stays within a turn of the rod on either side: only one that goes round can coil.
-    if excess > zero && reach >= T::from_f64(LEAST_COIL) { counted_turns(kappa, force, reach, angle, s) } else { zero }
+    if excess > zero && m * s * s >= T::from_f64(LEAST_COIL) { counted_turns(kappa, m, excess, angle, s) } else { zero }
 }
 
-/// The same where it may coil: the segment is walked in parts that cannot.
+/// The same where it may coil: the half angle grows by pi in pi / agm(sqrt M, sqrt(M - P)), and in between runs ahead of that
+/// mean, or behind it, by less than half of pi. So the whole angle is known to less than 2 pi.
 #[cold]
 #[inline(never)]
-fn counted_turns<T: Scalar>(kappa: T, (c, d): (T, T), mut reach: T, angle: T, s: T) -> T {
-    let (half, quarter) = (T::from_f64(0.5), T::from_f64(0.25));
-    let (mut part, mut parts) = (s, 1_u32);
-    // infinity is walked once
-    let finite = is_finite(reach);
-    while finite && reach >= T::from_f64(LEAST_COIL) && parts < MOST_PARTS {
-        reach = reach * quarter;
-        part = part * half;
-        parts *= 2;
-    }
-    let mut walker = Walker::new(kappa, c, d, part);
-    (0..parts).for_each(|_| walker.step());
+fn counted_turns<T: Scalar>(kappa: T, m: T, excess: T, angle: T, s: T) -> T {
+    let rate = 2.0 * agm(m.sqrt(), excess.sqrt()).to_f64();
+    let mean = if kappa < T::from_f64(0.0) { -rate } else { rate } * s.to_f64();
     let turn = 4.0 * core::f64::consts::PI;
-    T::from_f64(turn * num_traits::Float::round((walker.phi - angle).to_f64() / turn))
+    T::from_f64(turn * num_traits::Float::round((mean - angle.to_f64()) / turn))
 }
 
 /// Half the turning angle of a segment is at most sqrt(M) |s|; where M s^2 is below this it is known without counting turns.
 pub(crate) const LEAST_COIL: f64 = core::f64::consts::PI * core::f64::consts::PI;
-
-/// A coil of more turns than this is none: the angle has no digits left.
-const MOST_PARTS: u32 = 1 << 20;
 
 #[cfg(test)]
 mod tests {

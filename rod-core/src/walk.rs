@@ -2,7 +2,7 @@
 
 use crate::basis::{Basis, basis};
 use crate::scalar::{Scalar, is_finite};
-use crate::segment::{Arc, LEAST_COIL, Section, advance, axial};
+use crate::segment::{Arc, End, LEAST_COIL, Section, advance, axial, in_frame};
 
 /// Every so many steps the walk starts anew from the closed form of the whole stretch, so that rounding does not pile up.
 const STRIDE: usize = 64;
@@ -30,30 +30,114 @@ pub fn walk<T: Scalar>(
     length: T,
     steps: usize,
 ) -> impl ExactSizeIterator<Item = Section<T>> + use<T> {
-    let (start, h) = (*start, length / T::from_f64(steps as f64));
-    let force = move |sin: T, cos: T| (a * sin - b * cos, -(a * cos + b * sin));
-    let mut origin = start;
-    let (mut sin, mut cos) = origin.phi.sin_cos();
-    let (c, d) = force(sin, cos);
-    let mut walker = Walker::new(origin.kappa, c, d, h);
-    let coils = walker.may_coil();
+    let mut route = Route::new(start, a, b, length, steps);
+    let coils = route.walker.may_coil();
+    let mut turned = T::from_f64(0.0);
     (0..steps).map(move |i| {
         let step = i + 1;
         if coils || step % STRIDE == 0 {
-            origin = advance(&start, a, b, h * T::from_f64(step as f64));
-            (sin, cos) = origin.phi.sin_cos();
-            let (c, d) = force(sin, cos);
-            walker.restart(origin.kappa, c, d);
-            return origin;
+            turned = T::from_f64(0.0);
+            return *route.start_anew(step);
         }
-        walker.step();
-        Section {
-            x: origin.x + (cos * walker.x - sin * walker.y),
-            y: origin.y + (sin * walker.x + cos * walker.y),
-            phi: origin.phi + walker.phi,
-            kappa: walker.kappa,
-        }
+        turned = turned + route.walker.step().angle();
+        let (x, y) = route.position();
+        Section { x, y, phi: route.origin.phi + turned, kappa: route.walker.kappa }
     })
+}
+
+/// A point of the rod with its direction in place of its slope angle: all that the gap to an object asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station<T = f64> {
+    /// Position along x.
+    pub x: T,
+    /// Position along y.
+    pub y: T,
+    /// Cosine of the slope angle.
+    pub cos: T,
+    /// Sine of the slope angle.
+    pub sin: T,
+    /// Curvature d phi / d s.
+    pub kappa: T,
+}
+
+impl<T: Scalar> From<&Section<T>> for Station<T> {
+    fn from(&Section { x, y, phi, kappa }: &Section<T>) -> Self {
+        let (sin, cos) = phi.sin_cos();
+        Self { x, y, cos, sin, kappa }
+    }
+}
+
+/// The points of [`walk`] with their directions, which cost no arctangent. As accurate.
+///
+/// ```
+/// use rod_core::{Section, Station, stations};
+/// let start = Section { x: 0.0, y: 0.0, phi: 1.0, kappa: 2.0 };
+/// let half_way: Vec<Station> = stations(&start, 3.0, -1.0, 0.8, 2).collect();
+/// let there = Station::from(&rod_core::advance(&start, 3.0, -1.0, 0.4));
+/// assert!((half_way[0].x - there.x).abs() < 1e-15 && (half_way[0].sin - there.sin).abs() < 1e-15);
+/// ```
+pub fn stations<T: Scalar>(
+    start: &Section<T>,
+    a: T,
+    b: T,
+    length: T,
+    steps: usize,
+) -> impl ExactSizeIterator<Item = Station<T>> + use<T> {
+    let mut route = Route::new(start, a, b, length, steps);
+    (0..steps).map(move |i| {
+        let step = i + 1;
+        if step % STRIDE == 0 {
+            return Station::from(route.start_anew(step));
+        }
+        route.walker.step();
+        let ((x, y), (cos, sin)) = (route.position(), route.direction());
+        Station { x, y, cos, sin, kappa: route.walker.kappa }
+    })
+}
+
+/// A walk along a segment: a walker, and where it started from last.
+struct Route<T> {
+    start: Section<T>,
+    force: (T, T),
+    h: T,
+    origin: Section<T>,
+    sin: T,
+    cos: T,
+    walker: Walker<T>,
+}
+
+impl<T: Scalar> Route<T> {
+    #[inline(always)]
+    fn new(start: &Section<T>, a: T, b: T, length: T, steps: usize) -> Self {
+        let h = length / T::from_f64(steps as f64);
+        let (sin, cos) = start.phi.sin_cos();
+        let (c, d) = in_frame((a, b), (sin, cos));
+        let walker = Walker::new(start.kappa, c, d, h);
+        Self { start: *start, force: (a, b), h, origin: *start, sin, cos, walker }
+    }
+
+    /// Takes the section after so many steps from the closed form, to go on from there.
+    fn start_anew(&mut self, step: usize) -> &Section<T> {
+        let (a, b) = self.force;
+        self.origin = advance(&self.start, a, b, self.h * T::from_f64(step as f64));
+        (self.sin, self.cos) = self.origin.phi.sin_cos();
+        let (c, d) = in_frame(self.force, (self.sin, self.cos));
+        self.walker.restart(self.origin.kappa, c, d);
+        &self.origin
+    }
+
+    #[inline(always)]
+    fn position(&self) -> (T, T) {
+        let Self { origin, sin, cos, walker, .. } = self;
+        let (x, y) = (walker.x, walker.y);
+        (origin.x + (*cos * x - *sin * y), origin.y + (*sin * x + *cos * y))
+    }
+
+    #[inline(always)]
+    fn direction(&self) -> (T, T) {
+        let Self { sin, cos, walker, .. } = self;
+        (*cos * walker.cos - *sin * walker.sin, *sin * walker.cos + *cos * walker.sin)
+    }
 }
 
 /// Equal steps along one segment, in the frame of the section where they start. P and M are constant, hence one basis for
@@ -69,10 +153,9 @@ pub(crate) struct Walker<T> {
     over_p: T,
     /// Curvature and force components of the origin, as in [`Arc`].
     origin: (T, T, T),
-    /// Where the walker is: position, angle (sine, cosine) and curvature.
+    /// Where the walker is: position, direction and curvature.
     pub x: T,
     pub y: T,
-    pub phi: T,
     sin: T,
     cos: T,
     pub kappa: T,
@@ -90,7 +173,7 @@ impl<T: Scalar> Walker<T> {
         let over_p = if is_finite(inverse) { inverse } else { zero };
         let (at, origin) = (basis(p, excess, h), (kappa, c, d));
         let reach = (p + excess) * h * h;
-        Self { reach, at, p, over_p, origin, x: zero, y: zero, phi: zero, sin: zero, cos: one, kappa }
+        Self { reach, at, p, over_p, origin, x: zero, y: zero, sin: zero, cos: one, kappa }
     }
 
     /// Whether a single step may turn by more than an angle is known to.
@@ -103,12 +186,12 @@ impl<T: Scalar> Walker<T> {
     #[inline]
     pub fn restart(&mut self, kappa: T, c: T, d: T) {
         let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
-        *self = Self { origin: (kappa, c, d), x: zero, y: zero, phi: zero, sin: zero, cos: one, kappa, ..*self };
+        *self = Self { origin: (kappa, c, d), x: zero, y: zero, sin: zero, cos: one, kappa, ..*self };
     }
 
-    /// One step on.
+    /// One step on. By which angle it turned costs an arctangent, for those who ask.
     #[inline(always)]
-    pub fn step(&mut self) {
+    pub fn step(&mut self) -> End<T> {
         let (half, two) = (T::from_f64(0.5), T::from_f64(2.0));
         let (kappa0, c0, d0) = self.origin;
         let Self { ref at, p, over_p, sin, cos, .. } = *self;
@@ -120,10 +203,10 @@ impl<T: Scalar> Walker<T> {
         let (turn, versine) = (two * half_sin * half_cos, two * half_sin * half_sin);
         self.x = self.x + (cos * end.x - sin * end.y);
         self.y = self.y + (sin * end.x + cos * end.y);
-        self.phi = self.phi + end.angle();
         self.sin = self.sin + (cos * turn - sin * versine);
         self.cos = self.cos - (cos * versine + sin * turn);
         self.kappa = kappa0 - (d0 * self.x + c0 * self.y);
+        end
     }
 }
 
@@ -153,9 +236,13 @@ mod tests {
             let start = Section { x: 0.1, y: -0.2, phi: random.within(3.2), kappa: random.within(6.0) };
             let (a, b, length) = (random.within(20.0), random.within(20.0), random.within(1.0));
             let steps = 1 + (149.0 + random.within(149.0)) as usize;
-            for (i, at) in walk(&start, a, b, length, steps).enumerate() {
+            let both = walk(&start, a, b, length, steps).zip(stations(&start, a, b, length, steps));
+            for (i, (at, station)) in both.enumerate() {
                 let exact = advance(&start, a, b, length * (i + 1) as f64 / steps as f64);
                 worst = worst.max(furthest(&at, &exact));
+                let there = Station::from(&exact);
+                assert_eq!((at.x, at.y, at.kappa), (station.x, station.y, station.kappa));
+                worst = worst.max((station.cos - there.cos).abs()).max((station.sin - there.sin).abs());
             }
         }
         assert!(worst < 3e-14, "{worst:e}");
@@ -177,7 +264,11 @@ mod tests {
             let start = Section { kappa, ..start };
             for steps in [1, 2, 130] {
                 let last = walk(&start, a, b, length, steps).last().unwrap();
-                assert!(furthest(&last, &advance(&start, a, b, length)) < 1e-13, "{kappa} {steps}");
+                let exact = advance(&start, a, b, length);
+                assert!(furthest(&last, &exact) < 1e-13, "{kappa} {steps}");
+                let (last, there) = (stations(&start, a, b, length, steps).last().unwrap(), Station::from(&exact));
+                assert!((last.cos - there.cos).abs() + (last.sin - there.sin).abs() < 1e-13, "{kappa} {steps}");
+                assert!((last.x - there.x).abs() + (last.y - there.y).abs() < 1e-13, "{kappa} {steps}");
             }
         }
         assert!(walk(&start, f64::NAN, 0.0, 1.0, 3).all(|at| at.x.is_nan()));

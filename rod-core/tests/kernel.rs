@@ -110,6 +110,19 @@ fn the_separatrix_is_the_gudermannian() {
 }
 
 #[test]
+fn a_hundred_turns_under_a_strong_force_are_counted() {
+    // by parts that cannot coil
+    for k in 0..200 {
+        let kappa = (900.0 + f64::from(k)) * if k % 2 == 0 { 1.0 } else { -1.0 };
+        let start = Section { x: 0.0, y: 0.0, phi: 0.01 * f64::from(k), kappa };
+        let (a, b, s) = (4e4, 1e5, -0.999);
+        let end = advance(&start, a, b, s);
+        let parted = (0..2_000).fold(start, |at, _| advance(&at, a, b, s / 2_000.0));
+        assert!((end.phi - parted.phi).abs() < 1e-8, "{kappa}: {} {}", end.phi, parted.phi);
+    }
+}
+
+#[test]
 fn coils_are_counted() {
     // the angle grows with the curvature, and so does the rounding: relative to |kappa|
     let mut random = Random::new(3);

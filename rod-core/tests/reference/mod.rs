@@ -22,14 +22,23 @@ struct Point {
 
 /// The exact end of a segment, rounded to double-double: (x, y, phi, kappa).
 pub fn exact(start: &Section, a: f64, b: f64, s: f64) -> [TwoFloat; 4] {
-    // cos phi and sin phi at the start: a circle of radius 1, walked from phi = 0.
-    let zero = TwoFloat::from(0.0);
-    let one = TwoFloat::from(1.0);
-    let origin = Point { x: zero, y: zero, phi: zero, kappa: one, cos: one, sin: zero };
-    let turned = integrate(origin, 0.0, 0.0, start.phi);
-    let [x, y, phi, kappa] = [start.x, start.y, start.phi, start.kappa].map(TwoFloat::from);
-    let end = integrate(Point { x, y, phi, kappa, cos: turned.cos, sin: turned.sin }, a, b, s);
+    let start = [start.x, start.y, start.phi, start.kappa].map(TwoFloat::from);
+    advanced(start, [a, b].map(TwoFloat::from), TwoFloat::from(s))
+}
+
+/// The same from a start, (x, y, phi, kappa), under a force (A, B), and over an arc length that are in double-double.
+pub fn advanced([x, y, phi, kappa]: [TwoFloat; 4], force: [TwoFloat; 2], s: TwoFloat) -> [TwoFloat; 4] {
+    let [cos, sin] = cos_sin(phi);
+    let end = integrate(Point { x, y, phi, kappa, cos, sin }, force, s);
     [end.x, end.y, end.phi, end.kappa]
+}
+
+/// cos phi and sin phi: a circle of radius 1, walked from phi = 0.
+pub fn cos_sin(phi: TwoFloat) -> [TwoFloat; 2] {
+    let [zero, one] = [0.0, 1.0].map(TwoFloat::from);
+    let origin = Point { x: zero, y: zero, phi: zero, kappa: one, cos: one, sin: zero };
+    let turned = integrate(origin, [zero; 2], phi);
+    [turned.cos, turned.sin]
 }
 
 /// Differences of a section to the exact one.
@@ -38,14 +47,15 @@ pub fn errors(section: &Section, exact: &[TwoFloat; 4]) -> [f64; 4] {
     std::array::from_fn(|i| f64::from(exact[i] - ours[i]).abs())
 }
 
-fn integrate(start: Point, a: f64, b: f64, s: f64) -> Point {
+fn integrate(start: Point, force: [TwoFloat; 2], s: TwoFloat) -> Point {
+    let [a, b] = force.map(f64::from);
     let rate = f64::from(start.kappa).abs() + 2.0 * a.hypot(b).sqrt();
-    let steps = (s.abs() * rate / REACH).ceil().max(1.0);
-    let h = TwoFloat::from(s) / steps;
-    (0..steps as usize).fold(start, |at, _| step(at, a, b, h))
+    let steps = (f64::from(s).abs() * rate / REACH).ceil().max(1.0);
+    let h = s / steps;
+    (0..steps as usize).fold(start, |at, _| step(at, force, h))
 }
 
-fn step(at: Point, a: f64, b: f64, h: TwoFloat) -> Point {
+fn step(at: Point, [a, b]: [TwoFloat; 2], h: TwoFloat) -> Point {
     let zero = TwoFloat::from(0.0);
     let [mut x, mut y, mut phi, mut kappa, mut cos, mut sin] = [[zero; TERMS]; 6];
     (x[0], y[0], phi[0], kappa[0], cos[0], sin[0]) = (at.x, at.y, at.phi, at.kappa, at.cos, at.sin);
