@@ -1,7 +1,8 @@
 //! Defects that were, each with the scene that showed it.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use vibrissa::{ClampPath, Composite, Contour, EventKind, Outcome, Parabola, Pose, Rod, Sweep};
+use std::f64::consts::PI;
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, EventKind, Line, Outcome, Parabola, Pose, Rod, Sweep};
 
 const UP: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -81,4 +82,30 @@ fn a_stiff_branch_is_reported_pose_by_pose() {
     assert_eq!((outcome.states.len(), outcome.stop), (181, None));
     let last = outcome.events.last().unwrap();
     assert_eq!(last.kind, EventKind::SnapOff);
+}
+
+/// Where the tip of the free rod just met an edge of many, to rounding in it, no part of the contour was near enough to be
+/// looked at: the sweep went on through it, to the end of the contour.
+#[test]
+fn a_first_contact_at_a_reported_pose() {
+    let line = |from, to| Box::new(Line::new(from, to).unwrap()) as Box<dyn Contour>;
+    let roll = |centre| Box::new(CircularArc::new(centre, 0.009, -PI, 0.0).unwrap()) as Box<dyn Contour>;
+    let rolls = [(-0.0657, -0.0016), (-0.0497, 0.003), (-0.0333, 0.0063), (-0.0167, 0.0083), (0.0, 0.009)];
+    let rolls = rolls.into_iter().chain(rolls.into_iter().rev().skip(1).map(|(x, y)| (-x, y)));
+    let mut pieces = vec![line([-0.0747, 0.06], [-0.0747, -0.0016])];
+    pieces.extend(rolls.map(|(x, y)| roll([x, y])));
+    pieces.push(line([0.0747, -0.0016], [0.0747, 0.06]));
+    let contour = Composite::joined(pieces).unwrap();
+    let pose = |x| Pose { x, y: -0.045, phi: 120_f64.to_radians() };
+    let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9).unwrap();
+    // the tip is half a length to the left of the clamp
+    let (touch, from) = (0.1247, 0.14);
+    for step in (1..=10).map(|n| (from - touch) / f64::from(n)).chain([1.53e-3]) {
+        let path = ClampPath::new(pose(from), pose(-0.15)).unwrap();
+        let outcome = Sweep::new(&rod, &contour, path, step).unwrap().run();
+        assert_eq!(outcome.stop, None, "{step}");
+        let first = &outcome.events[0];
+        assert_eq!((first.kind, first.to().to_string().as_str()), (EventKind::FirstContact, "A"), "{step}");
+        assert!((first.pose().x - touch).abs() < 1e-13, "{step}");
+    }
 }

@@ -1,6 +1,6 @@
 //! A short arc of the rod as a thick chord, to tell cheaply what it does not come near to.
 
-use crate::scan::Node;
+use crate::shape::Node;
 use rod_contours::Bounds;
 
 /// Largest turn of an arc that is taken for a parabola over its chord.

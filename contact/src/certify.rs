@@ -7,6 +7,9 @@ use crate::state::{Certificate, Contact, State};
 use crate::world::World;
 use rod_core::{MultiPoint, Reactions, Rod, Section, SolveReport, Supports, Units, advance};
 
+/// Rounding of an arc length.
+const AT_TIP: f64 = 1e-12;
+
 /// What is known of a configuration besides its unknowns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quality {
@@ -51,8 +54,7 @@ pub(crate) fn state(
             object: world.object(configuration.contacts[j].stretch),
             piece: world.piece(configuration.contacts[j].stretch),
             kind: configuration.kind(world, j),
-            // rounding of the product must not leave the rod
-            s: (configuration.s(j) * length).min(length),
+            s: on_rod(configuration.s(j)) * length,
             x: at.x * length,
             y: at.y * length,
             alpha: at.alpha,
@@ -79,6 +81,12 @@ pub(crate) fn state(
         state.max_stress = rod.bending_stress(elastica.largest_curvature());
     }
     state
+}
+
+/// An arc length beyond the tip by rounding is at the tip. One that is further beyond stays, and shows that the contact set is
+/// not the right one.
+fn on_rod(s: f64) -> f64 {
+    if s <= 1.0 + AT_TIP { s.min(1.0) } else { s }
 }
 
 /// Largest change of kappa^2 / 2 - (A sin phi - B cos phi) from the start of a segment to where the next one starts, which

@@ -2,25 +2,86 @@
 
 use crate::branch::Corrector;
 use crate::certify::{Quality, state};
-use crate::configuration::{Configuration, Held};
+use crate::configuration::{Configuration, Held, Unknowns, lying};
 use crate::error::ContactError;
 use crate::path::ClampPath;
 use crate::scan::Scanner;
+use crate::shape::Shape;
 use crate::stability::is_stable;
 use crate::state::{Contact, ContactKind, State};
-use crate::world::World;
+use crate::world::{Foot, World};
 use rod_contours::{Composite, StretchKind};
-use rod_core::{Hold, Pose, Rod, SolveReport};
+use rod_core::{Hold, MultiPoint, Pose, Rod, Section, SolveReport, advance};
+use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
 /// What a solve for a given contact set came to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// The state. Its certificate says whether it can exist: a contact set that is not the right one shows as a force that
-    /// pulls, a negative gap, or as unstable.
+    /// pulls, a negative gap, as unstable, or as a contact with an arc length beyond the rod's.
     pub state: State,
     /// How the solve ended. Unless its status is solved, the state is only where it came to.
     pub report: SolveReport,
+}
+
+/// A contact of a guess, dimensionless.
+#[derive(Clone, Copy, Debug)]
+struct Supposed {
+    stretch: usize,
+    foot: Foot,
+    tip: bool,
+    s: f64,
+    force: f64,
+}
+
+type Slopes = SmallVec<[f64; 8]>;
+
+/// The rod's slope angles at the contacts from the chords between them: an arc turns twice as far as its chord. On a smooth
+/// contour it lies along that.
+fn by_chords(clamp: Pose, supposed: &[Supposed]) -> Slopes {
+    let (mut from, mut phi) = ((clamp.x, clamp.y), clamp.phi);
+    let slope = |Supposed { foot, tip, .. }: &Supposed| {
+        let chord = (foot.y - from.1).atan2(foot.x - from.0);
+        let turn = chord - phi;
+        phi += 2.0 * (turn - TAU * (turn / TAU).round());
+        from = (foot.x, foot.y);
+        if !tip {
+            phi = foot.alpha + PI * ((phi - foot.alpha) / PI).round();
+        }
+        phi
+    };
+    supposed.iter().map(slope).collect()
+}
+
+/// The same by the shape that the forces would give the rod.
+fn by_forces(clamp: Pose, supposed: &[Supposed]) -> Slopes {
+    let [mut a, mut b, mut m0z] = [0.0; 3];
+    for Supposed { foot, force, .. } in supposed {
+        let (sin, cos) = foot.alpha.sin_cos();
+        a += force * cos;
+        b += force * sin;
+        m0z += force * ((foot.x - clamp.x) * cos + (foot.y - clamp.y) * sin);
+    }
+    let mut at = (0.0, Section { x: clamp.x, y: clamp.y, phi: clamp.phi, kappa: -m0z });
+    let slope = |Supposed { foot, s, force, .. }: &Supposed| {
+        at = (*s, advance(&at.1, a, b, s - at.0));
+        let (sin, cos) = foot.alpha.sin_cos();
+        a -= force * cos;
+        b -= force * sin;
+        at.1.phi
+    };
+    supposed.iter().map(slope).collect()
+}
+
+/// The contacts of a guess with a rod that has such slope angles there.
+fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
+    let mut configuration = Configuration::free(0.0);
+    for (j, (Supposed { stretch, foot, tip, s, force }, phi)) in supposed.iter().zip(slopes).enumerate() {
+        let (hold, third) = if *tip { (Hold::Tip, *phi) } else { (lying(phi - foot.alpha), *s) };
+        configuration.insert(j, Held { stretch: *stretch, hold }, [foot.t, *force, third]);
+    }
+    configuration
 }
 
 /// The equilibrium of `rod` on `objects` (one [`Composite`] or a list of them) with its clamp at `pose` (m, radians),
@@ -60,14 +121,13 @@ pub fn equilibrium(
     let units = rod.units();
     let path = ClampPath::standing(pose).dimensionless(units);
     let world = World::new(objects.as_ref(), units.length);
-    let mut configuration = Configuration::free(0.0);
-    let (mut from, mut phi) = ((path.at(0.0).x, path.at(0.0).y), pose.phi);
+    let mut supposed: SmallVec<[Supposed; 8]> = SmallVec::new();
     for (index, contact) in guess.iter().enumerate() {
         let wrong = |reason| Err(ContactError::Guess { index, reason });
         if ![contact.s, contact.x, contact.y, contact.force].iter().all(|v| v.is_finite()) {
             return wrong("its numbers are not finite");
         }
-        if configuration.ends_at_tip() {
+        if supposed.last().is_some_and(|before| before.tip) {
             return wrong("it follows a contact at the tip, expected that to be the last");
         }
         let wanted = match contact.kind {
@@ -79,26 +139,39 @@ pub fn equilibrium(
             return wrong("there is no such object, or it has no such piece, corner or notch");
         };
         let foot = world.foot(stretch, contact.x / units.length, contact.y / units.length);
-        // The rod's direction there, from the chord: an arc turns twice as far as its chord.
-        let chord = (foot.y - from.1).atan2(foot.x - from.0);
-        let turn = chord - phi;
-        phi += 2.0 * (turn - TAU * (turn / TAU).round());
-        from = (foot.x, foot.y);
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
-        let (hold, third) = if tip {
-            (Hold::Tip, phi)
-        } else {
-            let offset = PI * ((phi - foot.alpha) / PI).round();
-            phi = foot.alpha + offset;
-            (Hold::Tangent { offset }, contact.s / units.length)
-        };
-        configuration.insert(index, Held { stretch, hold }, [foot.t, contact.force / units.force, third]);
+        let s = if tip { 1.0 } else { contact.s / units.length };
+        supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force });
     }
+    let clamp = path.at(0.0);
+    // a force may be a mere guess, and then the chords know better
+    let [by_chords, by_forces] =
+        [by_chords(clamp, &supposed), by_forces(clamp, &supposed)].map(|phi| held(&supposed, &phi));
+    let off = |configuration: &Configuration| {
+        let supports = configuration.supports(&world);
+        let mut residual = Unknowns::from_elem(0.0, 3 * configuration.count());
+        let (problem, u) = (MultiPoint { clamp, supports: &supports }, &configuration.z[..residual.len()]);
+        problem.evaluate_into(u, &mut residual, None);
+        residual.iter().map(|r| r * r).sum::<f64>()
+    };
+    let (first, second) =
+        if off(&by_forces) < off(&by_chords) { (by_forces, by_chords) } else { (by_chords, by_forces) };
     let mut corrector = Corrector::new(world.clone(), path);
     corrector.options.max_iterations = 60;
-    let report = corrector.at_pose(&mut configuration, 0.0);
-    let stable = report.status.is_solved() && is_stable(&world, &path, &configuration);
-    let scan = Scanner::default().scan(&world, &path, &configuration);
+    let mut solve = |mut configuration: Configuration| {
+        let report = corrector.at_pose(&mut configuration, 0.0);
+        (configuration, report)
+    };
+    let (mut configuration, mut report) = solve(first);
+    if !report.status.is_solved() {
+        let other = solve(second);
+        if other.1.status.is_solved() {
+            (configuration, report) = other;
+        }
+    }
+    let shape = Shape::of(&world, &path, &configuration);
+    let stable = report.status.is_solved() && is_stable(&world, &configuration, &shape);
+    let scan = Scanner::default().scan(&world, &configuration, &shape);
     let quality = Quality::new(&report, stable);
     Ok(Equilibrium { state: state(rod, &world, &path, &configuration, &scan, quality), report })
 }

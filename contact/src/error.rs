@@ -28,8 +28,8 @@ pub enum ContactError {
         /// What is wrong with it.
         reason: &'static str,
     },
-    /// The distance between reported states is no distance.
-    #[error("step is {value}, expected a positive, finite length")]
+    /// The distance between reported states is no distance, or so small that the path has more than 1e15 of them.
+    #[error("step is {value}, expected a positive, finite length, not below 1e-15 of the path")]
     Step {
         /// Its value as given.
         value: f64,

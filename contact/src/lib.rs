@@ -44,6 +44,7 @@ mod notch;
 mod path;
 mod phase;
 mod scan;
+mod shape;
 mod stability;
 mod state;
 mod stepper;

@@ -3,21 +3,11 @@
 use crate::arc::Arc;
 use crate::configuration::{Configuration, Span};
 use crate::corner::{Corner, Passing};
-use crate::path::ClampPath;
+use crate::shape::{Node, Shape};
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
-use rod_core::{Hold, Section, advance, walk};
+use rod_core::{Hold, Section, Station, advance};
 use smallvec::SmallVec;
-
-/// Distance between the points of the rod that are looked at. Between them the gap is bounded by its slope (a rod moves
-/// through the plane with unit speed, so the gap is 1-Lipschitz), and the smallest value is searched wherever it could
-/// matter.
-const SPACING: f64 = 1.0 / 32.0;
-
-/// Largest distance between them in the elastica's own wavelength, in units of the square root of EI over the force; and
-/// the smallest one, whatever the force.
-const LARGEST_PHASE: f64 = 0.5;
-const SMALLEST_SPACING: f64 = 1.0 / 512.0;
 
 /// Deepest penetration at a corner that is looked for: more than a step of the sweep can bring about.
 const DEEPEST: f64 = 0.1;
@@ -75,16 +65,6 @@ impl Scan {
     }
 }
 
-/// A point of the rod that is looked at.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Node {
-    pub s: f64,
-    pub at: Section,
-    span: usize,
-    /// The contact that is here.
-    contact: Option<usize>,
-}
-
 /// A node seen from one part of a contour.
 #[derive(Clone, Copy)]
 struct Sight {
@@ -110,71 +90,55 @@ struct Near {
 /// Reusable memory of [`scan`](Scanner::scan).
 #[derive(Debug, Default)]
 pub(crate) struct Scanner {
-    nodes: Vec<Node>,
     near: Vec<Near>,
 }
 
 impl Scanner {
-    /// Looks at the whole rod in `configuration`.
-    pub fn scan(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
-        let spans = configuration.spans(world, path);
-        self.place_nodes(&spans);
+    /// Looks at the whole rod in `configuration`, whose shape is `shape`.
+    pub fn scan(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape) -> Scan {
         // where there is a contact, there the gap is zero
         let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
         let mut found =
-            Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false, sides: self.sides(world, &spans) };
-        self.look_around(world, least);
+            Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false, sides: sides(world, shape) };
+        self.look_around(world, &shape.nodes, least);
+        let rod = Looking { world, configuration, shape };
         for near in &self.near {
             match world.kind(near.part.stretch) {
-                StretchKind::Piece(_) => self.scan_part(world, configuration, &spans, *near, &mut found),
-                StretchKind::Corner { .. } => self.scan_corner(world, configuration, &spans, *near, &mut found),
-                StretchKind::Notch { .. } => self.scan_notch(world, configuration, near.part, &mut found),
+                StretchKind::Piece(_) => rod.scan_part(*near, &mut found),
+                StretchKind::Corner { .. } => rod.scan_corner(*near, &mut found),
+                StretchKind::Notch { .. } => rod.scan_notch(near.part, &mut found),
             }
         }
         found
     }
 
-    /// On which side of the rod, and how far, the ends of open contours are.
-    fn sides(&self, world: &World<'_>, spans: &[Span]) -> SmallVec<[f64; 2]> {
-        let side = |&(x, y): &(f64, f64)| {
-            let sides = self.nodes.windows(2).filter_map(|pair| {
-                let ahead = |node: &Node| {
-                    let (sin, cos) = node.at.phi.sin_cos();
-                    (node.at.x - x) * cos + (node.at.y - y) * sin
-                };
-                let (before, after) = (ahead(&pair[0]), ahead(&pair[1]));
-                (before < 0.0 && after >= 0.0).then(|| {
-                    let (_, at) = pass(spans, (&pair[0], &pair[1]), (x, y), before, after);
-                    let (sin, cos) = at.phi.sin_cos();
-                    (y - at.y) * cos - (x - at.x) * sin
-                })
-            });
-            sides.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::NAN)
-        };
-        world.open_ends().iter().map(side).collect()
-    }
-
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
-    fn look_around(&mut self, world: &World<'_>, least: f64) {
+    fn look_around(&mut self, world: &World<'_>, nodes: &[Node], least: f64) {
         self.near.clear();
-        let last = self.nodes.len() - 1;
+        let last = nodes.len() - 1;
         if world.is_small() {
             world.parts_near(Bounds::ALL, |part| self.near.push(Near { part, first: 0, last }));
             return;
         }
-        // as far as it could be to what is nearest, or as deep as it could have gone in
-        let reach = |gap: f64| if gap < 0.0 { -2.0 * gap } else { gap };
+        // as far as it could be to what is nearest, or as deep as it could have gone in, and the rounding of boxes
+        let reach = |gap: f64| GAP_TOLERANCE + if gap < 0.0 { -2.0 * gap } else { gap };
         if least > 0.0 {
-            let gap = least_gap(world, self.nodes.iter());
-            self.look_within(world, reach(gap));
+            let gaps = gaps(world, nodes.iter());
+            let gap = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+            // what is outside and farther than the rest of the rod is not the nearest
+            let lengths = nodes.windows(2).map(|pair| pair[1].s - pair[0].s);
+            let nearest = gaps.windows(2).zip(lengths).map(|(pair, length)| 0.5 * (pair[0] + pair[1] - length));
+            let matters: SmallVec<[bool; 64]> = nearest.map(|nearest| nearest <= gap.max(0.0)).collect();
+            self.look_within(world, nodes, reach(gap), |interval| matters[interval]);
         } else {
-            self.look_within(world, 0.0);
+            self.look_within(world, nodes, 0.0, |_| true);
             // as they come, interval after interval
             let intervals = self.near.chunk_by(|a, b| a.first == b.first).filter_map(|near| near.first());
-            let gap = least_gap(world, intervals.flat_map(|near| &self.nodes[near.first..=near.last]));
+            let around = intervals.flat_map(|near| &nodes[near.first..=near.last]);
+            let gap = gaps(world, around).into_iter().fold(f64::INFINITY, f64::min);
             if gap < -GAP_TOLERANCE {
                 self.near.clear();
-                self.look_within(world, reach(gap));
+                self.look_within(world, nodes, reach(gap), |_| true);
             }
         }
         let near = &mut self.near;
@@ -192,10 +156,10 @@ impl Scanner {
         });
     }
 
-    /// Lists the parts that each interval between two nodes could be nearer to than `reach`.
-    fn look_within(&mut self, world: &World<'_>, reach: f64) {
-        let Self { nodes, near } = self;
-        for (first, pair) in nodes.windows(2).enumerate() {
+    /// Lists the parts that each interval between two nodes that `matters` could be nearer to than `reach`.
+    fn look_within(&mut self, world: &World<'_>, nodes: &[Node], reach: f64, matters: impl Fn(usize) -> bool) {
+        let near = &mut self.near;
+        for (first, pair) in nodes.windows(2).enumerate().filter(|(interval, _)| matters(*interval)) {
             let arc = Arc::new(&pair[0], &pair[1]);
             world.parts_near(arc.bounds().grown(reach), |part| {
                 if arc.comes_near(&world.bounds(part), reach, || world.angle(part)) {
@@ -204,58 +168,44 @@ impl Scanner {
             });
         }
     }
+}
+
+/// A rod in some shape, being looked at.
+struct Looking<'a> {
+    world: &'a World<'a>,
+    configuration: &'a Configuration,
+    shape: &'a Shape,
+}
+
+impl Looking<'_> {
+    /// The slope angle at a point, whole turns included.
+    fn phi(&self, node: &Node) -> f64 {
+        let Span { s, start, a, b } = &self.shape.spans[node.span];
+        advance(start, *a, *b, node.s - s).phi
+    }
 
     /// Only the tip can get into a notch, and only behind both its pieces: a step that went so far was too long.
-    fn scan_notch(&self, world: &World<'_>, configuration: &Configuration, part: Part, found: &mut Scan) {
-        let Some(tip) = self.nodes.last().filter(|_| !configuration.ends_at_tip()) else { return };
+    fn scan_notch(&self, part: Part, found: &mut Scan) {
+        let Self { world, configuration, shape } = self;
+        let Some(tip) = shape.nodes.last().filter(|_| !configuration.ends_at_tip()) else { return };
         let foot = world.foot_in(part, tip.at.x, tip.at.y);
         if foot.interior && foot.gap < -GAP_TOLERANCE && world.goes_through(part.stretch, &foot, tip.at.x, tip.at.y) {
             found.min_gap = found.min_gap.min(foot.gap);
-            found.crossings.push(Crossing { stretch: part.stretch, s: 1.0, phi: tip.at.phi, foot, tip: true });
-        }
-    }
-
-    fn place_nodes(&mut self, spans: &[Span]) {
-        self.nodes.clear();
-        for (i, span) in spans.iter().enumerate() {
-            let contact = i.checked_sub(1);
-            let end = spans.get(i + 1).map_or(1.0, |next| next.s);
-            let length = end - span.s;
-            self.nodes.push(Node { s: span.s, at: span.start, span: i, contact });
-            if length <= 0.0 {
-                continue;
-            }
-            let steps = ((length / spacing(span)).ceil() as usize).max(1);
-            // the last section of a span is the first of the next, where it is known better
-            let keep = if i + 1 < spans.len() { steps - 1 } else { steps };
-            let h = length / steps as f64;
-            let sections = walk(&span.start, span.a, span.b, length, steps).take(keep).enumerate();
-            self.nodes.extend(sections.map(|(k, at)| Node {
-                s: span.s + h * (k + 1) as f64,
-                at,
-                span: i,
-                contact: None,
-            }));
+            found.crossings.push(Crossing { stretch: part.stretch, s: 1.0, phi: self.phi(tip), foot, tip: true });
         }
     }
 
     /// A rod lies on a corner with a slope angle between those of the two pieces. So it goes through where it runs by
     /// the vertex in such a direction, on the side of the solid, and the solid is there: from a sharp corner it may
     /// have cut off the tip without coming nearer to it than outside.
-    fn scan_corner(
-        &self,
-        world: &World<'_>,
-        configuration: &Configuration,
-        spans: &[Span],
-        near: Near,
-        found: &mut Scan,
-    ) {
+    fn scan_corner(&self, near: Near, found: &mut Scan) {
+        let Self { world, shape: Shape { spans, nodes }, .. } = self;
         let Near { part, first, last } = near;
         let corner = Corner::new(world, part.stretch);
         let mut before: Option<(usize, f64)> = None;
         let mut i = first;
         while i <= last {
-            let node = &self.nodes[i];
+            let node = &nodes[i];
             let (dx, dy) = (node.at.x - corner.x, node.at.y - corner.y);
             let distance = dx.hypot(dy);
             if distance < found.min_gap && found.min_gap > 0.0 {
@@ -264,14 +214,13 @@ impl Scanner {
                     found.min_gap = foot.gap;
                 }
             }
-            let (sin, cos) = node.at.phi.sin_cos();
-            let ahead = dx * cos + dy * sin;
-            let own = node.contact.is_some_and(|j| configuration.contacts[j].stretch == part.stretch);
+            let ahead = dx * node.at.cos + dy * node.at.sin;
+            let own = node.contact.is_some_and(|j| self.configuration.contacts[j].stretch == part.stretch);
             if let Some((_, was)) = before.filter(|(k, _)| k + 1 == i && !own)
                 && was < 0.0
                 && ahead >= 0.0
             {
-                let (s, at) = pass(spans, (&self.nodes[i - 1], node), (corner.x, corner.y), was, ahead);
+                let (s, at) = pass(spans, (&nodes[i - 1], node), (corner.x, corner.y), was, ahead);
                 if let Some(passing) = corner.passing(&at)
                     && (passing.gap >= -GAP_TOLERANCE
                         || (passing.gap > -DEEPEST && corner.is_cut(world, &at, &passing, (s, 1.0 - s))))
@@ -288,20 +237,14 @@ impl Scanner {
             }
             before = (!own).then_some((i, ahead));
             let safe = node.s + (distance - found.min_gap.clamp(DEEPEST, 1.0)).max(0.0);
-            i = next_beyond(&self.nodes[..=last], i, safe);
+            i = next_beyond(&nodes[..=last], i, safe);
         }
     }
 
-    fn scan_part(
-        &self,
-        world: &World<'_>,
-        configuration: &Configuration,
-        spans: &[Span],
-        near: Near,
-        found: &mut Scan,
-    ) {
+    fn scan_part(&self, near: Near, found: &mut Scan) {
+        let Self { world, configuration, shape: Shape { spans, nodes: all } } = self;
         let Near { part, first, last } = near;
-        let nodes = &self.nodes[..=last];
+        let nodes = &all[..=last];
         let mut before: Option<(usize, Sight, Foot)> = None;
         let mut i = first;
         while let Some(node) = nodes.get(i) {
@@ -344,11 +287,11 @@ impl Scanner {
                     }
                 }
             }
-            let at_end = i + 1 == self.nodes.len();
+            let at_end = i + 1 == all.len();
             let free_end = !configuration.ends_at_tip();
             if at_end && free_end && sight.interior && sight.left < 0.0 && sight.gap < -GAP_TOLERANCE {
                 let stretch = part.stretch;
-                found.crossings.push(Crossing { stretch, s: 1.0, phi: node.at.phi, foot, tip: true });
+                found.crossings.push(Crossing { stretch, s: 1.0, phi: self.phi(node), foot, tip: true });
             }
             before = Some((i, sight, foot));
             // within the distance by which the gap exceeds the smallest one there is nothing smaller
@@ -356,6 +299,23 @@ impl Scanner {
             i = next_beyond(nodes, i, safe);
         }
     }
+}
+
+/// On which side of the rod, and how far, the ends of open contours are.
+fn sides(world: &World<'_>, shape: &Shape) -> SmallVec<[f64; 2]> {
+    let side = |&(x, y): &(f64, f64)| {
+        let sides = shape.nodes.windows(2).filter_map(|pair| {
+            let ahead = |Node { at, .. }: &Node| (at.x - x) * at.cos + (at.y - y) * at.sin;
+            let (before, after) = (ahead(&pair[0]), ahead(&pair[1]));
+            (before < 0.0 && after >= 0.0).then(|| {
+                let (_, at) = pass(&shape.spans, (&pair[0], &pair[1]), (x, y), before, after);
+                let (sin, cos) = at.phi.sin_cos();
+                (y - at.y) * cos - (x - at.x) * sin
+            })
+        });
+        sides.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::NAN)
+    };
+    world.open_ends().iter().map(side).collect()
 }
 
 /// The search of the smallest gap to a part between two neighbouring nodes of a span of the rod.
@@ -376,13 +336,14 @@ impl Search<'_> {
         let Span { s: from, start, a, b } = self.span;
         let at = advance(start, *a, *b, s - from);
         let foot = self.world.foot_in(self.part, at.x, at.y);
-        (if self.line { -(at.phi - foot.alpha).sin() } else { slope(&at, &foot) }, at, foot)
+        let station = Station::from(&at);
+        (if self.line { towards(&station, &foot) } else { slope(&station, &foot) }, at, foot)
     }
 
     /// Where the slope changes from falling to rising. Under a large force the gap may fall, rise and fall again
     /// between two nodes: a slope of one sign that comes nearer to zero at both ends, by its own changes there, is
     /// looked at in between.
-    fn bracket(&self, (first, last): (Sloped, Sloped), seen: [(&Section, &Foot); 2]) -> Option<(Sloped, Sloped)> {
+    fn bracket(&self, (first, last): (Sloped, Sloped), seen: [(&Station, &Foot); 2]) -> Option<(Sloped, Sloped)> {
         if first.1 < 0.0 && last.1 >= 0.0 {
             return Some((first, last));
         }
@@ -441,11 +402,6 @@ impl Search<'_> {
     }
 }
 
-/// Distance between the nodes of a span.
-fn spacing(span: &Span) -> f64 {
-    (LARGEST_PHASE / span.a.hypot(span.b).sqrt()).clamp(SMALLEST_SPACING, SPACING)
-}
-
 /// The node after node `i`, or the last one after which an interval goes beyond the arc length `safe`.
 fn next_beyond(nodes: &[Node], mut i: usize, safe: f64) -> usize {
     i += 1;
@@ -475,33 +431,41 @@ fn pass(spans: &[Span], nodes: (&Node, &Node), point: (f64, f64), before: f64, a
     (s, at)
 }
 
-/// An upper bound of the smallest gap: that of the nodes.
-fn least_gap<'n>(world: &World<'_>, nodes: impl Iterator<Item = &'n Node>) -> f64 {
-    let (mut least, mut safe) = (f64::INFINITY, f64::NEG_INFINITY);
-    for node in nodes {
+/// The gap at each of some nodes, or, where that is far from the smallest one, no more than that.
+fn gaps<'n>(world: &World<'_>, nodes: impl Iterator<Item = &'n Node>) -> SmallVec<[f64; 64]> {
+    let (mut least, mut seen) = (f64::INFINITY, (f64::NAN, f64::NAN));
+    let gap = |node: &Node| {
         // the gap changes no faster than the rod runs
-        if node.s >= safe {
-            let gap = world.gap(node.at.x, node.at.y);
-            least = gap.min(least);
-            safe = node.s + gap - least.max(0.0);
+        let known = seen.1 - (node.s - seen.0);
+        if known > least.max(0.0) {
+            return known;
         }
-    }
-    least
+        let gap = world.gap(node.at.x, node.at.y);
+        (least, seen) = (gap.min(least), (node.s, gap));
+        gap
+    };
+    nodes.map(gap).collect()
 }
 
 /// Slope of the gap along the rod: of the distance to the foot where that is an end of the part.
-fn slope(at: &Section, foot: &Foot) -> f64 {
+fn slope(at: &Station, foot: &Foot) -> f64 {
     if foot.interior {
-        return -(at.phi - foot.alpha).sin();
+        return towards(at, foot);
     }
-    let (sin, cos) = at.phi.sin_cos();
     let (dx, dy) = (at.x - foot.x, at.y - foot.y);
-    (dx * cos + dy * sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
+    (dx * at.cos + dy * at.sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
+}
+
+/// Slope of the gap to the contour's tangent: minus the sine of the angle between rod and contour.
+fn towards(at: &Station, foot: &Foot) -> f64 {
+    let (sin, cos) = foot.alpha.sin_cos();
+    at.cos * sin - at.sin * cos
 }
 
 /// Change of the slope of the gap along the rod.
-fn bend(at: &Section, foot: &Foot) -> f64 {
-    let cos = (at.phi - foot.alpha).cos();
+fn bend(at: &Station, foot: &Foot) -> f64 {
+    let (sin_alpha, cos_alpha) = foot.alpha.sin_cos();
+    let cos = at.cos * cos_alpha + at.sin * sin_alpha;
     cos * (foot.curvature * cos / (1.0 + foot.curvature * foot.gap) - at.kappa)
 }
 
@@ -523,8 +487,8 @@ fn is_square(world: &World<'_>, stretch: usize, at: &Section, foot: &Foot) -> bo
 fn see(world: &World<'_>, node: &Node, foot: &Foot, configuration: &Configuration, part: &Part) -> Sight {
     // beyond an end the sign is that of the tangent there, and says nothing
     let gap = if foot.interior { foot.gap } else { foot.gap.abs() };
-    let line = (foot.curvature == 0.0).then(|| -(node.at.phi - foot.alpha).sin());
     let left = slope(&node.at, foot);
+    let line = (foot.curvature == 0.0).then(|| if foot.interior { left } else { towards(&node.at, foot) });
     let mut sight = Sight { gap, left, right: left, interior: foot.interior, contact: false, line };
     if let Some(j) = node.contact
         && configuration.contacts[j].stretch == part.stretch

@@ -16,17 +16,16 @@
 
 use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
+use crate::shape::{Node, Shape};
 use crate::world::World;
 use nalgebra::{DMatrix, Dim, Matrix, SMatrix, StorageMut};
-use rod_core::{Hold, Supports, walk};
+use rod_core::{Hold, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
 /// Modes beyond those that the contacts fix. Mode m has energy about (m pi)^2 / 2, so that only loads P of hundreds of
 /// EI / L^2 could destabilise one that is left out.
 const MODES: usize = 6;
-/// Quadrature intervals a unit of length: several a wave of the highest mode, by Simpson's rule.
-const INTERVALS: f64 = 28.0;
 /// Stiffness of the penalty against that of the modes.
 const PENALTY: f64 = 1e9;
 
@@ -93,25 +92,83 @@ impl Quadratic {
     }
 }
 
-/// The modes sin((m + 1/2) x), by the recurrence of Chebyshev. Returns cos x.
-fn modes_at(x: f64, modes: &mut [f64]) -> f64 {
+/// The modes sin((m + 1/2) x), by the recurrence of Chebyshev.
+fn modes_at(x: f64, size: usize) -> Modes {
     let (sin, cos) = (0.5 * x).sin_cos();
-    let cos_x = cos * cos - sin * sin;
+    let twice_cos = 2.0 * (cos * cos - sin * sin);
     let (mut before, mut here) = (-sin, sin);
-    for mode in modes {
-        *mode = here;
-        (before, here) = (here, 2.0 * cos_x * here - before);
-    }
-    cos_x
+    let next = |_| {
+        let mode = here;
+        (before, here) = (here, twice_cos * here - before);
+        mode
+    };
+    (0..size).map(next).collect()
 }
 
-/// Adds weight cos(m x) to moment m, from cos x.
-fn add_cosines(cos: f64, weight: f64, moments: &mut [f64]) {
-    let (mut before, mut here) = (weight * cos, weight);
-    for moment in moments {
-        *moment += here;
-        (before, here) = (here, 2.0 * cos * here - before);
+/// Points of the rod that are worked on at once: the recurrences from mode to mode wait for themselves, not for each other.
+const LANES: usize = 4;
+/// One number a lane.
+type Lanes = [f64; LANES];
+
+/// What is integrated along the rod for the modes eta_m = sin((m + 1/2) x), by Simpson's rule, lane by lane.
+struct Integrals {
+    /// int (-sin phi, cos phi) eta_m ds from the clamp on: how far mode m moves the rod's points.
+    shift_x: SmallVec<[Lanes; 24]>,
+    shift_y: SmallVec<[Lanes; 24]>,
+    /// int -(A sin phi - B cos phi) cos(m x) ds / 2.
+    moments: SmallVec<[Lanes; 64]>,
+}
+
+impl Integrals {
+    fn new(size: usize) -> Self {
+        let zeros = || SmallVec::from_elem([0.0; LANES], size);
+        Self { shift_x: zeros(), shift_y: zeros(), moments: SmallVec::from_elem([0.0; LANES], 2 * size) }
     }
+
+    /// Goes on along the `nodes` of a span under the force (A, B), with x = `scale` s.
+    fn add(&mut self, nodes: &[Node], (a, b): (f64, f64), scale: f64) {
+        let [first, .., last] = nodes else { return };
+        let intervals = nodes.len() - 1;
+        let h = (last.s - first.s) / intervals as f64;
+        // sine and cosine of half of x, by turning on
+        let (mut sin, mut cos) = (0.5 * scale * first.s).sin_cos();
+        let (sin_h, cos_h) = (0.5 * scale * h).sin_cos();
+        for (block, nodes) in nodes.chunks(LANES).enumerate() {
+            let [mut sines, mut cosines, mut by_x, mut by_y, mut load] = [[0.0; LANES]; 5];
+            for (lane, Node { at, .. }) in nodes.iter().enumerate() {
+                let k = LANES * block + lane;
+                let weight = if k == 0 || k == intervals { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 } * h / 3.0;
+                (sines[lane], cosines[lane]) = (sin, cos);
+                (by_x[lane], by_y[lane]) = (-weight * at.sin, weight * at.cos);
+                load[lane] = -0.5 * weight * (a * at.sin - b * at.cos);
+                (sin, cos) = (sin * cos_h + cos * sin_h, cos * cos_h - sin * sin_h);
+            }
+            let cos_x = lanes(|l| cosines[l] * cosines[l] - sines[l] * sines[l]);
+            let recurrence = |here: &Lanes, before: &Lanes| lanes(|l| 2.0 * cos_x[l] * here[l] - before[l]);
+            let (mut before, mut here) = (sines.map(|sin| -sin), sines);
+            for (x, y) in self.shift_x.iter_mut().zip(&mut self.shift_y) {
+                *x = lanes(|l| x[l] + by_x[l] * here[l]);
+                *y = lanes(|l| y[l] + by_y[l] * here[l]);
+                (before, here) = (here, recurrence(&here, &before));
+            }
+            let (mut before, mut here) = (lanes(|l| load[l] * cos_x[l]), load);
+            for moment in &mut self.moments {
+                *moment = lanes(|l| moment[l] + here[l]);
+                (before, here) = (here, recurrence(&here, &before));
+            }
+        }
+    }
+
+    /// How far each mode moves the rod where it is now, in the direction `(cos, sin)` and across it.
+    fn shifts(&self, cos: f64, sin: f64) -> (Modes, Modes) {
+        let shift = |(x, y): (&Lanes, &Lanes)| (x.iter().sum::<f64>(), y.iter().sum::<f64>());
+        let shifts = || self.shift_x.iter().zip(&self.shift_y).map(shift);
+        (shifts().map(|(x, y)| cos * x + sin * y).collect(), shifts().map(|(x, y)| cos * y - sin * x).collect())
+    }
+}
+
+fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
+    std::array::from_fn(f)
 }
 
 /// The contact where the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
@@ -135,7 +192,7 @@ fn lies_flat(turning: f64, kappa: f64, last: bool) -> bool {
 }
 
 /// Whether the second variation is positive definite.
-pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> bool {
+pub(crate) fn is_stable(world: &World<'_>, configuration: &Configuration, shape: &Shape) -> bool {
     let n = configuration.count();
     if n == 0 {
         return true;
@@ -144,35 +201,15 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
     let end = configuration.s(n - 1);
     let scale = PI / end;
     let mut q = Quadratic::diagonal((0..size).map(|m| 0.5 * end * ((m as f64 + 0.5) * scale).powi(2)));
-    let spans = configuration.spans(world, path);
-
-    let zero = Modes::from_elem(0.0, size);
     // Positions change by int (-sin phi, cos phi) eta: accumulated from contact to contact.
-    let (mut shift_x, mut shift_y, mut eta) = (zero.clone(), zero.clone(), zero.clone());
-    let mut moments: SmallVec<[f64; 64]> = SmallVec::from_elem(0.0, 2 * size);
+    let mut integrals = Integrals::new(size);
     let supports = configuration.supports(world);
     for j in 0..n {
-        let Span { s: from, start, a, b } = spans[j];
-        let length = configuration.s(j) - from;
-        if length > 0.0 {
-            let steps = 2 * ((length * INTERVALS / 2.0).ceil() as usize).max(2);
-            let h = length / steps as f64;
-            let sections = std::iter::once(start).chain(walk(&start, a, b, length, steps));
-            for (k, at) in sections.enumerate() {
-                let simpson = if k == 0 || k == steps { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 } * h / 3.0;
-                let cos_x = modes_at((from + h * k as f64) * scale, &mut eta);
-                let (sin, cos) = at.phi.sin_cos();
-                for ((x, y), eta) in shift_x.iter_mut().zip(&mut shift_y).zip(&eta) {
-                    *x -= simpson * sin * eta;
-                    *y += simpson * cos * eta;
-                }
-                add_cosines(cos_x, -0.5 * simpson * (a * sin - b * cos), &mut moments);
-            }
-        }
+        let Span { a, b, .. } = shape.spans[j];
+        integrals.add(shape.along(j), (a, b), scale);
         let support = supports.support(j, configuration.t(j));
         let (sin, cos) = support.alpha.sin_cos();
-        let along: Modes = shift_x.iter().zip(&shift_y).map(|(x, y)| cos * x + sin * y).collect();
-        let across: Modes = shift_x.iter().zip(&shift_y).map(|(x, y)| cos * y - sin * x).collect();
+        let (along, across) = integrals.shifts(cos, sin);
         q.add(PENALTY, &across, &across);
         let (v, w, f) = (support.speed, support.turning, configuration.force(j));
         match configuration.contacts[j].hold {
@@ -181,8 +218,8 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
             Hold::Tip if v == 0.0 => return false,
             Hold::Tip => q.add(-f * w / v, &along, &along),
             Hold::Tangent { offset } => {
-                modes_at(configuration.s(j) * scale, &mut eta);
-                let kappa = offset.cos() * spans[j + 1].start.kappa;
+                let eta = modes_at(configuration.s(j) * scale, size);
+                let kappa = offset.cos() * shape.spans[j + 1].start.kappa;
                 let divisor = w - v * kappa;
                 // in a notch the tip may be behind it, at the same place
                 if lies_flat(w, kappa, j + 1 == n || configuration.s(j) == 1.0) {
@@ -199,6 +236,7 @@ pub(crate) fn is_stable(world: &World<'_>, path: &ClampPath, configuration: &Con
             }
         }
     }
+    let moments: SmallVec<[f64; 64]> = integrals.moments.iter().map(|lanes| lanes.iter().sum()).collect();
     q.add_load(&moments);
     q.is_positive()
 }
@@ -217,7 +255,7 @@ mod tests {
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let mut column = Configuration::free(0.0);
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
-        is_stable(&world, &path, &column)
+        is_stable(&world, &column, &Shape::of(&world, &path, &column))
     }
 
     #[test]

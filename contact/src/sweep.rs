@@ -57,6 +57,9 @@ pub struct Sweep<'a> {
     crowd: (f64, usize),
 }
 
+/// Most steps of a path: poses of a finer one are not told apart.
+const MOST_STEPS: f64 = 1e15;
+
 /// More transitions than this at one pose are no physics.
 const MOST_AT_ONE_POSE: usize = 12;
 /// How far beyond a fold the descent starts, so that the chain, whose own fold is not quite there, sees it too. Lengthened
@@ -87,19 +90,24 @@ impl<'a> Sweep<'a> {
         path: ClampPath,
         step: f64,
     ) -> Result<Self, ContactError> {
+        let wrong = ContactError::Step { value: step };
         if !(step.is_finite() && step > 0.0) {
-            return Err(ContactError::Step { value: step });
+            return Err(wrong);
         }
         let units = rod.units();
         let step = if path.turns_only() { step } else { step / units.length };
         let path = path.dimensionless(units);
+        // a path that is a whole number of steps long but for rounding reports its end
+        let steps = (path.length() / step * (1.0 + 1e-12)).floor();
+        if steps > MOST_STEPS {
+            return Err(wrong);
+        }
         let corrector = Corrector::new(World::new(objects.as_ref(), units.length), path);
         Ok(Self {
             rod: *rod,
             stepper: Stepper { corrector, scanner: Scanner::default(), h: FIRST_STEP },
             step,
-            // a path that is a whole number of steps long but for rounding reports its end
-            reports: (path.length() / step * (1.0 + 1e-12)).floor() as usize + 1,
+            reports: steps as usize + 1,
             reported: 0,
             at: None,
             pending: VecDeque::new(),
@@ -326,7 +334,7 @@ impl<'a> Sweep<'a> {
     /// A look at the straight rod where it has not come from elsewhere: all that is behind an open contour is solid.
     fn scan_straight(&mut self, tau: f64) -> Scan {
         let skin = std::mem::replace(&mut self.stepper.corrector.world.skin, f64::INFINITY);
-        let scan = self.stepper.scan(&Configuration::free(tau));
+        let (scan, _) = self.stepper.look(&Configuration::free(tau));
         self.stepper.corrector.world.skin = skin;
         scan
     }

@@ -1,0 +1,79 @@
+//! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
+
+use crate::configuration::{Configuration, Span, Spans};
+use crate::path::ClampPath;
+use crate::world::World;
+use rod_core::{Station, stations};
+use smallvec::SmallVec;
+
+/// Largest distance between the points. Between them the gap to an object is bounded by its slope (a rod moves through the
+/// plane with unit speed, so the gap is 1-Lipschitz).
+const SPACING: f64 = 1.0 / 32.0;
+
+/// Points up to the last contact, at least: several a wave of the highest mode by which stability is judged.
+const LOADED: f64 = 28.0;
+
+/// Intervals of a span under load, at least, for Simpson's rule.
+const FEWEST: usize = 4;
+
+/// Largest distance between the points in the elastica's own wavelength, in units of the square root of EI over the force; and
+/// the smallest one, whatever the force.
+const LARGEST_PHASE: f64 = 0.5;
+const SMALLEST_SPACING: f64 = 1.0 / 512.0;
+
+/// A point of the rod.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub s: f64,
+    pub at: Station,
+    pub span: usize,
+    /// The contact that is here.
+    pub contact: Option<usize>,
+}
+
+/// The rod's segments, and points along all of it from the clamp to the tip. Up to the last contact those of a segment are an
+/// odd number at equal distances.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    pub spans: Spans,
+    pub nodes: SmallVec<[Node; 64]>,
+}
+
+impl Shape {
+    pub fn of(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Self {
+        let spans = configuration.spans(world, path);
+        let mut nodes = SmallVec::new();
+        let loaded = spans.last().map_or(0.0, |free| free.s);
+        for (i, span) in spans.iter().enumerate() {
+            let next = spans.get(i + 1);
+            nodes.push(Node { s: span.s, at: Station::from(&span.start), span: i, contact: i.checked_sub(1) });
+            let length = next.map_or(1.0, |next| next.s) - span.s;
+            if length <= 0.0 {
+                continue;
+            }
+            let steps = match next {
+                Some(_) => 2 * ((0.5 * length / spacing(span).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2),
+                None => (length / SPACING).ceil() as usize,
+            };
+            // the last point of a span is the first of the next, where it is known better
+            let keep = if next.is_some() { steps - 1 } else { steps };
+            let h = length / steps as f64;
+            for (k, at) in stations(&span.start, span.a, span.b, length, steps).take(keep).enumerate() {
+                nodes.push(Node { s: span.s + h * (k + 1) as f64, at, span: i, contact: None });
+            }
+        }
+        Self { spans, nodes }
+    }
+
+    /// The points of span number `i` with both its ends.
+    pub fn along(&self, i: usize) -> &[Node] {
+        let first = self.nodes.partition_point(|node| node.span < i);
+        let last = self.nodes.partition_point(|node| node.span <= i);
+        &self.nodes[first..(last + 1).min(self.nodes.len())]
+    }
+}
+
+/// Distance between the points of a span under load.
+fn spacing(span: &Span) -> f64 {
+    (LARGEST_PHASE / span.a.hypot(span.b).sqrt()).clamp(SMALLEST_SPACING, SPACING)
+}
