@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 pub mod bumps;
+pub mod exact;
 pub mod golden;
 pub mod judge;
 
