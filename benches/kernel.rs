@@ -6,7 +6,7 @@
 mod measure;
 
 use criterion::{Criterion, Throughput};
-use measure::{Segment, Time, interleaved, is_timed, kernel, segments};
+use measure::{Segment, Time, interleaved, is_timed, kernel, machine, segments, verdict};
 use std::hint::black_box;
 use vibrissa::{Cut, Method, Ode, Propagator, Section, advance_with_sensitivities, walk};
 
@@ -62,6 +62,7 @@ fn main() {
         return;
     }
 
+    println!("{}", machine::line());
     let again = &segments[..512];
     let [cold, warm, derivatives, step, dop853, dop853_again] = interleaved(
         ROUNDS,
@@ -86,7 +87,9 @@ fn main() {
     line("advance, the kernel", &warm, &warm);
     line(&format!("Dop853 at {TOLERANCE:e}"), &dop853_again, &warm);
     for (which, ratio) in [("different", dop853.least / cold.least), ("recurring", dop853_again.least / warm.least)] {
-        let verdict = if ratio >= LEAST_RATIO { "holds" } else { "DOES NOT HOLD" };
-        println!("at least {LEAST_RATIO} times faster than Dop853, {which} segments: {verdict} ({ratio:.1})");
+        println!(
+            "{}",
+            verdict(&format!("Dop853 over the kernel, at least {LEAST_RATIO}, {which} segments"), ratio, LEAST_RATIO..)
+        );
     }
 }

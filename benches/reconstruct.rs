@@ -6,7 +6,7 @@ mod measure;
 
 use criterion::Criterion;
 use measure::objects::{OBJECTS, path, sweep};
-use measure::{Time, interleaved, is_timed, kernel, segments};
+use measure::{Time, interleaved, is_timed, kernel, machine, segments};
 use nalgebra::{Matrix3, Vector3};
 use std::hint::black_box;
 use vibrissa::noise_estimate::ChannelNoise;
@@ -74,6 +74,7 @@ fn main() {
         return;
     }
 
+    println!("{}", machine::line());
     let segments = segments();
     let [kernel, inversion, clean_scan, noisy_scan, one_by_one]: [Time; 5] = interleaved(
         10,

@@ -5,7 +5,7 @@ mod measure;
 
 use criterion::Criterion;
 use measure::objects::{OBJECTS, path, sweep};
-use measure::{Time, interleaved, is_timed, kernel, segments};
+use measure::{Time, interleaved, is_timed, kernel, machine, segments};
 use std::hint::black_box;
 use vibrissa::Composite;
 
@@ -47,6 +47,7 @@ fn main() {
         return;
     }
 
+    println!("{}", machine::line());
     let segments = segments();
     let [kernel, full, sparse, before, behind]: [Time; 5] = interleaved(
         40,

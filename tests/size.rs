@@ -1,6 +1,6 @@
 //! What a contour of very many pieces costs: memory, and looks at its shapes while a rod sweeps past a few of them.
 //!
-//! How long that takes is for `cargo bench --bench size`.
+//! How long that takes is for `cargo bench --bench growth`.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may, and its numbers are there to be read")]
 
 #[path = "../benches/measure/waves.rs"]

@@ -1,11 +1,15 @@
 //! Times that can be compared: everything that enters a ratio is measured in turns, in one run.
 #![allow(dead_code, reason = "each bench takes what it needs")]
 
+pub mod machine;
 pub mod objects;
+pub mod slalom;
+pub mod solves;
 pub mod waves;
 
 use std::f64::consts::PI;
 use std::hint::black_box;
+use std::ops::RangeBounds;
 use std::time::Instant;
 use vibrissa::{Section, advance};
 
@@ -33,7 +37,13 @@ impl Time {
 /// Times each of `works` `rounds` times, one after the other in every round, so that a busy machine is unfair to all
 /// alike. A work returns how many units of it were done.
 pub fn interleaved<const N: usize>(rounds: usize, mut works: [&mut dyn FnMut() -> usize; N]) -> [Time; N] {
-    let mut times = [const { Vec::new() }; N];
+    let times = in_turns(rounds, &mut works);
+    std::array::from_fn(|i| times[i])
+}
+
+/// The same for works whose number is not known beforehand.
+pub fn in_turns(rounds: usize, works: &mut [&mut dyn FnMut() -> usize]) -> Vec<Time> {
+    let mut times = vec![Vec::new(); works.len()];
     for round in 0..=rounds {
         for (work, times) in works.iter_mut().zip(&mut times) {
             let start = Instant::now();
@@ -45,10 +55,17 @@ pub fn interleaved<const N: usize>(rounds: usize, mut works: [&mut dyn FnMut() -
             }
         }
     }
-    times.map(|mut times| {
+    let time = |mut times: Vec<f64>| {
         times.sort_by(f64::total_cmp);
         Time { least: times[0], median: times[times.len() / 2] }
-    })
+    };
+    times.into_iter().map(time).collect()
+}
+
+/// Whether a number is where it is claimed to be.
+pub fn verdict(claim: &str, number: f64, bounds: impl RangeBounds<f64>) -> String {
+    let digits = if number < 100.0 { 2 } else { 0 };
+    format!("{claim}: {} ({number:.digits$})", if bounds.contains(&number) { "holds" } else { "DOES NOT HOLD" })
 }
 
 /// Whether the bench was started to be timed, not listed or tried once.
