@@ -1,0 +1,243 @@
+//! Instructions, which noise cannot move: counted by valgrind and compared with those that are kept in instructions.csv.
+//!
+//! `cargo bench --bench instructions` prints them beside the kept ones and fails where one has grown by more than 5 %;
+//! `-- --keep` keeps them. Another compiler, or a processor with other instructions, for which the mathematics of the system has
+//! other code, counts otherwise: then nothing is compared. Each work is run a few and many times by this very program: the difference is the work itself,
+//! without what comes before it.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::panic, reason = "a bench may, and it is there to be read")]
+
+mod measure;
+
+use measure::objects::{OBJECTS, path, rod, sweep};
+use measure::slalom::Warm;
+use measure::solves::{self, PHASES};
+use measure::waves::{self, Kind};
+use measure::{kernel, segments, verdict};
+use nalgebra::Matrix3;
+use std::collections::BTreeMap;
+use std::hint::black_box;
+use std::process::{Command, ExitCode};
+use vibrissa::{NewtonWorkspace, Sample, advance, advance_with_sensitivities, single, walk};
+
+/// What is kept, beside this file.
+const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.csv");
+/// Works that are compared with each other.
+const SEGMENT: &str = "segment";
+const DERIVATIVES: &str = "segment with derivatives";
+const EDGES: [&str; 2] = ["sweep past edges: 1000", "sweep past edges: 2000"];
+/// Growth that fails.
+const MOST: f64 = 1.05;
+/// The argument by which this program runs a work, under valgrind, in place of counting.
+const WORK: &str = "--work";
+
+/// A work: its name, how often it is done few times and many times, and what does it so many times and returns the number of
+/// its units.
+struct Work {
+    name: String,
+    times: [usize; 2],
+    run: Box<dyn Fn(usize) -> usize>,
+}
+
+impl Work {
+    fn new(name: impl Into<String>, times: [usize; 2], run: impl Fn(usize) -> usize + 'static) -> Self {
+        Self { name: name.into(), times, run: Box::new(run) }
+    }
+}
+
+fn works() -> Vec<Work> {
+    let repeated = |once: fn(&[measure::Segment]) -> usize| {
+        move |times: usize| {
+            let segments = segments();
+            (0..times).map(|_| once(&segments)).sum()
+        }
+    };
+    let mut works = vec![
+        Work::new(SEGMENT, [1, 5], repeated(kernel)),
+        Work::new(
+            DERIVATIVES,
+            [1, 5],
+            repeated(|segments| {
+                for measure::Segment { start, a, b, s } in segments {
+                    black_box(advance_with_sensitivities(black_box(start), *a, *b, *s));
+                }
+                segments.len()
+            }),
+        ),
+        Work::new(
+            "segment in f32",
+            [1, 5],
+            repeated(|segments| {
+                for measure::Segment { start, a, b, s } in segments {
+                    let start = vibrissa::Section {
+                        x: start.x as f32,
+                        y: start.y as f32,
+                        phi: start.phi as f32,
+                        kappa: start.kappa as f32,
+                    };
+                    black_box(advance(black_box(&start), *a as f32, *b as f32, *s as f32));
+                }
+                segments.len()
+            }),
+        ),
+        Work::new(
+            "step of a walk along a segment",
+            [1, 3],
+            repeated(|segments| {
+                for measure::Segment { start, a, b, s } in &segments[..256] {
+                    walk(black_box(start), *a, *b, *s, 100).for_each(|section| {
+                        black_box(section);
+                    });
+                }
+                256 * 100
+            }),
+        ),
+    ];
+    for (index, phase) in PHASES.iter().enumerate() {
+        works.push(Work::new(format!("warm solve of {phase}"), [1, 9], move |times| {
+            let (cases, mut u, mut workspace) = (&solves::warm()[index], Vec::new(), NewtonWorkspace::new());
+            (0..times).map(|_| solves::solve_all(cases, &mut u, &mut workspace)).sum()
+        }));
+    }
+    for contacts in [1, 8] {
+        works.push(Work::new(format!("warm solve between discs, contacts: {contacts}"), [100, 300], move |times| {
+            Warm::new(contacts).solve(times, &mut Vec::new(), &mut NewtonWorkspace::new())
+        }));
+    }
+    for (k, edges) in [1000, 2000].into_iter().enumerate() {
+        works.push(Work::new(EDGES[k], [1, 3], move |times| {
+            let objects = waves::objects(Kind::Edges, edges);
+            (0..times).for_each(|_| _ = black_box(waves::sweep(black_box(&objects))));
+            times
+        }));
+    }
+    // The poses of both are those of one scan; twice as many are twice as many reported states, and the same events.
+    let scan = |states: usize| {
+        move |times: usize| {
+            let contour = OBJECTS[0].contour();
+            (0..times).for_each(|_| {
+                black_box(sweep(black_box(&contour), path(0.4, 0.8, -0.9), states));
+            });
+            times
+        }
+    };
+    works.push(Work::new("scan of 7 events without states between", [1, 3], scan(2)));
+    works.push(Work::new("scan of 7 events and 1000 states", [1, 2], scan(1000)));
+    works.push(Work::new("one contact from reactions, with its covariance", [1, 9], |times| {
+        let states = sweep(&OBJECTS[0].contour(), path(0.4, 0.8, -0.9), 1701).states;
+        let samples: Vec<_> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();
+        let (rod, covariance) = (rod(), Matrix3::from_diagonal_element(1e-6));
+        for sample in samples.iter().cycle().take(times * samples.len()) {
+            black_box(single(&rod, black_box(sample.pose), black_box(sample.reactions), &covariance).ok());
+        }
+        times * samples.len()
+    }));
+    works
+}
+
+/// Instructions of this program doing work number `index` so many times.
+fn instructions(index: usize, times: usize) -> Result<(f64, usize), String> {
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(program)
+        .args([WORK, &index.to_string(), &times.to_string()])
+        .output()
+        .map_err(|error| format!("valgrind, expected to be installed: {error}"))?;
+    let (said, found) = (String::from_utf8_lossy(&output.stderr), String::from_utf8_lossy(&output.stdout));
+    let counted = said.lines().find_map(|line| line.split("Collected :").nth(1)).and_then(|n| n.trim().parse().ok());
+    match (counted, found.trim().parse()) {
+        (Some(counted), Ok(units)) => Ok((counted, units)),
+        _ => Err(format!("valgrind counted nothing: {said}{found}")),
+    }
+}
+
+/// Instructions a unit of work.
+fn count(index: usize, work: &Work) -> Result<f64, String> {
+    let [few, many] = work.times;
+    let ((least, units), (most, more)) = (instructions(index, few)?, instructions(index, many)?);
+    Ok((most - least) / (more - units) as f64)
+}
+
+/// What counts depend on besides the sources.
+fn circumstances() -> String {
+    #[cfg(target_arch = "x86_64")]
+    let fused = std::arch::is_x86_feature_detected!("fma") && std::arch::is_x86_feature_detected!("avx2");
+    #[cfg(not(target_arch = "x86_64"))]
+    let fused = false;
+    let (arch, os) = (std::env::consts::ARCH, std::env::consts::OS);
+    format!("{}; {arch} {os}{}", measure::machine::compiler(), if fused { " with FMA and AVX2" } else { "" })
+}
+
+/// What is kept, if it was counted in these circumstances.
+fn kept(circumstances: &str) -> Option<BTreeMap<String, f64>> {
+    let text = std::fs::read_to_string(KEPT).ok()?;
+    let mut lines = text.lines();
+    if lines.next()?.strip_prefix("# ") != Some(circumstances) {
+        return None;
+    }
+    let lines = lines.filter_map(|line| line.rsplit_once(','));
+    Some(lines.filter_map(|(name, count)| Some((name.to_owned(), count.parse().ok()?))).collect())
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().collect();
+    let works = works();
+    if let Some(at) = arguments.iter().position(|argument| argument == WORK) {
+        let [index, times] = [1, 2].map(|k| arguments[at + k].parse::<usize>().unwrap());
+        println!("{}", (works[index].run)(times));
+        return ExitCode::SUCCESS;
+    }
+    if !measure::is_timed() {
+        return ExitCode::SUCCESS;
+    }
+    let keep = arguments.iter().any(|argument| argument == "--keep");
+    let circumstances = circumstances();
+    let kept = kept(&circumstances);
+    let mut text = format!("# {circumstances}\nwork,instructions\n");
+    let mut counts = BTreeMap::new();
+    let mut grown = 0;
+    println!("{:>12} {:>12} {:>8}", "instructions", "kept", "ratio");
+    for (index, work) in works.iter().enumerate() {
+        let count = match count(index, work) {
+            Ok(count) => count,
+            Err(what) => {
+                println!("{}: {what}", work.name);
+                return ExitCode::FAILURE;
+            }
+        };
+        let before = kept.as_ref().map_or(f64::NAN, |kept| kept.get(&work.name).copied().unwrap_or(0.0));
+        // a work that is not kept, where others are, has grown from nothing
+        let ratio = count / before;
+        let fails = ratio > MOST;
+        grown += usize::from(fails);
+        println!("{count:12.0} {before:12.0} {ratio:8.3} {}{}", work.name, if fails { "  GROWN" } else { "" });
+        text += &format!("{},{count:.0}\n", work.name);
+        counts.insert(work.name.clone(), count);
+    }
+    let over = |more: &str, fewer: &str| counts[more] / counts[fewer];
+    println!(
+        "{}",
+        verdict(
+            "twice as many edges that are not met, less than 1.05 times the work",
+            over(EDGES[1], EDGES[0]),
+            ..1.05
+        )
+    );
+    println!(
+        "{}",
+        verdict("derivatives of a segment, at most 4 times the segment", over(DERIVATIVES, SEGMENT), ..=4.0)
+    );
+    if keep {
+        std::fs::write(KEPT, text).unwrap();
+        println!("kept in {KEPT}");
+        return ExitCode::SUCCESS;
+    }
+    if kept.is_none() {
+        println!("nothing to compare with in {KEPT}, which holds for other circumstances than {circumstances}");
+    }
+    if grown > 0 {
+        println!("{grown} of {} grew by more than 5 %: mend it, or keep it by `-- --keep` and say why", works.len());
+        return ExitCode::FAILURE;
+    }
+    ExitCode::SUCCESS
+}
