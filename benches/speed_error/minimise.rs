@@ -1,0 +1,83 @@
+//! Other solvers of `argmin` on the boundary-value problem. The only file that knows them.
+
+use argmin::core::{CostFunction, Error, Executor, Gradient, Hessian, Jacobian, State};
+use argmin::solver::gaussnewton::GaussNewton;
+use argmin::solver::trustregion::{Dogleg, TrustRegion};
+use nalgebra::{DMatrix, DVector};
+use vibrissa::{NewtonOptions, NewtonSolver, RootProblem, System};
+
+/// Iterations after which a solver that does not come to an end has not converged.
+const MOST: u64 = 60;
+
+/// A system as half the square of its residual, with the Hessian of Gauss and Newton, J^T J.
+struct LeastSquares<S>(RootProblem<S>);
+
+impl<S: System> CostFunction for LeastSquares<S> {
+    type Param = DVector<f64>;
+    type Output = f64;
+    fn cost(&self, u: &Self::Param) -> Result<f64, Error> {
+        self.0.cost(u)
+    }
+}
+
+impl<S: System> Gradient for LeastSquares<S> {
+    type Param = DVector<f64>;
+    type Gradient = DVector<f64>;
+    fn gradient(&self, u: &Self::Param) -> Result<Self::Gradient, Error> {
+        self.0.gradient(u)
+    }
+}
+
+impl<S: System> Hessian for LeastSquares<S> {
+    type Param = DVector<f64>;
+    type Hessian = DMatrix<f64>;
+    fn hessian(&self, u: &Self::Param) -> Result<Self::Hessian, Error> {
+        let jacobian = self.0.jacobian(u)?;
+        Ok(jacobian.tr_mul(&jacobian))
+    }
+}
+
+/// Our own step under argmin's executor. Returns whether it converged.
+pub fn newton(system: impl System, u: &mut [f64], options: NewtonOptions) -> bool {
+    let result = Executor::new(RootProblem(system), NewtonSolver::new(options))
+        .configure(|state| state.param(DVector::from_column_slice(u)))
+        .ctrlc(false)
+        .timer(false)
+        .run();
+    let Ok(result) = result else { return false };
+    take(u, result.state.get_param());
+    result.solver.report().is_some_and(|report| report.status.is_solved())
+}
+
+/// Argmin's Gauss-Newton method, which goes on until |F| changes by less than the tolerance.
+pub fn gauss_newton(system: impl System, u: &mut [f64], tolerance: f64) -> bool {
+    let solver = GaussNewton::new().with_tolerance(tolerance).unwrap();
+    let result = Executor::new(RootProblem(system), solver)
+        .configure(|state| state.param(DVector::from_column_slice(u)).max_iters(MOST))
+        .ctrlc(false)
+        .timer(false)
+        .run();
+    let Ok(result) = result else { return false };
+    take(u, result.state.get_param());
+    result.state.get_iter() < MOST
+}
+
+/// Argmin's trust region with dogleg steps, which goes on until |F| is below the tolerance: it has no other end.
+pub fn trust_region(system: impl System, u: &mut [f64], tolerance: f64) -> bool {
+    let result = Executor::new(LeastSquares(RootProblem(system)), TrustRegion::new(Dogleg::new()))
+        .configure(|state| {
+            state.param(DVector::from_column_slice(u)).target_cost(0.5 * tolerance * tolerance).max_iters(MOST)
+        })
+        .ctrlc(false)
+        .timer(false)
+        .run();
+    let Ok(result) = result else { return false };
+    take(u, result.state.get_param());
+    result.state.get_iter() < MOST
+}
+
+fn take(u: &mut [f64], found: Option<&DVector<f64>>) {
+    if let Some(found) = found {
+        u.copy_from_slice(found.as_slice());
+    }
+}
