@@ -7,6 +7,7 @@
 
 mod cluster;
 mod near;
+mod pressed;
 mod programme;
 
 use crate::configuration::Configuration;
@@ -14,7 +15,7 @@ use crate::path::ClampPath;
 use crate::world::World;
 use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
-use programme::programme;
+use programme::Programme;
 use rod_core::{Pose, advance};
 use smallvec::{SmallVec, smallvec};
 
@@ -106,8 +107,8 @@ impl Chain {
         let near = near(world, &nodes, &angles, reach);
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
-            let solved = programme(self, &nodes, &near, time_step, push, 0.0);
-            let (change, forces) = solved.or_else(|| programme(self, &nodes, &near, time_step, push, YIELDING))?;
+            let solve = |yielding| Programme::new(self, &nodes, &near, time_step, push, yielding).solve();
+            let (change, forces) = solve(0.0).or_else(|| solve(YIELDING))?;
             let mut moved = self.clone();
             for (joint, change) in moved.joints.iter_mut().zip(&change) {
                 *joint += change;

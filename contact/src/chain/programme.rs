@@ -1,68 +1,161 @@
 //! The quadratic programme of one implicit step of the chain.
 
 use super::near::Near;
+use super::pressed::pressed;
 use super::{Chain, LINKS, Nodes};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 
-/// Change d of the joints, force at each near node.
-///
-/// Minimise 1/2 d' D d + q' d subject to A d <= b with a diagonal D, solved by its dual in the forces, which are few:
-/// minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f over f >= 0, then d = -D^-1 (q + A' f). Walls between which,
-/// linearised, there is no room are let give way by `yielding` a unit of force: A d <= b + yielding f.
-pub(super) fn programme(
-    chain: &Chain,
-    nodes: &Nodes,
-    near: &[Near],
-    time_step: f64,
-    push: f64,
-    yielding: f64,
-) -> Option<(Vec<f64>, Vec<f64>)> {
-    let damped = 1.0 + 1.0 / time_step;
-    let softness = |i: usize| 1.0 / (Chain::stiffness(i) * damped);
-    // D^-1 q: every joint gives way by the same share
-    let mut change: Vec<f64> = chain.joints.iter().map(|joint| -joint / damped).collect();
-    if near.is_empty() {
-        return Some((change, Vec::new()));
+/// One number a joint.
+pub(super) type Joints = [f64; LINKS];
+
+/// Minimise 1/2 d' D d + q' d over the change d of the joints subject to A d <= b, with a diagonal D; of its dual in the forces
+/// f >= 0 at the near nodes, which are few: minimise 1/2 f' (A D^-1 A') f + (b + A D^-1 q)' f, then d = -D^-1 (q + A' f).
+/// Walls between which, linearised, there is no room are let give way by `yielding` a unit of force: A d <= b + yielding f.
+pub(super) struct Programme {
+    /// A, a row a near node: how its gap falls with the joints.
+    pub rows: Vec<Joints>,
+    /// b + A D^-1 q: its gap after the step if nothing pressed.
+    pub gaps: Vec<f64>,
+    /// The diagonal of D^-1.
+    pub softness: Joints,
+    pub yielding: f64,
+    /// -D^-1 q: the change if nothing pressed.
+    free: Joints,
+}
+
+impl Programme {
+    pub fn new(chain: &Chain, nodes: &Nodes, near: &[Near], time_step: f64, push: f64, yielding: f64) -> Self {
+        let damped = 1.0 + 1.0 / time_step;
+        // every joint gives way by the same share
+        let free = chain.joints.map(|joint| -joint / damped);
+        // by joint i node turns as (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
+        let gradient = |&Near { s, x, y, alpha, .. }: &Near| -> Joints {
+            let (sin, cos) = alpha.sin_cos();
+            std::array::from_fn(
+                |i| if (i as f64) < s { (y - nodes[i][1]) * sin + (x - nodes[i][0]) * cos } else { 0.0 },
+            )
+        };
+        let rows: Vec<Joints> = near.iter().map(gradient).collect();
+        let gaps = near.iter().zip(&rows).map(|(near, row)| near.gap.max(-push) - dot(row, &free)).collect();
+        let softness = std::array::from_fn(|i| 1.0 / (Chain::stiffness(i) * damped));
+        Self { rows, gaps, softness, yielding, free }
     }
-    // by joint i node turns as (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
-    let gradient = |&Near { s, x, y, alpha, .. }: &Near| -> [f64; LINKS] {
-        let (sin, cos) = alpha.sin_cos();
-        std::array::from_fn(|i| if (i as f64) < s { (y - nodes[i][1]) * sin + (x - nodes[i][0]) * cos } else { 0.0 })
-    };
-    let rows: Vec<[f64; LINKS]> = near.iter().map(gradient).collect();
-    let m = near.len();
-    let (mut columns, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
-    for (j, right) in rows.iter().enumerate() {
-        for (i, left) in rows.iter().enumerate().take(j + 1) {
-            indices.push(i);
-            let given = if i == j { yielding } else { 0.0 };
-            values.push(given + (0..LINKS).map(|k| left[k] * right[k] * softness(k)).sum::<f64>());
+
+    /// An entry of the matrix A D^-1 A' of the dual, or what gives way in its place.
+    pub fn coupling(&self, i: usize, j: usize) -> f64 {
+        let given = if i == j { self.yielding } else { 0.0 };
+        let products = self.rows[i].iter().zip(&self.rows[j]).zip(&self.softness);
+        given + products.map(|((left, right), softness)| left * right * softness).sum::<f64>()
+    }
+
+    /// How the joints give way to forces at the near nodes.
+    pub fn bent(&self, forces: &[f64]) -> Joints {
+        let mut bent = [0.0; LINKS];
+        for (row, force) in self.rows.iter().zip(forces).filter(|(_, force)| **force != 0.0) {
+            for ((bent, softness), row) in bent.iter_mut().zip(&self.softness).zip(row) {
+                *bent += softness * row * force;
+            }
         }
-        columns.push(indices.len());
+        bent
     }
-    let quadratic = CscMatrix::new(m, m, columns, indices, values);
-    let linear: Vec<f64> = near
-        .iter()
-        .zip(&rows)
-        .map(|(near, row)| {
-            let unforced: f64 = row.iter().zip(&change).map(|(a, d)| a * d).sum();
-            near.gap.max(-push) - unforced
-        })
-        .collect();
-    let pushing = CscMatrix::new(m, m, (0..=m).collect(), (0..m).collect(), vec![-1.0; m]);
-    let settings = DefaultSettingsBuilder::default().verbose(false).presolve_enable(false).max_iter(60).build().ok()?;
-    let cones = [NonnegativeConeT(m)];
-    let mut solver = DefaultSolver::new(&quadratic, &linear, &pushing, &vec![0.0; m], &cones, settings).ok()?;
-    solver.solve();
-    if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
-        return None;
+
+    /// Change d of the joints, force at each near node; none where there is none, or none was found.
+    pub fn solve(&self) -> Option<(Joints, Vec<f64>)> {
+        let forces = pressed(self).or_else(|| self.by_interior_points())?;
+        let bent = self.bent(&forces);
+        Some((std::array::from_fn(|i| self.free[i] - bent[i]), forces))
     }
-    let forces = solver.solution.x.clone();
-    for (row, force) in rows.iter().zip(&forces) {
-        for (i, d) in change.iter_mut().enumerate() {
-            *d -= softness(i) * row[i] * force;
+
+    /// The forces, to eight digits, whatever the contacts.
+    fn by_interior_points(&self) -> Option<Vec<f64>> {
+        let m = self.rows.len();
+        let (mut columns, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+        for j in 0..m {
+            indices.extend(0..=j);
+            values.extend((0..=j).map(|i| self.coupling(i, j)));
+            columns.push(indices.len());
         }
+        let quadratic = CscMatrix::new(m, m, columns, indices, values);
+        let pushing = CscMatrix::new(m, m, (0..=m).collect(), (0..m).collect(), vec![-1.0; m]);
+        let settings =
+            DefaultSettingsBuilder::default().verbose(false).presolve_enable(false).max_iter(60).build().ok()?;
+        let cones = [NonnegativeConeT(m)];
+        let mut solver = DefaultSolver::new(&quadratic, &self.gaps, &pushing, &vec![0.0; m], &cones, settings).ok()?;
+        solver.solve();
+        matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved)
+            .then(|| solver.solution.x.clone())
     }
-    Some((change, forces))
+}
+
+pub(super) fn dot(left: &Joints, right: &Joints) -> f64 {
+    left.iter().zip(right).map(|(l, r)| l * r).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_core::Pose;
+
+    /// A straight chain above a wavy floor that has come up to it in places.
+    fn floored(seed: u32) -> Programme {
+        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
+        let (nodes, _) = chain.nodes();
+        let waves = 2.0 + f64::from(seed) * 0.7;
+        let near: Vec<Near> = (1..=LINKS)
+            .filter(|i| i % (1 + seed as usize % 3) == 0)
+            .map(|i| {
+                let ([x, y], phase) = (nodes[i], waves * i as f64 / LINKS as f64);
+                let (gap, alpha) = (0.01 * phase.cos() + 0.002, 0.3 * phase.sin());
+                Near { s: i as f64, x, y, stretch: 0, gap, alpha }
+            })
+            .collect();
+        Programme::new(&chain, &nodes, &near, 1.0, 0.03, 0.0)
+    }
+
+    #[test]
+    fn contacts_that_hold_are_those_of_interior_points() {
+        let mut settled = 0;
+        for seed in 0..60 {
+            let programme = floored(seed);
+            let exact = programme.by_interior_points().unwrap();
+            let Some(forces) = pressed(&programme) else { continue };
+            settled += 1;
+            let largest = exact.iter().copied().fold(0.0, f64::max);
+            for (force, exact) in forces.iter().zip(&exact) {
+                assert!((force - exact).abs() < 1e-4 * (1.0 + largest), "{seed}: {force} {exact}");
+            }
+            // and exactly what was asked for: no wall goes through, and only what is closed presses
+            let bent = programme.bent(&forces);
+            for ((row, gap), force) in programme.rows.iter().zip(&programme.gaps).zip(&forces) {
+                let gap = gap + dot(row, &bent);
+                assert!(
+                    *force >= 0.0 && gap > -1e-11 && force * gap < 1e-11 * (1.0 + largest),
+                    "{seed}: {force} {gap}"
+                );
+            }
+        }
+        assert!(settled > 40, "{settled}");
+    }
+
+    #[test]
+    fn nothing_near_gives_way_freely() {
+        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
+        let (nodes, _) = chain.nodes();
+        let (change, forces) = Programme::new(&chain, &nodes, &[], 1.0, 0.03, 0.0).solve().unwrap();
+        assert!(forces.is_empty());
+        assert!(change.iter().zip(&chain.joints).all(|(change, joint)| (change + 0.5 * joint).abs() < 1e-15));
+    }
+
+    #[test]
+    fn walls_without_room_give_way_only_where_they_may() {
+        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
+        let (nodes, _) = chain.nodes();
+        let [x, y] = nodes[LINKS];
+        let wall = |alpha| Near { s: LINKS as f64, x, y, stretch: 0, gap: -0.01, alpha };
+        let walls = [wall(0.0), wall(std::f64::consts::PI)];
+        assert!(Programme::new(&chain, &nodes, &walls, 1.0, 0.03, 0.0).solve().is_none());
+        let (_, forces) = Programme::new(&chain, &nodes, &walls, 1.0, 0.03, 1e-5).solve().unwrap();
+        assert!((forces[0] - forces[1]).abs() < 1e-3 * forces[0] && forces[0] > 100.0, "{forces:?}");
+    }
 }
