@@ -6,7 +6,6 @@ use crate::configuration::{Configuration, Held, Unknowns, lying};
 use crate::error::ContactError;
 use crate::path::ClampPath;
 use crate::scan::Scanner;
-use crate::shape::Shape;
 use crate::stability::is_stable;
 use crate::state::{Contact, ContactKind, State};
 use crate::world::{Foot, World};
@@ -169,9 +168,9 @@ pub fn equilibrium(
             (configuration, report) = other;
         }
     }
-    let shape = Shape::of(&world, &path, &configuration);
-    let stable = report.status.is_solved() && is_stable(&world, &configuration, &shape);
-    let scan = Scanner::default().scan(&world, &configuration, &shape);
+    let mut scanner = Scanner::default();
+    let scan = scanner.scan(&world, &path, &configuration);
+    let stable = report.status.is_solved() && is_stable(&world, &configuration, &scanner.shape);
     let quality = Quality::new(&report, stable);
     Ok(Equilibrium { state: state(rod, &world, &path, &configuration, &scan, quality), report })
 }

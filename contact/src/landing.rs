@@ -5,7 +5,6 @@ use crate::branch::Corrector;
 use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
 use crate::scan::{GAP_TOLERANCE, Scanner};
-use crate::shape::Shape;
 use crate::stability::is_stable;
 use crate::transition::{Break, as_tangent, as_tip, beyond_corner, breaks, onto_neighbour, with_contact};
 use crate::world::World;
@@ -30,8 +29,7 @@ pub(crate) fn settle(
         if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&corrector.world, &configuration) {
             break;
         }
-        let shape = Shape::of(&corrector.world, &corrector.path, &configuration);
-        let scan = scanner.scan(&corrector.world, &configuration, &shape);
+        let scan = scanner.scan(&corrector.world, &corrector.path, &configuration);
         let mut worst = None;
         breaks(corrector, &configuration, &scan, |b| {
             let weight = badness(&b, &configuration);
@@ -42,7 +40,7 @@ pub(crate) fn settle(
         match worst {
             Some((_, b)) => configuration = mend(configuration, b, corrector),
             None => {
-                let stable = is_stable(&corrector.world, &configuration, &shape);
+                let stable = is_stable(&corrector.world, &configuration, &scanner.shape);
                 let holds = scan.min_gap >= -1e3 * GAP_TOLERANCE && !scan.clamp_inside && stable;
                 settled = holds.then_some(configuration);
                 break;

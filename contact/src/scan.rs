@@ -3,6 +3,7 @@
 use crate::arc::Arc;
 use crate::configuration::{Configuration, Span};
 use crate::corner::{Corner, Passing};
+use crate::path::ClampPath;
 use crate::shape::{Node, Shape};
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
@@ -23,6 +24,9 @@ const ON_ROD: f64 = 1e-12;
 
 /// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
+
+/// Gap at which the direction to the foot has lost no more than three digits.
+const DISTANT: f64 = 1e-3;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
@@ -79,6 +83,20 @@ struct Sight {
     line: Option<f64>,
 }
 
+impl Sight {
+    /// Arc length from the node on within which the gap does not come down to `least`. The rod runs through the plane with
+    /// unit speed, so that the gap changes no faster. A part that bends outwards lies behind its tangent at the foot: the gap
+    /// to that changes by its slope, and the slope by no more than the rod is curved.
+    fn clear(&self, node: &Node, foot: &Foot, least: f64) -> f64 {
+        let (above, slope, curved) = ((self.gap - least).max(0.0), self.left, node.curved);
+        if !(self.interior && foot.gap > 0.0 && foot.curvature >= 0.0) || self.contact {
+            return above;
+        }
+        let root = (slope * slope + 2.0 * curved * above).sqrt();
+        above.max(if slope < 0.0 { 2.0 * above / (root - slope) } else { (slope + root) / curved })
+    }
+}
+
 /// A part of a contour and the nodes of the rod (first, last) that are near it.
 #[derive(Clone, Copy, Debug)]
 struct Near {
@@ -87,21 +105,24 @@ struct Near {
     last: usize,
 }
 
-/// Reusable memory of [`scan`](Scanner::scan).
+/// Looks at the rod, in memory that is used again.
 #[derive(Debug, Default)]
 pub(crate) struct Scanner {
+    /// The shape of the rod that was looked at last.
+    pub shape: Shape,
     near: Vec<Near>,
 }
 
 impl Scanner {
-    /// Looks at the whole rod in `configuration`, whose shape is `shape`.
-    pub fn scan(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape) -> Scan {
+    /// Looks at the whole rod in `configuration`.
+    pub fn scan(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
+        self.shape.follow(world, path, configuration);
         // where there is a contact, there the gap is zero
         let least = if configuration.count() > 0 { 0.0 } else { f64::INFINITY };
         let mut found =
-            Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false, sides: sides(world, shape) };
-        self.look_around(world, &shape.nodes, least);
-        let rod = Looking { world, configuration, shape };
+            Scan { min_gap: least, crossings: SmallVec::new(), clamp_inside: false, sides: sides(world, &self.shape) };
+        self.look_around(world, least);
+        let rod = Looking { world, configuration, shape: &self.shape };
         for near in &self.near {
             match world.kind(near.part.stretch) {
                 StretchKind::Piece(_) => rod.scan_part(*near, &mut found),
@@ -113,11 +134,12 @@ impl Scanner {
     }
 
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
-    fn look_around(&mut self, world: &World<'_>, nodes: &[Node], least: f64) {
-        self.near.clear();
+    fn look_around(&mut self, world: &World<'_>, least: f64) {
+        let Self { shape: Shape { nodes, .. }, near } = self;
+        near.clear();
         let last = nodes.len() - 1;
         if world.is_small() {
-            world.parts_near(Bounds::ALL, |part| self.near.push(Near { part, first: 0, last }));
+            world.parts_near(Bounds::ALL, |part| near.push(Near { part, first: 0, last }));
             return;
         }
         // as far as it could be to what is nearest, or as deep as it could have gone in, and the rounding of boxes
@@ -129,19 +151,18 @@ impl Scanner {
             let lengths = nodes.windows(2).map(|pair| pair[1].s - pair[0].s);
             let nearest = gaps.windows(2).zip(lengths).map(|(pair, length)| 0.5 * (pair[0] + pair[1] - length));
             let matters: SmallVec<[bool; 64]> = nearest.map(|nearest| nearest <= gap.max(0.0)).collect();
-            self.look_within(world, nodes, reach(gap), |interval| matters[interval]);
+            look_within(near, world, nodes, reach(gap), |interval| matters[interval]);
         } else {
-            self.look_within(world, nodes, 0.0, |_| true);
+            look_within(near, world, nodes, 0.0, |_| true);
             // as they come, interval after interval
-            let intervals = self.near.chunk_by(|a, b| a.first == b.first).filter_map(|near| near.first());
+            let intervals = near.chunk_by(|a, b| a.first == b.first).filter_map(|near| near.first());
             let around = intervals.flat_map(|near| &nodes[near.first..=near.last]);
             let gap = gaps(world, around).into_iter().fold(f64::INFINITY, f64::min);
             if gap < -GAP_TOLERANCE {
-                self.near.clear();
-                self.look_within(world, nodes, reach(gap), |_| true);
+                near.clear();
+                look_within(near, world, nodes, reach(gap), |_| true);
             }
         }
-        let near = &mut self.near;
         // one entry a part, in the order of the contours
         near.sort_unstable_by(|a, b| {
             let by_start = a.part.range.from.total_cmp(&b.part.range.from);
@@ -155,18 +176,17 @@ impl Scanner {
             same
         });
     }
+}
 
-    /// Lists the parts that each interval between two nodes that `matters` could be nearer to than `reach`.
-    fn look_within(&mut self, world: &World<'_>, nodes: &[Node], reach: f64, matters: impl Fn(usize) -> bool) {
-        let near = &mut self.near;
-        for (first, pair) in nodes.windows(2).enumerate().filter(|(interval, _)| matters(*interval)) {
-            let arc = Arc::new(&pair[0], &pair[1]);
-            world.parts_near(arc.bounds().grown(reach), |part| {
-                if arc.comes_near(&world.bounds(part), reach, || world.angle(part)) {
-                    near.push(Near { part, first, last: first + 1 });
-                }
-            });
-        }
+/// Lists the parts that each interval between two nodes that `matters` could be nearer to than `reach`.
+fn look_within(near: &mut Vec<Near>, world: &World<'_>, nodes: &[Node], reach: f64, matters: impl Fn(usize) -> bool) {
+    for (first, pair) in nodes.windows(2).enumerate().filter(|(interval, _)| matters(*interval)) {
+        let arc = Arc::new(&pair[0], &pair[1]);
+        world.parts_near(arc.bounds().grown(reach), |part| {
+            if arc.comes_near(&world.bounds(part), reach, || world.angle(part)) {
+                near.push(Near { part, first, last: first + 1 });
+            }
+        });
     }
 }
 
@@ -294,9 +314,7 @@ impl Looking<'_> {
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: self.phi(node), foot, tip: true });
             }
             before = Some((i, sight, foot));
-            // within the distance by which the gap exceeds the smallest one there is nothing smaller
-            let safe = node.s + (sight.gap - found.min_gap.max(0.0)).max(0.0);
-            i = next_beyond(nodes, i, safe);
+            i = next_beyond(nodes, i, node.s + sight.clear(node, &foot, found.min_gap.max(0.0)));
         }
     }
 }
@@ -447,13 +465,15 @@ fn gaps<'n>(world: &World<'_>, nodes: impl Iterator<Item = &'n Node>) -> SmallVe
     nodes.map(gap).collect()
 }
 
-/// Slope of the gap along the rod: of the distance to the foot where that is an end of the part.
+/// Slope of the gap along the rod: of the distance to the foot where that is an end of the part. Where the foot is not too
+/// near, it is the direction to it that gives the slope: that takes no sine.
 fn slope(at: &Station, foot: &Foot) -> f64 {
-    if foot.interior {
+    if foot.interior && foot.gap.abs() < DISTANT {
         return towards(at, foot);
     }
     let (dx, dy) = (at.x - foot.x, at.y - foot.y);
-    (dx * at.cos + dy * at.sin) / dx.hypot(dy).max(f64::MIN_POSITIVE)
+    let distance = if foot.interior { foot.gap } else { dx.hypot(dy).max(f64::MIN_POSITIVE) };
+    (dx * at.cos + dy * at.sin) / distance
 }
 
 /// Slope of the gap to the contour's tangent: minus the sine of the angle between rod and contour.

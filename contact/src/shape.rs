@@ -4,7 +4,6 @@ use crate::configuration::{Configuration, Span, Spans};
 use crate::path::ClampPath;
 use crate::world::World;
 use rod_core::{Station, stations};
-use smallvec::SmallVec;
 
 /// Largest distance between the points. Between them the gap to an object is bounded by its slope (a rod moves through the
 /// plane with unit speed, so the gap is 1-Lipschitz).
@@ -29,24 +28,29 @@ pub(crate) struct Node {
     pub span: usize,
     /// The contact that is here.
     pub contact: Option<usize>,
+    /// The rod is nowhere more curved between here and the tip.
+    pub curved: f64,
 }
 
 /// The rod's segments, and points along all of it from the clamp to the tip. Up to the last contact those of a segment are an
 /// odd number at equal distances.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Shape {
     pub spans: Spans,
-    pub nodes: SmallVec<[Node; 64]>,
+    pub nodes: Vec<Node>,
 }
 
 impl Shape {
-    pub fn of(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Self {
-        let spans = configuration.spans(world, path);
-        let mut nodes = SmallVec::new();
+    /// Becomes the shape of the rod in `configuration`, in the memory of the last one.
+    pub fn follow(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) {
+        let Self { spans, nodes } = self;
+        *spans = configuration.spans(world, path);
+        nodes.clear();
         let loaded = spans.last().map_or(0.0, |free| free.s);
         for (i, span) in spans.iter().enumerate() {
             let next = spans.get(i + 1);
-            nodes.push(Node { s: span.s, at: Station::from(&span.start), span: i, contact: i.checked_sub(1) });
+            let node = |s, at, contact| Node { s, at, span: i, contact, curved: 0.0 };
+            nodes.push(node(span.s, Station::from(&span.start), i.checked_sub(1)));
             let length = next.map_or(1.0, |next| next.s) - span.s;
             if length <= 0.0 {
                 continue;
@@ -58,11 +62,10 @@ impl Shape {
             // the last point of a span is the first of the next, where it is known better
             let keep = if next.is_some() { steps - 1 } else { steps };
             let h = length / steps as f64;
-            for (k, at) in stations(&span.start, span.a, span.b, length, steps).take(keep).enumerate() {
-                nodes.push(Node { s: span.s + h * (k + 1) as f64, at, span: i, contact: None });
-            }
+            let between = stations(&span.start, span.a, span.b, length, steps).take(keep).enumerate();
+            nodes.extend(between.map(|(k, at)| node(span.s + h * (k + 1) as f64, at, None)));
         }
-        Self { spans, nodes }
+        bound_curvature(spans, nodes);
     }
 
     /// The points of span number `i` with both its ends.
@@ -70,6 +73,22 @@ impl Shape {
         let first = self.nodes.partition_point(|node| node.span < i);
         let last = self.nodes.partition_point(|node| node.span <= i);
         &self.nodes[first..(last + 1).min(self.nodes.len())]
+    }
+}
+
+/// Finds how curved the rod is from each node on: between two of them the curvature changes no faster than by the force.
+fn bound_curvature(spans: &[Span], nodes: &mut [Node]) {
+    let (mut most, mut after) = (0.0_f64, (1.0, 0.0));
+    let (mut span, mut force) = (usize::MAX, 0.0);
+    for node in nodes.iter_mut().rev() {
+        if node.span != span {
+            span = node.span;
+            force = spans[span].a.hypot(spans[span].b);
+        }
+        let own = node.at.kappa.abs();
+        most = most.max(own.max(after.1) + 0.5 * force * (after.0 - node.s));
+        node.curved = most;
+        after = (node.s, own);
     }
 }
 

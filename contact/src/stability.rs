@@ -255,7 +255,9 @@ mod tests {
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let mut column = Configuration::free(0.0);
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
-        is_stable(&world, &column, &Shape::of(&world, &path, &column))
+        let mut shape = Shape::default();
+        shape.follow(&world, &path, &column);
+        is_stable(&world, &column, &shape)
     }
 
     #[test]

@@ -8,7 +8,6 @@ use crate::fold::locate_fold;
 use crate::inflection::{parted, run_together};
 use crate::landing::ordered;
 use crate::scan::{Scan, Scanner};
-use crate::shape::Shape;
 use crate::stability::{is_stable, wraps};
 use crate::transition::{Break, NoTransition, Transition, breaks};
 use rod_core::SolveReport;
@@ -75,20 +74,18 @@ impl Stepper<'_> {
     /// A point with everything known of it.
     pub fn point(&mut self, configuration: Configuration) -> Point {
         let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
-        let (scan, shape) = self.look(&configuration);
-        let stable = self.is_stable(&configuration, &shape);
+        let scan = self.scan(&configuration);
+        let stable = self.is_stable(&configuration);
         Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
     }
 
-    /// What is seen of the rod in a configuration, and the shape that it has.
-    pub fn look(&mut self, configuration: &Configuration) -> (Scan, Shape) {
-        let Corrector { world, path, .. } = &self.corrector;
-        let shape = Shape::of(world, path, configuration);
-        (self.scanner.scan(world, configuration, &shape), shape)
+    pub fn scan(&mut self, configuration: &Configuration) -> Scan {
+        self.scanner.scan(&self.corrector.world, &self.corrector.path, configuration)
     }
 
-    fn is_stable(&self, configuration: &Configuration, shape: &Shape) -> bool {
-        is_stable(&self.corrector.world, configuration, shape)
+    /// Whether the configuration that was scanned last is stable.
+    fn is_stable(&self, scanned: &Configuration) -> bool {
+        is_stable(&self.corrector.world, scanned, &self.scanner.shape)
     }
 
     /// One step from `from` towards the pose `target`, at most there.
@@ -111,7 +108,7 @@ impl Stepper<'_> {
             return Ok(None);
         }
         let too_long_or = |reason| if length < SHORT { Err(reason) } else { Ok(None) };
-        let (scan, shape) = self.look(&next);
+        let scan = self.scan(&next);
         if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
             return too_long_or(StopReason::ClampInside);
         }
@@ -131,7 +128,7 @@ impl Stepper<'_> {
             Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
             Err(NoTransition::NotLocated) => return Ok(None),
         }
-        if !self.is_stable(&next, &shape) {
+        if !self.is_stable(&next) {
             return if length > PROBE { Ok(None) } else { self.end(from, &next).map(Some) };
         }
         if let Some(transition) = self.runs_together(&next, &tangent) {
@@ -299,7 +296,7 @@ impl Stepper<'_> {
             Some((_, Step::Ended(fold))) => fold,
             Some((_, Step::Moved(point))) => &point.configuration,
         };
-        let (seen, _) = self.look(reached);
+        let seen = self.scan(reached);
         if ordered_or_new(reached) && seen.min_gap > -DEEPEST {
             Ok(first.map(|(_, step)| step))
         } else {
@@ -324,10 +321,10 @@ impl Stepper<'_> {
         if !self.corrector.correct(&mut probe, plane).status.is_solved() {
             return false;
         }
-        let (scan, shape) = self.look(&probe);
+        let scan = self.scan(&probe);
         let mut holds = true;
         breaks(&self.corrector, &probe, &scan, |_| holds = false);
-        holds && self.is_stable(&probe, &shape)
+        holds && self.is_stable(&probe)
     }
 }
 

@@ -334,7 +334,7 @@ impl<'a> Sweep<'a> {
     /// A look at the straight rod where it has not come from elsewhere: all that is behind an open contour is solid.
     fn scan_straight(&mut self, tau: f64) -> Scan {
         let skin = std::mem::replace(&mut self.stepper.corrector.world.skin, f64::INFINITY);
-        let (scan, _) = self.stepper.look(&Configuration::free(tau));
+        let scan = self.stepper.scan(&Configuration::free(tau));
         self.stepper.corrector.world.skin = skin;
         scan
     }
