@@ -1,11 +1,11 @@
 //! A configuration as a state in SI units, with its certificate.
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::scan::Scan;
 use crate::state::{Certificate, Contact, State};
 use crate::world::World;
-use rod_core::{MultiPoint, Reactions, Rod, Section, SolveReport, Supports, Units, advance};
+use rod_core::{Reactions, Rod, Section, SolveReport, Supports, Units, advance};
 
 /// Rounding of an arc length.
 const AT_TIP: f64 = 1e-12;
@@ -41,14 +41,12 @@ pub(crate) fn state(
     let n = configuration.count();
     let supports = configuration.supports(world);
     let clamp = path.at(configuration.tau());
-    let problem = MultiPoint { clamp, supports: &supports };
+    let spans = configuration.spans(world, path);
     let mut contacts = Vec::with_capacity(n);
-    let (mut a, mut b, mut min_force) = (0.0, 0.0, f64::INFINITY);
+    let mut min_force = f64::INFINITY;
     for j in 0..n {
         let at = supports.support(j, configuration.t(j));
         let f = configuration.force(j);
-        a += f * at.alpha.cos();
-        b += f * at.alpha.sin();
         min_force = min_force.min(f);
         contacts.push(Contact {
             object: world.object(configuration.contacts[j].stretch),
@@ -61,12 +59,12 @@ pub(crate) fn state(
             force: f * force,
         });
     }
-    let kappa = problem.clamp_curvature(&configuration.z[..3 * n]);
+    let Span { start: Section { kappa, .. }, a, b, .. } = spans[0];
     let certificate = Certificate {
         residual: quality.residual,
         min_gap: scan.min_gap * length,
         min_force: min_force * force,
-        first_integral: first_integral(world, path, configuration),
+        first_integral: first_integral(&spans),
         stable: quality.stable,
         condition: quality.condition,
         iterations: quality.iterations,
@@ -91,16 +89,15 @@ fn on_rod(s: f64) -> f64 {
 
 /// Largest change of kappa^2 / 2 - (A sin phi - B cos phi) from the start of a segment to where the next one starts, which
 /// was computed without it.
-fn first_integral(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> f64 {
-    let invariant = |at: &Section, a: f64, b: f64| 0.5 * at.kappa * at.kappa - (a * at.phi.sin() - b * at.phi.cos());
-    let mut worst: f64 = 0.0;
-    let mut before: Option<(f64, Section, f64, f64)> = None;
-    configuration.segments(world, path, |s, start, a, b| {
-        if let Some((from, at, a, b)) = before {
-            let end = advance(&at, a, b, s - from);
-            worst = worst.max((invariant(&end, a, b) - invariant(&start, a, b)).abs());
-        }
-        before = Some((s, start, a, b));
-    });
-    worst
+fn first_integral(spans: &[Span]) -> f64 {
+    let invariant = |at: &Section, a: f64, b: f64| {
+        let (sin, cos) = at.phi.sin_cos();
+        0.5 * at.kappa * at.kappa - (a * sin - b * cos)
+    };
+    let change = |pair: &[Span]| {
+        let Span { s, start, a, b } = pair[0];
+        let end = advance(&start, a, b, pair[1].s - s);
+        (invariant(&end, a, b) - invariant(&pair[1].start, a, b)).abs()
+    };
+    spans.windows(2).map(change).fold(0.0, f64::max)
 }

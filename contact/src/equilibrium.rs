@@ -6,7 +6,6 @@ use crate::configuration::{Configuration, Held, Unknowns, lying};
 use crate::error::ContactError;
 use crate::path::ClampPath;
 use crate::scan::Scanner;
-use crate::stability::is_stable;
 use crate::state::{Contact, ContactKind, State};
 use crate::world::{Foot, World};
 use rod_contours::{Composite, StretchKind};
@@ -170,7 +169,7 @@ pub fn equilibrium(
     }
     let mut scanner = Scanner::default();
     let scan = scanner.scan(&world, &path, &configuration);
-    let stable = report.status.is_solved() && is_stable(&world, &configuration, &scanner.shape);
+    let stable = report.status.is_solved() && scanner.is_stable(&world, &configuration);
     let quality = Quality::new(&report, stable);
     Ok(Equilibrium { state: state(rod, &world, &path, &configuration, &scan, quality), report })
 }

@@ -5,7 +5,6 @@ use crate::branch::Corrector;
 use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
 use crate::scan::{GAP_TOLERANCE, Scanner};
-use crate::stability::is_stable;
 use crate::transition::{Break, as_tangent, as_tip, beyond_corner, breaks, onto_neighbour, with_contact};
 use crate::world::World;
 
@@ -40,7 +39,7 @@ pub(crate) fn settle(
         match worst {
             Some((_, b)) => configuration = mend(configuration, b, corrector),
             None => {
-                let stable = is_stable(&corrector.world, &configuration, &scanner.shape);
+                let stable = scanner.is_stable(&corrector.world, &configuration);
                 let holds = scan.min_gap >= -1e3 * GAP_TOLERANCE && !scan.clamp_inside && stable;
                 settled = holds.then_some(configuration);
                 break;

@@ -5,6 +5,7 @@ use crate::configuration::{Configuration, Span};
 use crate::corner::{Corner, Passing};
 use crate::path::ClampPath;
 use crate::shape::{Node, Shape};
+use crate::stability::Judge;
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, Station, advance};
@@ -109,8 +110,9 @@ struct Near {
 #[derive(Debug, Default)]
 pub(crate) struct Scanner {
     /// The shape of the rod that was looked at last.
-    pub shape: Shape,
+    shape: Shape,
     near: Vec<Near>,
+    judge: Judge,
 }
 
 impl Scanner {
@@ -133,9 +135,14 @@ impl Scanner {
         found
     }
 
+    /// Whether the rod is stable in the configuration that was looked at last.
+    pub fn is_stable(&mut self, world: &World<'_>, scanned: &Configuration) -> bool {
+        self.judge.is_stable(world, scanned, &self.shape)
+    }
+
     /// Lists the parts of the contours that the rod could be nearer to than `least`.
     fn look_around(&mut self, world: &World<'_>, least: f64) {
-        let Self { shape: Shape { nodes, .. }, near } = self;
+        let Self { shape: Shape { nodes, .. }, near, .. } = self;
         near.clear();
         let last = nodes.len() - 1;
         if world.is_small() {

@@ -55,14 +55,19 @@ impl Shape {
             if length <= 0.0 {
                 continue;
             }
-            let steps = match next {
-                Some(_) => 2 * ((0.5 * length / spacing(span).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2),
-                None => (length / SPACING).ceil() as usize,
-            };
-            // the last point of a span is the first of the next, where it is known better
-            let keep = if next.is_some() { steps - 1 } else { steps };
+            if next.is_none() {
+                // no moment comes from beyond: it is straight
+                let steps = (length / SPACING).ceil() as usize;
+                let Station { x, y, cos, sin, .. } = nodes[nodes.len() - 1].at;
+                let at = |s: f64| Station { x: x + s * cos, y: y + s * sin, cos, sin, kappa: 0.0 };
+                let part = |k: usize| length * (k as f64 / steps as f64);
+                nodes.extend((1..=steps).map(|k| node(span.s + part(k), at(part(k)), None)));
+                continue;
+            }
+            let steps = 2 * ((0.5 * length / spacing(span).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2);
             let h = length / steps as f64;
-            let between = stations(&span.start, span.a, span.b, length, steps).take(keep).enumerate();
+            // the last point of a span is the first of the next, where it is known better
+            let between = stations(&span.start, span.a, span.b, length, steps).take(steps - 1).enumerate();
             nodes.extend(between.map(|(k, at)| node(span.s + h * (k + 1) as f64, at, None)));
         }
         bound_curvature(spans, nodes);

@@ -18,7 +18,7 @@ use crate::configuration::{Configuration, Span};
 use crate::path::ClampPath;
 use crate::shape::{Node, Shape};
 use crate::world::World;
-use nalgebra::{DMatrix, Dim, Matrix, SMatrix, StorageMut};
+use nalgebra::{DMatrix, SMatrix};
 use rod_core::{Hold, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
@@ -29,71 +29,126 @@ const MODES: usize = 6;
 /// Stiffness of the penalty against that of the modes.
 const PENALTY: f64 = 1e9;
 
-/// One number a mode.
-type Modes = SmallVec<[f64; 24]>;
+/// Points of the rod that are worked on at once: the recurrences from mode to mode wait for themselves, not for each other.
+const LANES: usize = 4;
+/// One number a lane.
+type Lanes = [f64; LANES];
 
-/// A symmetric matrix, of which the lower triangle is kept, row by row.
+/// Judges stability, in memory that is used again.
+#[derive(Debug, Default)]
+pub(crate) struct Judge {
+    integrals: Integrals,
+    quadratic: Quadratic,
+    /// How far each mode moves the rod at a contact, along the contour and across it, and turns it.
+    along: Vec<f64>,
+    across: Vec<f64>,
+    eta: Vec<f64>,
+}
+
+impl Judge {
+    /// Whether the second variation is positive definite. `shape` is that of the rod in `configuration`.
+    pub fn is_stable(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape) -> bool {
+        let n = configuration.count();
+        if n == 0 {
+            return true;
+        }
+        let Self { integrals, quadratic: q, along, across, eta } = self;
+        let size = MODES + 2 * n;
+        let end = configuration.s(n - 1);
+        let scale = PI / end;
+        q.reset(size, |m| 0.5 * end * ((m as f64 + 0.5) * scale).powi(2));
+        integrals.reset(size);
+        let supports = configuration.supports(world);
+        for j in 0..n {
+            let Span { a, b, .. } = shape.spans[j];
+            integrals.add(shape.along(j), (a, b), scale);
+            let support = supports.support(j, configuration.t(j));
+            integrals.shifts(support.alpha.sin_cos(), along, across);
+            let (v, w, f) = (support.speed, support.turning, configuration.force(j));
+            let form = match configuration.contacts[j].hold {
+                // held in a notch from both sides; on a convex vertex the tip slips
+                Hold::Tip if v == 0.0 && w < 0.0 => [PENALTY, 0.0, 0.0],
+                Hold::Tip if v == 0.0 => return false,
+                Hold::Tip => [-f * w / v, 0.0, 0.0],
+                Hold::Tangent { offset } => {
+                    let kappa = offset.cos() * shape.spans[j + 1].start.kappa;
+                    let divisor = w - v * kappa;
+                    // in a notch the tip may be behind it, at the same place
+                    if lies_flat(w, kappa, j + 1 == n || configuration.s(j) == 1.0) {
+                        [0.0, 0.0, PENALTY]
+                    } else if divisor > 0.0 {
+                        let scale = f / divisor;
+                        [scale * w * kappa, -scale * w, (scale * v).min(PENALTY)]
+                    } else {
+                        return false;
+                    }
+                }
+            };
+            modes_at(configuration.s(j) * scale, size, eta);
+            q.add(form, along, eta);
+            q.add([PENALTY, 0.0, 0.0], across, eta);
+        }
+        q.add_load(&integrals.moments);
+        q.is_positive()
+    }
+}
+
+/// A symmetric matrix.
+#[derive(Debug, Default)]
 struct Quadratic {
     size: usize,
-    lower: SmallVec<[f64; 256]>,
+    entries: Vec<f64>,
 }
 
 impl Quadratic {
-    fn diagonal(diagonal: impl ExactSizeIterator<Item = f64>) -> Self {
-        let size = diagonal.len();
-        let mut lower = SmallVec::from_elem(0.0, size * (size + 1) / 2);
-        for (i, d) in diagonal.enumerate() {
-            lower[i * (i + 3) / 2] = d;
+    fn reset(&mut self, size: usize, diagonal: impl Fn(usize) -> f64) {
+        self.size = size;
+        self.entries.clear();
+        self.entries.resize(size * size, 0.0);
+        for (i, row) in self.rows() {
+            row[i] = diagonal(i);
         }
-        Self { size, lower }
     }
 
-    /// Adds weight (u v' + v u') / 2.
-    fn add(&mut self, weight: f64, u: &[f64], v: &[f64]) {
-        let mut entries = self.lower.iter_mut();
-        for i in 0..self.size {
-            let (ui, vi) = (0.5 * weight * u[i], 0.5 * weight * v[i]);
-            for ((entry, u), v) in entries.by_ref().take(i + 1).zip(u).zip(v) {
-                *entry += ui * v + vi * u;
+    fn rows(&mut self) -> impl Iterator<Item = (usize, &mut [f64])> {
+        self.entries.chunks_exact_mut(self.size).enumerate()
+    }
+
+    /// Adds uu u^2 + 2 uv u v + vv v^2.
+    fn add(&mut self, [uu, uv, vv]: [f64; 3], u: &[f64], v: &[f64]) {
+        for (i, row) in self.rows() {
+            let (by_u, by_v) = (uu * u[i] + uv * v[i], uv * u[i] + vv * v[i]);
+            for ((entry, u), v) in row.iter_mut().zip(u).zip(v) {
+                *entry += by_u * u + by_v * v;
             }
         }
     }
 
     /// Adds the load on the modes by its cosine moments: sin((m + 1/2) x) sin((n + 1/2) x) is half of
     /// cos((m - n) x) - cos((m + n + 1) x).
-    fn add_load(&mut self, moments: &[f64]) {
-        let mut entries = self.lower.iter_mut();
-        for i in 0..self.size {
-            for (j, entry) in entries.by_ref().take(i + 1).enumerate() {
-                *entry += moments[i - j] - moments[i + j + 1];
+    fn add_load(&mut self, moments: &[Lanes]) {
+        let moments: SmallVec<[f64; 64]> = moments.iter().map(|lanes| lanes.iter().sum()).collect();
+        for (i, row) in self.rows() {
+            for (j, (entry, after)) in row.iter_mut().zip(&moments[i + 1..]).enumerate() {
+                *entry += moments[i.abs_diff(j)] - after;
             }
         }
     }
 
     /// Whether there is a Cholesky factor. The usual sizes take no memory.
     fn is_positive(&self) -> bool {
-        match self.size {
-            8 => self.fill(SMatrix::<f64, 8, 8>::zeros()).cholesky().is_some(),
-            10 => self.fill(SMatrix::<f64, 10, 10>::zeros()).cholesky().is_some(),
-            12 => self.fill(SMatrix::<f64, 12, 12>::zeros()).cholesky().is_some(),
-            size => self.fill(DMatrix::zeros(size, size)).cholesky().is_some(),
+        let Self { size, entries } = self;
+        match size {
+            8 => SMatrix::<f64, 8, 8>::from_column_slice(entries).cholesky().is_some(),
+            10 => SMatrix::<f64, 10, 10>::from_column_slice(entries).cholesky().is_some(),
+            12 => SMatrix::<f64, 12, 12>::from_column_slice(entries).cholesky().is_some(),
+            _ => DMatrix::from_column_slice(*size, *size, entries).cholesky().is_some(),
         }
-    }
-
-    /// The lower triangle, which is all that is read, in a matrix.
-    fn fill<D: Dim, S: StorageMut<f64, D, D>>(&self, mut matrix: Matrix<f64, D, D, S>) -> Matrix<f64, D, D, S> {
-        let mut entries = self.lower.iter();
-        for i in 0..self.size {
-            for (j, entry) in entries.by_ref().take(i + 1).enumerate() {
-                matrix[(i, j)] = *entry;
-            }
-        }
-        matrix
     }
 }
 
 /// The modes sin((m + 1/2) x), by the recurrence of Chebyshev.
-fn modes_at(x: f64, size: usize) -> Modes {
+fn modes_at(x: f64, size: usize, modes: &mut Vec<f64>) {
     let (sin, cos) = (0.5 * x).sin_cos();
     let twice_cos = 2.0 * (cos * cos - sin * sin);
     let (mut before, mut here) = (-sin, sin);
@@ -102,27 +157,26 @@ fn modes_at(x: f64, size: usize) -> Modes {
         (before, here) = (here, twice_cos * here - before);
         mode
     };
-    (0..size).map(next).collect()
+    modes.clear();
+    modes.extend((0..size).map(next));
 }
 
-/// Points of the rod that are worked on at once: the recurrences from mode to mode wait for themselves, not for each other.
-const LANES: usize = 4;
-/// One number a lane.
-type Lanes = [f64; LANES];
-
 /// What is integrated along the rod for the modes eta_m = sin((m + 1/2) x), by Simpson's rule, lane by lane.
+#[derive(Debug, Default)]
 struct Integrals {
     /// int (-sin phi, cos phi) eta_m ds from the clamp on: how far mode m moves the rod's points.
-    shift_x: SmallVec<[Lanes; 24]>,
-    shift_y: SmallVec<[Lanes; 24]>,
+    shifts: Vec<[Lanes; 2]>,
     /// int -(A sin phi - B cos phi) cos(m x) ds / 2.
-    moments: SmallVec<[Lanes; 64]>,
+    moments: Vec<Lanes>,
 }
 
 impl Integrals {
-    fn new(size: usize) -> Self {
-        let zeros = || SmallVec::from_elem([0.0; LANES], size);
-        Self { shift_x: zeros(), shift_y: zeros(), moments: SmallVec::from_elem([0.0; LANES], 2 * size) }
+    fn reset(&mut self, size: usize) {
+        let zero = [0.0; LANES];
+        self.shifts.clear();
+        self.shifts.resize(size, [zero; 2]);
+        self.moments.clear();
+        self.moments.resize(2 * size, zero);
     }
 
     /// Goes on along the `nodes` of a span under the force (A, B), with x = `scale` s.
@@ -130,23 +184,34 @@ impl Integrals {
         let [first, .., last] = nodes else { return };
         let intervals = nodes.len() - 1;
         let h = (last.s - first.s) / intervals as f64;
-        // sine and cosine of half of x, by turning on
-        let (mut sin, mut cos) = (0.5 * scale * first.s).sin_cos();
-        let (sin_h, cos_h) = (0.5 * scale * h).sin_cos();
+        // the weights 1, 4, 2, 4, .., 2, 4, 1: two blocks have an end
+        let (twice, end) = ([2.0, 4.0, 2.0, 4.0].map(|weight| weight * h / 3.0), h / 3.0);
+        // sine and cosine of half of x, by turning on: to the next node, or the next block
+        let turned = |(sin, cos): (f64, f64), (s, c): (f64, f64)| (sin * c + cos * s, cos * c - sin * s);
+        let step = (0.5 * scale * h).sin_cos();
+        let mut half_x = [(0.5 * scale * first.s).sin_cos(); LANES];
+        (1..LANES).for_each(|l| half_x[l] = turned(half_x[l - 1], step));
+        let (mut sines, mut cosines) = (half_x.map(|(sin, _)| sin), half_x.map(|(_, cos)| cos));
+        let block_step = turned(turned(step, step), turned(step, step));
         for (block, nodes) in nodes.chunks(LANES).enumerate() {
-            let [mut sines, mut cosines, mut by_x, mut by_y, mut load] = [[0.0; LANES]; 5];
+            let [mut sin, mut cos] = [[0.0; LANES]; 2];
             for (lane, Node { at, .. }) in nodes.iter().enumerate() {
-                let k = LANES * block + lane;
-                let weight = if k == 0 || k == intervals { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 } * h / 3.0;
-                (sines[lane], cosines[lane]) = (sin, cos);
-                (by_x[lane], by_y[lane]) = (-weight * at.sin, weight * at.cos);
-                load[lane] = -0.5 * weight * (a * at.sin - b * at.cos);
-                (sin, cos) = (sin * cos_h + cos * sin_h, cos * cos_h - sin * sin_h);
+                (sin[lane], cos[lane]) = (at.sin, at.cos);
             }
+            let mut weights = twice;
+            if block == 0 {
+                weights[0] = end;
+            }
+            if block == intervals / LANES {
+                weights[intervals % LANES] = end;
+            }
+            let by_x = lanes(|l| -weights[l] * sin[l]);
+            let by_y = lanes(|l| weights[l] * cos[l]);
+            let load = lanes(|l| 0.5 * (a * by_x[l] + b * by_y[l]));
             let cos_x = lanes(|l| cosines[l] * cosines[l] - sines[l] * sines[l]);
             let recurrence = |here: &Lanes, before: &Lanes| lanes(|l| 2.0 * cos_x[l] * here[l] - before[l]);
             let (mut before, mut here) = (sines.map(|sin| -sin), sines);
-            for (x, y) in self.shift_x.iter_mut().zip(&mut self.shift_y) {
+            for [x, y] in &mut self.shifts {
                 *x = lanes(|l| x[l] + by_x[l] * here[l]);
                 *y = lanes(|l| y[l] + by_y[l] * here[l]);
                 (before, here) = (here, recurrence(&here, &before));
@@ -156,14 +221,20 @@ impl Integrals {
                 *moment = lanes(|l| moment[l] + here[l]);
                 (before, here) = (here, recurrence(&here, &before));
             }
+            let next = |l: usize| turned((sines[l], cosines[l]), block_step);
+            (sines, cosines) = (lanes(|l| next(l).0), lanes(|l| next(l).1));
         }
     }
 
     /// How far each mode moves the rod where it is now, in the direction `(cos, sin)` and across it.
-    fn shifts(&self, cos: f64, sin: f64) -> (Modes, Modes) {
-        let shift = |(x, y): (&Lanes, &Lanes)| (x.iter().sum::<f64>(), y.iter().sum::<f64>());
-        let shifts = || self.shift_x.iter().zip(&self.shift_y).map(shift);
-        (shifts().map(|(x, y)| cos * x + sin * y).collect(), shifts().map(|(x, y)| cos * y - sin * x).collect())
+    fn shifts(&self, (sin, cos): (f64, f64), along: &mut Vec<f64>, across: &mut Vec<f64>) {
+        along.clear();
+        across.clear();
+        for [x, y] in &self.shifts {
+            let (x, y) = (x.iter().sum::<f64>(), y.iter().sum::<f64>());
+            along.push(cos * x + sin * y);
+            across.push(cos * y - sin * x);
+        }
     }
 }
 
@@ -191,56 +262,6 @@ fn lies_flat(turning: f64, kappa: f64, last: bool) -> bool {
     last && turning == 0.0 && kappa == 0.0
 }
 
-/// Whether the second variation is positive definite.
-pub(crate) fn is_stable(world: &World<'_>, configuration: &Configuration, shape: &Shape) -> bool {
-    let n = configuration.count();
-    if n == 0 {
-        return true;
-    }
-    let size = MODES + 2 * n;
-    let end = configuration.s(n - 1);
-    let scale = PI / end;
-    let mut q = Quadratic::diagonal((0..size).map(|m| 0.5 * end * ((m as f64 + 0.5) * scale).powi(2)));
-    // Positions change by int (-sin phi, cos phi) eta: accumulated from contact to contact.
-    let mut integrals = Integrals::new(size);
-    let supports = configuration.supports(world);
-    for j in 0..n {
-        let Span { a, b, .. } = shape.spans[j];
-        integrals.add(shape.along(j), (a, b), scale);
-        let support = supports.support(j, configuration.t(j));
-        let (sin, cos) = support.alpha.sin_cos();
-        let (along, across) = integrals.shifts(cos, sin);
-        q.add(PENALTY, &across, &across);
-        let (v, w, f) = (support.speed, support.turning, configuration.force(j));
-        match configuration.contacts[j].hold {
-            // held in a notch from both sides; on a convex vertex the tip slips
-            Hold::Tip if v == 0.0 && w < 0.0 => q.add(PENALTY, &along, &along),
-            Hold::Tip if v == 0.0 => return false,
-            Hold::Tip => q.add(-f * w / v, &along, &along),
-            Hold::Tangent { offset } => {
-                let eta = modes_at(configuration.s(j) * scale, size);
-                let kappa = offset.cos() * shape.spans[j + 1].start.kappa;
-                let divisor = w - v * kappa;
-                // in a notch the tip may be behind it, at the same place
-                if lies_flat(w, kappa, j + 1 == n || configuration.s(j) == 1.0) {
-                    q.add(PENALTY, &eta, &eta);
-                    continue;
-                }
-                if divisor <= 0.0 {
-                    return false;
-                }
-                let scale = f / divisor;
-                q.add(-2.0 * scale * w, &eta, &along);
-                q.add(scale * w * kappa, &along, &along);
-                q.add((scale * v).min(PENALTY), &eta, &eta);
-            }
-        }
-    }
-    let moments: SmallVec<[f64; 64]> = integrals.moments.iter().map(|lanes| lanes.iter().sum()).collect();
-    q.add_load(&moments);
-    q.is_positive()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -257,7 +278,7 @@ mod tests {
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
         let mut shape = Shape::default();
         shape.follow(&world, &path, &column);
-        is_stable(&world, &column, &shape)
+        Judge::default().is_stable(&world, &column, &shape)
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::fold::locate_fold;
 use crate::inflection::{parted, run_together};
 use crate::landing::ordered;
 use crate::scan::{Scan, Scanner};
-use crate::stability::{is_stable, wraps};
+use crate::stability::wraps;
 use crate::transition::{Break, NoTransition, Transition, breaks};
 use rod_core::SolveReport;
 use smallvec::SmallVec;
@@ -84,8 +84,8 @@ impl Stepper<'_> {
     }
 
     /// Whether the configuration that was scanned last is stable.
-    fn is_stable(&self, scanned: &Configuration) -> bool {
-        is_stable(&self.corrector.world, scanned, &self.scanner.shape)
+    fn is_stable(&mut self, scanned: &Configuration) -> bool {
+        self.scanner.is_stable(&self.corrector.world, scanned)
     }
 
     /// One step from `from` towards the pose `target`, at most there.

@@ -50,7 +50,7 @@ pub struct Sweep<'a> {
     /// Number of states to report, and how many have been.
     reports: usize,
     reported: usize,
-    at: Option<Point>,
+    at: Option<Box<Point>>,
     pending: VecDeque<Item>,
     over: bool,
     /// Where the last transition was, and how many there were at that pose.
@@ -132,7 +132,7 @@ impl<'a> Sweep<'a> {
     /// Goes on until there is something to hand out.
     fn advance(&mut self) -> Result<(), StopReason> {
         let Some(point) = self.at.take() else {
-            let start = self.start()?;
+            let start = Box::new(self.start()?);
             self.report(&start);
             self.at = Some(start);
             return Ok(());
@@ -171,9 +171,9 @@ impl<'a> Sweep<'a> {
     }
 
     /// One step, with the transition that ends it.
-    fn follow(&mut self, point: &Point, target: f64) -> Result<Point, StopReason> {
+    fn follow(&mut self, point: &Point, target: f64) -> Result<Box<Point>, StopReason> {
         match self.stepper.step(point, target)? {
-            Step::Moved(next) => Ok(*next),
+            Step::Moved(next) => Ok(next),
             Step::Changed(transition) => {
                 self.count_crowd(transition.after.tau())?;
                 let Transition { kind, before, after, .. } = *transition;
@@ -188,14 +188,14 @@ impl<'a> Sweep<'a> {
                     Some(after) => {
                         let before = self.stepper.point(before);
                         self.announce(kind, &before, &after);
-                        Ok(after)
+                        Ok(Box::new(after))
                     }
-                    None => self.snap(before),
+                    None => self.snap(before).map(Box::new),
                 }
             }
             Step::Ended(last) => {
                 self.count_crowd(last.tau())?;
-                self.snap(*last)
+                self.snap(*last).map(Box::new)
             }
         }
     }
@@ -318,7 +318,7 @@ impl<'a> Sweep<'a> {
         let tries = (farthest / BACK.1) as usize;
         let start = (1..=tries).find_map(|k| self.free(-BACK.1 * k as f64))?;
         (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
-        let mut point = self.stepper.point(start);
+        let mut point = Box::new(self.stepper.point(start));
         while point.configuration.tau() < 0.0 {
             point = self.follow(&point, 0.0).ok()?;
         }
