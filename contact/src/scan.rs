@@ -86,11 +86,11 @@ struct Sight {
 
 impl Sight {
     /// Arc length from the node on within which the gap does not come down to `least`. The rod runs through the plane with
-    /// unit speed, so that the gap changes no faster. A part that bends outwards lies behind its tangent at the foot: the gap
-    /// to that changes by its slope, and the slope by no more than the rod is curved.
-    fn clear(&self, node: &Node, foot: &Foot, least: f64) -> f64 {
+    /// unit speed, so that the gap changes no faster. A convex part that bends outwards lies behind its tangent at the foot: the
+    /// gap to that changes by its slope, and the slope by no more than the rod is curved.
+    fn clear(&self, node: &Node, foot: &Foot, convex: bool, least: f64) -> f64 {
         let (above, slope, curved) = ((self.gap - least).max(0.0), self.left, node.curved);
-        if !(self.interior && foot.gap > 0.0 && foot.curvature >= 0.0) || self.contact {
+        if !(convex && self.interior && foot.gap > 0.0 && foot.curvature >= 0.0) || self.contact {
             return above;
         }
         let root = (slope * slope + 2.0 * curved * above).sqrt();
@@ -271,7 +271,7 @@ impl Looking<'_> {
     fn scan_part(&self, near: Near, found: &mut Scan) {
         let Self { world, configuration, shape: Shape { spans, nodes: all } } = self;
         let Near { part, first, last } = near;
-        let nodes = &all[..=last];
+        let (nodes, convex) = (&all[..=last], world.is_convex(part));
         let mut before: Option<(usize, Sight, Foot)> = None;
         let mut i = first;
         while let Some(node) = nodes.get(i) {
@@ -321,7 +321,7 @@ impl Looking<'_> {
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: self.phi(node), foot, tip: true });
             }
             before = Some((i, sight, foot));
-            i = next_beyond(nodes, i, node.s + sight.clear(node, &foot, found.min_gap.max(0.0)));
+            i = next_beyond(nodes, i, node.s + sight.clear(node, &foot, convex, found.min_gap.max(0.0)));
         }
     }
 }

@@ -190,6 +190,12 @@ impl<'a> World<'a> {
         Bounds { min: scaled(min), max: scaled(max) }
     }
 
+    /// Whether a part lies on one side of each of its tangents.
+    pub fn is_convex(&self, part: Part) -> bool {
+        let (object, own) = self.at(part.stretch);
+        object.own_is_convex(own, part.range)
+    }
+
     /// The tangent angle in the middle of a part.
     pub fn angle(&self, part: Part) -> f64 {
         let (object, own) = self.at(part.stretch);

@@ -127,6 +127,11 @@ impl Contour for CircularArc {
         let count = cuts::arcs(range.length() / self.radius);
         (1..count).map(|arc| range.at(arc as f64 / count as f64)).collect()
     }
+
+    /// An arc of a circle always.
+    fn is_convex(&self, _: Range) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

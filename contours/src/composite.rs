@@ -199,6 +199,14 @@ impl Composite {
         }
     }
 
+    /// Whether a part of a stretch, by the stretch's own parameter, [is convex](Contour::is_convex).
+    pub fn own_is_convex(&self, stretch: usize, range: Range) -> bool {
+        match self.at(stretch) {
+            At::Piece(piece) => piece.shape.is_convex(range),
+            At::Joint(_) => true,
+        }
+    }
+
     /// A box that contains a part of a stretch, by the stretch's own parameter.
     pub fn own_bounds_in(&self, stretch: usize, range: Range) -> Bounds {
         match self.at(stretch) {

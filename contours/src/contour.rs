@@ -29,6 +29,7 @@ use crate::{Bounds, Closest, Frame, Range, cuts, search};
 /// 8. The gap changes no faster than the point moves: always in absolute value, and in sign too along a way on which
 ///    every closest point is interior.
 /// 9. The bounds contain the contour.
+/// 10. A contour that [`is_convex`](Self::is_convex) lies on one side of each of its tangents.
 ///
 /// ```
 /// use rod_contours::{Contour, Frame, contract};
@@ -102,6 +103,16 @@ pub trait Contour: Send + Sync + Debug {
     fn cuts(&self, range: Range) -> Vec<f64> {
         cuts::sampled(self, range)
     }
+
+    /// Whether the part in `range`, as a whole, lies on one side of each of its tangents: a point outside of it, as far as
+    /// the tangent at its closest point tells, is then outside of all of it.
+    ///
+    /// By default false. A rod past a part that is known to bend outwards is told clear of it by half as many closest points
+    /// or fewer; one that is said to and does not hides contacts.
+    fn is_convex(&self, range: Range) -> bool {
+        let _ = range;
+        false
+    }
 }
 
 impl<C: Contour + ?Sized> Contour for Box<C> {
@@ -135,5 +146,9 @@ impl<C: Contour + ?Sized> Contour for Box<C> {
 
     fn cuts(&self, range: Range) -> Vec<f64> {
         (**self).cuts(range)
+    }
+
+    fn is_convex(&self, range: Range) -> bool {
+        (**self).is_convex(range)
     }
 }

@@ -182,6 +182,28 @@ pub fn c9_bounds(shape: &dyn Contour, t: f64) -> Result<(), String> {
     })
 }
 
+/// 10: unless it is not convex, none of 257 samples of the contour is on one side of the tangent at `t` and none of the others
+/// on the other.
+pub fn c10_convex(shape: &dyn Contour, t: f64) -> Result<(), String> {
+    if !shape.is_convex(shape.range()) {
+        return Ok(());
+    }
+    let frame = shape.frame(t);
+    let window = shape.range().window(WINDOW);
+    let sides = (0..=SAMPLES).map(|sample| {
+        let at = shape.frame(window.at(sample as f64 / SAMPLES as f64));
+        (frame.local(at.x, at.y).1, CLOSE * scale(shape, [at.x, at.y]))
+    });
+    let (mut inside, mut outside) = (false, false);
+    sides.for_each(|(side, accepted)| {
+        inside |= side < -accepted;
+        outside |= side > accepted;
+    });
+    holds(!(inside && outside), || {
+        format!("10: it says that it is convex, but it lies on both sides of its tangent at t = {t}")
+    })
+}
+
 /// The whole contract at parameters and points spread over the range (over 10 units of the parameter from its finite end,
 /// or either way from 0, where it goes on for ever) by `samples`, numbers from 0 to 1.
 ///
@@ -202,6 +224,7 @@ pub fn check(shape: &dyn Contour, samples: &[f64]) -> Result<(), String> {
         c4_moving(shape, t)?;
         c7_side(shape, t)?;
         c9_bounds(shape, t)?;
+        c10_convex(shape, t)?;
         let frame = shape.frame(t);
         let (nx, ny) = frame.normal();
         for (k, away) in [-0.7, -0.03, -1e-6, 0.0, 1e-6, 0.03, 0.7].into_iter().enumerate() {

@@ -210,6 +210,11 @@ impl Contour for EllipticArc {
         cuts.sort_by(f64::total_cmp);
         cuts
     }
+
+    /// An arc of an ellipse always.
+    fn is_convex(&self, _: Range) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

@@ -113,6 +113,11 @@ impl Contour for Line {
     fn cuts(&self, _: Range) -> Vec<f64> {
         Vec::new()
     }
+
+    /// It is its own tangent.
+    fn is_convex(&self, _: Range) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

@@ -127,6 +127,10 @@ impl<C: Contour> Contour for Moved<C> {
         let cuts = self.shape.cuts(self.turned(range));
         if self.motion.mirror { cuts::backwards(cuts) } else { cuts }
     }
+
+    fn is_convex(&self, range: Range) -> bool {
+        self.shape.is_convex(self.turned(range))
+    }
 }
 
 #[cfg(test)]

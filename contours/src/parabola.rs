@@ -160,6 +160,11 @@ impl Contour for Parabola {
     fn cuts(&self, _: Range) -> Vec<f64> {
         Vec::new()
     }
+
+    /// A parabola always.
+    fn is_convex(&self, _: Range) -> bool {
+        true
+    }
 }
 
 /// The parameter of the nearest point of the whole parabola `y = c x^2` to `(px, py)`.

@@ -71,6 +71,10 @@ impl<C: Contour> Contour for Reversed<C> {
     fn cuts(&self, range: Range) -> Vec<f64> {
         cuts::backwards(self.shape.cuts(range.backwards()))
     }
+
+    fn is_convex(&self, range: Range) -> bool {
+        self.shape.is_convex(range.backwards())
+    }
 }
 
 #[cfg(test)]

@@ -67,6 +67,10 @@ impl<C: Contour> Contour for Trimmed<C> {
     fn cuts(&self, range: Range) -> Vec<f64> {
         self.shape.cuts(range)
     }
+
+    fn is_convex(&self, range: Range) -> bool {
+        self.shape.is_convex(range)
+    }
 }
 
 #[cfg(test)]

@@ -207,3 +207,31 @@ fn wrong_closed_forms_are_noticed_under_their_number() {
     assert!(contract::c8_lipschitz(&Wrong(5), [0.3, -2.0], [0.3, -2.2]).is_err_and(|error| error.starts_with("8: ")));
     assert!(contract::c9_bounds(&Wrong(9), 0.4).is_err_and(|error| error.starts_with("9: ")));
 }
+
+/// The curve y = t^3 that says to be convex, from `from` to 1.
+#[derive(Debug)]
+struct Bent {
+    from: f64,
+}
+
+impl Contour for Bent {
+    fn frame(&self, t: f64) -> Frame {
+        let slope = 3.0 * t * t;
+        let speed = slope.hypot(1.0);
+        Frame { x: t, y: t * t * t, alpha: slope.atan(), speed, turning: 6.0 * t / (speed * speed) }
+    }
+
+    fn range(&self) -> Range {
+        Range { from: self.from, to: 1.0 }
+    }
+
+    fn is_convex(&self, _: Range) -> bool {
+        true
+    }
+}
+
+#[test]
+fn what_bends_both_ways_is_not_convex() {
+    contract::check(&Bent { from: 0.0 }, &[0.0, 0.4, 1.0]).unwrap();
+    assert!(contract::check(&Bent { from: -1.0 }, &[0.6]).is_err_and(|error| error.starts_with("10: ")));
+}
