@@ -84,17 +84,50 @@ struct Sight {
     line: Option<f64>,
 }
 
-impl Sight {
-    /// Arc length from the node on within which the gap does not come down to `least`. The rod runs through the plane with
-    /// unit speed, so that the gap changes no faster. A convex part that bends outwards lies behind its tangent at the foot: the
-    /// gap to that changes by its slope, and the slope by no more than the rod is curved.
-    fn clear(&self, node: &Node, foot: &Foot, convex: bool, least: f64) -> f64 {
-        let (above, slope, curved) = ((self.gap - least).max(0.0), self.left, node.curved);
-        if !(convex && self.interior && foot.gap > 0.0 && foot.curvature >= 0.0) || self.contact {
-            return above;
+/// The tangent at the closest point of a convex part that bends outwards, which lies behind it: what is outside of the tangent
+/// by some distance is as far from the part, or farther.
+struct Tangent {
+    x: f64,
+    y: f64,
+    /// The outward normal.
+    normal: (f64, f64),
+}
+
+impl Tangent {
+    /// The tangent at the `foot` of a node that is outside of the part.
+    fn new(node: &Node, foot: &Foot) -> Option<Self> {
+        let outside = foot.interior && foot.gap > 0.0 && foot.curvature >= 0.0;
+        outside.then(|| {
+            let normal = if foot.gap < DISTANT {
+                let (sin, cos) = foot.alpha.sin_cos();
+                (sin, -cos)
+            } else {
+                ((node.at.x - foot.x) / foot.gap, (node.at.y - foot.y) / foot.gap)
+            };
+            Self { x: foot.x, y: foot.y, normal }
+        })
+    }
+
+    fn height(&self, Node { at, .. }: &Node) -> f64 {
+        (at.x - self.x) * self.normal.0 + (at.y - self.y) * self.normal.1
+    }
+
+    /// The last node up to which, from node `i` on, the rod is farther than `least` from the tangent.
+    fn clears_to(&self, nodes: &[Node], mut i: usize, least: f64) -> usize {
+        let mut height = self.height(&nodes[i]);
+        while let Some(next) = nodes.get(i + 1) {
+            let after = self.height(next);
+            if height.min(after) - nodes[i].bulge <= least {
+                break;
+            }
+            (i, height) = (i + 1, after);
         }
-        let root = (slope * slope + 2.0 * curved * above).sqrt();
-        above.max(if slope < 0.0 { 2.0 * above / (root - slope) } else { (slope + root) / curved })
+        i
+    }
+
+    /// Whether the rod is farther than `least` from the tangent from the first to the last of these nodes.
+    fn clears(&self, nodes: &[Node], least: f64) -> bool {
+        self.clears_to(nodes, 0, least) + 1 == nodes.len()
     }
 }
 
@@ -211,6 +244,13 @@ impl Looking<'_> {
         advance(start, *a, *b, node.s - s).phi
     }
 
+    /// The node before the next contact beyond node `i` on a stretch.
+    fn before_contact(&self, stretch: usize, i: usize) -> Option<usize> {
+        let contacts = self.configuration.contacts.iter().enumerate();
+        let own = contacts.filter(|(_, held)| held.stretch == stretch).map(|(j, _)| self.shape.at_contact(j));
+        own.into_iter().find(|at| *at > i + 1).map(|at| at - 1)
+    }
+
     /// Only the tip can get into a notch, and only behind both its pieces: a step that went so far was too long.
     fn scan_notch(&self, part: Part, found: &mut Scan) {
         let Self { world, configuration, shape } = self;
@@ -226,7 +266,7 @@ impl Looking<'_> {
     /// the vertex in such a direction, on the side of the solid, and the solid is there: from a sharp corner it may
     /// have cut off the tip without coming nearer to it than outside.
     fn scan_corner(&self, near: Near, found: &mut Scan) {
-        let Self { world, shape: Shape { spans, nodes }, .. } = self;
+        let Self { world, shape: Shape { spans, nodes, .. }, .. } = self;
         let Near { part, first, last } = near;
         let corner = Corner::new(world, part.stretch);
         let mut before: Option<(usize, f64)> = None;
@@ -264,18 +304,19 @@ impl Looking<'_> {
             }
             before = (!own).then_some((i, ahead));
             let safe = node.s + (distance - found.min_gap.clamp(DEEPEST, 1.0)).max(0.0);
-            i = next_beyond(&nodes[..=last], i, safe);
+            i = last_before(&nodes[..=last], i, safe).max(i + 1);
         }
     }
 
     fn scan_part(&self, near: Near, found: &mut Scan) {
-        let Self { world, configuration, shape: Shape { spans, nodes: all } } = self;
+        let Self { world, configuration, shape: Shape { spans, nodes: all, .. } } = self;
         let Near { part, first, last } = near;
         let (nodes, convex) = (&all[..=last], world.is_convex(part));
-        let mut before: Option<(usize, Sight, Foot)> = None;
+        let (mut before, mut known): (Option<(usize, Sight, Foot)>, Option<(usize, Foot)>) = (None, None);
         let mut i = first;
         while let Some(node) = nodes.get(i) {
-            let foot = world.foot_in(part, node.at.x, node.at.y);
+            let foot_at = |node: &Node| world.foot_in(part, node.at.x, node.at.y);
+            let foot = known.filter(|(k, _)| *k == i).map_or_else(|| foot_at(node), |(_, foot)| foot);
             if let Some((_, _, was)) = before.filter(|(k, ..)| k + 1 == i)
                 && pierces(&was, &foot)
                 && world.is_inside(&part, was.t)
@@ -321,7 +362,27 @@ impl Looking<'_> {
                 found.crossings.push(Crossing { stretch, s: 1.0, phi: self.phi(node), foot, tip: true });
             }
             before = Some((i, sight, foot));
-            i = next_beyond(nodes, i, node.s + sight.clear(node, &foot, convex, found.min_gap.max(0.0)));
+            let least = found.min_gap.max(0.0);
+            // within the distance by which the gap exceeds the smallest one there is nothing smaller
+            let mut clear = last_before(nodes, i, node.s + (sight.gap - least).max(0.0));
+            if convex && sight.interior && !sight.contact {
+                let tangent = Tangent::new(node, &foot);
+                clear = clear.max(tangent.map_or(i, |tangent| tangent.clears_to(nodes, i, least)));
+                // what is next to a contact tells of all the rod before it: it comes down to there
+                let ahead = self.before_contact(part.stretch, i);
+                if let Some(last) = ahead.filter(|last| (clear + 1..nodes.len()).contains(last)) {
+                    let foot = foot_at(&nodes[last]);
+                    let tangent = Tangent::new(&nodes[last], &foot);
+                    if tangent.is_some_and(|tangent| tangent.clears(&nodes[clear..=last], least)) {
+                        clear = last;
+                    }
+                    known = Some((last, foot));
+                }
+            }
+            if clear + 1 == nodes.len() && clear > i {
+                break;
+            }
+            i = clear.max(i + 1);
         }
     }
 }
@@ -427,13 +488,10 @@ impl Search<'_> {
     }
 }
 
-/// The node after node `i`, or the last one after which an interval goes beyond the arc length `safe`.
-fn next_beyond(nodes: &[Node], mut i: usize, safe: f64) -> usize {
-    i += 1;
-    while i + 1 < nodes.len() && nodes[i].s < safe && nodes[i + 1].s < safe {
-        i += 1;
-    }
-    i
+/// The last node from node `i` on before the arc length `s`.
+fn last_before(nodes: &[Node], i: usize, s: f64) -> usize {
+    let beyond = nodes[i..].iter().take_while(|node| node.s < s).count();
+    i + beyond.saturating_sub(1)
 }
 
 /// Where between two nodes the rod runs by a point: the arc length, and the section; (r - point) . tangent is given at

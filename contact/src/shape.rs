@@ -4,6 +4,7 @@ use crate::configuration::{Configuration, Span, Spans};
 use crate::path::ClampPath;
 use crate::world::World;
 use rod_core::{Station, stations};
+use smallvec::SmallVec;
 
 /// Largest distance between the points. Between them the gap to an object is bounded by its slope (a rod moves through the
 /// plane with unit speed, so the gap is 1-Lipschitz).
@@ -28,8 +29,8 @@ pub(crate) struct Node {
     pub span: usize,
     /// The contact that is here.
     pub contact: Option<usize>,
-    /// The rod is nowhere more curved between here and the tip.
-    pub curved: f64,
+    /// How far at most the rod leaves the chord from here to the next point.
+    pub bulge: f64,
 }
 
 /// The rod's segments, and points along all of it from the clamp to the tip. Up to the last contact those of a segment are an
@@ -38,18 +39,22 @@ pub(crate) struct Node {
 pub(crate) struct Shape {
     pub spans: Spans,
     pub nodes: Vec<Node>,
+    /// Index of the first point of each span: beyond the first span, of the contact there.
+    firsts: SmallVec<[usize; 9]>,
 }
 
 impl Shape {
     /// Becomes the shape of the rod in `configuration`, in the memory of the last one.
     pub fn follow(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) {
-        let Self { spans, nodes } = self;
+        let Self { spans, nodes, firsts } = self;
         *spans = configuration.spans(world, path);
         nodes.clear();
+        firsts.clear();
         let loaded = spans.last().map_or(0.0, |free| free.s);
         for (i, span) in spans.iter().enumerate() {
             let next = spans.get(i + 1);
-            let node = |s, at, contact| Node { s, at, span: i, contact, curved: 0.0 };
+            let node = |s, at, contact| Node { s, at, span: i, contact, bulge: 0.0 };
+            firsts.push(nodes.len());
             nodes.push(node(span.s, Station::from(&span.start), i.checked_sub(1)));
             let length = next.map_or(1.0, |next| next.s) - span.s;
             if length <= 0.0 {
@@ -70,30 +75,30 @@ impl Shape {
             let between = stations(&span.start, span.a, span.b, length, steps).take(steps - 1).enumerate();
             nodes.extend(between.map(|(k, at)| node(span.s + h * (k + 1) as f64, at, None)));
         }
-        bound_curvature(spans, nodes);
+        bulge(spans, nodes, firsts);
     }
 
     /// The points of span number `i` with both its ends.
     pub fn along(&self, i: usize) -> &[Node] {
-        let first = self.nodes.partition_point(|node| node.span < i);
-        let last = self.nodes.partition_point(|node| node.span <= i);
-        &self.nodes[first..(last + 1).min(self.nodes.len())]
+        let after = self.firsts.get(i + 1).map_or(self.nodes.len(), |next| next + 1);
+        &self.nodes[self.firsts[i]..after]
+    }
+
+    /// The point at contact number `j`.
+    pub fn at_contact(&self, j: usize) -> usize {
+        self.firsts[j + 1]
     }
 }
 
-/// Finds how curved the rod is from each node on: between two of them the curvature changes no faster than by the force.
-fn bound_curvature(spans: &[Span], nodes: &mut [Node]) {
-    let (mut most, mut after) = (0.0_f64, (1.0, 0.0));
-    let (mut span, mut force) = (usize::MAX, 0.0);
-    for node in nodes.iter_mut().rev() {
-        if node.span != span {
-            span = node.span;
-            force = spans[span].a.hypot(spans[span].b);
+/// Finds how far the rod leaves the chords between the points of the spans under load: between two of them the curvature
+/// changes no faster than by the force.
+fn bulge(spans: &[Span], nodes: &mut [Node], firsts: &[usize]) {
+    for (span, ends) in spans.iter().zip(firsts.windows(2)) {
+        let half_force = 0.5 * span.a.hypot(span.b);
+        for i in ends[0]..ends[1] {
+            let (h, after) = (nodes[i + 1].s - nodes[i].s, nodes[i + 1].at.kappa.abs());
+            nodes[i].bulge = 0.125 * h * h * (nodes[i].at.kappa.abs().max(after) + half_force * h);
         }
-        let own = node.at.kappa.abs();
-        most = most.max(own.max(after.1) + 0.5 * force * (after.0 - node.s));
-        node.curved = most;
-        after = (node.s, own);
     }
 }
 
