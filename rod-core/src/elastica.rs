@@ -60,6 +60,11 @@ impl Elastica {
         Ok(Self { units, segments })
     }
 
+    /// From segments that are known, at least one.
+    pub(crate) fn known(units: Units, segments: Vec<Segment>) -> Self {
+        Self { units, segments }
+    }
+
     /// Length of the rod.
     pub fn length(&self) -> f64 {
         self.units.length
@@ -98,9 +103,9 @@ impl Elastica {
     pub fn reactions(&self) -> Reactions {
         let first = &self.segments[0];
         Reactions {
-            f0x: -first.b * self.units.force,
+            f0x: 0.0 - first.b * self.units.force,
             f0y: first.a * self.units.force,
-            m0z: -first.start.kappa * self.units.moment,
+            m0z: 0.0 - first.start.kappa * self.units.moment,
         }
     }
 
@@ -135,6 +140,19 @@ impl Elastica {
         let inside = self.loaded().map(|(segment, next)| segment.largest_curvature_inside(next).unwrap_or(0.0));
         let ends = self.segments.iter().map(|segment| segment.start.kappa.abs());
         ends.chain(inside).fold(0.0, f64::max) * self.units.curvature
+    }
+
+    /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi), dimensionless, from the start of a segment
+    /// to the start of the next: rounding where the one leads to the other, as it does in a solution.
+    pub fn first_integral_error(&self) -> f64 {
+        let change = |(&Segment { s, start, a, b }, next): (&Segment, &Segment)| {
+            let invariant = |at: &Section| {
+                let (sin, cos) = at.phi.sin_cos();
+                0.5 * at.kappa * at.kappa - (a * sin - b * cos)
+            };
+            (invariant(&advance(&start, a, b, next.s - s)) - invariant(&next.start)).abs()
+        };
+        self.loaded().map(change).fold(0.0, f64::max)
     }
 
     fn free_end(&self) -> &Segment {

@@ -14,9 +14,11 @@
 //! equations a support (Merker et al. 2021, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
 //! unknowns: no error grows from one to the next.
 
+use crate::elastica::{Elastica, Segment};
 use crate::newton::System;
 use crate::pose::Pose;
 use crate::segment::{Section, advance, advance_with_sensitivities};
+use crate::units::Units;
 use smallvec::SmallVec;
 
 /// A point of a support's curve and its rates by the parameter t: dr/dt = speed (cos alpha, sin alpha),
@@ -236,6 +238,32 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
             (s, start) = (node.s, node.section());
         }
         visit(s, start, 0.0, 0.0);
+    }
+
+    /// The shape of the rod whose problem `u` solves, in `units`. Each segment starts where its support holds the rod: what is
+    /// left of the residual is between one and the next.
+    ///
+    /// ```
+    /// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Units, solve};
+    /// struct Floor; // y = 0, the rod's tip on it
+    /// impl Supports for Floor {
+    ///     fn count(&self) -> usize { 1 }
+    ///     fn hold(&self, _: usize) -> Hold { Hold::Tip }
+    ///     fn support(&self, _: usize, t: f64) -> Support {
+    ///         Support { x: -t, y: 0.0, alpha: std::f64::consts::PI, speed: 1.0, turning: 0.0 }
+    ///     }
+    /// }
+    /// let problem = MultiPoint { clamp: Pose { x: 0.0, y: 0.1, phi: -0.2 }, supports: &Floor };
+    /// let mut u = [-0.9, 0.1, 0.0];
+    /// assert!(solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new()).status.is_solved());
+    /// let shape = problem.elastica(&u, Units::ONE);
+    /// assert!(shape.at(1.0).y.abs() < 1e-14 && shape.first_integral_error() < 1e-14);
+    /// assert!((shape.reactions().f0y + u[1]).abs() < 1e-14); // the floor pushes up, the clamp holds down
+    /// ```
+    pub fn elastica(&self, u: &[f64], units: Units) -> Elastica {
+        let mut segments = Vec::with_capacity(self.supports.count() + 1);
+        self.segments(u, |s, start, a, b| segments.push(Segment { s, start, a, b }));
+        Elastica::known(units, segments)
     }
 }
 
