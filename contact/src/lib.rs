@@ -48,6 +48,7 @@ mod shape;
 mod stability;
 mod state;
 mod stepper;
+mod supporting_line;
 mod sweep;
 mod transition;
 mod world;

@@ -6,6 +6,7 @@ use crate::corner::{Corner, Passing};
 use crate::path::ClampPath;
 use crate::shape::{Node, Shape};
 use crate::stability::Judge;
+use crate::supporting_line::{DISTANT, SupportingLine};
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, Station, advance};
@@ -25,9 +26,6 @@ const ON_ROD: f64 = 1e-12;
 
 /// Curvatures, angles and distances off a normal that are what rounding leaves of none.
 const PARALLEL: f64 = 1e-9;
-
-/// Gap at which the direction to the foot has lost no more than three digits.
-const DISTANT: f64 = 1e-3;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
@@ -82,53 +80,6 @@ struct Sight {
     contact: bool,
     /// On a straight part the slope of the gap to the line that it is a part of.
     line: Option<f64>,
-}
-
-/// The tangent at the closest point of a convex part that bends outwards, which lies behind it: what is outside of the tangent
-/// by some distance is as far from the part, or farther.
-struct Tangent {
-    x: f64,
-    y: f64,
-    /// The outward normal.
-    normal: (f64, f64),
-}
-
-impl Tangent {
-    /// The tangent at the `foot` of a node that is outside of the part.
-    fn new(node: &Node, foot: &Foot) -> Option<Self> {
-        let outside = foot.interior && foot.gap > 0.0 && foot.curvature >= 0.0;
-        outside.then(|| {
-            let normal = if foot.gap < DISTANT {
-                let (sin, cos) = foot.alpha.sin_cos();
-                (sin, -cos)
-            } else {
-                ((node.at.x - foot.x) / foot.gap, (node.at.y - foot.y) / foot.gap)
-            };
-            Self { x: foot.x, y: foot.y, normal }
-        })
-    }
-
-    fn height(&self, Node { at, .. }: &Node) -> f64 {
-        (at.x - self.x) * self.normal.0 + (at.y - self.y) * self.normal.1
-    }
-
-    /// The last node up to which, from node `i` on, the rod is farther than `least` from the tangent.
-    fn clears_to(&self, nodes: &[Node], mut i: usize, least: f64) -> usize {
-        let mut height = self.height(&nodes[i]);
-        while let Some(next) = nodes.get(i + 1) {
-            let after = self.height(next);
-            if height.min(after) - nodes[i].bulge <= least {
-                break;
-            }
-            (i, height) = (i + 1, after);
-        }
-        i
-    }
-
-    /// Whether the rod is farther than `least` from the tangent from the first to the last of these nodes.
-    fn clears(&self, nodes: &[Node], least: f64) -> bool {
-        self.clears_to(nodes, 0, least) + 1 == nodes.len()
-    }
 }
 
 /// A part of a contour and the nodes of the rod (first, last) that are near it.
@@ -312,11 +263,11 @@ impl Looking<'_> {
         let Self { world, configuration, shape: Shape { spans, nodes: all, .. } } = self;
         let Near { part, first, last } = near;
         let (nodes, convex) = (&all[..=last], world.is_convex(part));
-        let (mut before, mut known): (Option<(usize, Sight, Foot)>, Option<(usize, Foot)>) = (None, None);
+        let mut feet = Feet { world, part, nodes, ahead: None };
+        let mut before: Option<(usize, Sight, Foot)> = None;
         let mut i = first;
         while let Some(node) = nodes.get(i) {
-            let foot_at = |node: &Node| world.foot_in(part, node.at.x, node.at.y);
-            let foot = known.filter(|(k, _)| *k == i).map_or_else(|| foot_at(node), |(_, foot)| foot);
+            let foot = feet.at(i);
             if let Some((_, _, was)) = before.filter(|(k, ..)| k + 1 == i)
                 && pierces(&was, &foot)
                 && world.is_inside(&part, was.t)
@@ -366,24 +317,43 @@ impl Looking<'_> {
             // within the distance by which the gap exceeds the smallest one there is nothing smaller
             let mut clear = last_before(nodes, i, node.s + (sight.gap - least).max(0.0));
             if convex && sight.interior && !sight.contact {
-                let tangent = Tangent::new(node, &foot);
-                clear = clear.max(tangent.map_or(i, |tangent| tangent.clears_to(nodes, i, least)));
-                // what is next to a contact tells of all the rod before it: it comes down to there
-                let ahead = self.before_contact(part.stretch, i);
-                if let Some(last) = ahead.filter(|last| (clear + 1..nodes.len()).contains(last)) {
-                    let foot = foot_at(&nodes[last]);
-                    let tangent = Tangent::new(&nodes[last], &foot);
-                    if tangent.is_some_and(|tangent| tangent.clears(&nodes[clear..=last], least)) {
-                        clear = last;
-                    }
-                    known = Some((last, foot));
+                clear = clear.max(feet.clear((i, &foot), i, least));
+                // what is next to a contact tells of all the rod before it, which comes down to there
+                if let Some(next) = self.before_contact(part.stretch, i).filter(|next| clear < *next && *next <= last) {
+                    let foot = feet.at(next);
+                    feet.ahead = Some((next, foot));
+                    clear = feet.clear((next, &foot), clear, least);
                 }
             }
-            if clear + 1 == nodes.len() && clear > i {
+            if clear == last && clear > i {
                 break;
             }
             i = clear.max(i + 1);
         }
+    }
+}
+
+/// The closest points of a part to nodes of the rod.
+struct Feet<'a> {
+    world: &'a World<'a>,
+    part: Part,
+    nodes: &'a [Node],
+    /// One that was looked at before its turn.
+    ahead: Option<(usize, Foot)>,
+}
+
+impl Feet<'_> {
+    fn at(&self, i: usize) -> Foot {
+        let Node { at, .. } = self.nodes[i];
+        let known = self.ahead.filter(|(k, _)| *k == i);
+        known.map_or_else(|| self.world.foot_in(self.part, at.x, at.y), |(_, foot)| foot)
+    }
+
+    /// The node up to which, from node `from` on, the line at the foot of some node clears the rod of the part.
+    fn clear(&self, (i, foot): (usize, &Foot), from: usize, least: f64) -> usize {
+        let line = SupportingLine::new(&self.nodes[i], foot);
+        let count = line.map_or(0, |line| line.clears(&self.nodes[from..], least));
+        from + count.saturating_sub(1)
     }
 }
 
