@@ -1,5 +1,5 @@
-//! What a closed form buys a shape: queries and a whole sweep with the shapes' own `closest_in`, `bounds_in` and `cuts`, and
-//! with the defaults of the trait.
+//! What a closed form buys a shape: queries and a whole sweep with the shapes' own `closest_in`, `bounds_in`, `cuts` and
+//! `is_convex`, and with the defaults of the trait.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a bench may, and it is there to be read")]
 
 mod measure;
@@ -19,9 +19,11 @@ const ROUNDS: usize = 60;
 enum Defaults {
     /// `cuts` alone.
     Cuts,
+    /// `is_convex` alone.
+    Convex,
     /// `closest_in` alone.
     Closest,
-    /// All three, as a shape has that is its frame and its range.
+    /// All four, as a shape has that is its frame and its range.
     All,
 }
 
@@ -53,7 +55,10 @@ impl<C: Contour> Contour for Hidden<C> {
     }
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        if self.1 == Defaults::Cuts { self.0.closest_in(range, x, y) } else { Bare(&self.0).closest_in(range, x, y) }
+        match self.1 {
+            Defaults::Closest | Defaults::All => Bare(&self.0).closest_in(range, x, y),
+            Defaults::Cuts | Defaults::Convex => self.0.closest_in(range, x, y),
+        }
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
@@ -61,7 +66,17 @@ impl<C: Contour> Contour for Hidden<C> {
     }
 
     fn cuts(&self, range: Range) -> Vec<f64> {
-        if self.1 == Defaults::Closest { self.0.cuts(range) } else { Bare(&self.0).cuts(range) }
+        match self.1 {
+            Defaults::Cuts | Defaults::All => Bare(&self.0).cuts(range),
+            Defaults::Convex | Defaults::Closest => self.0.cuts(range),
+        }
+    }
+
+    fn is_convex(&self, range: Range) -> bool {
+        match self.1 {
+            Defaults::Convex | Defaults::All => Bare(&self.0).is_convex(range),
+            Defaults::Cuts | Defaults::Closest => self.0.is_convex(range),
+        }
     }
 }
 
@@ -145,20 +160,27 @@ fn main() {
         "A full scan of O1 at q = 0.4, 1000 states, least of 10 interleaved rounds, and in scans with closed forms"
     );
     let closed = object(|shape| Box::new(shape));
-    let hidden = [Defaults::Cuts, Defaults::Closest, Defaults::All];
-    let [cuts, closest, all] = hidden.map(|which| object(move |shape| Box::new(Hidden(shape, which))));
+    let hidden = [Defaults::Cuts, Defaults::Convex, Defaults::Closest, Defaults::All];
+    let [cuts, convex, closest, all] = hidden.map(|which| object(move |shape| Box::new(Hidden(shape, which))));
     let graphs = object(|shape| {
         let [x0, y0] = shape.vertex();
         let range = shape.range().shifted(x0);
         Box::new(Graph::new(range, move |x| (x - x0) * (x - x0) * COEFFICIENT + y0).unwrap())
     });
-    let times: [Time; 5] = interleaved(
+    let times: [Time; 6] = interleaved(
         10,
-        [&mut || scan(&closed), &mut || scan(&cuts), &mut || scan(&closest), &mut || scan(&all), &mut || scan(&graphs)],
+        [
+            &mut || scan(&closed),
+            &mut || scan(&cuts),
+            &mut || scan(&convex),
+            &mut || scan(&closest),
+            &mut || scan(&all),
+            &mut || scan(&graphs),
+        ],
     );
-    for (name, time) in
-        ["closed forms", "default cuts", "default closest_in", "all defaults", "as Graphs"].iter().zip(&times)
-    {
+    let names =
+        ["closed forms", "default cuts", "default is_convex", "default closest_in", "all defaults", "as Graphs"];
+    for (name, time) in names.iter().zip(&times) {
         println!("  {name:30} {}   {}", time.show(1e3, "ms"), time.over(&times[0]));
     }
 }
