@@ -2,7 +2,9 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::f64::consts::PI;
-use vibrissa::{CircularArc, ClampPath, Composite, Contour, EventKind, Line, Outcome, Parabola, Pose, Rod, Sweep};
+use vibrissa::{
+    CircularArc, ClampPath, Composite, Contour, EventKind, Line, Motion, Outcome, Parabola, Pose, Rod, Sweep,
+};
 
 const UP: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -108,4 +110,29 @@ fn a_first_contact_at_a_reported_pose() {
         assert_eq!((first.kind, first.to().to_string().as_str()), (EventKind::FirstContact, "A"), "{step}");
         assert!((first.pose().x - touch).abs() < 1e-13, "{step}");
     }
+}
+
+/// A straight rod that goes in beside a notch between two teeth is nearest to notches nearly all along, which say nothing of it:
+/// only its tip tells that it is inside.
+#[test]
+fn a_rod_that_goes_in_beside_a_notch_is_inside() {
+    const PITCH: [f64; 2] = [0.084824322, 0.091635678];
+    let tooth = |k: i32| {
+        let x = f64::from(k) * (PITCH[0] + PITCH[1]);
+        [[x, 0.0], [x, 0.04524], [x + PITCH[0], 0.04524], [x + PITCH[0], 0.0]]
+    };
+    let teeth: Vec<[f64; 2]> = (-14..14).flat_map(tooth).collect();
+    let motion =
+        Motion { rotation: 349.75635645965974_f64.to_radians(), translation: [-0.1895, 0.4362], ..Motion::scale(1.0) };
+    let contour = Composite::polyline(&teeth[1..]).unwrap().moved(motion).unwrap();
+    let pose = |x, y| Pose { x, y, phi: 401.60309688189824_f64.to_radians() };
+    let from = pose(-0.3355490370073809, -0.11836701920436693);
+    let path = ClampPath::new(from, pose(-0.3, -0.12)).unwrap();
+    let rod = Rod::new(1.0, 0.00204).unwrap();
+    let outcome = Sweep::new(&rod, &contour, path, 0.01).unwrap().run();
+    for state in &outcome.states {
+        let shape = state.elastica(&rod).unwrap();
+        assert!(shape.sample(400).all(|at| contour.gap(at.x, at.y) > -1e-9), "{state:?}");
+    }
+    assert!(!outcome.states.is_empty() && !outcome.states[0].contacts.is_empty());
 }

@@ -317,17 +317,21 @@ impl Looking<'_> {
             // within the distance by which the gap exceeds the smallest one there is nothing smaller
             let mut clear = last_before(nodes, i, node.s + (sight.gap - least).max(0.0));
             if convex && sight.interior && !sight.contact {
-                clear = clear.max(feet.clear((i, &foot), i, least));
+                let outside = feet.clear((i, &foot), i, least);
+                clear = clear.max(outside);
                 // what is next to a contact tells of all the rod before it, which comes down to there
-                if let Some(next) = self.before_contact(part.stretch, i).filter(|next| clear < *next && *next <= last) {
+                let next = self.before_contact(part.stretch, i).filter(|next| clear < *next && *next <= last);
+                let outside = next.map_or(outside, |next| {
                     let foot = feet.at(next);
                     feet.ahead = Some((next, foot));
                     clear = feet.clear((next, &foot), clear, least);
+                    clear
+                });
+                if outside == last && last > i {
+                    break;
                 }
             }
-            if clear == last && clear > i {
-                break;
-            }
+            // the end is looked at in any case: it may be deep inside, where the distance tells nothing
             i = clear.max(i + 1);
         }
     }

@@ -128,6 +128,7 @@ impl Stepper<'_> {
             Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
             Err(NoTransition::NotLocated) => return Ok(None),
         }
+        // still the last that was scanned: where others were, there was a transition
         if !self.is_stable(&next) {
             return if length > PROBE { Ok(None) } else { self.end(from, &next).map(Some) };
         }
