@@ -6,7 +6,7 @@ use crate::corner::{Corner, Passing};
 use crate::path::ClampPath;
 use crate::shape::{Node, Shape};
 use crate::stability::Judge;
-use crate::supporting_line::{DISTANT, SupportingLine};
+use crate::supporting_line::SupportingLine;
 use crate::world::{Foot, World};
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::{Hold, Section, Station, advance};
@@ -199,7 +199,7 @@ impl Looking<'_> {
     fn before_contact(&self, stretch: usize, i: usize) -> Option<usize> {
         let contacts = self.configuration.contacts.iter().enumerate();
         let own = contacts.filter(|(_, held)| held.stretch == stretch).map(|(j, _)| self.shape.at_contact(j));
-        own.into_iter().find(|at| *at > i + 1).map(|at| at - 1)
+        own.map(|at| at - 1).find(|before| *before > i)
     }
 
     /// Only the tip can get into a notch, and only behind both its pieces: a step that went so far was too long.
@@ -314,24 +314,17 @@ impl Looking<'_> {
             }
             before = Some((i, sight, foot));
             let least = found.min_gap.max(0.0);
-            // within the distance by which the gap exceeds the smallest one there is nothing smaller
-            let mut clear = last_before(nodes, i, node.s + (sight.gap - least).max(0.0));
+            let mut outside = i;
             if convex && sight.interior && !sight.contact {
-                let outside = feet.clear((i, &foot), i, least);
-                clear = clear.max(outside);
-                // what is next to a contact tells of all the rod before it, which comes down to there
-                let next = self.before_contact(part.stretch, i).filter(|next| clear < *next && *next <= last);
-                let outside = next.map_or(outside, |next| {
-                    let foot = feet.at(next);
-                    feet.ahead = Some((next, foot));
-                    clear = feet.clear((next, &foot), clear, least);
-                    clear
-                });
-                if outside == last && last > i {
-                    break;
-                }
+                let next = self.before_contact(part.stretch, i).filter(|next| *next <= last);
+                outside = feet.outside(i, &foot, next, least);
             }
-            // the end is looked at in any case: it may be deep inside, where the distance tells nothing
+            if outside == last && last > i {
+                break;
+            }
+            // Within the distance by which the gap exceeds the smallest one there is nothing smaller. But the end is looked at
+            // in any case: it may be deep inside, where the distance tells nothing.
+            let clear = outside.max(last_before(nodes, i, node.s + (sight.gap - least).max(0.0)));
             i = clear.max(i + 1);
         }
     }
@@ -353,8 +346,18 @@ impl Feet<'_> {
         known.map_or_else(|| self.world.foot_in(self.part, at.x, at.y), |(_, foot)| foot)
     }
 
+    /// The node up to which, from node `i` on, the rod is outside of the part, and farther from it than `least`.
+    fn outside(&mut self, i: usize, foot: &Foot, next: Option<usize>, least: f64) -> usize {
+        let outside = self.cleared((i, foot), i, least);
+        // what is next to a contact tells of all the rod before it, which comes down to there
+        let Some(next) = next.filter(|next| outside < *next) else { return outside };
+        let foot = self.at(next);
+        self.ahead = Some((next, foot));
+        self.cleared((next, &foot), outside, least)
+    }
+
     /// The node up to which, from node `from` on, the line at the foot of some node clears the rod of the part.
-    fn clear(&self, (i, foot): (usize, &Foot), from: usize, least: f64) -> usize {
+    fn cleared(&self, (i, foot): (usize, &Foot), from: usize, least: f64) -> usize {
         let line = SupportingLine::new(&self.nodes[i], foot);
         let count = line.map_or(0, |line| line.clears(&self.nodes[from..], least));
         from + count.saturating_sub(1)
@@ -504,21 +507,16 @@ fn gaps<'n>(world: &World<'_>, nodes: impl Iterator<Item = &'n Node>) -> SmallVe
     nodes.map(gap).collect()
 }
 
-/// Slope of the gap along the rod: of the distance to the foot where that is an end of the part. Where the foot is not too
-/// near, it is the direction to it that gives the slope: that takes no sine.
+/// Slope of the gap along the rod: of the distance to the foot where that is an end of the part.
 fn slope(at: &Station, foot: &Foot) -> f64 {
-    if foot.interior && foot.gap.abs() < DISTANT {
-        return towards(at, foot);
-    }
-    let (dx, dy) = (at.x - foot.x, at.y - foot.y);
-    let distance = if foot.interior { foot.gap } else { dx.hypot(dy).max(f64::MIN_POSITIVE) };
-    (dx * at.cos + dy * at.sin) / distance
+    let (nx, ny) = foot.uphill(at.x, at.y);
+    nx * at.cos + ny * at.sin
 }
 
 /// Slope of the gap to the contour's tangent: minus the sine of the angle between rod and contour.
 fn towards(at: &Station, foot: &Foot) -> f64 {
-    let (sin, cos) = foot.alpha.sin_cos();
-    at.cos * sin - at.sin * cos
+    let (nx, ny) = foot.normal();
+    nx * at.cos + ny * at.sin
 }
 
 /// Change of the slope of the gap along the rod.

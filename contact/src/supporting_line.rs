@@ -3,9 +3,6 @@
 use crate::shape::Node;
 use crate::world::Foot;
 
-/// Gap at which the direction to the foot has lost no more than three digits.
-pub(crate) const DISTANT: f64 = 1e-3;
-
 /// The tangent at the closest point of a convex part that bends outwards, which lies behind it: what is outside of the line by
 /// some distance is as far from the part, or farther.
 pub(crate) struct SupportingLine {
@@ -19,15 +16,7 @@ impl SupportingLine {
     /// The line at the `foot` of a node that is outside of a convex part; none where that does not bend outwards there.
     pub fn new(node: &Node, foot: &Foot) -> Option<Self> {
         let outside = foot.interior && foot.gap > 0.0 && foot.curvature >= 0.0;
-        outside.then(|| {
-            let normal = if foot.gap < DISTANT {
-                let (sin, cos) = foot.alpha.sin_cos();
-                (sin, -cos)
-            } else {
-                ((node.at.x - foot.x) / foot.gap, (node.at.y - foot.y) / foot.gap)
-            };
-            Self { x: foot.x, y: foot.y, normal }
-        })
+        outside.then(|| Self { x: foot.x, y: foot.y, normal: foot.uphill(node.at.x, node.at.y) })
     }
 
     fn height(&self, Node { at, .. }: &Node) -> f64 {

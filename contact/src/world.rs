@@ -39,6 +39,28 @@ pub(crate) struct Foot {
     pub interior: bool,
 }
 
+/// Gap at which the direction to the foot has lost no more than three digits.
+const DISTANT: f64 = 1e-3;
+
+impl Foot {
+    /// The direction in which the gap of the point `(x, y)`, whose foot this is, grows: the outward normal, or away from an end
+    /// of the part. Where the foot is not too near, the way from there gives the normal, which takes no sine.
+    pub fn uphill(&self, x: f64, y: f64) -> (f64, f64) {
+        if self.interior && self.gap.abs() < DISTANT {
+            return self.normal();
+        }
+        let (dx, dy) = (x - self.x, y - self.y);
+        let distance = if self.interior { self.gap } else { dx.hypot(dy).max(f64::MIN_POSITIVE) };
+        (dx / distance, dy / distance)
+    }
+
+    /// The outward normal of the contour.
+    pub fn normal(&self) -> (f64, f64) {
+        let (sin, cos) = self.alpha.sin_cos();
+        (sin, -cos)
+    }
+}
+
 impl<'a> World<'a> {
     pub fn new(objects: &'a [Composite], length: f64) -> Self {
         let first = objects.iter().scan(0, |next, object| {

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_bvp
 
-from problems import Unknowns, ahead, results
+from problems import Solution, Unknowns, ahead
 
 MESH = 11  # nodes where there is no mesh yet
 MAX_NODES = 20_000
@@ -134,39 +134,18 @@ def _functions(layout, clamp):
 
 
 @dataclass
-class Solution:
-    contacts: tuple
-    clamp: tuple
-    unknowns: Unknowns
-    kappa0: float
+class Collocated(Solution):
     found: object  # of solve_bvp
-
-    def results(self):
-        return results(self.contacts, self.unknowns.t, self.unknowns.f, self.kappa0)
 
     def note(self):
         return f"{len(self.found.x)} nodes a segment"
 
-    def shape(self):
-        """The rod as a function of arc length, an array of x, y, phi, kappa; straight behind the last contact."""
-        starts, ends = np.array((0.0, *self.unknowns.s[:-1])), np.array(self.unknowns.s)
-        last = self.found.y[-4:, -1]
+    def segments(self):
+        def segment(j, start, end):
+            return lambda s: self.found.sol((s - start) / (end - start))[4 * j : 4 * j + 4]
 
-        def at(s):
-            s = np.atleast_1d(s)
-            y = np.empty((4, len(s)))
-            piece = np.searchsorted(ends, s)
-            for j in range(len(ends)):
-                here = piece == j
-                if here.any():
-                    y[:, here] = self.found.sol((s[here] - starts[j]) / (ends[j] - starts[j]))[4 * j : 4 * j + 4]
-            behind = piece == len(ends)
-            way = s[behind] - ends[-1]
-            straight = (last[0] + way * math.cos(last[2]), last[1] + way * math.sin(last[2]), np.full(len(way), last[2]))
-            y[:, behind] = np.array((*straight, np.zeros(len(way))))
-            return y
-
-        return at
+        ends = (0.0, *self.unknowns.s)
+        return [segment(j, start, end) for j, (start, end) in enumerate(zip(ends, ends[1:]))]
 
 
 def _values(contacts, clamp, unknowns, mesh):
@@ -196,7 +175,7 @@ class Collocation:
         `fixed`: phi1 is given and x0 of the clamp unknown.
         """
         layout = _Layout(contacts, fixed)
-        if isinstance(guess, Solution):
+        if isinstance(guess, Collocated):
             mesh, values, unknowns, x0 = guess.found.x, guess.found.y, guess.unknowns, guess.clamp[0]
         else:
             mesh, unknowns, x0 = np.linspace(0.0, 1.0, MESH), guess, clamp[0]
@@ -212,9 +191,9 @@ class Collocation:
             found = solve_bvp(fun, bc, mesh, values, p, tol=self.tol, max_nodes=MAX_NODES, **given)
         if not found.success:
             # Meshes only grow from one solution to the next: at last they are too large, and a fresh one will do.
-            return self.solve(contacts, clamp, guess.unknowns, fixed, guess.shape()) if isinstance(guess, Solution) else None
+            return self.solve(contacts, clamp, guess.unknowns, fixed, guess.shape()) if isinstance(guess, Collocated) else None
         known = layout.unknowns(found.p, found.y[-2, -1])
         if not all(length > 0 for length in np.diff((0.0, *known.s))):
             return None
         pose = clamp if fixed is None else (found.p[layout.x0], *clamp[1:])
-        return Solution(contacts, pose, known, found.y[3, 0], found)
+        return Collocated(contacts, pose, known, found.y[3, 0], found)

@@ -151,6 +151,47 @@ def results(contacts, t, f, kappa0):
     return np.array([-b[0], a[0], -kappa0] + [value for frame in frames for value in (frame.x, frame.y)])
 
 
+@dataclass
+class Solution:
+    """What a solver found for contacts and a pose of the clamp."""
+
+    contacts: tuple
+    clamp: tuple
+    unknowns: Unknowns
+    kappa0: float
+
+    def results(self):
+        return results(self.contacts, self.unknowns.t, self.unknowns.f, self.kappa0)
+
+    def note(self):
+        return ""
+
+    def segments(self):
+        """Of each segment x, y, phi, kappa as a function of arc lengths."""
+        raise NotImplementedError
+
+    def shape(self):
+        """The rod as a function of arc length, an array of x, y, phi, kappa; straight behind the last contact."""
+        ends, segments = np.array(self.unknowns.s), self.segments()
+        x, y, phi = segments[-1](ends[-1:])[:3, 0]
+
+        def at(s):
+            s = np.atleast_1d(s)
+            values = np.empty((4, len(s)))
+            piece = np.searchsorted(ends, s)
+            for j, segment in enumerate(segments):
+                here = piece == j
+                if here.any():
+                    values[:, here] = segment(s[here])
+            behind = piece == len(ends)
+            way = s[behind] - ends[-1]
+            straight = (x + way * math.cos(phi), y + way * math.sin(phi), np.full(len(way), phi), np.zeros(len(way)))
+            values[:, behind] = np.array(straight)
+            return values
+
+        return at
+
+
 def rough(problem):
     """A guess for a cold start: contacts to a tenth of their parameter, forces to a power of two, chords for arc lengths."""
     t = tuple(round(tj, 1) for tj in problem.solution.t)

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from problems import Unknowns, ahead, results
+from problems import Solution, Unknowns, ahead
 
 COLUMNS = 4  # of the sensitivities: to phi and kappa at the start, and to A and B
 
@@ -45,42 +45,15 @@ _DIRECTIONS[2, 0] = _DIRECTIONS[3, 1] = 1.0
 
 
 @dataclass
-class Solution:
-    contacts: tuple
-    clamp: tuple
-    unknowns: Unknowns
-    kappa0: float
+class Shot(Solution):
     tol: float
 
-    def results(self):
-        return results(self.contacts, self.unknowns.t, self.unknowns.f, self.kappa0)
+    def segments(self):
+        def segment(piece, end):
+            return lambda s: piece.sol(end - s)
 
-    def note(self):
-        return ""
-
-    def shape(self):
-        """The rod as a function of arc length, an array of x, y, phi, kappa; straight behind the last contact."""
         _, _, pieces = _segments(self.contacts, self.unknowns, self.tol, dense=True)
-        ends = np.array(self.unknowns.s)
-        frame = self.contacts[-1].support.frame(self.unknowns.t[-1])
-        phi1 = self.unknowns.phi1
-
-        def at(s):
-            s = np.atleast_1d(s)
-            y = np.empty((4, len(s)))
-            piece = np.searchsorted(ends, s)
-            for j, end in enumerate(ends):
-                here = piece == j
-                if here.any():
-                    y[:, here] = pieces[j].sol(end - s[here])
-            behind = piece == len(ends)
-            way = s[behind] - ends[-1]
-            y[:, behind] = np.array([
-                frame.x + way * math.cos(phi1), frame.y + way * math.sin(phi1), np.full(len(way), phi1), np.zeros(len(way))
-            ])
-            return y
-
-        return at
+        return [segment(piece, end) for piece, end in zip(pieces, self.unknowns.s)]
 
 
 def _angle(contacts, unknowns, frames, j):
@@ -180,7 +153,7 @@ class Shooting:
 
         The shape of the rod, which collocation starts from, is none of its unknowns.
         """
-        if isinstance(guess, Solution):
+        if isinstance(guess, Shot):
             unknowns, x0 = guess.unknowns, guess.clamp[0]
         else:
             unknowns, x0 = guess, clamp[0]
@@ -206,7 +179,7 @@ class Shooting:
         known = _unpack(contacts, found.x, fixed)
         pose = clamp if fixed is None else (found.x[-1], *clamp[1:])
         _, _, pieces = _segments(contacts, known, tol)
-        return Solution(contacts, pose, known, pieces[0].y[3, -1], tol)
+        return Shot(contacts, pose, known, pieces[0].y[3, -1], tol)
 
 
 def _possible(unknowns, u):

@@ -107,8 +107,11 @@ impl Chain {
         let near = near(world, &nodes, &angles, reach);
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
-            let solve = |yielding| Programme::new(self, &nodes, &near, time_step, push, yielding).solve();
-            let (change, forces) = solve(0.0).or_else(|| solve(YIELDING))?;
+            let mut programme = Programme::new(self, &nodes, &near, time_step, push);
+            let (change, forces) = programme.solve().or_else(|| {
+                programme.yielding = YIELDING;
+                programme.solve()
+            })?;
             let mut moved = self.clone();
             for (joint, change) in moved.joints.iter_mut().zip(&change) {
                 *joint += change;
