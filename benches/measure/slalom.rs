@@ -76,7 +76,7 @@ impl Warm {
         }
         let slalom = Slalom::new(count, AMPLITUDE);
         let disc = |&centre: &[f64; 2]| CircularArc::new(centre, RADIUS, FRAC_PI_2, FRAC_PI_2 + TAU).unwrap();
-        let objects = slalom.centres.iter().map(|centre| Composite::single(disc(centre))).collect();
+        let objects = slalom.centres.iter().map(|centre| Composite::single(disc(centre)).unwrap()).collect();
         Self { slalom, guess, objects }
     }
 

@@ -69,7 +69,7 @@ fn disc(k: usize, of: usize) -> Composite {
         let (row, column) = (k / 32, k % 32);
         [DISC.1 * (column as f64 - 16.0), 3.0 + DISC.1 * row as f64]
     };
-    Composite::single(CircularArc::new(middle, DISC.0, FRAC_PI_2, FRAC_PI_2 + 2.0 * PI).unwrap())
+    Composite::single(CircularArc::new(middle, DISC.0, FRAC_PI_2, FRAC_PI_2 + 2.0 * PI).unwrap()).unwrap()
 }
 
 /// The shapes that so many pieces of one contour are made of; [`FEW`] of them are those of the longer ones that the rod meets.

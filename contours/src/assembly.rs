@@ -5,6 +5,8 @@ use std::f64::consts::{PI, TAU};
 use crate::angle::wrapped;
 use crate::crossing::{self, Crossing};
 use crate::piece::Piece;
+use crate::probe;
+use crate::trust::Seal;
 use crate::{Contour, ContourError, Frame, Range};
 
 /// Largest distance between the ends of consecutive pieces, relative to the largest coordinate of [`Piece::scale`]:
@@ -15,19 +17,23 @@ const MEETING: f64 = 1e-9;
 pub(crate) const SMOOTH: f64 = 1e-9;
 
 /// The shapes as pieces, whole.
-pub(crate) fn whole(shapes: Vec<Box<dyn Contour>>) -> Vec<Piece> {
-    shapes
-        .into_iter()
-        .map(|shape| {
-            let range = shape.range();
-            Piece::new(shape, range)
-        })
-        .collect()
+///
+/// Those that are not known to keep the contract of [`Contour`] are tested for plain mistakes.
+pub(crate) fn whole(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
+    let piece = |(index, shape): (usize, Box<dyn Contour>)| {
+        let range = checked(shape.range(), index + 1)?;
+        let tested = shape.trust(Seal(())).contract;
+        match if tested { None } else { probe::broken(&*shape) } {
+            Some(broken) => Err(ContourError::Contract { piece: index + 1, broken }),
+            None => Ok(Piece::new(shape, range)),
+        }
+    };
+    shapes.into_iter().enumerate().map(piece).collect()
 }
 
 /// Each piece up to where it meets the next one or enters its solid, see [`Composite::joined`](crate::Composite::joined).
 pub(crate) fn crossing(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
-    let mut pieces = whole(shapes);
+    let mut pieces = whole(shapes)?;
     for next in 2..=pieces.len() {
         let piece = next - 1;
         let (before, after) = pieces.split_at_mut(piece);
@@ -129,7 +135,7 @@ mod tests {
     #[test]
     fn a_circle_from_the_origin_to_the_origin_is_closed() {
         let circle = CircularArc::new([0.0, 0.015], 0.015, -0.5 * PI, 1.5 * PI).unwrap();
-        assert!(Composite::single(circle).is_closed());
+        assert!(Composite::single(circle).unwrap().is_closed());
         assert!(Composite::new(vec![Box::new(circle)]).unwrap().is_closed());
     }
 }

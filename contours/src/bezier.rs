@@ -1,6 +1,9 @@
 //! The cubic Bezier curve.
 
+use std::f64::consts::PI;
+
 use crate::cubic::{Cubic, nearest, roots};
+use crate::trust::{Seal, Trust};
 use crate::vector::{between, cross, dot, minus, scaled};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check, cuts};
 
@@ -174,11 +177,33 @@ impl Contour for Bezier {
         let bends: Vec<f64> = self.cubic().velocity().inflections().filter(|&t| range.is_interior(t)).collect();
         cuts::by_turn(self, range, &bends)
     }
+
+    /// What bends one way only and turns by at most a half turn, in which case it lies on one side of each tangent.
+    fn is_convex(&self, range: Range) -> bool {
+        let Range { from, to } = Range::UNIT.within(range);
+        let cubic = self.cubic();
+        let velocity = cubic.velocity();
+        let one_way = cubic.bends(1.0, from, to) || cubic.bends(-1.0, from, to);
+        one_way && (velocity.turned(to) - velocity.turned(from)).abs() <= PI
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let Range { from, to } = Range::UNIT.within(range);
+        self.cubic().curvature(from, to)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        true
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::TESTED
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::FRAC_PI_2;
 
     use super::*;
 

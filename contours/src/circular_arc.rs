@@ -3,7 +3,11 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::span::Span;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, cuts};
+use crate::trust::{Seal, Trust};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, curvature, cuts};
+
+/// Rounding of the curvature, relative.
+const CURVATURE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// An arc of a circle, from one polar angle (seen from the centre) to another.
 ///
@@ -131,6 +135,18 @@ impl Contour for CircularArc {
     /// An arc of a circle always.
     fn is_convex(&self, _: Range) -> bool {
         true
+    }
+
+    fn curvature_in(&self, _: Range) -> (f64, f64) {
+        curvature::of_values([self.span.sign() / self.radius], CURVATURE_ROUNDING)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        true
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::SIMPLE
     }
 }
 

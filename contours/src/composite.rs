@@ -4,7 +4,9 @@ use crate::assembly;
 use crate::index::Index;
 use crate::joint::Joint;
 use crate::piece::Piece;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, SelfCrossing, Stretch, StretchKind};
+use crate::run::{self, Run, Stored};
+use crate::trust::{Seal, Trust};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, Stretch, StretchKind, curvature};
 
 /// Pieces in order, with the solid on the left, as one contour with one parameter.
 ///
@@ -38,6 +40,13 @@ pub struct Composite {
     cells: Vec<Cell>,
     /// Of the cells (of the pieces, where none is cut), each with the joint after it.
     index: Index,
+    /// Neighbouring cells that bend one way, in order, and their boxes.
+    runs: Vec<Stored>,
+    /// None where each cell is a run.
+    run_index: Option<Index>,
+    /// The boxes of the runs where they are few and the index keeps none.
+    run_boxes: Vec<Bounds>,
+    proven: bool,
     bounds: Bounds,
 }
 
@@ -55,9 +64,12 @@ impl Composite {
     ///
     /// Without pieces ([`ContourError::Empty`]), with a range upside down ([`ContourError::PieceRange`]), an inner end at
     /// infinity ([`ContourError::NoEnd`]), ends that do not meet ([`ContourError::Apart`]) or a closed contour that takes
-    /// more or less than one turn ([`ContourError::Crosses`], or [`ContourError::Loops`] where no crossing is found).
+    /// more or less than one turn, or a piece that crosses itself ([`ContourError::Crosses`], or [`ContourError::Loops`] where no crossing is found).
+    ///
+    /// A shape from outside this crate, a [`Graph`](crate::Graph) and a [`Curve`](crate::Curve) are tested at five places;
+    /// one that breaks the contract of [`Contour`] there is refused ([`ContourError::Contract`]).
     pub fn new(pieces: Vec<Box<dyn Contour>>) -> Result<Self, ContourError> {
-        Self::assembled(assembly::whole(pieces))
+        Self::assembled(assembly::whole(pieces)?)
     }
 
     /// Pieces that meet or cross: each is left at its end, where the next one starts there, and else at the first point
@@ -75,10 +87,12 @@ impl Composite {
     }
 
     /// One shape as a composite, with its own parameter; closed if its end meets its start after one turn.
-    pub fn single(shape: impl Contour + 'static) -> Self {
-        let mut pieces = assembly::whole(vec![Box::new(shape)]);
-        let turns = assembly::placed(&mut pieces).unwrap_or(0);
-        Self::laid_out(pieces, turns)
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Composite::new`].
+    pub fn single(shape: impl Contour + 'static) -> Result<Self, ContourError> {
+        Self::new(vec![Box::new(shape)])
     }
 
     /// Number of pieces.
@@ -207,6 +221,23 @@ impl Composite {
         }
     }
 
+    /// The least and the largest [curvature](Contour::curvature_in) of a part of a stretch, by the stretch's own parameter:
+    /// infinity for a corner, minus infinity for a notch.
+    pub fn own_curvature_in(&self, stretch: usize, range: Range) -> (f64, f64) {
+        match self.at(stretch) {
+            At::Piece(piece) => piece.shape.curvature_in(range),
+            At::Joint(joint) => joint.curvature(),
+        }
+    }
+
+    /// Whether the closest points of a stretch [are exact](Contour::closest_is_exact); those of joints are.
+    pub fn own_closest_is_exact(&self, stretch: usize) -> bool {
+        match self.at(stretch) {
+            At::Piece(piece) => piece.shape.closest_is_exact(),
+            At::Joint(_) => true,
+        }
+    }
+
     /// A box that contains a part of a stretch, by the stretch's own parameter.
     pub fn own_bounds_in(&self, stretch: usize, range: Range) -> Bounds {
         match self.at(stretch) {
@@ -234,9 +265,122 @@ impl Composite {
         }
     }
 
+    /// Number of [runs](Run): neighbouring arcs that bend one way. Together they are the whole contour.
+    pub fn run_count(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// One of the runs, in the contour's order; too large a number means the last.
+    pub fn run(&self, run: usize) -> Run {
+        let stored = &self.runs[run.min(self.runs.len() - 1)];
+        let [first, last] = [stored.cells[0], stored.cells[1] - 1].map(|cell| self.cell(cell as usize));
+        Run::new(stored, [first, last], self.run_bounds(run))
+    }
+
+    fn run_index(&self) -> &Index {
+        self.run_index.as_ref().unwrap_or(&self.index)
+    }
+
+    /// A box around a run.
+    pub fn run_bounds(&self, run: usize) -> Bounds {
+        let run = run.min(self.runs.len() - 1);
+        self.run_boxes.get(run).copied().or_else(|| self.run_index().bounds(run)).unwrap_or(Bounds::ALL)
+    }
+
+    /// Whether it is the border of a convex body: closed, and nowhere bent inwards.
+    pub fn is_convex_body(&self) -> bool {
+        matches!(self.runs[..], [Stored { closed: true, .. }])
+    }
+
+    /// Whether bends and closest points of all pieces are proven, not sampled.
+    pub fn is_proven(&self) -> bool {
+        self.proven
+    }
+
+    /// Calls `visit` with the numbers of the runs that meet `bounds`, and perhaps with others near by.
+    pub fn runs_near(&self, bounds: Bounds, mut visit: impl FnMut(usize)) {
+        if self.bounds.meets(&bounds) {
+            self.run_index().meeting(bounds, &mut visit);
+        }
+    }
+
+    /// The closest point of a run, with the joints inside it; too large a number means the last run.
+    pub fn run_closest(&self, run: usize, x: f64, y: f64) -> RunClosest {
+        let Stored { cells: [first, last], closed, .. } = self.runs[run.min(self.runs.len() - 1)];
+        let mut best: Option<RunClosest> = None;
+        self.index.nearest_among([first as usize, last as usize], x, y, &mut |cell| {
+            let [arc, joint] = self.parts_of(cell);
+            let joint = joint.filter(|_| closed || cell + 1 < last as usize);
+            for (part, is_joint) in [(arc, false), (joint, true)] {
+                let Some(Part { stretch, range }) = part else { continue };
+                let closest = self.own_closest_in(stretch, range, x, y);
+                let better = best.is_none_or(|best| {
+                    let (new, old) = (closest.gap.abs(), best.closest.gap.abs());
+                    // a vertex is the end of an arc too, which does not tell the side there
+                    new < old || (is_joint && closest.interior && new <= old)
+                });
+                if better && (!is_joint || closest.interior) {
+                    let upper = closest.t - range.from > range.to - closest.t;
+                    let at_end = match (closed || closest.interior, upper) {
+                        (false, false) if cell == first as usize => Some(0),
+                        (false, true) if cell + 1 == last as usize => Some(1),
+                        _ => None,
+                    };
+                    // between two of its arcs rounding decides which one it is on
+                    let closest = Closest { interior: at_end.is_none(), ..closest };
+                    best = Some(RunClosest { stretch, closest, end: at_end, joint: is_joint });
+                }
+            }
+            best.map_or(f64::INFINITY, |best| best.closest.gap.abs())
+        });
+        // none only where the point is not a number
+        best.unwrap_or_else(|| {
+            let stretch = self.stretch_at(self.range().from);
+            RunClosest { stretch, closest: self.closest_on(stretch, x, y), end: None, joint: false }
+        })
+    }
+
+    /// Whether a stretch, at its own parameter `t`, is part of a run.
+    pub fn run_holds(&self, run: usize, stretch: usize, t: f64) -> bool {
+        let Stored { cells: [first, last], closed, .. } = self.runs[run.min(self.runs.len() - 1)];
+        let (piece, is_joint) = self.place(self.known(stretch));
+        let cell = if self.cells.is_empty() {
+            piece
+        } else {
+            let behind = self.cells.partition_point(|cell| (cell.piece as usize) < piece);
+            let own = self.cells[behind..].iter().take_while(|cell| cell.piece as usize == piece);
+            let last = own.clone().count().saturating_sub(1);
+            behind + if is_joint { last } else { own.take_while(|cell| cell.range.to < t).count().min(last) }
+        };
+        let last = last as usize - usize::from(is_joint && !closed);
+        (first as usize..last).contains(&cell)
+    }
+
+    /// The run that is nearest to a point.
+    pub fn run_at(&self, x: f64, y: f64) -> usize {
+        let (mut best, mut at) = (f64::INFINITY, 0);
+        self.run_index().nearest(x, y, &mut |run| {
+            let closest = self.run_closest(run, x, y).closest;
+            if closest.gap.abs() < best {
+                (best, at) = (closest.gap.abs(), run);
+            }
+            best
+        });
+        at
+    }
+
+    /// The arcs of a run, without the joints between them.
+    pub fn run_arcs(&self, run: usize) -> impl Iterator<Item = Part> {
+        let Stored { cells: [first, last], .. } = self.runs[run.min(self.runs.len() - 1)];
+        (first as usize..last as usize).filter_map(|cell| self.parts_of(cell)[0])
+    }
+
     fn assembled(mut pieces: Vec<Piece>) -> Result<Self, ContourError> {
         match assembly::placed(&mut pieces) {
-            Ok(turns) => Ok(Self::laid_out(pieces, turns)),
+            Ok(turns) => {
+                let contour = Self::laid_out(pieces, turns);
+                contour.crossing_of_a_piece().map_or(Ok(contour), |crossing| Err(crossing.into()))
+            }
             // Where it crosses itself is easier to mend than how often it turns.
             Err(error @ ContourError::Loops { .. }) => Err(Self::laid_out(pieces, 0).simple().err().unwrap_or(error)),
             Err(error) => Err(error),
@@ -247,10 +391,13 @@ impl Composite {
     pub(crate) fn simple(self) -> Result<Self, ContourError> {
         match self.self_crossing() {
             None => Ok(self),
-            Some(SelfCrossing { pieces: [first, second], point: [x, y], .. }) => {
-                Err(ContourError::Crosses { what: "piece", first: first + 1, second: second + 1, x, y })
-            }
+            Some(crossing) => Err(crossing.into()),
         }
+    }
+
+    /// Whether each piece, by what is known of its shape, may cross itself.
+    pub(crate) fn may_cross_themselves(&self) -> impl Iterator<Item = bool> {
+        self.pieces.iter().map(|piece| !piece.shape.trust(Seal(())).simple)
     }
 
     /// The pieces in order, and the turns of a closed contour (0 for an open one).
@@ -279,12 +426,27 @@ impl Composite {
         let boxes = cells.iter().map(|cell| pieces[cell.piece as usize].bounds_in(cell.range));
         let bounds = boxes.clone().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
         let index = Index::new(boxes);
+        let arcs = cells.iter().map(|Cell { piece, range }| {
+            let piece = &pieces[*piece as usize];
+            let joint = if range.to == piece.range.to { piece.turn() } else { 0.0 };
+            run::Arc { piece, range: *range, joint }
+        });
+        let runs = run::runs(arcs, turns);
+        let boxes = runs.iter().map(|run| {
+            let arcs = &cells[run.cells[0] as usize..run.cells[1] as usize];
+            let boxes = arcs.iter().map(|cell| pieces[cell.piece as usize].bounds_in(cell.range));
+            boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds))
+        });
+        let run_index = (runs.len() < cells.len()).then(|| Index::new(boxes.clone()));
+        let few_runs = run_index.as_ref().unwrap_or(&index).is_small();
+        let run_boxes = if few_runs { boxes.collect() } else { Vec::new() };
+        let proven = runs.iter().all(|run| run.proven);
         if cells.len() == pieces.len() {
             cells = Vec::new();
         }
         cells.shrink_to_fit();
         pieces.shrink_to_fit();
-        Self { pieces, order, turns, cells, index, bounds }
+        Self { pieces, order, turns, cells, index, runs, run_index, run_boxes, proven, bounds }
     }
 
     fn known(&self, stretch: usize) -> usize {
@@ -313,13 +475,25 @@ impl Composite {
         }
     }
 
+    /// The stretch's own parameter from the composite's.
+    fn own(&self, stretch: usize, t: f64) -> f64 {
+        match self.at(stretch) {
+            At::Piece(piece) => t - piece.offset,
+            At::Joint(joint) => t - joint.range().from,
+        }
+    }
+
+    /// The piece of a cell, and the part of it.
+    fn cell(&self, cell: usize) -> (&Piece, Range) {
+        match self.cells.get(cell) {
+            Some(cell) => (&self.pieces[cell.piece as usize], cell.range),
+            None => (&self.pieces[cell], self.pieces[cell].range),
+        }
+    }
+
     /// The parts of a cell: the arc, and the joint after it.
     fn parts_of(&self, cell: usize) -> [Option<Part>; 2] {
-        let (index, range) = match self.cells.get(cell) {
-            Some(cell) => (cell.piece as usize, cell.range),
-            None => (cell, self.pieces[cell].range),
-        };
-        let piece = &self.pieces[index];
+        let (piece, range) = self.cell(cell);
         let stretch = piece.stretch as usize;
         let joint = piece.has_joint() && range.to == piece.range.to;
         [Some(Part { stretch, range }), joint.then(|| Part { stretch: stretch + 1, range: piece.joint().own_range() })]
@@ -333,15 +507,15 @@ impl Composite {
         let (common, all) = (self.stretch(stretch).range, self.own_range(stretch));
         // Where the range takes all of the stretch nothing is lost to the offset.
         let asked = Range {
-            from: if range.from <= common.from { all.from } else { all.from + (range.from - common.from) },
-            to: if range.to >= common.to { all.to } else { all.to - (common.to - range.to) },
+            from: if range.from <= common.from { all.from } else { self.own(stretch, range.from) },
+            to: if range.to >= common.to { all.to } else { self.own(stretch, range.to) },
         };
         let part = own.within(asked);
         if part.from > part.to || asked.from > own.to || asked.to < own.from {
             return None;
         }
         let closest = self.own_closest_in(stretch, part, x, y);
-        let mut closest = Closest { t: self.common(stretch, closest.t), ..closest };
+        let mut closest = Closest { t: range.clamp(self.common(stretch, closest.t)), ..closest };
         if !closest.interior && self.goes_on(stretch, part, own, range, closest.t)? {
             closest.interior = true;
         }
@@ -369,6 +543,19 @@ impl Composite {
             neighbour => Some(neighbour.is_some()),
         }
     }
+}
+
+/// The point of a [`Run`] that is nearest to a given point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunClosest {
+    /// Its stretch.
+    pub stretch: usize,
+    /// The point, by the stretch's own parameter.
+    pub closest: Closest,
+    /// Which end of the run it is, where it is one: 0 the first, 1 the last.
+    pub end: Option<usize>,
+    /// Whether it is on a joint inside the run.
+    pub joint: bool,
 }
 
 /// A piece or a joint.
@@ -399,8 +586,14 @@ impl Contour for Composite {
             }
             best.map_or(f64::INFINITY, |best| best.gap.abs())
         });
-        // No candidate only where the point is not a number.
-        best.unwrap_or_else(|| self.closest_on(self.stretch_at(range.from), x, y))
+        // No candidate only where the point is not a number, or rounding of the offset leaves nothing of a range without length.
+        best.unwrap_or_else(|| {
+            let t = range.window(1.0).from;
+            let stretch = self.stretch_at(t);
+            let own = self.own_range(stretch).clamp(self.own(stretch, t));
+            let closest = self.own_closest_in(stretch, Range { from: own, to: own }, x, y);
+            Closest { t: range.clamp(t), ..closest }
+        })
     }
 
     fn bounds(&self) -> Bounds {
@@ -422,6 +615,27 @@ impl Contour for Composite {
     /// None: a composite within another one looks for its parts itself.
     fn cuts(&self, _: Range) -> Vec<f64> {
         Vec::new()
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let (first, last) = (self.stretch_at(range.from), self.stretch_at(range.to));
+        (first..=last).fold(curvature::NONE, |bounds, stretch| {
+            let of_stretch = match self.at(stretch) {
+                At::Piece(piece) => piece.shape.curvature_in(piece.range.within(range.shifted(-piece.offset))),
+                At::Joint(joint) => joint.curvature(),
+            };
+            curvature::union(bounds, of_stretch)
+        })
+    }
+
+    /// If those of all pieces are.
+    fn closest_is_exact(&self) -> bool {
+        self.pieces.iter().all(|piece| piece.shape.closest_is_exact())
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        // Its pieces were tested when it was made.
+        Trust::SIMPLE
     }
 }
 

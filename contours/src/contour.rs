@@ -2,7 +2,8 @@
 
 use std::fmt::Debug;
 
-use crate::{Bounds, Closest, Frame, Range, cuts, search};
+use crate::trust::{Seal, Trust};
+use crate::{Bounds, Closest, Frame, Range, curvature, cuts, search};
 
 /// The border of a solid in the plane, travelled with the solid on its left.
 ///
@@ -29,7 +30,11 @@ use crate::{Bounds, Closest, Frame, Range, cuts, search};
 /// 8. The gap changes no faster than the point moves: always in absolute value, and in sign too along a way on which
 ///    every closest point is interior.
 /// 9. The bounds contain the contour.
-/// 10. A contour that [`is_convex`](Self::is_convex) lies on one side of each of its tangents.
+/// 10. A contour, or a part between two neighbouring [`cuts`](Self::cuts), that [`is_convex`](Self::is_convex) lies on one
+///     side of each of its tangents.
+/// 11. [`curvature_in`](Self::curvature_in) contains the curvature everywhere in the range.
+/// 12. Where [`closest_is_exact`](Self::closest_is_exact), no point of any part is nearer than the closest point of that
+///     part, to rounding.
 ///
 /// ```
 /// use rod_contours::{Contour, Frame, contract};
@@ -107,11 +112,39 @@ pub trait Contour: Send + Sync + Debug {
     /// Whether the part in `range`, as a whole, lies on one side of each of its tangents: a point outside of it, as far as
     /// the tangent at its closest point tells, is then outside of all of it.
     ///
-    /// By default false. A rod past a part that is known to bend outwards is told clear of it by half as many closest points
-    /// or fewer; one that is said to and does not hides contacts.
+    /// By default false: then the way the part bends is taken from samples, and gaps to it are not proven. Returning true
+    /// wrongly makes a sweep miss contacts.
     fn is_convex(&self, range: Range) -> bool {
         let _ = range;
         false
+    }
+
+    /// The least and the largest signed curvature `d alpha/ds = turning / speed` over a range, one over a length: positive
+    /// where the contour bends to the left, toward the solid. These are bounds: every value lies between them, and
+    /// the shorter the range, the closer they are to the true least and largest value.
+    ///
+    /// By default minus infinity and infinity, which says nothing. Bounds that are finite let a solver prove that a rod stays
+    /// outside; wrong ones let it "prove" what is false.
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let _ = range;
+        curvature::ANY
+    }
+
+    /// Whether [`closest_in`](Self::closest_in) always gives the true nearest point, to rounding, and
+    /// [`cuts`](Self::cuts), [`bounds_in`](Self::bounds_in) and [`is_convex`](Self::is_convex) are proven: by a closed form, or
+    /// by a search that isolates every minimum.
+    ///
+    /// By default false, since the default search only looks at samples. A solver can prove that a rod stays outside only
+    /// of a contour that says true.
+    fn closest_is_exact(&self) -> bool {
+        false
+    }
+
+    /// What of the contract need not be tested when the shape becomes a piece of a composite. For shapes of this crate alone:
+    /// others cannot name the argument, and are tested.
+    #[doc(hidden)]
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::NONE
     }
 }
 
@@ -150,5 +183,17 @@ impl<C: Contour + ?Sized> Contour for Box<C> {
 
     fn is_convex(&self, range: Range) -> bool {
         (**self).is_convex(range)
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        (**self).curvature_in(range)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        (**self).closest_is_exact()
+    }
+
+    fn trust(&self, seal: Seal) -> Trust {
+        (**self).trust(seal)
     }
 }

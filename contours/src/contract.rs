@@ -21,6 +21,9 @@ const WINDOW: f64 = 10.0;
 /// by as much.
 const CLOSE: f64 = 2e-9;
 
+/// Accepted error of a distance that is exact to rounding, relative to the largest coordinate.
+const EXACT: f64 = 1e-13;
+
 /// Rounding of a coordinate or an angle, relative.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -117,9 +120,7 @@ pub fn c6_nearest(shape: &dyn Contour, point: [f64; 2]) -> Result<(), String> {
     let [x, y] = point;
     let gap = shape.gap(x, y);
     let accepted = CLOSE * scale(shape, point);
-    let window = shape.range().window(WINDOW);
-    for sample in 0..=SAMPLES {
-        let t = window.at(sample as f64 / SAMPLES as f64);
+    for t in spread(shape.range()) {
         let frame = shape.frame(t);
         let distance = frame.distance(x, y);
         // The second term is the rounding of a far sample.
@@ -183,25 +184,72 @@ pub fn c9_bounds(shape: &dyn Contour, t: f64) -> Result<(), String> {
 }
 
 /// 10: unless it is not convex, none of 257 samples of the contour is on one side of the tangent at `t` and none of the others
-/// on the other.
+/// on the other; the same for the part between neighbouring cuts that holds `t`.
 pub fn c10_convex(shape: &dyn Contour, t: f64) -> Result<(), String> {
-    if !shape.is_convex(shape.range()) {
-        return Ok(());
+    let whole = shape.range();
+    let cuts = shape.cuts(whole);
+    let next = cuts.partition_point(|&cut| cut <= t);
+    let part = Range {
+        from: next.checked_sub(1).and_then(|before| cuts.get(before)).copied().unwrap_or(whole.from),
+        to: cuts.get(next).copied().unwrap_or(whole.to),
+    };
+    for range in [whole, part] {
+        holds(!shape.is_convex(range) || is_on_one_side(shape, range, t), || {
+            format!("10: it says that it is convex in {range:?}, but it lies on both sides of its tangent at t = {t}")
+        })?;
     }
+    Ok(())
+}
+
+/// Whether the samples of the range are on one side of the tangent at `t`.
+fn is_on_one_side(shape: &dyn Contour, range: Range, t: f64) -> bool {
     let frame = shape.frame(t);
-    let window = shape.range().window(WINDOW);
-    let sides = (0..=SAMPLES).map(|sample| {
-        let at = shape.frame(window.at(sample as f64 / SAMPLES as f64));
-        (frame.local(at.x, at.y).1, CLOSE * scale(shape, [at.x, at.y]))
-    });
     let (mut inside, mut outside) = (false, false);
-    sides.for_each(|(side, accepted)| {
+    for t in spread(range) {
+        let at = shape.frame(t);
+        let (side, accepted) = (frame.local(at.x, at.y).1, CLOSE * scale(shape, [at.x, at.y]));
         inside |= side < -accepted;
         outside |= side > accepted;
-    });
-    holds(!(inside && outside), || {
-        format!("10: it says that it is convex, but it lies on both sides of its tangent at t = {t}")
-    })
+    }
+    !(inside && outside)
+}
+
+/// 11: the curvature at 257 samples of the range lies within its bounds, to 2e-9 of itself and of one over the length.
+pub fn c11_curvature(shape: &dyn Contour, range: Range) -> Result<(), String> {
+    let (least, largest) = shape.curvature_in(range);
+    let length = shape.range().window(WINDOW).length();
+    for t in spread(range) {
+        let frame = shape.frame(t);
+        let curvature = frame.curvature();
+        let accepted = if frame.speed > 0.0 { CLOSE * (curvature.abs() + 1.0 / (frame.speed * length)) } else { 0.0 };
+        holds(curvature >= least - accepted && curvature <= largest + accepted, || {
+            format!(
+                "11: the curvature at t = {t} is {curvature}, but in {range:?} it is said to be {least} to {largest}"
+            )
+        })?;
+    }
+    Ok(())
+}
+
+/// 12: unless closest points are not exact, that of the part in `range` to `point` lies in the part, and none of 257
+/// samples of the part is nearer, to rounding.
+pub fn c12_exact(shape: &dyn Contour, range: Range, point: [f64; 2]) -> Result<(), String> {
+    if !shape.closest_is_exact() {
+        return Ok(());
+    }
+    let [x, y] = point;
+    let closest = shape.closest_in(range, x, y);
+    holds(range.contains(closest.t), || {
+        format!("12: the closest point to ({x}, {y}) in {range:?} is at t = {}, outside", closest.t)
+    })?;
+    let rounding = EXACT * scale(shape, point);
+    for t in spread(range) {
+        let distance = shape.frame(t).distance(x, y);
+        holds(distance >= closest.gap.abs() - rounding - EXACT * distance, || {
+            format!("12: the gap at ({x}, {y}) in {range:?} is {}, but t = {t} is only {distance} away", closest.gap)
+        })?;
+    }
+    Ok(())
 }
 
 /// The whole contract at parameters and points spread over the range (over 10 units of the parameter from its finite end,
@@ -216,8 +264,9 @@ pub fn check(shape: &dyn Contour, samples: &[f64]) -> Result<(), String> {
         .map(|k| shape.frame(window.at(f64::from(k) / 32.0)))
         .fold(Bounds::EMPTY, |bounds, frame| bounds.with(frame.x, frame.y));
     let size = (extent.max[0] - extent.min[0]).hypot(extent.max[1] - extent.min[1]);
-    for &sample in samples {
+    for (&sample, &other) in samples.iter().zip(samples.iter().cycle().skip(1)) {
         let t = window.at(sample);
+        let part = Range { from: t.min(window.at(other)), to: t.max(window.at(other)) };
         c1_finite(shape, t)?;
         c2_velocity(shape, t)?;
         c3_turning(shape, t)?;
@@ -225,19 +274,27 @@ pub fn check(shape: &dyn Contour, samples: &[f64]) -> Result<(), String> {
         c7_side(shape, t)?;
         c9_bounds(shape, t)?;
         c10_convex(shape, t)?;
+        c11_curvature(shape, part)?;
         let frame = shape.frame(t);
         let (nx, ny) = frame.normal();
         for (k, away) in [-0.7, -0.03, -1e-6, 0.0, 1e-6, 0.03, 0.7].into_iter().enumerate() {
             let point = [frame.x + away * size * nx, frame.y + away * size * ny];
             c5_foot(shape, point)?;
             c6_nearest(shape, point)?;
+            c12_exact(shape, part, point)?;
             // Short ways in all directions: a long one may lead around the end of a contour unseen.
             let (sin, cos) = (k as f64 + 100.0 * sample).sin_cos();
             let step = 0.01 * size;
             c8_lipschitz(shape, point, [point[0] + step * cos, point[1] + step * sin])?;
         }
     }
-    Ok(())
+    c11_curvature(shape, shape.range())
+}
+
+/// The parameters of 257 samples of a range, ends included.
+fn spread(range: Range) -> impl Iterator<Item = f64> {
+    let window = range.window(WINDOW);
+    (0..=SAMPLES).map(move |sample| window.at(sample as f64 / SAMPLES as f64))
 }
 
 /// Three frames about a parameter, at the distance at which differences are neither rounding nor curvature.

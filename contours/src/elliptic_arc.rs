@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::closest::gap;
 use crate::span::Span;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, ellipse};
+use crate::trust::{Seal, Trust};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, curvature, ellipse};
 
 /// Smallest distance of a cut from an end of the range, relative to the angles: nearer ones are the end itself, rounded.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -214,6 +215,28 @@ impl Contour for EllipticArc {
     /// An arc of an ellipse always.
     fn is_convex(&self, _: Range) -> bool {
         true
+    }
+
+    /// Least and greatest at the ends of the axes, and monotonic between them.
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let range = self.range().within(range);
+        let [a, b] = self.radii;
+        let ends = [range.from, range.to].map(|t| self.frame(t).curvature());
+        let sign = self.span.sign();
+        let axes = (0..4).filter(|&quarter| self.span.passes(f64::from(quarter) * FRAC_PI_2, range));
+        let axes = axes.map(|quarter| sign * if quarter % 2 == 0 { a / b / b } else { b / a / a });
+        // Near the sharp end of a thin ellipse the rounding of the angle counts by as much as the ellipse is thin.
+        let angle = self.span.from.abs().max(self.span.to.abs());
+        let relative = ROUNDING * (1.0 + angle) * (a / b).max(b / a);
+        curvature::of_values(ends.into_iter().chain(axes), relative)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        true
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::SIMPLE
     }
 }
 

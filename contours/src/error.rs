@@ -1,5 +1,44 @@
 //! What can be wrong with a contour.
 
+use std::fmt;
+
+/// A line of the contract of [`Contour`](crate::Contour) that a shape breaks.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Broken {
+    /// Number of the line.
+    pub line: u8,
+    /// What the line says.
+    pub says: &'static str,
+    /// Where, the shape's own parameter.
+    pub t: f64,
+    /// What was found there.
+    pub found: String,
+}
+
+impl Broken {
+    pub(crate) fn new(line: u8, t: f64, found: String) -> Self {
+        let says = match line {
+            1 => "the frame is finite everywhere on the range",
+            2 => "dr/dt = speed (cos alpha, sin alpha)",
+            3 => "d alpha/dt = turning, and alpha does not jump",
+            4 => "speed >= 0 and speed + |turning| > 0",
+            5 => "the closest point's t lies in the range",
+            7 => "the solid is on the left: gap > 0 against the normal, gap < 0 along it",
+            9 => "the bounds contain the contour",
+            _ => "curvature_in contains the curvature",
+        };
+        Self { line, says, t, found }
+    }
+}
+
+impl fmt::Display for Broken {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { line, says, t, found } = self;
+        write!(out, "breaks line {line} of the contract ({says}) at t = {t}: {found}")
+    }
+}
+
 /// Why a contour could not be made. Pieces are counted from 1 in the messages and in the fields.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -35,6 +74,23 @@ pub enum ContourError {
         what: &'static str,
         /// Its value.
         value: f64,
+    },
+
+    /// A value of a curve that the limits its author gave leave out.
+    #[error("{what} at t = {t} is {value}, but the limit of the part from {from} to {to} is {limit}; widen the limits")]
+    BeyondLimit {
+        /// Which value.
+        what: &'static str,
+        /// Where, the curve's parameter.
+        t: f64,
+        /// The value there.
+        value: f64,
+        /// The limit, which it exceeds or falls below.
+        limit: f64,
+        /// Start of the part.
+        from: f64,
+        /// End of the part.
+        to: f64,
     },
 
     /// A line that goes nowhere.
@@ -112,6 +168,15 @@ pub enum ContourError {
         from: f64,
         /// End of its range.
         to: f64,
+    },
+
+    /// A piece that breaks the contract of [`Contour`](crate::Contour), so that its contacts would be wrong.
+    #[error("piece {piece} {broken}; test the shape with `contract::check`")]
+    Contract {
+        /// Number of the piece, from 1.
+        piece: usize,
+        /// Which line, and where.
+        broken: Broken,
     },
 
     /// A piece goes on for ever, or to a point that is not finite, where it should meet its neighbour.

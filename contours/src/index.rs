@@ -45,11 +45,16 @@ struct Nearest<'a, F> {
     y: f64,
     /// The square of the distance beyond which nothing matters.
     limit: f64,
+    /// The first item that matters and the one behind the last.
+    among: [usize; 2],
     look: &'a mut F,
 }
 
 impl<F: FnMut(usize) -> f64> Nearest<'_, F> {
     fn look_at(&mut self, item: usize) {
+        if item < self.among[0] || item >= self.among[1] {
+            return;
+        }
         let limit = (self.look)(item);
         self.limit = limit * limit * (1.0 + ROUNDING);
     }
@@ -92,6 +97,11 @@ impl Index {
         self.levels.is_empty()
     }
 
+    /// The box of an item; none where there are few items, or where it has no finite one.
+    pub fn bounds(&self, item: usize) -> Option<Bounds> {
+        (!self.is_small() && item < self.count && !self.unbounded.contains(&item)).then(|| self.boxes[item])
+    }
+
     /// Calls `visit` with the items whose boxes meet `bounds`, and perhaps with others.
     pub fn meeting(&self, bounds: Bounds, visit: &mut impl FnMut(usize)) {
         match self.levels.len().checked_sub(1) {
@@ -105,12 +115,17 @@ impl Index {
 
     /// Calls `look` with the items that may be nearer to `(x, y)` than the limit it returned last, nearer boxes first.
     pub fn nearest(&self, x: f64, y: f64, look: &mut impl FnMut(usize) -> f64) {
+        self.nearest_among([0, self.count], x, y, look);
+    }
+
+    /// [`nearest`](Self::nearest) among the items from the first number on, up to but without the second one.
+    pub fn nearest_among(&self, among: [usize; 2], x: f64, y: f64, look: &mut impl FnMut(usize) -> f64) {
         match self.levels.len().checked_sub(1) {
-            None => (0..self.count).for_each(|item| {
+            None => (among[0]..among[1]).for_each(|item| {
                 look(item);
             }),
             Some(top) => {
-                let mut nearest = Nearest { x, y, limit: f64::INFINITY, look };
+                let mut nearest = Nearest { x, y, limit: f64::INFINITY, among, look };
                 self.unbounded.iter().for_each(|item| nearest.look_at(*item));
                 self.descend_near(&mut nearest, top, 0);
             }
@@ -139,7 +154,12 @@ impl Index {
         let (first, boxes) = self.within(level, number);
         let mut near = [(f64::INFINITY, 0); FAN];
         let mut count = 0;
+        // how many items a box of this level holds
+        let items = FAN.pow(level as u32 - 1);
         for (number, one) in (first..).zip(boxes) {
+            if (number + 1) * items <= nearest.among[0] || number * items >= nearest.among[1] {
+                continue;
+            }
             let square = one.square(nearest.x, nearest.y);
             if square > nearest.limit {
                 continue;

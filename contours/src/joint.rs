@@ -35,6 +35,12 @@ impl Joint {
         Bounds::EMPTY.with(self.start.x, self.start.y)
     }
 
+    /// Infinite, with the sign of the turn.
+    pub fn curvature(&self) -> (f64, f64) {
+        let curvature = f64::INFINITY.copysign(self.start.turning);
+        (curvature, curvature)
+    }
+
     pub fn frame(&self, t: f64) -> Frame {
         Frame { alpha: self.start.alpha + self.start.turning * (t - self.range.from), ..self.start }
     }

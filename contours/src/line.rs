@@ -1,6 +1,7 @@
 //! The straight line from one point to another.
 
 use crate::closest::gap;
+use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.
@@ -117,6 +118,18 @@ impl Contour for Line {
     /// It is its own tangent.
     fn is_convex(&self, _: Range) -> bool {
         true
+    }
+
+    fn curvature_in(&self, _: Range) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        true
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::SIMPLE
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Motion, Range, cuts};
 
 /// A shape after a [`Motion`].
@@ -130,6 +131,19 @@ impl<C: Contour> Contour for Moved<C> {
 
     fn is_convex(&self, range: Range) -> bool {
         self.shape.is_convex(self.turned(range))
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let (least, largest) = self.shape.curvature_in(self.turned(range));
+        (least / self.motion.scale, largest / self.motion.scale)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        self.shape.closest_is_exact()
+    }
+
+    fn trust(&self, seal: Seal) -> Trust {
+        self.shape.trust(seal)
     }
 }
 

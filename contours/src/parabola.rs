@@ -1,7 +1,11 @@
 //! The parabola, the object of Merker et al. 2021.
 
 use crate::closest::gap;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
+use crate::trust::{Seal, Trust};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, curvature};
+
+/// Rounding of the curvature, relative.
+const CURVATURE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Steps after which Newton's iteration gives up; from its starts it takes 2 to 6.
 const STEPS: usize = 64;
@@ -164,6 +168,27 @@ impl Contour for Parabola {
     /// A parabola always.
     fn is_convex(&self, _: Range) -> bool {
         true
+    }
+
+    /// Greatest in absolute value at the vertex, from where it falls either way, to 0 at infinity.
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let at = |t: f64| {
+            let tangent = 2.0 * self.coefficient * t;
+            2.0 * self.coefficient / (1.0 + tangent * tangent).powf(1.5)
+        };
+        if self.coefficient == 0.0 {
+            return (0.0, 0.0);
+        }
+        let vertex = range.contains(0.0).then_some(0.0);
+        curvature::of_values([range.from, range.to].into_iter().chain(vertex).map(at), CURVATURE_ROUNDING)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        true
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::SIMPLE
     }
 }
 

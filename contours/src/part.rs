@@ -8,7 +8,7 @@ use crate::Range;
 /// ```
 /// use rod_contours::{Composite, Parabola};
 ///
-/// let bump = Composite::single(Parabola::new([0.0, 0.0], 5.0)?);
+/// let bump = Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?;
 /// let parts: Vec<_> = bump.parts().collect();
 /// assert_eq!((parts.len(), parts[0].stretch), (1, 0));
 /// let closest = bump.own_closest_in(parts[0].stretch, parts[0].range, 0.0, -0.2);

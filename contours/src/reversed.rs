@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, Frame, Range, cuts};
 
 /// The same curve travelled the other way, by `-t`: solid and outside are exchanged.
@@ -74,6 +75,19 @@ impl<C: Contour> Contour for Reversed<C> {
 
     fn is_convex(&self, range: Range) -> bool {
         self.shape.is_convex(range.backwards())
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let (least, largest) = self.shape.curvature_in(range.backwards());
+        (-largest, -least)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        self.shape.closest_is_exact()
+    }
+
+    fn trust(&self, seal: Seal) -> Trust {
+        self.shape.trust(seal)
     }
 }
 

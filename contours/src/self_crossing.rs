@@ -1,11 +1,11 @@
 //! Where a contour crosses itself.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::crossing::brought_together;
 use crate::index::Index;
 use crate::vector::{cross, minus};
-use crate::{Bounds, Composite, Frame, Part, Range, StretchKind};
+use crate::{Bounds, Composite, ContourError, Frame, Part, Range, StretchKind};
 
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.
 const CHORDS: f64 = 8.0;
@@ -41,6 +41,12 @@ pub struct SelfCrossing {
     pub point: [f64; 2],
 }
 
+impl From<SelfCrossing> for ContourError {
+    fn from(SelfCrossing { pieces: [first, second], point: [x, y], .. }: SelfCrossing) -> Self {
+        Self::Crosses { what: "piece", first: first + 1, second: second + 1, x, y }
+    }
+}
+
 impl Composite {
     /// The first place where the contour crosses itself, or touches itself at an angle; none if it does not.
     ///
@@ -62,7 +68,30 @@ impl Composite {
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
     pub fn self_crossing(&self) -> Option<SelfCrossing> {
-        let chords: Vec<Chord> = self.parts().flat_map(|part| chords(self, part)).collect();
+        self.crossing_among(&self.parts().flat_map(|part| chords(self, part)).collect::<Vec<_>>())
+    }
+
+    /// The first place where one of the pieces crosses itself, of those whose shape does not rule it out.
+    pub(crate) fn crossing_of_a_piece(&self) -> Option<SelfCrossing> {
+        let may_cross: Vec<bool> = self.may_cross_themselves().collect();
+        if !may_cross.contains(&true) {
+            return None;
+        }
+        let parts: Vec<Part> = self.parts().collect();
+        parts.chunk_by(|one, other| one.stretch == other.stretch).find_map(|parts| {
+            let StretchKind::Piece(piece) = self.kind(parts.first()?.stretch) else { return None };
+            let alpha = |part: &Part, t: f64| self.own_frame(part.stretch, t).alpha;
+            // What turns by less than a half turn in all does not come back; parts bend one way.
+            let turn: f64 =
+                parts.iter().map(|part| (alpha(part, part.range.to) - alpha(part, part.range.from)).abs()).sum();
+            if !may_cross[piece] || turn < PI {
+                return None;
+            }
+            self.crossing_among(&parts.iter().flat_map(|&part| chords(self, part)).collect::<Vec<_>>())
+        })
+    }
+
+    fn crossing_among(&self, chords: &[Chord]) -> Option<SelfCrossing> {
         let index = Index::new(chords.iter().map(Chord::bounds));
         let last = chords.len().checked_sub(1)?;
         // Not only where it is closed: what goes round twice is not, and ends where it starts.
@@ -197,7 +226,7 @@ fn point(frame: Frame) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::TAU;
 
     use super::*;
     use crate::{CircularArc, Contour, EllipticArc, Line, Parabola};
@@ -227,10 +256,10 @@ mod tests {
     #[test]
     fn whole_curves_do_not_cross_themselves() {
         let circle = CircularArc::new([1.0, 0.0], 1.0, 0.3, 0.3 + TAU).unwrap();
-        assert_eq!(Composite::single(circle).self_crossing(), None);
+        assert_eq!(Composite::single(circle).unwrap().self_crossing(), None);
         let ellipse = EllipticArc::new([1.0, 0.0], [1e3, 1.0], 0.4, 2.0, 2.0 - TAU).unwrap();
-        assert_eq!(Composite::single(ellipse).self_crossing(), None);
-        assert_eq!(Composite::single(Parabola::new([0.0, 0.0], 50.0).unwrap()).self_crossing(), None);
+        assert_eq!(Composite::single(ellipse).unwrap().self_crossing(), None);
+        assert_eq!(Composite::single(Parabola::new([0.0, 0.0], 50.0).unwrap()).unwrap().self_crossing(), None);
         let two = [0.0, 0.3].map(|x| Box::new(Parabola::new([x, 0.0], 5.0).unwrap()) as Box<dyn Contour>);
         assert_eq!(Composite::joined(two.into()).unwrap().self_crossing(), None);
     }

@@ -24,7 +24,7 @@ pub enum StretchKind {
 /// ```
 /// use rod_contours::{Composite, Parabola, StretchKind};
 ///
-/// let line = Composite::single(Parabola::new([0.0, 0.0], 0.0)?);
+/// let line = Composite::single(Parabola::new([0.0, 0.0], 0.0)?)?;
 /// assert_eq!(line.stretches().len(), 1);
 /// assert_eq!(line.stretch(0).kind, StretchKind::Piece(0));
 /// # Ok::<(), rod_contours::ContourError>(())

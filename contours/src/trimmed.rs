@@ -1,5 +1,6 @@
 //! A part of a shape.
 
+use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
 
 /// The part of a shape in a range of its parameter, which it keeps.
@@ -70,6 +71,18 @@ impl<C: Contour> Contour for Trimmed<C> {
 
     fn is_convex(&self, range: Range) -> bool {
         self.shape.is_convex(range)
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        self.shape.curvature_in(range)
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        self.shape.closest_is_exact()
+    }
+
+    fn trust(&self, seal: Seal) -> Trust {
+        self.shape.trust(seal)
     }
 }
 

@@ -117,7 +117,7 @@ proptest! {
         let object = Composite::new(pieces).unwrap();
         contract::check(&object, &samples).map_err(TestCaseError::fail)?;
         // The same as a shape without a closed form, and as the single piece of another composite.
-        let copy = Composite::single(Composite::single(object));
+        let copy = Composite::single(Composite::single(object).unwrap()).unwrap();
         contract::check(&copy, &samples).map_err(TestCaseError::fail)?;
     }
 

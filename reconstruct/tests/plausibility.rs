@@ -18,7 +18,8 @@ fn rod(length: f64, stiffness: f64) -> Rod {
 
 /// A scan of two parabolas at so many mm, noise-free, with several contacts on its way.
 fn scan(distance: f64, angle: f64) -> Vec<Sample> {
-    let pieces: Vec<Composite> = [0.0, 0.03].map(|x| Composite::single(Parabola::new([x, 0.0], 50.0).unwrap())).into();
+    let pieces: Vec<Composite> =
+        [0.0, 0.03].map(|x| Composite::single(Parabola::new([x, 0.0], 50.0).unwrap()).unwrap()).into();
     let at = |x| Pose { x, y: -1e-3 * distance, phi: angle };
     let path = ClampPath::new(at(0.08), at(-0.09)).unwrap();
     let outcome = Sweep::new(&rod(LENGTH, STIFFNESS), &pieces, path, 2e-5).unwrap().run();

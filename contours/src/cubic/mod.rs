@@ -1,5 +1,6 @@
 //! One cubic: point, velocity, and where it stands still.
 
+mod curvature;
 mod nearest;
 mod velocity;
 

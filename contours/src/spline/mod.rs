@@ -8,6 +8,7 @@ mod fit;
 mod keys;
 mod smooth;
 
+use std::f64::consts::PI;
 use std::ops::Range as Span;
 
 use serde::{Deserialize, Serialize, Serializer};
@@ -16,8 +17,9 @@ pub use end::SplineEnd;
 
 use crate::assembly::SMOOTH;
 use crate::cubic::nearest;
+use crate::trust::{Seal, Trust};
 use crate::vector::{cross, dot};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check, curvature};
 use arc_length::lengths;
 use chords::Chords;
 use keys::Keys;
@@ -116,6 +118,22 @@ impl Spline {
         let part = whole.within(range);
         let fraction = |t: f64| if t == whole.to { 1.0 } else { cubic.fraction(t) };
         ([fraction(part.from), fraction(part.to)], part)
+    }
+
+    /// Whether all cubics of the range bend the same way, and no two of them meet at an angle that turns the other way (a
+    /// spline from a file may turn by up to 1e-9 rad from one to the next).
+    fn bends_one_way(&self, range: Range) -> bool {
+        let one_way = |sense: f64| {
+            let mut before: Option<[f64; 2]> = None;
+            self.span(range).all(|index| {
+                let cubic = self.keys.cubic(index);
+                let ([from, to], _) = self.part(index, range);
+                let velocity = cubic.velocity();
+                let joint = before.replace(velocity.at(1.0)).map_or(0.0, |before| cross(before, velocity.start));
+                cubic.bends(sense, from, to) && sense * joint >= -cubic.tolerance(&velocity)
+            })
+        };
+        one_way(1.0) || one_way(-1.0)
     }
 }
 
@@ -217,5 +235,27 @@ impl Contour for Spline {
     /// Besides, no arc is longer than 4 cubics.
     fn cuts(&self, range: Range) -> Vec<f64> {
         self.parted(range)
+    }
+
+    /// What bends one way only and turns by at most a half turn, in which case it lies on one side of each tangent.
+    fn is_convex(&self, range: Range) -> bool {
+        let range = self.range().within(range);
+        self.bends_one_way(range) && (self.frame(range.to).alpha - self.frame(range.from).alpha).abs() <= PI
+    }
+
+    fn curvature_in(&self, range: Range) -> (f64, f64) {
+        let range = self.range().within(range);
+        self.span(range).fold(curvature::NONE, |bounds, index| {
+            let ([from, to], _) = self.part(index, range);
+            curvature::union(bounds, self.keys.cubic(index).curvature(from, to))
+        })
+    }
+
+    fn closest_is_exact(&self) -> bool {
+        true
+    }
+
+    fn trust(&self, _: Seal) -> Trust {
+        Trust::TESTED
     }
 }

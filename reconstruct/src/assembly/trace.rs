@@ -113,13 +113,13 @@ impl Trace {
             TraceCurve::Spline => {
                 let angle = |point: Option<&TracePoint>| point.map(|point| point.alpha);
                 let end = SplineEnd::Clamped { from: angle(self.points.first()), to: angle(self.points.last()) };
-                Ok(Composite::single(Spline::through(&points, end)?))
+                Composite::single(Spline::through(&points, end)?)
             }
             TraceCurve::Smoothing => {
                 let square: f64 = self.points.iter().map(|point| point.sigma * point.sigma).sum();
                 // Across the contour only, where a spline's noise is that of two coordinates.
                 let sigma = (0.5 * square / points.len().max(1) as f64).sqrt();
-                Ok(Composite::single(Spline::smoothing(&points, sigma)?))
+                Composite::single(Spline::smoothing(&points, sigma)?)
             }
         }
     }

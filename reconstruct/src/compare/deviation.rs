@@ -10,7 +10,7 @@ use rod_contours::{Composite, Contour};
 /// ```
 /// use rod_contours::{Composite, Parabola};
 /// use rod_reconstruct::compare::signed_distance;
-/// let floors = [0.0, 0.1].map(|y| Parabola::new([0.0, y], 0.0).map(Composite::single)); // the solid is above
+/// let floors = [0.0, 0.1].map(|y| Parabola::new([0.0, y], 0.0).and_then(Composite::single)); // the solid is above
 /// let floors = floors.into_iter().collect::<Result<Vec<_>, _>>()?;
 /// assert_eq!(signed_distance(&floors, 3.0, -0.02), Some(0.02));
 /// assert_eq!(signed_distance(&floors[..1], 3.0, 0.02), Some(-0.02));
@@ -90,7 +90,7 @@ mod tests {
     use rod_contours::Parabola;
 
     fn floor(height: f64) -> Composite {
-        Composite::single(Parabola::new([0.0, height], 0.0).unwrap())
+        Composite::single(Parabola::new([0.0, height], 0.0).unwrap()).unwrap()
     }
 
     #[test]
@@ -128,7 +128,7 @@ mod tests {
             vertex in (-1.0..1.0_f64, -1.0..1.0_f64), coefficient in 0.1..5.0_f64,
             places in prop::collection::vec((-1.0..1.0_f64, 0.0..1.0_f64), 1..30), turn in 0..30_usize,
         ) {
-            let contour = [Composite::single(Parabola::new([vertex.0, vertex.1], coefficient).unwrap())];
+            let contour = [Composite::single(Parabola::new([vertex.0, vertex.1], coefficient).unwrap()).unwrap()];
             let moved = |(t, distance): &(f64, f64)| {
                 let frame = contour[0].frame(contour[0].range().clamp(*t));
                 [frame.x + distance * frame.alpha.sin(), frame.y - distance * frame.alpha.cos()]

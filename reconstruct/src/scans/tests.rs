@@ -261,7 +261,7 @@ proptest! {
         let comparison = Comparison { direction: 0.3, significance: 2.0, least: 0.0 };
         prop_assert_eq!(comparison.disagreements(&scans), comparison.disagreements(&others));
         // Nothing is lost, and no error grows.
-        let truth = Composite::single(Parabola::new([0.0, 0.0], 50.0).unwrap());
+        let truth = Composite::single(Parabola::new([0.0, 0.0], 50.0).unwrap()).unwrap();
         let most = parts.iter().map(|&(_, _, error, sigma)| (error * sigma).abs()).fold(0.0, f64::max);
         for point in merged.traces.iter().flat_map(|trace| &trace.points) {
             prop_assert!(truth.gap(point.x, point.y).abs() < most + 2e-6);

@@ -1,0 +1,127 @@
+//! What solvers prove with: bounds of the curvature, convex parts, exact closest points, on random parts of random shapes.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::TAU;
+
+use proptest::collection::vec;
+use proptest::prelude::*;
+use rod_contours::{
+    Bezier, CircularArc, Composite, Contour, EllipticArc, Graph, Line, Motion, Moved, Parabola, Range, Reversed,
+    Spline, SplineEnd, StretchKind, Trimmed, contract,
+};
+
+/// A place from -1 to 1 in both coordinates.
+fn place() -> impl Strategy<Value = [f64; 2]> {
+    [-1.0..1.0, -1.0..1.0]
+}
+
+/// One of the shapes of the crate that are exact, some moved, mirrored, reversed or trimmed.
+fn shape() -> impl Strategy<Value = Box<dyn Contour>> {
+    let arcs = || (place(), 0.05..2.0, 0.05..2.0, -4.0..4.0, prop_oneof![-TAU..-0.01, 0.01..TAU]);
+    let plain = prop_oneof![
+        (place(), place()).prop_filter_map("a line", |(from, to)| Line::new(from, to).ok().map(boxed)),
+        (place(), -9.0..9.0).prop_map(|(vertex, c)| boxed(Parabola::new(vertex, c).unwrap())),
+        arcs().prop_map(|(at, a, _, from, turn)| boxed(CircularArc::new(at, a, from, from + turn).unwrap())),
+        arcs().prop_map(|(at, a, b, from, turn)| boxed(EllipticArc::new(at, [a, b], 0.4, from, from + turn).unwrap())),
+        [place(), place(), place(), place()].prop_filter_map("a cusp", |at| Bezier::new(at).ok().map(boxed)),
+        vec(place(), 2..9).prop_filter_map("a cusp", |at| Spline::through(&at, SplineEnd::Natural).ok().map(boxed)),
+    ];
+    (plain, 0_u8..4, -3.0..3.0, 0.2..4.0).prop_map(|(shape, how, rotation, scale)| match how {
+        0 => shape,
+        1 => {
+            let motion = Motion { rotation, scale, translation: [0.3, -0.2], mirror: rotation > 0.0 };
+            boxed(Moved::new(shape, motion).unwrap())
+        }
+        2 => boxed(Reversed::new(shape)),
+        _ => {
+            let part = shape.range().window(1.0);
+            boxed(Trimmed::new(shape, Range { from: part.at(0.1), to: part.at(0.8) }).unwrap())
+        }
+    })
+}
+
+fn boxed(shape: impl Contour + 'static) -> Box<dyn Contour> {
+    Box::new(shape)
+}
+
+/// A part of the shape's range, often a short one.
+fn part(shape: &dyn Contour, from: f64, share: f64) -> Range {
+    let window = shape.range().window(3.0);
+    Range { from: window.at(from), to: window.at(from + share.powi(3) * (1.0 - from)) }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn line_10_parts_between_cuts_are_convex(shape in shape(), from in 0.0..1.0, share in 0.0..1.0, at in 0.0..1.0) {
+        let part = part(&shape, from, share);
+        // No part so short that its ends are the same.
+        let Ok(shape) = Trimmed::new(shape, part) else { return Ok(()) };
+        let ends: Vec<f64> = [part.from].into_iter().chain(shape.cuts(part)).chain([part.to]).collect();
+        for pair in ends.windows(2) {
+            let cell = Range { from: pair[0], to: pair[1] };
+            prop_assert!(shape.is_convex(cell), "{cell:?}");
+            contract::c10_convex(&shape, cell.at(at)).map_err(TestCaseError::fail)?;
+        }
+    }
+
+    #[test]
+    fn line_11_no_curvature_lies_outside_its_bounds(shape in shape(), from in 0.0..1.0, share in 0.0..1.0) {
+        contract::c11_curvature(&shape, part(&shape, from, share)).map_err(TestCaseError::fail)?;
+        contract::c11_curvature(&shape, shape.range()).map_err(TestCaseError::fail)?;
+    }
+
+    #[test]
+    fn line_12_no_sample_is_nearer(shape in shape(), from in 0.0..1.0, share in 0.0..1.0, point in place()) {
+        prop_assert!(shape.closest_is_exact());
+        contract::c12_exact(&shape, part(&shape, from, share), point).map_err(TestCaseError::fail)?;
+    }
+
+    #[test]
+    fn the_bounds_tighten_with_the_range(shape in shape(), at in 0.1..0.9) {
+        let window = shape.range().window(1.0);
+        let middle = window.at(at);
+        let excess = |half: f64| {
+            let half = half * window.length();
+            let range = Range { from: middle - half, to: middle + half };
+            let (least, largest) = shape.curvature_in(range);
+            let values = (0..=200).map(|k| shape.frame(range.at(f64::from(k) / 200.0)).curvature());
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (v.min(a), v.max(b)));
+            ((largest - high) + (low - least), largest.abs().max(least.abs()))
+        };
+        // Near a hairpin bounds tighten only once the range is shorter than the hairpin.
+        let ((wide, size), (narrow, _)) = (excess(1e-3), excess(1e-4));
+        prop_assert!(narrow <= 0.1 * wide + 1e-9 * (1.0 + size), "{wide:e} {narrow:e} of {size:e}");
+    }
+}
+
+#[test]
+fn corners_bend_for_ever_and_a_composite_is_as_exact_as_its_pieces() {
+    let step = Composite::polyline(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0]]).unwrap();
+    for stretch in 0..step.stretches().len() {
+        let infinity = match step.kind(stretch) {
+            StretchKind::Piece(_) => 0.0,
+            StretchKind::Corner { .. } => f64::INFINITY,
+            StretchKind::Notch { .. } => f64::NEG_INFINITY,
+        };
+        assert_eq!(step.own_curvature_in(stretch, step.own_range(stretch)), (infinity, infinity));
+        assert!(step.own_closest_is_exact(stretch));
+    }
+    assert_eq!(step.curvature_in(step.range()), (f64::NEG_INFINITY, f64::INFINITY));
+    assert!(step.closest_is_exact());
+    let graph = Graph::new(Range { from: 0.0, to: 1.0 }, |x| x * x).unwrap();
+    let mixed = Composite::new(vec![boxed(graph), boxed(Line::new([1.0, 1.0], [2.0, 3.0]).unwrap())]).unwrap();
+    assert!(!mixed.closest_is_exact() && !mixed.own_closest_is_exact(0));
+    assert_eq!(mixed.curvature_in(mixed.range()), (f64::NEG_INFINITY, f64::INFINITY));
+}
+
+#[test]
+fn closed_forms_are_bounded_by_their_ends_and_vertices() {
+    let parabola = Parabola::new([0.0, 0.0], 2.0).unwrap();
+    let (least, largest) = parabola.curvature_in(Range::ALL);
+    assert!(least == 0.0 && (largest - 4.0).abs() < 1e-13);
+    let ellipse = EllipticArc::new([0.0, 0.0], [2.0, 1.0], 0.3, 0.1, 0.1 - TAU).unwrap();
+    let (least, largest) = ellipse.curvature_in(ellipse.range());
+    assert!((least + 2.0).abs() < 1e-12 && (largest + 0.25).abs() < 1e-12, "{least} {largest}");
+}
