@@ -15,9 +15,12 @@ use measure::waves::{self, Kind};
 use measure::{kernel, segments, verdict};
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::hint::black_box;
 use std::process::{Command, ExitCode};
-use vibrissa::{NewtonWorkspace, Sample, advance, advance_with_sensitivities, single, walk};
+use vibrissa::{
+    ClampPath, Composite, NewtonWorkspace, Pose, Rod, Sample, Sweep, advance, advance_with_sensitivities, single, walk,
+};
 
 /// What is kept, beside this file.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.csv");
@@ -25,6 +28,7 @@ const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.cs
 const SEGMENT: &str = "segment";
 const DERIVATIVES: &str = "segment with derivatives";
 const EDGES: [&str; 2] = ["sweep past edges: 1000", "sweep past edges: 2000"];
+const SWEPT_OVER: [&str; 2] = ["sweep over an edge of a polygon of 500", "sweep over an edge of a polygon of 2000"];
 /// Growth that fails.
 const MOST: f64 = 1.05;
 /// The argument by which this program runs a work, under valgrind, in place of counting.
@@ -108,6 +112,20 @@ fn works() -> Vec<Work> {
             let objects = waves::objects(Kind::Edges, edges);
             (0..times).for_each(|_| _ = black_box(waves::sweep(black_box(&objects))));
             times
+        }));
+    }
+    // each edge that the contact runs over is two events
+    for (k, edges) in [500, 2000].into_iter().enumerate() {
+        works.push(Work::new(SWEPT_OVER[k], [1, 2], move |times| {
+            let corner = |k: usize| {
+                let (sin, cos) = (TAU * k as f64 / edges as f64).sin_cos();
+                [0.3 * cos, 0.3 * sin]
+            };
+            let polygon = Composite::polygon(&(0..edges).map(corner).collect::<Vec<_>>()).unwrap();
+            let pose = |x| Pose { x, y: -0.6, phi: FRAC_PI_2 };
+            let rod = Rod::new(1.0, 1.0).unwrap();
+            let run = || Sweep::new(&rod, &polygon, ClampPath::new(pose(0.5), pose(-0.6)).unwrap(), 1.0).unwrap().run();
+            (0..times).map(|_| black_box(run()).events.len() / 2).sum()
         }));
     }
     // The poses of both are those of one scan; twice as many are twice as many reported states, and the same events.
@@ -221,6 +239,14 @@ fn main() -> ExitCode {
             "twice as many edges that are not met, less than 1.05 times the work",
             over(EDGES[1], EDGES[0]),
             ..1.05
+        )
+    );
+    println!(
+        "{}",
+        verdict(
+            "an edge of four times as many that are swept over, less than 1.1 times the work",
+            over(SWEPT_OVER[1], SWEPT_OVER[0]),
+            ..1.1
         )
     );
     println!(

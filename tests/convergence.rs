@@ -125,12 +125,12 @@ fn a_circle_is_a_circle() {
         [centre[0] + radius * cos, centre[1] + radius * sin]
     };
     let points = |n: usize| (0..n).map(|k| at(k, n)).collect::<Vec<_>>();
-    let arc = Composite::single(CircularArc::new(centre, radius, -0.5 * PI, 1.5 * PI).unwrap());
+    let arc = Composite::single(CircularArc::new(centre, radius, -0.5 * PI, 1.5 * PI).unwrap()).unwrap();
     assert!(arc.is_closed());
     // contact with the tip, tangentially, and with the tip again; the 10^4-gon on a part of the way
     let whole = |contour: &Composite| sweep(contour, 0.4, -0.8, -0.71, 0.003);
     let exact = whole(&arc);
-    let spline = |n| Composite::single(Spline::through(&points(n), SplineEnd::Periodic).unwrap());
+    let spline = |n| Composite::single(Spline::through(&points(n), SplineEnd::Periodic).unwrap()).unwrap();
     let orders =
         table("a circle as a periodic spline through n points", &[16, 32, 64, 128], &exact, |n| whole(&spline(n)));
     assert!((2.7..4.5).contains(&orders[0]) && (3.6..4.6).contains(&orders[1]), "{orders:?}");

@@ -298,7 +298,7 @@ fn long_steps() {
 
 #[test]
 fn clamp_angles_all_around() {
-    let disc = Composite::single(CircularArc::new([0.0, 0.0], 0.2, 0.0, 2.0 * PI).unwrap());
+    let disc = Composite::single(CircularArc::new([0.0, 0.0], 0.2, 0.0, 2.0 * PI).unwrap()).unwrap();
     assert!(disc.is_closed());
     let at = |turn: f64, d: f64, phi: f64| {
         let (sin, cos) = turn.sin_cos();
@@ -329,7 +329,7 @@ fn clamp_angles_all_around() {
 
 #[test]
 fn starts_in_contact_and_inside() {
-    let contour = Composite::single(Parabola::new([0.0, 0.0], STEEP).unwrap());
+    let contour = Composite::single(Parabola::new([0.0, 0.0], STEEP).unwrap()).unwrap();
     let (mut off, mut states) = (0.0_f64, Vec::new());
     // brought there along the path, and started there
     let brought = swept(&contour, up(0.5), up(-0.3), 0.02);
@@ -343,7 +343,7 @@ fn starts_in_contact_and_inside() {
     for depth in [1e-3, 0.1, 1.0, 10.0] {
         let pose = |depth| Pose { x: 0.0, y: depth, phi: FRAC_PI_2 };
         let inside = swept(&contour, pose(depth), pose(depth + 0.1), 0.1);
-        assert_eq!((inside.stop.unwrap().reason, inside.states.len()), (StopReason::NoStart, 0), "{depth}");
+        assert_eq!((inside.stop.unwrap().reason, inside.states.len()), (StopReason::ClampInside, 0), "{depth}");
     }
 }
 
@@ -395,7 +395,7 @@ fn what_the_default_tolerance_leaves() {
 
 #[test]
 fn a_contact_set_that_is_not_the_right_one() {
-    let contour = Composite::single(Parabola::new([0.0, 0.0], STEEP).unwrap());
+    let contour = Composite::single(Parabola::new([0.0, 0.0], STEEP).unwrap()).unwrap();
     let guess =
         Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.95, x: 0.3, y: 0.45, alpha: 1.2, force: 1.0 };
     // the tip becomes tangent near x = 0.1514; beyond, a tangential contact would be off the rod
@@ -407,7 +407,11 @@ fn a_contact_set_that_is_not_the_right_one() {
     let tip = Contact { kind: ContactKind::Tip, ..guess };
     for x in [0.1, 0.14, 0.15] {
         let found = equilibrium(&rod(), &contour, up(x), &[tip]).unwrap();
-        assert!(found.report.status.is_solved() && found.state.certificate.min_gap < -1e-6, "{x}: {:?}", found.state);
+        assert!(
+            found.report.status.is_solved() && found.state.certificate.min_gap.seen < -1e-6,
+            "{x}: {:?}",
+            found.state
+        );
     }
     // the rod has gone by: it would have to be pulled
     let found = equilibrium(&rod(), &contour, up(0.6), &[tip]).unwrap();
@@ -421,6 +425,7 @@ fn what_is_no_rod() {
             assert!(matches!(rod, Err(RodError::NotPositive { .. })), "{value}");
         }
     }
+    assert!(matches!(Rod::from_diameter(0.1, 0.11, 1.0), Err(RodError::TooThick { .. })));
     // the unit of force, E I / L^2, is no number
     for (length, stiffness) in [(1e-200, 1.0), (1e200, 1.0), (1e-310, 1e-310)] {
         assert!(matches!(Rod::new(length, stiffness), Err(RodError::NotPositive { .. })), "{length:e}");
@@ -435,6 +440,10 @@ fn what_is_no_path_and_no_step() {
         assert!(matches!(ClampPath::new(here, lost), Err(ContactError::NotFinite { .. })));
         assert!(matches!(equilibrium(&rod(), &bumps(), lost, &[]), Err(ContactError::NotFinite { .. })));
     }
+    let turned = Pose { phi: -180.0, ..there };
+    assert_eq!(ClampPath::new(here, turned), Err(ContactError::Angle { what: "to.phi", value: -180.0 }));
+    let refused = equilibrium(&rod(), &bumps(), turned, &[]);
+    assert_eq!(refused.unwrap_err(), ContactError::Angle { what: "pose.phi", value: -180.0 });
     assert!(matches!(ClampPath::new(here, here), Err(ContactError::NoPath { .. })));
     let (contour, path) = (bumps(), ClampPath::new(here, there).unwrap());
     for step in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-16, 1e-300] {

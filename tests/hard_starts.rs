@@ -199,7 +199,7 @@ fn a_clamp_driven_into_the_object_stops_there() {
     assert!(outcome.states.len() >= 45 && outcome.states.iter().all(|s| s.pose.y <= 0.0));
     // and so does one that starts inside
     let inside = between(pose(0.5), pose(1.5), 0.1).run();
-    assert_eq!(inside.stop.map(|s| s.reason), Some(StopReason::NoStart));
+    assert_eq!(inside.stop.map(|s| s.reason), Some(StopReason::ClampInside));
     assert!(inside.states.is_empty());
 }
 
@@ -282,6 +282,6 @@ fn a_way_that_never_touches() {
     assert!(outcome.events.is_empty());
     assert_eq!(outcome.states.len(), 37);
     assert!(outcome.states.iter().all(|s| s.phase() == Phase::FREE && s.energy == 0.0));
-    let least = outcome.states.iter().map(|s| s.certificate.min_gap).fold(f64::INFINITY, f64::min);
+    let least = outcome.states.iter().map(|s| s.certificate.min_gap.seen).fold(f64::INFINITY, f64::min);
     assert!((least - 0.001).abs() < 1e-12, "{least}");
 }

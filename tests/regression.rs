@@ -46,7 +46,7 @@ fn a_point_behind_a_far_piece_is_outside() {
     let (from, to) = (Pose { x: 1.6, y: -0.1769, phi: 2.1088 }, Pose { x: -1.4, y: -0.1708, phi: 2.1088 });
     let outcome = sweep(&object, from, to, 0.01);
     assert_eq!(outcome.stop, None);
-    assert!(outcome.states.iter().all(|s| s.certificate.min_gap > -1e-11));
+    assert!(outcome.states.iter().all(|s| s.certificate.min_gap.lower > -1e-11));
     assert_eq!(
         kinds(&outcome),
         [

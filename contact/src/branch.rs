@@ -33,6 +33,11 @@ impl Tangent {
         z.iter().zip(from).enumerate().map(|(i, (z, f))| self.row(i) * (z - f)).sum()
     }
 
+    /// Distance of two points in the tangent's metric.
+    pub fn distance(&self, z: &[f64], from: &[f64]) -> f64 {
+        z.iter().zip(from).zip(&self.weights).map(|((z, f), w)| ((z - f) * w).powi(2)).sum::<f64>().sqrt()
+    }
+
     /// `configuration` moved by `distance` along the tangent.
     pub fn ahead(&self, configuration: &Configuration, distance: f64) -> Configuration {
         let mut ahead = configuration.clone();
@@ -42,16 +47,25 @@ impl Tangent {
         ahead
     }
 
+    /// The rate of one unknown by arclength.
+    pub fn rate(&self, i: usize) -> f64 {
+        self.direction[i]
+    }
+
     /// Change of the path parameter by arclength.
     pub fn by_tau(&self) -> f64 {
         self.direction.last().copied().unwrap_or(1.0)
     }
 
+    /// Component of the direction of another tangent of the same contact set along this one.
+    pub fn component(&self, other: &Self) -> f64 {
+        (0..self.direction.len()).map(|i| self.row(i) * other.direction[i]).sum()
+    }
+
     /// Cosine of the angle to another tangent of the same contact set.
     pub fn cosine(&self, other: &Self) -> f64 {
-        let dot: f64 = (0..self.direction.len()).map(|i| self.row(i) * other.direction[i]).sum();
         let norm: f64 = (0..self.direction.len()).map(|i| (other.direction[i] * self.weights[i]).powi(2)).sum();
-        dot / norm.sqrt()
+        self.component(other) / norm.sqrt()
     }
 }
 

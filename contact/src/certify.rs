@@ -3,7 +3,7 @@
 use crate::configuration::Configuration;
 use crate::path::ClampPath;
 use crate::scan::Scan;
-use crate::state::{Certificate, Contact, State};
+use crate::state::{Certificate, Contact, GapBounds, State};
 use crate::world::World;
 use rod_core::{MultiPoint, Pose, Rod, SolveReport, Supports, Units};
 
@@ -62,7 +62,7 @@ pub(crate) fn state(
     }
     let certificate = Certificate {
         residual: quality.residual,
-        min_gap: scan.min_gap * length,
+        min_gap: GapBounds { lower: scan.gap.lower * length, seen: scan.gap.seen * length, ..scan.gap },
         min_force: min_force * force,
         first_integral: shape.first_integral_error(),
         stable: quality.stable,

@@ -4,7 +4,7 @@ use crate::branch::Corrector;
 use crate::certify::{Quality, state};
 use crate::configuration::{Configuration, Held, Unknowns, lying};
 use crate::error::ContactError;
-use crate::path::ClampPath;
+use crate::path::{ClampPath, check};
 use crate::scan::Scanner;
 use crate::state::{Contact, ContactKind, State};
 use crate::world::{Foot, World};
@@ -92,7 +92,7 @@ fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
 /// use rod_contact::{Contact, ContactKind, equilibrium};
 /// use rod_contours::{Composite, Parabola};
 /// use rod_core::{Pose, Rod};
-/// let contour = Composite::single(Parabola::new([0.0, 0.0], 5.0)?);
+/// let contour = Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?;
 /// let rod = Rod::new(1.0, 1.0)?;
 /// // a vertical rod beside the parabola, pushed against its flank
 /// let pose = Pose { x: 0.1, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
@@ -104,18 +104,14 @@ fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
 /// ```
 ///
 /// # Errors
-/// [`ContactError::NotFinite`], [`ContactError::Guess`] where a contact cannot be where it is said to be.
+/// [`ContactError::NotFinite`], [`ContactError::Angle`], [`ContactError::Guess`] where a contact cannot be where it is said to be.
 pub fn equilibrium(
     rod: &Rod,
     objects: &(impl AsRef<[Composite]> + ?Sized),
     pose: Pose,
     guess: &[Contact],
 ) -> Result<Equilibrium, ContactError> {
-    for (what, value) in [("pose.x", pose.x), ("pose.y", pose.y), ("pose.phi", pose.phi)] {
-        if !value.is_finite() {
-            return Err(ContactError::NotFinite { what, value });
-        }
-    }
+    check(pose, ["pose.x", "pose.y", "pose.phi"])?;
     let units = rod.units();
     let path = ClampPath::standing(pose).dimensionless(units);
     let world = World::new(objects.as_ref(), units.length);

@@ -2,6 +2,10 @@
 
 use rod_core::Pose;
 
+/// Largest clamp angle, rad, either way: 16 turns. No clamp of an experiment turns further; 90 degrees given for radians
+/// passes with a warning, 180 does not. A larger limit would let more such mistakes pass.
+pub const LARGEST_ANGLE: f64 = 100.0;
+
 /// Errors in what a sweep is asked to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -12,6 +16,14 @@ pub enum ContactError {
         /// Which quantity.
         what: &'static str,
         /// Its value as given.
+        value: f64,
+    },
+    /// A clamp that has turned so far that its angle is taken for a mistake.
+    #[error("{what} is {value} rad, expected at most {LARGEST_ANGLE} rad either way")]
+    Angle {
+        /// Which angle.
+        what: &'static str,
+        /// Its value as given, rad.
         value: f64,
     },
     /// The path leads nowhere.
@@ -61,10 +73,12 @@ pub enum StopReason {
     EndOfContour,
     /// The rod is bent around the contour so tightly that it touches along a line, not at a point.
     LineContact,
-    /// The clamp itself runs into the object.
+    /// The clamp itself runs into the object, or is inside it in the first pose.
     ClampInside,
     /// More events at one pose than a rod can have.
     Chatter,
+    /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
+    StepBudget,
 }
 
 impl std::fmt::Display for Stop {
@@ -81,7 +95,13 @@ impl std::fmt::Display for Stop {
             StopReason::LineContact => {
                 ("the rod wraps around the contour and would touch it along a line", "end the path before it")
             }
+            StopReason::ClampInside if self.tau == 0.0 => {
+                ("the clamp is inside an object in the first pose", "start with the clamp outside of all objects")
+            }
             StopReason::ClampInside => ("the clamp itself runs into the object", "end the path before it"),
+            StopReason::StepBudget => {
+                ("the sweep has taken all the steps it may take", "allow more, or sweep in parts")
+            }
             StopReason::Chatter => ("contacts come and go at one pose without end", "start a new sweep beyond"),
         };
         let Pose { x, y, phi } = self.pose;

@@ -4,7 +4,7 @@
 use crate::branch::Corrector;
 use crate::configuration::Configuration;
 use crate::notch::{parted, straddles};
-use crate::scan::{GAP_TOLERANCE, Scanner};
+use crate::scan::Scanner;
 use crate::transition::{Break, as_tangent, as_tip, beyond_corner, breaks, onto_neighbour, with_contact};
 use crate::world::World;
 
@@ -40,7 +40,7 @@ pub(crate) fn settle(
             Some((_, b)) => configuration = mend(configuration, b, corrector),
             None => {
                 let stable = scanner.is_stable(&corrector.world, &configuration);
-                let holds = scan.min_gap >= -1e3 * GAP_TOLERANCE && !scan.clamp_inside && stable;
+                let holds = scan.is_outside() && stable;
                 settled = holds.then_some(configuration);
                 break;
             }

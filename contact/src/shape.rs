@@ -3,12 +3,16 @@
 use crate::configuration::{Configuration, Span, Spans};
 use crate::path::ClampPath;
 use crate::world::World;
-use rod_core::{Station, stations};
-use smallvec::SmallVec;
+use rod_contours::Bounds;
+use rod_core::{Section, Station, stations};
+use smallvec::{SmallVec, smallvec};
 
 /// Largest distance between the points. Between them the gap to an object is bounded by its slope (a rod moves through the
 /// plane with unit speed, so the gap is 1-Lipschitz).
 const SPACING: f64 = 1.0 / 32.0;
+
+/// Intervals of the straight end of the rod: where more are needed they are halved.
+const STRAIGHT: usize = 4;
 
 /// Points up to the last contact, at least: several a wave of the highest mode by which stability is judged.
 const LOADED: f64 = 28.0;
@@ -27,10 +31,19 @@ pub(crate) struct Node {
     pub s: f64,
     pub at: Station,
     pub span: usize,
-    /// The contact that is here.
-    pub contact: Option<usize>,
     /// How far at most the rod leaves the chord from here to the next point.
     pub bulge: f64,
+}
+
+impl Node {
+    /// Whether the rod from here to the `next` point is farther than `reach` on one side of a box.
+    pub fn is_beyond(&self, next: &Self, bounds: &Bounds, reach: f64) -> bool {
+        let (a, b, grown) = (&self.at, &next.at, self.bulge + reach);
+        a.x.max(b.x) + grown < bounds.min[0]
+            || a.x.min(b.x) - grown > bounds.max[0]
+            || a.y.max(b.y) + grown < bounds.min[1]
+            || a.y.min(b.y) - grown > bounds.max[1]
+    }
 }
 
 /// The rod's segments, and points along all of it from the clamp to the tip. Up to the last contact those of a segment are an
@@ -41,41 +54,79 @@ pub(crate) struct Shape {
     pub nodes: Vec<Node>,
     /// Index of the first point of each span: beyond the first span, of the contact there.
     firsts: SmallVec<[usize; 9]>,
+    /// Size of the force on each span.
+    forces: SmallVec<[f64; 9]>,
 }
 
 impl Shape {
+    /// A straight line from a point on.
+    pub fn straight((x, y): (f64, f64), phi: f64, length: f64) -> Self {
+        let start = Section { x, y, phi, kappa: 0.0 };
+        let at = Station::from(&start);
+        let end = Station { x: x + length * at.cos, y: y + length * at.sin, ..at };
+        let node = |s, at| Node { s, at, span: 0, bulge: 0.0 };
+        Self {
+            spans: smallvec![Span { s: 0.0, start, a: 0.0, b: 0.0 }],
+            nodes: vec![node(0.0, at), node(length, end)],
+            firsts: smallvec![0],
+            forces: smallvec![0.0],
+        }
+    }
+
     /// Becomes the shape of the rod in `configuration`, in the memory of the last one.
     pub fn follow(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) {
-        let Self { spans, nodes, firsts } = self;
+        let Self { spans, nodes, firsts, forces } = self;
         *spans = configuration.spans(world, path);
+        forces.clear();
+        forces.extend(spans.iter().map(|span| span.a.hypot(span.b)));
         nodes.clear();
         firsts.clear();
         let loaded = spans.last().map_or(0.0, |free| free.s);
         for (i, span) in spans.iter().enumerate() {
             let next = spans.get(i + 1);
-            let node = |s, at, contact| Node { s, at, span: i, contact, bulge: 0.0 };
+            let node = |s, at| Node { s, at, span: i, bulge: 0.0 };
             firsts.push(nodes.len());
-            nodes.push(node(span.s, Station::from(&span.start), i.checked_sub(1)));
+            nodes.push(node(span.s, Station::from(&span.start)));
             let length = next.map_or(1.0, |next| next.s) - span.s;
             if length <= 0.0 {
                 continue;
             }
             if next.is_none() {
                 // no moment comes from beyond: it is straight
-                let steps = (length / SPACING).ceil() as usize;
+                let steps = STRAIGHT;
                 let Station { x, y, cos, sin, .. } = nodes[nodes.len() - 1].at;
                 let at = |s: f64| Station { x: x + s * cos, y: y + s * sin, cos, sin, kappa: 0.0 };
                 let part = |k: usize| length * (k as f64 / steps as f64);
-                nodes.extend((1..=steps).map(|k| node(span.s + part(k), at(part(k)), None)));
+                nodes.extend((1..=steps).map(|k| node(span.s + part(k), at(part(k)))));
                 continue;
             }
-            let steps = 2 * ((0.5 * length / spacing(span).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2);
+            let steps = 2 * ((0.5 * length / spacing(forces[i]).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2);
             let h = length / steps as f64;
             // the last point of a span is the first of the next, where it is known better
             let between = stations(&span.start, span.a, span.b, length, steps).take(steps - 1).enumerate();
-            nodes.extend(between.map(|(k, at)| node(span.s + h * (k + 1) as f64, at, None)));
+            nodes.extend(between.map(|(k, at)| node(span.s + h * (k + 1) as f64, at)));
         }
-        bulge(spans, nodes, firsts);
+        bulge(forces, nodes, firsts);
+    }
+
+    /// A box around the points.
+    pub fn bounds(&self) -> Bounds {
+        self.nodes.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y))
+    }
+
+    /// Size of the force on a span.
+    pub fn force(&self, span: usize) -> f64 {
+        self.forces[span]
+    }
+
+    /// The last point of a span: beyond it, if another span begins there, the two share it.
+    pub fn last_of(&self, span: usize) -> usize {
+        self.firsts.get(span + 1).copied().unwrap_or(self.nodes.len() - 1)
+    }
+
+    /// The contact at a point, if there is one.
+    pub fn contact_at(&self, node: usize) -> Option<usize> {
+        self.firsts[1..].iter().position(|first| *first == node)
     }
 
     /// The points of span number `i` with both its ends.
@@ -83,18 +134,13 @@ impl Shape {
         let after = self.firsts.get(i + 1).map_or(self.nodes.len(), |next| next + 1);
         &self.nodes[self.firsts[i]..after]
     }
-
-    /// The point at contact number `j`.
-    pub fn at_contact(&self, j: usize) -> usize {
-        self.firsts[j + 1]
-    }
 }
 
 /// Finds how far the rod leaves the chords between the points of the spans under load: between two of them the curvature
 /// changes no faster than by the force.
-fn bulge(spans: &[Span], nodes: &mut [Node], firsts: &[usize]) {
-    for (span, ends) in spans.iter().zip(firsts.windows(2)) {
-        let half_force = 0.5 * span.a.hypot(span.b);
+fn bulge(forces: &[f64], nodes: &mut [Node], firsts: &[usize]) {
+    for (force, ends) in forces.iter().zip(firsts.windows(2)) {
+        let half_force = 0.5 * force;
         for i in ends[0]..ends[1] {
             let (h, after) = (nodes[i + 1].s - nodes[i].s, nodes[i + 1].at.kappa.abs());
             nodes[i].bulge = 0.125 * h * h * (nodes[i].at.kappa.abs().max(after) + half_force * h);
@@ -103,6 +149,6 @@ fn bulge(spans: &[Span], nodes: &mut [Node], firsts: &[usize]) {
 }
 
 /// Distance between the points of a span under load.
-fn spacing(span: &Span) -> f64 {
-    (LARGEST_PHASE / span.a.hypot(span.b).sqrt()).clamp(SMALLEST_SPACING, SPACING)
+fn spacing(force: f64) -> f64 {
+    (LARGEST_PHASE / force.sqrt()).clamp(SMALLEST_SPACING, SPACING)
 }

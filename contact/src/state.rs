@@ -37,13 +37,27 @@ pub struct Contact {
     pub force: f64,
 }
 
+/// Bounds of the smallest gap between the whole rod and all objects, m. About zero wherever there is a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapBounds {
+    /// The gap is nowhere smaller than this: a bound over all points of the rod, not over samples. Above -1e-9 L in every
+    /// state that a sweep reports, and within 1e-3 of `seen` for a free rod. Minus infinity where the rod goes through an
+    /// object.
+    pub lower: f64,
+    /// The smallest gap that was computed; negative: penetration.
+    pub seen: f64,
+    /// Whether `lower` is proven. It is not where the closest points of a shape are themselves looked for among samples
+    /// ([`Contour::closest_is_exact`](rod_contours::Contour::closest_is_exact)): then it is as good as they are.
+    pub proven: bool,
+}
+
 /// How well a state fulfils what defines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     /// Largest residual of the boundary-value problem, dimensionless.
     pub residual: f64,
-    /// Smallest gap over the whole rod, m; negative: penetration. About zero wherever there is a contact.
-    pub min_gap: f64,
+    /// Bounds of the smallest gap over the whole rod, m.
+    pub min_gap: GapBounds,
     /// Smallest contact force, N; infinite where there is none.
     pub min_force: f64,
     /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi) along a segment plus its jump,

@@ -7,8 +7,10 @@ use crate::error::StopReason;
 use crate::fold::locate_fold;
 use crate::inflection::{parted, run_together};
 use crate::landing::ordered;
+use crate::passing::Passing;
 use crate::scan::{Scan, Scanner};
 use crate::stability::wraps;
+use crate::sweep::SAME_POSE;
 use crate::transition::{Break, NoTransition, Transition, breaks};
 use rod_core::SolveReport;
 use smallvec::SmallVec;
@@ -19,6 +21,8 @@ const SHORT: f64 = 1e-3;
 /// contact.
 const LONGEST_STEP: f64 = 0.3;
 const LONGEST_WAY: f64 = 0.05;
+/// Way (L) of a free rod beyond its gap in one step: a contact that begins and ends within it can be missed.
+const FREE_STEP: f64 = 2e-3;
 /// First step on a new branch.
 pub(crate) const FIRST_STEP: f64 = 0.02;
 /// A branch that cannot be followed with this step is not followed.
@@ -37,6 +41,13 @@ const LARGEST_RESIDUAL: f64 = 1e-9;
 const AT_CLAMP: f64 = 1e-3;
 /// Transitions this close together along the branch are one but for rounding.
 const AT_ONCE: f64 = 1e-12;
+/// Arclength by which a touch may be behind the start of the step: where the gap closes slowly, the depth that a proof leaves
+/// open takes so much.
+const BEFORE: f64 = 1e-6;
+/// Arclength of a step that cannot pass over anything thick enough to be met.
+const LEAST_SWEPT: f64 = 1e-8;
+/// Halvings of an interval down to rounding.
+const MOST_HALVINGS: usize = 60;
 /// Path parameter by which a new contact set is tried.
 const PROBE: f64 = 1e-6;
 const FARTHEST_PROBE: f64 = 1e-3;
@@ -61,6 +72,27 @@ pub(crate) enum Step {
     Ended(Box<Configuration>),
 }
 
+impl Step {
+    /// The last configuration of the branch that was followed.
+    fn last(&self) -> &Configuration {
+        match self {
+            Self::Moved(next) => &next.configuration,
+            Self::Changed(transition) => &transition.before,
+            Self::Ended(last) => last,
+        }
+    }
+
+    /// Where the clamp is there.
+    pub fn tau(&self) -> f64 {
+        self.last().tau()
+    }
+
+    /// How far beyond its end a pose is at its end: a transition is located up to rounding. Beyond a fold there is nothing.
+    pub fn rounding(&self) -> f64 {
+        if let Self::Changed(_) = self { SAME_POSE } else { 0.0 }
+    }
+}
+
 /// Follows branches.
 #[derive(Debug)]
 pub(crate) struct Stepper<'a> {
@@ -68,9 +100,17 @@ pub(crate) struct Stepper<'a> {
     pub scanner: Scanner,
     /// Length of the next step.
     pub h: f64,
+    /// Whether the step that was tried last went through a contour.
+    touches: bool,
+    /// How many more steps may be tried.
+    pub steps_left: u64,
 }
 
-impl Stepper<'_> {
+impl<'a> Stepper<'a> {
+    pub fn new(corrector: Corrector<'a>, steps_left: u64) -> Self {
+        Self { corrector, scanner: Scanner::default(), h: FIRST_STEP, touches: false, steps_left }
+    }
+
     /// A point with everything known of it.
     pub fn point(&mut self, configuration: Configuration) -> Point {
         let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
@@ -88,13 +128,75 @@ impl Stepper<'_> {
         self.scanner.is_stable(&self.corrector.world, scanned)
     }
 
+    /// The equilibrium at the pose `tau` on the way of `step` from `from`, where all that was known of the step holds there
+    /// too.
+    pub fn between(&mut self, from: &Point, step: &Step, tau: f64) -> Option<Point> {
+        let last = step.last();
+        if last.contacts.len() != from.configuration.contacts.len() {
+            return None;
+        }
+        let length = from.tangent.along(&last.z, &from.configuration.z);
+        let after = if let Step::Moved(next) = step {
+            Some((&next.tangent, 1.0 / from.tangent.component(&next.tangent)))
+        } else {
+            None
+        };
+        let way = Way { from, to: last, after, length };
+        let mut here = way.at_pose(tau)?;
+        let predicted = here.z.clone();
+        let mut report = self.corrector.at_pose(&mut here, tau);
+        let strayed =
+            |here: &Configuration| from.tangent.distance(&here.z, &predicted) > LARGEST_CORRECTION * length + 1e-9;
+        if !report.status.is_solved() || strayed(&here) {
+            here = self.by_arclength(&way, tau)?;
+            report = self.corrector.at_pose(&mut here, tau);
+        }
+        if !report.status.is_solved() || report.residual > LARGEST_RESIDUAL || !ordered(&self.corrector.world, &here) {
+            return None;
+        }
+        here.set_tau(tau);
+        let scan = self.scan(&here);
+        let mut holds = scan.is_outside();
+        breaks(&self.corrector, &here, &scan, |_| holds = false);
+        let stable = holds && self.is_stable(&here);
+        let tangent = from.tangent.clone();
+        stable.then(|| Point { configuration: here, scan, quality: Quality::new(&report, true), tangent })
+    }
+
+    /// The point of the way at the pose `tau` by its arclength: next to a fold the pose alone is ill-conditioned.
+    fn by_arclength(&mut self, way: &Way<'_>, tau: f64) -> Option<Configuration> {
+        let Way { from, length, .. } = *way;
+        let (mut low, mut high) = (0.0, length);
+        let mut found = None;
+        for _ in 0..MOST_HALVINGS {
+            let distance = 0.5 * (low + high);
+            let mut here = way.at(distance);
+            let plane = Condition::Plane { tangent: &from.tangent, from: &from.configuration.z, distance };
+            if !self.corrector.correct(&mut here, plane).status.is_solved() {
+                return None;
+            }
+            if here.tau() < tau {
+                low = distance;
+            } else {
+                high = distance;
+            }
+            found = Some(here);
+        }
+        found
+    }
+
     /// One step from `from` towards the pose `target`, at most there.
     pub fn step(&mut self, from: &Point, target: f64) -> Result<Step, StopReason> {
         while self.h >= SHORTEST_STEP {
+            self.steps_left = self.steps_left.checked_sub(1).ok_or(StopReason::StepBudget)?;
             match self.attempt(from, target)? {
                 Some(step) => return Ok(step),
                 None => self.h *= 0.5,
             }
+        }
+        // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
+        if self.touches && !from.scan.is_by_an_end() {
+            return Ok(Step::Ended(Box::new(from.configuration.clone())));
         }
         // Behind the end of an open contour there is no telling inside from outside.
         Err(if from.scan.is_by_an_end() { StopReason::EndOfContour } else { StopReason::StepTooSmall })
@@ -109,22 +211,33 @@ impl Stepper<'_> {
         }
         let too_long_or = |reason| if length < SHORT { Err(reason) } else { Ok(None) };
         let scan = self.scan(&next);
+        self.touches = !scan.crossings.is_empty();
         if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
             return too_long_or(StopReason::ClampInside);
         }
         // No point of a free rod has gone further than the smallest gap was: it came around an end.
         let is_open = !self.corrector.world.open_ends().is_empty();
-        let is_free = next.count() == 0 && length * self.fastest() <= from.scan.min_gap;
-        if is_open && is_free && scan.min_gap < -DEEPEST {
+        let is_free = next.count() == 0 && length * self.fastest() <= from.scan.gap.lower;
+        if is_open && is_free && scan.gap.seen < -DEEPEST {
             return Err(StopReason::EndOfContour);
         }
         if scan.has_swept_over_an_end(&from.scan) {
             return too_long_or(StopReason::EndOfContour);
         }
         match self.first_transition(from, &next, &scan, &tangent, length) {
-            Ok(None) if scan.min_gap > -DEEPEST => {}
+            Ok(None) if scan.is_outside() => match self.passes(from, length) {
+                None => {}
+                Some(Passing::Rod) => return Ok(None),
+                Some(Passing::Clamp) => return too_long_or(StopReason::ClampInside),
+            },
             Ok(None) => return Ok(None),
-            Ok(Some(step)) => return Ok(Some(step)),
+            Ok(Some(step)) => {
+                return match self.passes(from, length) {
+                    None => Ok(Some(step)),
+                    Some(Passing::Rod) => Ok(None),
+                    Some(Passing::Clamp) => too_long_or(StopReason::ClampInside),
+                };
+            }
             Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
             Err(NoTransition::NotLocated) => return Ok(None),
         }
@@ -140,6 +253,13 @@ impl Stepper<'_> {
         }
         let quality = Quality::new(&report, true);
         Ok(Some(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent }))))
+    }
+
+    /// What the rod, on its way to where it was scanned last, has gone through and is beside now.
+    fn passes(&mut self, from: &Point, length: f64) -> Option<Passing> {
+        let Corrector { world, path, .. } = &self.corrector;
+        let far = length > LEAST_SWEPT;
+        far.then(|| self.scanner.passes(world, path, &from.configuration, &from.scan)).flatten()
     }
 
     /// The end of the branch at `from`, from where `next`, just beyond, is not stable.
@@ -170,9 +290,13 @@ impl Stepper<'_> {
         let tau = configuration.tau();
         let slope = tangent.by_tau();
         let to_go = if slope > STEEPEST { (target - tau) / slope } else { f64::INFINITY };
-        // a free rod is safe as far as its gap reaches
-        let free = if configuration.count() == 0 { scan.min_gap.min(1.0) / self.fastest() } else { 0.0 };
-        let reach = self.h.min(LONGEST_WAY / slope.abs()).min(self.to_border(from)).max(free);
+        // a free rod is safe as far as its gap reaches, and goes little further
+        let reach = if configuration.count() == 0 {
+            let fastest = self.fastest();
+            (scan.gap.lower.clamp(0.0, 1.0) / fastest).max(self.h.min(FREE_STEP / fastest))
+        } else {
+            self.h.min(LONGEST_WAY / slope.abs()).min(self.to_border(from))
+        };
         let mut land = to_go <= reach;
         let length = if land { to_go } else { reach };
         let mut next = tangent.ahead(configuration, length);
@@ -183,14 +307,7 @@ impl Stepper<'_> {
             Condition::Plane { tangent, from: &configuration.z, distance: length }
         };
         let mut report = self.corrector.correct(&mut next, condition);
-        let off: f64 = next
-            .z
-            .iter()
-            .zip(&predicted)
-            .zip(&tangent.weights)
-            .map(|((z, p), w)| ((z - p) * w).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let off = tangent.distance(&next.z, &predicted);
         if !report.status.is_solved()
             || report.residual > LARGEST_RESIDUAL
             || !ordered(&self.corrector.world, &next)
@@ -275,7 +392,8 @@ impl Stepper<'_> {
         for b in broken {
             let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;
             let along = transition.along;
-            if !(-slack..=length + slack).contains(&along) {
+            let before = if let Break::Touch(_) = b { BEFORE } else { slack };
+            if !(-before..=length + slack).contains(&along) {
                 return Err(NoTransition::NotLocated);
             }
             if first.as_ref().is_none_or(|(least, _)| along < *least - AT_ONCE) {
@@ -298,7 +416,7 @@ impl Stepper<'_> {
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         let seen = self.scan(reached);
-        if ordered_or_new(reached) && seen.min_gap > -DEEPEST {
+        if ordered_or_new(reached) && seen.gap.seen > -DEEPEST {
             Ok(first.map(|(_, step)| step))
         } else {
             Err(NoTransition::NotLocated)
@@ -326,6 +444,63 @@ impl Stepper<'_> {
         let mut holds = true;
         breaks(&self.corrector, &probe, &scan, |_| holds = false);
         holds && self.is_stable(&probe)
+    }
+}
+
+/// A step from one configuration to another one on the same branch, as a cubic in the arclength along the first tangent.
+struct Way<'a> {
+    from: &'a Point,
+    to: &'a Configuration,
+    /// The tangent at the end, where it is known, and its arclength for one along the first tangent.
+    after: Option<(&'a Tangent, f64)>,
+    length: f64,
+}
+
+impl Way<'_> {
+    fn value(&self, i: usize, x: f64) -> f64 {
+        let (start, end, l) = (self.from.configuration.z[i], self.to.z[i], self.length);
+        let u = x / l;
+        let rate = self.from.tangent.rate(i);
+        let bent = end - start - rate * l;
+        let Some((after, stretch)) = self.after else { return start + rate * x + bent * u * u };
+        let slope = after.rate(i) * stretch - rate;
+        start + rate * x + u * u * ((3.0 - 2.0 * u) * bent + (u - 1.0) * slope * l)
+    }
+
+    fn at(&self, x: f64) -> Configuration {
+        let mut here = self.to.clone();
+        for i in 0..here.z.len() {
+            here.z[i] = self.value(i, x);
+        }
+        here
+    }
+
+    /// The point at the pose `tau`; none where there is no way.
+    fn at_pose(&self, tau: f64) -> Option<Configuration> {
+        let last = self.to.z.len() - 1;
+        let (mut low, mut high) = (0.0, self.length);
+        if high <= 0.0 || high.is_nan() {
+            return None;
+        }
+        let (mut x, mut before) =
+            (high * (tau - self.value(last, 0.0)) / (self.to.tau() - self.value(last, 0.0)), f64::NAN);
+        for _ in 0..MOST_HALVINGS {
+            let value = self.value(last, x);
+            if value < tau {
+                low = x;
+            } else {
+                high = x;
+            }
+            if (value - tau).abs() <= 1e-15 || before == x {
+                break;
+            }
+            before = x;
+            // the slope of the cubic, by a small difference: it is only a guess
+            let slope = (self.value(last, x + 1e-4 * self.length) - value) / (1e-4 * self.length);
+            let newton = x - (value - tau) / slope;
+            x = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        }
+        Some(self.at(x))
     }
 }
 

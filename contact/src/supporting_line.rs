@@ -63,7 +63,7 @@ mod tests {
             Box::new(CircularArc::new([0.4, 0.1], 0.2, -2.5, -0.3).unwrap()),
         ];
         let (mut cleared, mut looked_at) = (0, 0);
-        for contour in shapes.map(Composite::single) {
+        for contour in shapes.map(|shape| Composite::single(shape).unwrap()) {
             let world = World::new(contour.as_ref(), 1.0);
             for seed in 0..400 {
                 let mut number = numbers(seed);

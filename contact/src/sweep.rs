@@ -9,7 +9,7 @@ use crate::event::{Event, EventKind};
 use crate::inflection::is_at_inflection;
 use crate::landing::settle;
 use crate::path::ClampPath;
-use crate::scan::{GAP_TOLERANCE, Scan, Scanner};
+use crate::scan::{Scan, Scanner};
 use crate::state::State;
 use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
 use crate::transition::{Transition, beside_corner, beyond_corner};
@@ -51,6 +51,8 @@ pub struct Sweep<'a> {
     reports: usize,
     reported: usize,
     at: Option<Box<Point>>,
+    /// The step from there, while poses on it are reported.
+    ahead: Option<Step>,
     pending: VecDeque<Item>,
     over: bool,
     /// Where the last transition was, and how many there were at that pose.
@@ -60,11 +62,19 @@ pub struct Sweep<'a> {
 /// Most steps of a path: poses of a finer one are not told apart.
 const MOST_STEPS: f64 = 1e15;
 
+/// Steps after which a sweep ends, by default.
+const MOST_STEPS_TAKEN: u64 = 2_000_000;
+/// A pose that is beyond a transition by less than this is at the transition, where the state before it is reported: it still
+/// holds there, up to rounding.
+pub(crate) const SAME_POSE: f64 = 1e-13;
+
 /// More transitions than this at one pose are no physics.
 const MOST_AT_ONE_POSE: usize = 12;
 /// How far beyond a fold the descent starts, so that the chain, whose own fold is not quite there, sees it too. Lengthened
 /// where that was not enough.
 const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
+/// The same beyond a touch of a free rod that has no isolated solution.
+const TOUCH_KICK: [f64; 2] = [1e-4, 5e-4];
 /// Bends of the straight rod that is let go into contact, radians: which way it gives is a matter of chance.
 const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
 /// Farthest and shortest way of a tip that slips over a corner; a longer one is a snap.
@@ -105,15 +115,24 @@ impl<'a> Sweep<'a> {
         let corrector = Corrector::new(World::new(objects.as_ref(), units.length), path);
         Ok(Self {
             rod: *rod,
-            stepper: Stepper { corrector, scanner: Scanner::default(), h: FIRST_STEP },
+            stepper: Stepper::new(corrector, MOST_STEPS_TAKEN),
             step,
             reports: steps as usize + 1,
             reported: 0,
             at: None,
+            ahead: None,
             pending: VecDeque::new(),
             over: false,
             crowd: (f64::NAN, 0),
         })
+    }
+
+    /// Ends with [`StopReason::StepBudget`] after so many steps along branches of equilibria, those counted that were tried and
+    /// found too long; by default after 2 million, which takes a minute or two. An event takes about ten.
+    #[must_use]
+    pub fn with_most_steps(mut self, most: u64) -> Self {
+        self.stepper.steps_left = most;
+        self
     }
 
     /// Runs to the end and keeps everything.
@@ -129,7 +148,8 @@ impl<'a> Sweep<'a> {
         outcome
     }
 
-    /// Goes on until there is something to hand out.
+    /// Goes on until there is something to hand out. The branch is followed by steps of its own; the poses to report lie on
+    /// them and have no part in where a step ends.
     fn advance(&mut self) -> Result<(), StopReason> {
         let Some(point) = self.at.take() else {
             let start = Box::new(self.start()?);
@@ -138,41 +158,58 @@ impl<'a> Sweep<'a> {
             return Ok(());
         };
         // a snap may have jumped over a pose: there is no equilibrium to report there
-        while self.step * (self.reported as f64) < point.configuration.tau() && self.reported < self.reports {
+        while self.pose() < point.configuration.tau() - SAME_POSE && self.reported < self.reports {
             self.reported += 1;
         }
-        let length = self.stepper.corrector.path.length();
-        let reports = self.reported < self.reports;
-        // beyond the last pose to report the path goes on to its end
-        let target = if reports { self.step * self.reported as f64 } else { length };
-        if point.configuration.tau() >= target {
-            if reports {
-                self.report(&point);
-                self.at = Some(point);
-            } else {
-                self.over = true;
-            }
+        let (end, pose) = (self.stepper.corrector.path.length(), self.pose());
+        if self.reported < self.reports && pose <= point.configuration.tau() + SAME_POSE {
+            self.report(&point);
+            self.at = Some(point);
             return Ok(());
         }
-        let next = match self.follow(&point, target) {
-            Ok(next) => next,
+        if point.configuration.tau() >= end - SAME_POSE {
+            self.over = true;
+            return Ok(());
+        }
+        let ahead = match self.ahead.take() {
+            Some(step) => Ok(step),
+            None => self.stepper.step(&point, end),
+        };
+        let next = match ahead {
+            Ok(step) if self.reported < self.reports && pose < step.tau() + step.rounding() => {
+                if let Some(state) = self.stepper.between(&point, &step, pose) {
+                    self.report(&state);
+                    (self.at, self.ahead) = (Some(point), Some(step));
+                    return Ok(());
+                }
+                if pose < step.tau() {
+                    // the step has passed over something
+                    self.stepper.step(&point, pose).and_then(|step| self.take(step))
+                } else {
+                    self.take(step)
+                }
+            }
+            ahead => ahead.and_then(|step| self.take(step)),
+        };
+        match next {
+            Ok(next) => self.at = Some(next),
             Err(reason) => {
                 // kept for the message
                 self.at = Some(point);
                 return Err(reason);
             }
-        };
-        // a snap may have gone beyond it
-        if reports && next.configuration.tau() == target {
-            self.report(&next);
         }
-        self.at = Some(next);
         Ok(())
     }
 
-    /// One step, with the transition that ends it.
-    fn follow(&mut self, point: &Point, target: f64) -> Result<Box<Point>, StopReason> {
-        match self.stepper.step(point, target)? {
+    /// The next pose to report; the last one may be beyond the end by rounding.
+    fn pose(&self) -> f64 {
+        (self.step * self.reported as f64).min(self.stepper.corrector.path.length())
+    }
+
+    /// Where a step leads, with the transition that ends it.
+    fn take(&mut self, step: Step) -> Result<Box<Point>, StopReason> {
+        match step {
             Step::Moved(next) => Ok(next),
             Step::Changed(transition) => {
                 self.count_crowd(transition.after.tau())?;
@@ -213,7 +250,9 @@ impl<'a> Sweep<'a> {
             return Ok(self.landed(EventKind::Slip, last, landed));
         }
         let mut beyond = None;
-        for kick in KICK {
+        // a free rod has no fold to get over
+        let kicks = TOUCH_KICK.into_iter().filter(|_| last.count() == 0).chain(KICK);
+        for kick in kicks {
             match self.land(&last, tau, kick) {
                 Some(landed) if landed.tau() == tau => {
                     // one that does not hold further on would only lead back
@@ -298,7 +337,7 @@ impl<'a> Sweep<'a> {
             return Ok(self.stepper.point(start));
         }
         if self.scan_straight(0.0).clamp_inside {
-            return Err(StopReason::NoStart);
+            return Err(StopReason::ClampInside);
         }
         let own = self.stepper.corrector.path;
         let ways = std::iter::once(own).chain(own.others_to_its_start());
@@ -320,7 +359,7 @@ impl<'a> Sweep<'a> {
         (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
         let mut point = Box::new(self.stepper.point(start));
         while point.configuration.tau() < 0.0 {
-            point = self.follow(&point, 0.0).ok()?;
+            point = self.stepper.step(&point, 0.0).and_then(|step| self.take(step)).ok()?;
         }
         Some(point.configuration)
     }
@@ -328,7 +367,7 @@ impl<'a> Sweep<'a> {
     /// The straight rod at a pose, if it touches nothing there.
     fn free(&mut self, tau: f64) -> Option<Configuration> {
         let scan = self.scan_straight(tau);
-        (scan.min_gap >= -GAP_TOLERANCE && !scan.clamp_inside).then(|| Configuration::free(tau))
+        scan.is_outside().then(|| Configuration::free(tau))
     }
 
     /// A look at the straight rod where it has not come from elsewhere: all that is behind an open contour is solid.

@@ -3,8 +3,9 @@
 use crate::branch::{Condition, Corrector, Tangent};
 use crate::configuration::{Configuration, Held, lying};
 use crate::event::EventKind;
+use crate::gap::Crossing;
 use crate::notch::{lying_angle, merged, parted, straddles, wall_run_into};
-use crate::scan::{Crossing, Scan};
+use crate::scan::Scan;
 use crate::world::World;
 use rod_core::Hold;
 use smallvec::SmallVec;
@@ -57,10 +58,12 @@ pub(crate) fn breaks(
         let upwards = t > range.to + slack;
         if upwards || t < range.from - slack {
             let next = corrector.world.neighbour(configuration.contacts[j].stretch, upwards);
-            // a rod that comes to lie on a straight edge comes upon the corner at its other end at once
+            // A rod that comes to lie on a straight edge comes upon the corner at its other end at once, and what runs past a
+            // notch goes into its other wall.
             let beyond = next.and_then(|next| corrector.world.neighbour(next, upwards));
+            let past_notch = next.is_some_and(|next| corrector.world.is_notch(next));
             entered.extend(next);
-            entered.extend(beyond.filter(|beyond| corrector.world.is_corner(*beyond)));
+            entered.extend(beyond.filter(|beyond| past_notch || corrector.world.is_corner(*beyond)));
             visit(Break::Border(j, upwards));
         }
     }

@@ -1,12 +1,17 @@
 //! The objects as the rod sees them: in lengths of the rod.
 
-use rod_contours::{Bounds, Composite, Contour, Frame, Index, Part, Range, StretchKind};
+use rod_contours::{
+    Bounds, Closest, Composite, Contour, Frame, Index, Part, Range, Run, RunClosest, RunEnd, StretchKind,
+};
 use rod_core::Support;
 use smallvec::SmallVec;
 
 /// Depth to which a rod that has come there may be in the solid behind an open contour: further than a step of the
 /// sweep takes any point of it.
 const SKIN: f64 = 0.1;
+
+/// Intervals of a part whose curvature is sampled.
+const SAMPLES: u32 = 8;
 
 /// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that
 /// of its shape over the rod's length, or the angle turned at a joint), so that nothing is lost to an offset, however
@@ -18,6 +23,8 @@ pub(crate) struct World<'a> {
     index: Index,
     /// Number of each object's first stretch.
     first: SmallVec<[usize; 4]>,
+    /// Number of each object's first run, and the number of all.
+    first_run: SmallVec<[usize; 5]>,
     ends: SmallVec<[(f64, f64); 2]>,
     /// Depth to which there is solid behind an open contour.
     pub skin: f64,
@@ -31,8 +38,6 @@ pub(crate) struct Foot {
     pub t: f64,
     pub gap: f64,
     pub alpha: f64,
-    /// Signed curvature of the contour there; infinite at a corner.
-    pub curvature: f64,
     pub x: f64,
     pub y: f64,
     /// Whether the foot is a perpendicular one, not an end of the part.
@@ -61,6 +66,17 @@ impl Foot {
     }
 }
 
+/// The point of a run that is closest to a given point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RunFoot {
+    pub foot: Foot,
+    pub stretch: usize,
+    /// Which end of the run it is, if it is one.
+    pub end: Option<usize>,
+    /// Whether it is on a joint inside the run.
+    pub joint: bool,
+}
+
 impl<'a> World<'a> {
     pub fn new(objects: &'a [Composite], length: f64) -> Self {
         let first = objects.iter().scan(0, |next, object| {
@@ -68,6 +84,13 @@ impl<'a> World<'a> {
             *next += object.stretches().len();
             Some(first)
         });
+        let mut first_run: SmallVec<[usize; 5]> = SmallVec::new();
+        let mut runs = 0;
+        for object in objects {
+            first_run.push(runs);
+            runs += object.run_count();
+        }
+        first_run.push(runs);
         let open = objects.iter().filter(|object| !object.is_closed());
         let ends = open.flat_map(|object| {
             let Range { from, to } = object.range();
@@ -76,7 +99,7 @@ impl<'a> World<'a> {
         let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
         let index =
             Index::new(objects.iter().map(|object| if is_bounded(object) { object.bounds() } else { Bounds::ALL }));
-        Self { objects, index, first: first.collect(), ends, skin: SKIN, length }
+        Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length }
     }
 
     /// The number of the object that a stretch belongs to.
@@ -156,39 +179,27 @@ impl<'a> World<'a> {
         self.foot_in(Part { stretch, range: object.own_range(own) }, x, y)
     }
 
-    /// Whether `t` is in a part of its stretch, or next to it but for rounding.
-    pub fn holds(&self, part: &Part, t: f64) -> bool {
-        let t = t * self.unit(self.at(part.stretch));
-        let slack = 1e-9 * (1.0 + t.abs());
-        part.range.from - slack <= t && t <= part.range.to + slack
-    }
-
-    /// Whether `t` is in a part of its stretch, and not at an end, where a corner may be.
-    pub fn is_inside(&self, part: &Part, t: f64) -> bool {
-        let t = t * self.unit(self.at(part.stretch));
-        let slack = 1e-6 * (1.0 + t.abs());
-        part.range.from + slack < t && t < part.range.to - slack
-    }
-
     /// The closest point of a part of a stretch.
     pub fn foot_in(&self, part: Part, x: f64, y: f64) -> Foot {
         let Part { stretch, range } = part;
         let (object, own) = self.at(stretch);
         let unit = self.unit((object, own));
-        let closest = object.own_closest_in(own, range, x * self.length, y * self.length);
+        self.foot_of(&object.own_closest_in(own, range, x * self.length, y * self.length), unit)
+    }
+
+    fn foot_of(&self, closest: &Closest, unit: f64) -> Foot {
         let frame = closest.frame;
         Foot {
             t: closest.t / unit,
             gap: closest.gap / self.length,
             alpha: frame.alpha,
-            curvature: frame.turning / frame.speed * self.length,
             x: frame.x / self.length,
             y: frame.y / self.length,
             interior: closest.interior,
         }
     }
 
-    /// Whether [`parts_near`](Self::parts_near) gives all parts whatever the bounds.
+    /// Whether there are so few runs that asking which of them are near costs more than to look at all.
     pub fn is_small(&self) -> bool {
         self.objects.len() <= 2 && self.objects.iter().all(Composite::is_small)
     }
@@ -202,26 +213,6 @@ impl<'a> World<'a> {
             let first = self.first[object];
             self.objects[object].parts_near(bounds, |part| visit(Part { stretch: first + part.stretch, ..part }));
         });
-    }
-
-    /// A box around a part.
-    pub fn bounds(&self, part: Part) -> Bounds {
-        let (object, own) = self.at(part.stretch);
-        let Bounds { min, max } = object.own_bounds_in(own, part.range);
-        let scaled = |side: [f64; 2]| side.map(|side| side / self.length);
-        Bounds { min: scaled(min), max: scaled(max) }
-    }
-
-    /// Whether a part lies on one side of each of its tangents.
-    pub fn is_convex(&self, part: Part) -> bool {
-        let (object, own) = self.at(part.stretch);
-        object.own_is_convex(own, part.range)
-    }
-
-    /// The tangent angle in the middle of a part.
-    pub fn angle(&self, part: Part) -> f64 {
-        let (object, own) = self.at(part.stretch);
-        object.own_frame(own, 0.5 * (part.range.from + part.range.to)).alpha
     }
 
     /// Signed distance of a point from the nearest object: negative inside any of them.
@@ -239,6 +230,218 @@ impl<'a> World<'a> {
         least / self.length
     }
 
+    /// Number of objects.
+    pub fn objects(&self) -> usize {
+        self.objects.len()
+    }
+
+    /// Number of runs of all objects.
+    pub fn runs(&self) -> usize {
+        self.first_run[self.objects.len()]
+    }
+
+    /// The object that a run belongs to.
+    pub fn object_of_run(&self, run: usize) -> usize {
+        if self.objects.len() == 1 { 0 } else { self.first_run.partition_point(|first| *first <= run) - 1 }
+    }
+
+    fn own_run(&self, run: usize) -> (usize, &'a Composite, usize) {
+        let object = self.object_of_run(run);
+        (object, &self.objects[object], run - self.first_run[object])
+    }
+
+    /// A run, in lengths of the rod.
+    pub fn run(&self, run: usize) -> Run {
+        let (_, object, own) = self.own_run(run);
+        let run = object.run(own);
+        let end = |end: RunEnd| RunEnd { x: end.x / self.length, y: end.y / self.length, ..end };
+        Run { ends: run.ends.map(|one| one.map(end)), bounds: self.scaled(run.bounds), ..run }
+    }
+
+    /// A box around a run.
+    pub fn run_bounds(&self, run: usize) -> Bounds {
+        let (_, object, own) = self.own_run(run);
+        self.scaled(object.run_bounds(own))
+    }
+
+    fn scaled(&self, Bounds { min, max }: Bounds) -> Bounds {
+        let scaled = |side: [f64; 2]| side.map(|side| side / self.length);
+        Bounds { min: scaled(min), max: scaled(max) }
+    }
+
+    /// Calls `visit` with the runs that meet `bounds`, and perhaps with others.
+    pub fn runs_near(&self, bounds: Bounds, mut visit: impl FnMut(usize)) {
+        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
+        let bounds = Bounds { min: scaled(bounds.min), max: scaled(bounds.max) };
+        self.index.meeting(bounds, &mut |object| {
+            self.objects[object].runs_near(bounds, |run| visit(self.first_run[object] + run));
+        });
+    }
+
+    /// The closest point of a run.
+    pub fn run_foot(&self, run: usize, x: f64, y: f64) -> RunFoot {
+        let (number, object, own) = self.own_run(run);
+        let RunClosest { stretch, closest, end, joint } = object.run_closest(own, x * self.length, y * self.length);
+        let unit = self.unit((object, stretch));
+        RunFoot { foot: self.foot_of(&closest, unit), stretch: self.first[number] + stretch, end, joint }
+    }
+
+    /// Whether a stretch is part of a run at the parameter `t`.
+    pub fn is_on_run(&self, run: usize, stretch: usize, t: f64) -> bool {
+        let (object, own) = self.at(stretch);
+        let unit = self.unit((object, own));
+        self.object_of_run(run) == self.object(stretch)
+            && object.run_holds(run - self.first_run[self.object(stretch)], own, t * unit)
+    }
+
+    /// The point of a stretch at `t` as the foot of a point `(x, y)` that touches it there.
+    pub fn touched(&self, stretch: usize, t: f64, x: f64, y: f64) -> Foot {
+        let at = self.support(stretch, t);
+        let (sin, cos) = at.alpha.sin_cos();
+        let gap = (x - at.x) * sin - (y - at.y) * cos;
+        Foot { t, gap, alpha: at.alpha, x: at.x, y: at.y, interior: true }
+    }
+
+    /// The run of an object that is nearest to a point.
+    pub fn run_at(&self, object: usize, x: f64, y: f64) -> usize {
+        self.first_run[object] + self.objects[object].run_at(x * self.length, y * self.length)
+    }
+
+    /// Bounds of the curvature of a whole run.
+    pub fn run_curvature(&self, run: usize) -> (f64, f64) {
+        let (_, object, own) = self.own_run(run);
+        let arcs = object.run_arcs(own).map(|part| self.curvature(object, part.stretch, part.range));
+        arcs.fold((f64::INFINITY, f64::NEG_INFINITY), |all, one| (all.0.min(one.0), all.1.max(one.1)))
+    }
+
+    /// Bounds of the curvature of a part of a stretch; by samples where the shape knows none, and then the contour is not
+    /// proven anyway.
+    fn curvature(&self, object: &Composite, stretch: usize, range: Range) -> (f64, f64) {
+        let (mut least, mut largest) = object.own_curvature_in(stretch, range);
+        if range.is_finite() && least == f64::NEG_INFINITY && largest == f64::INFINITY {
+            (least, largest) = (largest, least);
+            let mut change = 0.0;
+            let mut before = f64::NAN;
+            for k in 0..=SAMPLES {
+                let t = range.from + (range.to - range.from) * f64::from(k) / f64::from(SAMPLES);
+                let Frame { speed, turning, .. } = object.own_frame(stretch, t);
+                let here = turning / speed;
+                change = f64::max(change, (here - before).abs());
+                (least, largest, before) = (least.min(here), largest.max(here), here);
+            }
+            (least, largest) = (least - change, largest + change);
+        }
+        (least * self.length, largest * self.length)
+    }
+
+    /// The outward normals at both ends of a joint.
+    pub fn joint_normals(&self, joint: usize) -> [(f64, f64); 2] {
+        let Range { from, to } = self.range(joint);
+        [from, to].map(|t| {
+            let (sin, cos) = self.support(joint, t).alpha.sin_cos();
+            (sin, -cos)
+        })
+    }
+
+    /// Lower bound of the curvature of a stretch from `t` on in the sense `ahead` (+1 or -1), as far as the contour runs over the
+    /// tangent at `t` for a length of `reach` / 1.25, or to the end of the stretch; beyond that a run that bends outwards
+    /// keeps doing so. None where it turns by more than `most`.
+    pub fn curvature_ahead(
+        &self,
+        outward: bool,
+        stretch: usize,
+        t: f64,
+        ahead: f64,
+        reach: f64,
+        most: f64,
+    ) -> Option<f64> {
+        let (object, own) = self.at(stretch);
+        let here = self.support(stretch, t);
+        let border = self.border(stretch, ahead > 0.0);
+        let (sin, cos) = here.alpha.sin_cos();
+        // a contour that slows down is followed for longer
+        for longer in [1.0, 2.0, 4.0] {
+            let to = t + ahead * longer * reach / here.speed;
+            let clipped = (to - border) * ahead >= 0.0;
+            let to = if clipped { border } else { to };
+            if !to.is_finite() {
+                return None;
+            }
+            let there = self.support(stretch, to);
+            let over = ahead * ((there.x - here.x) * cos + (there.y - here.y) * sin);
+            if (there.alpha - here.alpha).abs() > most {
+                return None;
+            }
+            if !clipped && over < reach / 1.25 {
+                continue;
+            }
+            let unit = self.unit((object, own));
+            let range = Range { from: t.min(to) * unit, to: t.max(to) * unit };
+            let (least, largest) = self.curvature(object, own, range);
+            // where it bends both ways the ends do not tell the largest turn
+            if least < 0.0 && largest > 0.0 && 2.0 * longer * reach * least.abs().max(largest) > most {
+                return None;
+            }
+            return Some(if clipped && outward { least.min(0.0) } else { least });
+        }
+        None
+    }
+
+    /// Signed distance of a point from an object.
+    pub fn object_gap(&self, object: usize, x: f64, y: f64) -> f64 {
+        self.objects[object].gap(x * self.length, y * self.length) / self.length
+    }
+
+    /// Whether a point is inside an object by more than `tolerance`. What is deep behind an open contour came there around an
+    /// end of it, and what is nearest to an end of it is beside it.
+    pub fn is_inside(&self, object: usize, x: f64, y: f64, tolerance: f64) -> bool {
+        let object = &self.objects[object];
+        let (x, y) = (x * self.length, y * self.length);
+        if object.is_closed() {
+            return object.gap(x, y) < -tolerance * self.length;
+        }
+        let closest = object.closest(x, y);
+        let gap = closest.gap / self.length;
+        closest.interior && gap < -tolerance && gap > -self.skin
+    }
+
+    /// Whether a point is outside of the box of a closed object.
+    pub fn is_far_outside(&self, object: usize, x: f64, y: f64) -> bool {
+        let object = &self.objects[object];
+        is_bounded(object) && object.bounds().distance(x * self.length, y * self.length) > 0.0
+    }
+
+    /// Whether an object is a closed contour that bends one way: then the lines that keep it on one side tell the side.
+    pub fn is_one_convex(&self, object: usize) -> bool {
+        self.objects[object].is_convex_body()
+    }
+
+    /// Calls `visit` with the closed objects that are wholly within a box, and a point of each.
+    pub fn closed_objects_in(&self, around: Bounds, mut visit: impl FnMut(usize, (f64, f64))) {
+        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
+        let around = Bounds { min: scaled(around.min), max: scaled(around.max) };
+        self.index.meeting(around, &mut |number| {
+            let object = &self.objects[number];
+            let Bounds { min, max } = object.bounds();
+            let inside = (0..2).all(|i| min[i] >= around.min[i] && max[i] <= around.max[i]);
+            if is_bounded(object) && inside {
+                let Frame { x, y, .. } = object.frame(object.range().from);
+                visit(number, (x / self.length, y / self.length));
+            }
+        });
+    }
+
+    /// Calls `visit` with the objects whose boxes hold a point, and perhaps with others.
+    pub fn objects_at(&self, x: f64, y: f64, mut visit: impl FnMut(usize)) {
+        let point = Bounds::EMPTY.with(x * self.length, y * self.length);
+        self.index.meeting(point, &mut visit);
+    }
+
+    /// Whether bends and closest points of all objects are proven.
+    pub fn is_proven(&self) -> bool {
+        self.objects.iter().all(Composite::is_proven)
+    }
+
     /// Whether a point with a negative gap to `foot`, the closest point of a part of a stretch, is inside the solid,
     /// and there nearest to that part: what lies behind one part may be outside of the object or nearer to another
     /// part, whose gap it then is. What is deep behind an open contour came there around an end of it.
@@ -251,19 +454,6 @@ impl<'a> World<'a> {
     /// Whether `foot` is the end of its stretch at a notch.
     pub fn ends_in_notch(&self, stretch: usize, foot: &Foot) -> bool {
         !foot.interior && self.beyond_end(stretch, foot).is_some_and(|beyond| self.is_notch(beyond))
-    }
-
-    /// Whether the contour goes on smoothly beyond `foot`, an end of a part.
-    pub fn goes_on(&self, stretch: usize, foot: &Foot) -> bool {
-        let range = self.range(stretch);
-        let inside = range.from < foot.t && foot.t < range.to;
-        inside || self.beyond_end(stretch, foot).is_some_and(|on| matches!(self.kind(on), StretchKind::Piece(_)))
-    }
-
-    /// Whether `foot` is an end of an open contour.
-    pub fn is_open_end(&self, stretch: usize, foot: &Foot) -> bool {
-        let range = self.range(stretch);
-        (foot.t >= range.to || foot.t <= range.from) && self.beyond_end(stretch, foot).is_none()
     }
 
     /// The stretch beyond the end that `foot` is, if it is one.

@@ -14,7 +14,7 @@ pub fn judge(scene: &Scene, state: &State) -> Result<(), String> {
 
 /// Whether the certificate knows the smallest gap of the whole rod.
 pub fn judge_certified_gap(scene: &Scene, state: &State) -> Result<(), String> {
-    let certified = state.certificate.min_gap;
+    let certified = state.certificate.min_gap.lower;
     let (least, s) = least_gap(scene, state)?;
     hold(certified <= least + 1e-9 * scene.length, || {
         located(scene, state, &format!("the gap at s = {s} is {least:e}, certified {certified:e}"))
@@ -38,7 +38,7 @@ fn balances(scene: &Scene, state: &State) -> Result<(), String> {
         let (px, py) = (c.force * c.alpha.sin(), -c.force * c.alpha.cos());
         (fx, fy) = (fx + px, fy + py);
         m += (c.x - state.pose.x) * py - (c.y - state.pose.y) * px;
-        total += c.force;
+        total += c.force.abs();
         least = f64::min(least, c.force);
     }
     hold(fx.abs() <= 1e-12 * total && fy.abs() <= 1e-12 * total, || format!("forces leave ({fx:e}, {fy:e})"))?;
@@ -111,7 +111,7 @@ fn contacts(scene: &Scene, state: &State) -> Result<(), String> {
 /// Nothing penetrates, neither by the certificate nor by the brute force.
 fn outside(scene: &Scene, state: &State) -> Result<(), String> {
     let Scene { length, .. } = scene;
-    let certified = state.certificate.min_gap;
+    let certified = state.certificate.min_gap.lower;
     hold(certified >= -1e-9 * length, || format!("the certificate's gap is {certified:e}"))?;
     let (least, s) = least_gap(scene, state)?;
     hold(least >= -1e-9 * length, || format!("the rod goes through the object by {least:e} at s = {s}"))

@@ -29,6 +29,9 @@ const LONGEST_MOVE: f64 = 0.04;
 const REACH: f64 = 2.0 * LONGEST_MOVE;
 /// A step that moves no node further than this has arrived.
 const ARRIVED: f64 = 2e-5;
+/// Work of interior points, in units of the cube of their number, after which a descent is given up: half a second or so.
+/// Block pivoting settles nearly all steps, and costs next to nothing.
+const MOST_WORK: f64 = 1e8;
 /// Most steps.
 const MOST_STEPS: usize = 400;
 /// Time step over the damping time: the unconstrained shape loses half of its bend in a step of 1.
@@ -102,16 +105,25 @@ impl Chain {
 
     /// One implicit step under the gaps smaller than `reach`: how far it moved the chain, and the force at each near node.
     /// None where the programme failed.
-    fn step(&mut self, world: &World<'_>, time_step: f64, reach: f64) -> Option<(f64, Vec<(Near, f64)>)> {
+    fn step(
+        &mut self,
+        world: &World<'_>,
+        time_step: f64,
+        reach: f64,
+        work: &mut f64,
+    ) -> Option<(f64, Vec<(Near, f64)>)> {
         let (nodes, angles) = self.nodes();
         let near = near(world, &nodes, &angles, reach);
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
             let mut programme = Programme::new(self, &nodes, &near, time_step, push);
-            let (change, forces) = programme.solve().or_else(|| {
-                programme.yielding = YIELDING;
-                programme.solve()
-            })?;
+            let (change, forces) = match programme.solve(work) {
+                Some(solved) => solved,
+                None => {
+                    programme.yielding = YIELDING;
+                    programme.solve(work)?
+                }
+            };
             let mut moved = self.clone();
             for (joint, change) in moved.joints.iter_mut().zip(&change) {
                 *joint += change;
@@ -123,7 +135,7 @@ impl Chain {
                 return Some((way, near.into_iter().zip(forces).collect()));
             }
             if reach < REACH {
-                return self.step(world, time_step, REACH);
+                return self.step(world, time_step, REACH, work);
             }
             time_step *= (LONGEST_MOVE / way).min(0.5);
             push *= 0.5;
@@ -146,9 +158,9 @@ impl Chain {
 
     /// The force at each near node of the chain come to rest.
     fn come_to_rest(&mut self, world: &World<'_>) -> Option<Vec<(Near, f64)>> {
-        let (mut time_step, mut reach) = (TIME_STEP, REACH);
+        let (mut time_step, mut reach, mut work) = (TIME_STEP, REACH, MOST_WORK);
         for _ in 0..MOST_STEPS {
-            let (way, forces) = self.step(world, time_step, reach)?;
+            let (way, forces) = self.step(world, time_step, reach, &mut work)?;
             // what a slow chain cannot get to costs it nothing
             reach = (8.0 * way).clamp(0.25 * REACH, REACH);
             let inside = forces.iter().any(|(near, _)| near.gap < -0.5 * LINK);

@@ -6,6 +6,9 @@ use crate::world::World;
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::Section;
 
+/// Most stretches that a link is kept from entering in one step: of fine teeth the nearest ones.
+const MOST_A_LINK: usize = 6;
+
 /// A point of the chain near the contour: a node, or the point of a link that is next to a corner.
 pub(super) struct Near {
     /// Arc length, in links.
@@ -20,8 +23,9 @@ pub(super) struct Near {
 
 /// What could meet a contour within a step that moves nothing further than `reach`: nodes, and links at corners.
 pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reach: f64) -> Vec<Near> {
-    let mut near = Vec::new();
+    let mut near: Vec<Near> = Vec::new();
     for (link, &[x, y]) in nodes[1..].iter().enumerate() {
+        let first = near.len();
         world.parts_near(Bounds::EMPTY.with(x, y).grown(REACH), |part| {
             near.extend(match world.kind(part.stretch) {
                 // what holds the tip in a notch are the two pieces that end there
@@ -33,6 +37,10 @@ pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reac
                 StretchKind::Piece(_) => at_piece(world, part, (link + 1, x, y), reach),
             });
         });
+        if near.len() - first > MOST_A_LINK {
+            near[first..].sort_by(|a, b| a.gap.total_cmp(&b.gap));
+            near.truncate(first + MOST_A_LINK);
+        }
     }
     near
 }

@@ -60,9 +60,13 @@ impl Programme {
         bent
     }
 
-    /// Change d of the joints, force at each near node; none where there is none, or none was found.
-    pub fn solve(&self) -> Option<(Joints, Vec<f64>)> {
-        let forces = pressed(self).or_else(|| self.by_interior_points())?;
+    /// Change d of the joints, force at each near node; none where there is none, none was found, or the `work` that is left
+    /// does not do for it (in units of the cube of the number of near nodes).
+    pub fn solve(&self, work: &mut f64) -> Option<(Joints, Vec<f64>)> {
+        let forces = pressed(self).or_else(|| {
+            *work -= (self.rows.len() as f64).powi(3);
+            (*work >= 0.0).then(|| self.by_interior_points()).flatten()
+        })?;
         let bent = self.bent(&forces);
         Some((std::array::from_fn(|i| self.free[i] - bent[i]), forces))
     }
@@ -142,7 +146,7 @@ mod tests {
     fn nothing_near_gives_way_freely() {
         let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
         let (nodes, _) = chain.nodes();
-        let (change, forces) = Programme::new(&chain, &nodes, &[], 1.0, 0.03).solve().unwrap();
+        let (change, forces) = Programme::new(&chain, &nodes, &[], 1.0, 0.03).solve(&mut { f64::INFINITY }).unwrap();
         assert!(forces.is_empty());
         assert!(change.iter().zip(&chain.joints).all(|(change, joint)| (change + 0.5 * joint).abs() < 1e-15));
     }
@@ -155,9 +159,9 @@ mod tests {
         let wall = |alpha| Near { s: LINKS as f64, x, y, stretch: 0, gap: -0.01, alpha };
         let walls = [wall(0.0), wall(std::f64::consts::PI)];
         let mut programme = Programme::new(&chain, &nodes, &walls, 1.0, 0.03);
-        assert!(programme.solve().is_none());
+        assert!(programme.solve(&mut { f64::INFINITY }).is_none());
         programme.yielding = 1e-5;
-        let (_, forces) = programme.solve().unwrap();
+        let (_, forces) = programme.solve(&mut { f64::INFINITY }).unwrap();
         assert!((forces[0] - forces[1]).abs() < 1e-3 * forces[0] && forces[0] > 100.0, "{forces:?}");
     }
 }

@@ -1,0 +1,24 @@
+//! The gap between the whole rod and the objects: proven from below, or the places where the rod goes through.
+
+mod interval;
+mod prover;
+mod separator;
+mod touch;
+
+pub(crate) use prover::{Proof, Prover};
+
+use crate::world::Foot;
+
+/// Gaps down to minus this count as closed: what a residual at rounding level leaves.
+pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
+
+/// A place where the rod goes through the contour: a local minimum of the gap along the rod.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossing {
+    pub stretch: usize,
+    pub s: f64,
+    pub phi: f64,
+    pub foot: Foot,
+    /// At the end of the rod, where the gap still falls.
+    pub tip: bool,
+}
