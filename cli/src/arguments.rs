@@ -11,7 +11,9 @@ use vibrissa_cli::{FakeProtocol, Reading, SensorAddress, StageSpec};
 #[command(
     version,
     after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording that does not \
-                  fit its rod or its units, a sensor that does not suit the rod or fell silent."
+                  fit its rod or its units, a sensor that does not suit the rod or fell silent, 130 interrupted with Ctrl-C (143 with \
+                  SIGTERM). Interrupted, sweep, simulate and paper write what they have and mark it as incomplete, reconstruct \
+                  and contour write nothing; live and fake-sensor end as usual. A second time ends any of them at once."
 )]
 pub struct Arguments {
     /// What to do.
@@ -37,7 +39,7 @@ ends, the sensor is silent for 3 s, or with Ctrl-C.";
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Sweep the rod of a scene file: states.jsonl, states.csv, events.jsonl and sweep.svg
+    /// Sweep the rod of a scene file: states.jsonl, states.csv, events.jsonl, sweep.svg and sweep.json
     Sweep {
         /// The scene, a TOML file
         scene: PathBuf,

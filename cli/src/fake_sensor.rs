@@ -76,7 +76,7 @@ pub enum FakeError {
     )]
     Gauges,
     /// A pace that is none.
-    #[error("faster is {value}, expected a positive, finite number of times real time")]
+    #[error("--faster is {value}, expected a positive, finite number of times real time")]
     Pace {
         /// Its value.
         value: f64,

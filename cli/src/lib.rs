@@ -6,6 +6,7 @@ mod cycle;
 mod error;
 mod fake_sensor;
 mod figure;
+mod interrupt;
 mod interval;
 mod live;
 mod naive;
@@ -30,13 +31,14 @@ pub use cycle::Cycle;
 pub use error::Error;
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;
+pub use interrupt::{Interrupt, Interrupted};
 pub use interval::Interval;
 pub use live::{
     AddressError, Answer, End, Engine, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor,
     SensorAddress, StageSpec, StageSpecError,
 };
 pub use noise_file::read_noise;
-pub use output::{OutputError, Staged, write_profiles};
+pub use output::{OutputError, Staged, abandon, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub(crate) use reconstructed::naive_touch;

@@ -1,6 +1,7 @@
 //! The command `vibrissa`.
 
 mod arguments;
+mod signals;
 
 use arguments::{Arguments, Command, FakeSensor, Simulate};
 use clap::Parser;
@@ -8,12 +9,10 @@ use indicatif::ProgressBar;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::{NoiseModel, Stop};
 use vibrissa_cli::{
-    Error, FakeScan, LiveScan, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene, Sensor, SensorAddress,
-    Setup, Simulated, Simulation, StageSpec, Staged, read_noise, read_rod, write_profiles,
+    Error, FakeScan, Interrupted, LiveScan, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene, SceneError,
+    Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, read_noise, read_rod, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -39,16 +38,36 @@ fn main() -> ExitCode {
     })
 }
 
-fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+/// Reads a scene, and tells of what may be a mistake in it.
+fn read_scene(file: &Path) -> Result<Scene, SceneError> {
     let scene = Scene::read(file)?;
+    scene.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+    Ok(scene)
+}
+
+fn read_setup(file: &Path) -> Result<Setup, SceneError> {
+    let setup = Setup::read(file)?;
+    setup.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+    Ok(setup)
+}
+
+fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+    let scene = read_scene(file)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let caught = signals::ask();
     let staged = Staged::new(&out)?;
-    let scan = Scan::run(scene)?;
+    let scan = Scan::run_until(scene, &caught.interrupt)?;
+    if let Some(at) = scan.interrupted.filter(|_| scan.outcome.states.is_empty()) {
+        return Ok(interrupted(&scan.scene.name, &at, None, &caught));
+    }
     scan.write(&staged, Path::new(""))?;
     staged.publish()?;
     say(&scan.report());
     say(&format!("written to {}\n", out.display()));
-    Ok(verdict([&scan]))
+    Ok(match &scan.interrupted {
+        Some(at) => interrupted(&scan.scene.name, at, Some("sweep.json"), &caught),
+        None => verdict([&scan]),
+    })
 }
 
 fn contour(
@@ -57,7 +76,8 @@ fn contour(
     tolerance: Option<f64>,
     object: Option<usize>,
 ) -> Result<ExitCode, Error> {
-    let scene = Scene::read(file)?;
+    signals::end();
+    let scene = read_scene(file)?;
     let profiles = scene.profiles(tolerance, object)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
     let drawing = write_profiles(&scene.name, &profiles, &out)?;
@@ -72,14 +92,22 @@ fn contour(
 
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
-    let scene = Scene::read(&scene)?;
+    let scene = read_scene(&scene)?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
-    let Simulated { samples, lost, stop } = simulation.write(&out)?;
+    let caught = signals::ask();
+    let Simulated { samples, lost, stop, interrupted: at } = simulation.write(&out, &caught.interrupt)?;
     let name = &simulation.scene.name;
+    if let Some(at) = at.filter(|_| samples == 0) {
+        return Ok(interrupted(name, &at, None, &caught));
+    }
     say(&format!("{name}: {samples} samples, {lost} lost in dropouts\nwritten to {}\n", out.display()));
-    Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(name, &stop)))
+    Ok(match (at, stop) {
+        (Some(at), _) => interrupted(name, &at, Some("the last line of the file"), &caught),
+        (None, Some(stop)) => stopped(name, &stop),
+        (None, None) => ExitCode::SUCCESS,
+    })
 }
 
 fn reconstruct(
@@ -89,8 +117,9 @@ fn reconstruct(
     truth: Option<PathBuf>,
     out: Option<PathBuf>,
 ) -> Result<ExitCode, Error> {
+    signals::end();
     let rod = read_rod(rod)?;
-    let truth = truth.map(|scene| Scene::read(&scene)).transpose()?;
+    let truth = truth.map(|scene| read_scene(&scene)).transpose()?;
     let recording = Recording::read(file, &rod, how)?;
     for warning in recording.warnings() {
         warn(&format!("warning: {warning}\n"));
@@ -123,18 +152,17 @@ fn live(
     setup: Option<&Path>,
     out: &Path,
 ) -> Result<ExitCode, Error> {
-    let setup = setup.map_or_else(|| Ok(Setup::default()), Setup::read)?;
+    let setup = setup.map_or_else(|| Ok(Setup::default()), read_setup)?;
     let path = match (path, &stage) {
-        (Some(scene), _) => Some(Scene::read(scene)?.path),
+        (Some(scene), _) => Some(read_scene(scene)?.path),
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
-        (None, Some(StageSpec::Constant(_))) => Scene::read(rod).ok().map(|scene| scene.path),
+        (None, Some(StageSpec::Constant(_))) => read_scene(rod).ok().map(|scene| scene.path),
         (None, _) => None,
     };
     let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, reading };
     let sensor = Sensor::open(address, &scan.setup, &scan.reading)?;
-    let interrupted = interrupted();
-    let report =
-        scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupted.load(Ordering::Relaxed))?;
+    let interrupt = signals::ask().interrupt;
+    let report = scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
     say(&report.text());
     say(&format!("written to {}\n", out.display()));
     Ok(if report.is_complete() { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })
@@ -142,43 +170,42 @@ fn live(
 
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
-    let scene = Scene::read(&scene)?;
+    let scene = read_scene(&scene)?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
-    let setup = setup.map_or_else(|| Ok(Setup::default()), |file| Setup::read(&file))?;
+    let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
     let name = scene.name.clone();
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
-    let interrupted = interrupted();
+    let interrupt = signals::ask().interrupt;
     let scan = FakeScan { simulation, setup, protocol, faster, port, scaling_port };
-    let Played { samples, sent, stop } =
-        scan.run(&mut |line| say(&format!("{line}\n")), &|| interrupted.load(Ordering::Relaxed))?;
+    let Played { samples, sent, stop } = scan.run(&mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
     say(&format!("{sent} of {samples} samples sent\n"));
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
 }
 
-/// Set once somebody presses Ctrl-C; a second time ends the process.
-fn interrupted() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&flag);
-    // without a handler Ctrl-C ends the process at once, which loses the summary only
-    let _ = ctrlc::set_handler(move || {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
-    flag
-}
-
 fn paper(out: &Path) -> Result<ExitCode, Error> {
+    let caught = signals::ask();
     let staged = Staged::new(out)?;
     // Hidden by itself where stderr is no terminal.
     let bar = ProgressBar::new(Paper::SCANS as u64).with_message("scans");
     bar.tick();
-    let paper = Paper::run(|| bar.inc(1))?;
+    let paper = Paper::run(&caught.interrupt, || bar.inc(1))?;
     bar.finish_and_clear();
-    paper.write(&staged)?;
+    let done = paper.scans.len();
+    if done == 0 {
+        warn("warning: paper: interrupted before the first scan was done; nothing is written\n");
+        return Ok(caught.status());
+    }
+    let complete = paper.write(&staged, &caught.interrupt)?;
     staged.publish()?;
     say(&paper.report());
     say(&format!("written to {}\n", out.display()));
+    if !complete {
+        let all = Paper::SCANS;
+        warn(&format!(
+            "warning: paper: interrupted with {done} of {all} scans done; these are written, and paper.json says that they are not all\n"
+        ));
+        return Ok(caught.status());
+    }
     let finished = verdict(paper.scans.iter().map(|scan| &scan.scan));
     let agrees = paper.scans.iter().all(|scan| scan.matches());
     Ok(if agrees { finished } else { ExitCode::from(UNFINISHED) })
@@ -198,6 +225,16 @@ fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
 fn stopped(name: &str, stop: &Stop) -> ExitCode {
     warn(&format!("warning: {name}: {stop}; everything before that is written\n"));
     ExitCode::from(UNFINISHED)
+}
+
+/// Tells of an interruption; `marked` is what says so among the results, if there are any.
+fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &signals::Caught) -> ExitCode {
+    let written = marked.map_or_else(
+        || "nothing is written".to_owned(),
+        |place| format!("everything before that is written, and {place} says that it is incomplete"),
+    );
+    warn(&format!("warning: {name}: {at}; {written}\n"));
+    caught.status()
 }
 
 /// Shows an error: with the place in the scene for people, on one line for everything else.

@@ -68,11 +68,11 @@ fn point(scan: &Scan, state: &State) -> Option<NaivePoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Paper;
+    use crate::{Interrupt, Paper};
 
     #[test]
     fn one_contact_comes_back_and_two_do_not() {
-        let paper = Paper::run(|| ()).unwrap();
+        let paper = Paper::run(&Interrupt::default(), || ()).unwrap();
         for scan in &paper.scans {
             let naive = Naive::of(scan).unwrap();
             assert_eq!(naive.points.len(), naive.states.len(), "{}", scan.scan.scene.name);

@@ -1,9 +1,11 @@
 //! The nine scans of Merker et al. (2021): three objects at three distances.
 
 use crate::naive::Naive;
+use crate::output::pretty_json;
 use crate::resolved::Resolved;
-use crate::{Error, Scan, Scene, Staged, figure};
+use crate::{Error, Interrupt, Scan, Scene, Staged, figure};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::path::Path;
 
 /// The objects.
@@ -58,28 +60,59 @@ impl PaperScan {
     }
 }
 
-/// The nine scans.
+impl<'a> From<&'a PaperScan> for PaperScanRecord<'a> {
+    fn from(of: &'a PaperScan) -> Self {
+        let PaperScan { expected, scan, .. } = of;
+        Self { name: &scan.scene.name, phases: scan.cycle().to_string(), expected, matches: of.matches() }
+    }
+}
+
+/// The nine scans, or those of them that were done when they were interrupted.
 #[derive(Debug)]
 pub struct Paper {
     /// By object, then by distance.
     pub scans: Vec<PaperScan>,
 }
 
+/// paper.json: whether all scans and figures are there, and how the scans compare with the paper.
+#[derive(Serialize)]
+struct PaperRecord<'a> {
+    /// Whether all scans and the figures of all scans are there.
+    complete: bool,
+    scans: Vec<PaperScanRecord<'a>>,
+    /// Scenes of the scans that were not done.
+    missing: Vec<&'static str>,
+}
+
+#[derive(Serialize)]
+struct PaperScanRecord<'a> {
+    name: &'a str,
+    phases: String,
+    expected: &'static str,
+    matches: bool,
+}
+
 impl Paper {
     /// How many scans there are.
     pub const SCANS: usize = SCANS.len();
 
-    /// Runs all scans at once; `done` is called after each.
+    /// Runs all scans at once; `done` is called after each. Interrupted, it keeps those that are done.
     ///
     /// # Errors
     /// [`Error::Scene`] and [`Error::Contact`], were a scene of this crate no scene.
-    pub fn run(done: impl Fn() + Sync) -> Result<Self, Error> {
+    pub fn run(interrupt: &Interrupt, done: impl Fn() + Sync) -> Result<Self, Error> {
         let scan = |(object, distance, expected, file, text): Entry| {
-            let scan = Scan::run(Scene::parse(Path::new(file), text)?)?;
+            let scan = Scan::run_until(Scene::parse(Path::new(file), text)?, interrupt)?;
             done();
-            Ok(PaperScan { object, distance, expected, scan })
+            Ok(scan.interrupted.is_none().then_some(PaperScan { object, distance, expected, scan }))
         };
-        Ok(Self { scans: SCANS.into_par_iter().map(scan).collect::<Result<_, Error>>()? })
+        let scans = SCANS.into_par_iter().map(scan).collect::<Result<Vec<_>, Error>>()?;
+        Ok(Self { scans: scans.into_iter().flatten().collect() })
+    }
+
+    /// Whether all nine scans are there.
+    pub fn is_complete(&self) -> bool {
+        self.scans.len() == Self::SCANS
     }
 
     /// The scan of an object at a distance (mm).
@@ -87,20 +120,38 @@ impl Paper {
         self.scans.iter().find(|scan| scan.object == object && scan.distance == distance)
     }
 
-    /// Writes the files of each scan into a folder of its own, and beside the folders the figures of all scans: phase
-    /// cycles and transitions, phase criterion, goodness of fit, contact points at one distance and at all three,
-    /// and both contacts where there are two.
+    /// Writes the files of each scan into a folder of its own, and beside the folders paper.json, which says how the scans
+    /// compare with the paper, and the figures of all scans: phase cycles and transitions, phase criterion, goodness of
+    /// fit, contact points at one distance and at all three, and both contacts where there are two. Interrupted, or where
+    /// scans are missing, it leaves these figures out. Returns whether everything was written.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged) -> Result<(), Error> {
+    pub fn write(&self, staged: &Staged, interrupt: &Interrupt) -> Result<bool, Error> {
         self.scans.par_iter().try_for_each(|scan| scan.scan.write(staged, Path::new(&scan.scan.scene.name)))?;
+        let figures = if self.is_complete() { self.figures(interrupt)? } else { None };
+        let complete = figures.is_some();
+        for (name, figure) in figures.into_iter().flatten() {
+            staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
+        }
+        staged.write(Path::new("paper.json"), |file| pretty_json(file, &self.record(complete)))?;
+        Ok(complete)
+    }
+
+    /// Name and content of the figures of all scans; none where they were interrupted.
+    fn figures(&self, interrupt: &Interrupt) -> Result<Option<[(&'static str, String); 7]>, Error> {
         let naive: Vec<Naive<'_>> = self.scans.par_iter().map(Naive::of).collect::<Result<_, Error>>()?;
         let middle: Vec<&Naive<'_>> = naive.iter().filter(|scan| scan.scan.distance == 40).collect();
+        if interrupt.is_raised() {
+            return Ok(None);
+        }
         let resolved: Vec<Resolved<'_>> =
             middle.par_iter().map(|scan| Resolved::of(scan.scan)).collect::<Result<_, Error>>()?;
         let middle_scans: Vec<&Scan> = middle.iter().map(|scan| &scan.scan.scan).collect();
-        for (name, figure) in [
+        if interrupt.is_raised() {
+            return Ok(None);
+        }
+        Ok(Some([
             ("goodness_of_fit.svg", figure::goodness(&naive)?),
             ("contact_points.svg", figure::contact_points(&middle)?),
             ("criterion.svg", figure::criterion(&middle_scans)?),
@@ -108,9 +159,15 @@ impl Paper {
             ("phase_diagram.svg", figure::transitions(self.scans.iter().map(|scan| &scan.scan))?),
             ("distances.svg", figure::distances(&naive)?),
             ("notches.svg", figure::notches(&resolved)?),
-        ] {
-            staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
+        ]))
+    }
+
+    fn record(&self, complete: bool) -> PaperRecord<'_> {
+        let is_missing = |entry: &&Entry| self.find(entry.0, entry.1).is_none();
+        PaperRecord {
+            complete,
+            scans: self.scans.iter().map(PaperScanRecord::from).collect(),
+            missing: SCANS.iter().filter(is_missing).map(|entry| entry.3).collect(),
         }
-        Ok(())
     }
 }

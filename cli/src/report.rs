@@ -8,7 +8,9 @@ impl Scan {
     /// A line on the phases, one on each thing a user should know, and the table of events.
     pub fn report(&self) -> String {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
-        let mut text = format!("{}: {}; {states} states, {events} events\n", self.scene.name, self.cycle().titled());
+        let incomplete = if self.is_complete() { "" } else { "incomplete, " };
+        let phases = self.cycle().titled();
+        let mut text = format!("{}: {incomplete}{phases}; {states} states, {events} events\n", self.scene.name);
         if let (Some(limit), Some(most)) = (self.scene.rod.yield_stress(), self.largest_stress())
             && most > limit
         {
@@ -50,7 +52,10 @@ impl Scan {
 impl Paper {
     /// The cycles beside the paper's, and the events of every scan.
     pub fn report(&self) -> String {
-        format!("phase cycles (the paper's beside them)\n{}\n{}", self.cycle_table(), self.event_tables())
+        let (done, all) = (self.scans.len(), Self::SCANS);
+        let incomplete =
+            if self.is_complete() { String::new() } else { format!("incomplete: {done} of {all} scans\n") };
+        format!("{incomplete}phase cycles (the paper's beside them)\n{}\n{}", self.cycle_table(), self.event_tables())
     }
 
     fn cycle_table(&self) -> Table {

@@ -1,6 +1,8 @@
 //! Made-up outcomes for tests: what happened and where, without mechanics.
 
-use vibrissa::{Certificate, ClampPath, Contact, ContactKind, Event, EventKind, Outcome, Pose, Reactions, State};
+use vibrissa::{
+    Certificate, ClampPath, Contact, ContactKind, Event, EventKind, GapBounds, Outcome, Pose, Reactions, State,
+};
 
 fn pose(x: f64) -> Pose {
     Pose { x, y: 0.0, phi: 0.0 }
@@ -31,7 +33,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
         max_stress: None,
         certificate: Certificate {
             residual: 0.0,
-            min_gap: 0.0,
+            min_gap: GapBounds { lower: 0.0, seen: 0.0, proven: true },
             min_force: 0.0,
             first_integral: 0.0,
             stable: true,

@@ -1,8 +1,8 @@
 //! A scene that was swept.
 
 use crate::interval::{self, Interval};
-use crate::{Cycle, Error, Scene};
-use vibrissa::Outcome;
+use crate::{Cycle, Error, Interrupt, Interrupted, Scene};
+use vibrissa::{Item, Outcome};
 
 /// A scene and all its states and events.
 #[derive(Debug)]
@@ -11,6 +11,8 @@ pub struct Scan {
     pub scene: Scene,
     /// What came out.
     pub outcome: Outcome,
+    /// Where the sweep was when it was interrupted, if it was.
+    pub interrupted: Option<Interrupted>,
 }
 
 impl Scan {
@@ -19,8 +21,44 @@ impl Scan {
     /// # Errors
     /// [`Error::Contact`] where the scene's step is no step.
     pub fn run(scene: Scene) -> Result<Self, Error> {
-        let outcome = scene.sweep()?.run();
-        Ok(Self { scene, outcome })
+        Self::run_until(scene, &Interrupt::default())
+    }
+
+    /// The same, but only as far as it has come when it is interrupted. That is looked at between states.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn run_until(scene: Scene, interrupt: &Interrupt) -> Result<Self, Error> {
+        let mut outcome = Outcome { states: Vec::new(), events: Vec::new(), stop: None };
+        let (mut pose, mut interrupted) = (None, None);
+        let mut sweep = scene.sweep()?;
+        loop {
+            if interrupt.is_raised() {
+                interrupted = Some(Interrupted { pose });
+                break;
+            }
+            match sweep.next() {
+                Some(Ok(Item::State(state))) => {
+                    pose = Some(state.pose);
+                    outcome.states.push(state);
+                }
+                Some(Ok(Item::Event(event))) => {
+                    pose = Some(event.pose());
+                    outcome.events.push(event);
+                }
+                Some(Err(stop)) => {
+                    outcome.stop = Some(stop);
+                    break;
+                }
+                None => break,
+            }
+        }
+        Ok(Self { scene, outcome, interrupted })
+    }
+
+    /// Whether the sweep came to the end of the path.
+    pub fn is_complete(&self) -> bool {
+        self.outcome.stop.is_none() && self.interrupted.is_none()
     }
 
     /// The phases in order.

@@ -20,6 +20,14 @@ pub enum RodError {
         /// Its value as given.
         value: f64,
     },
+    /// A wire that is thicker than it is long: no rod, and most often a length in m with a diameter in mm.
+    #[error("diameter is {diameter:?} m, expected at most the length, {length:?} m")]
+    TooThick {
+        /// Diameter as given, m.
+        diameter: f64,
+        /// Length as given, m.
+        length: f64,
+    },
     /// The arc lengths of the loads do not grow from the clamp to the tip.
     #[error(
         "load {index} acts at arc length {s}, expected a value from {least} to {most}: loads are ordered from clamp to tip"

@@ -49,12 +49,19 @@ impl Rod {
     /// A round wire of `length` (m), `diameter` (m) and `youngs_modulus` (Pa): E I = E pi d^4 / 64.
     ///
     /// # Errors
-    /// [`RodError::NotPositive`] where one of them is not a positive, finite number.
+    /// [`RodError::NotPositive`] where one of them is not a positive, finite number, and [`RodError::TooThick`] where the
+    /// diameter is larger than the length.
     pub fn from_diameter(length: f64, diameter: f64, youngs_modulus: f64) -> Result<Self, RodError> {
         positive("diameter", diameter)?;
         positive("youngs_modulus", youngs_modulus)?;
+        positive("length", length)?;
+        if diameter > length {
+            return Err(RodError::TooThick { diameter, length });
+        }
         let square = diameter * diameter;
-        let rod = Self::new(length, youngs_modulus * PI * (square * square) / 64.0)?;
+        let bending_stiffness = youngs_modulus * PI * (square * square) / 64.0;
+        positive("youngs_modulus pi diameter^4 / 64, the bending stiffness,", bending_stiffness)?;
+        let rod = Self::new(length, bending_stiffness)?;
         Ok(Self { wire: Some(Wire { diameter, youngs_modulus }), ..rod })
     }
 
@@ -134,11 +141,21 @@ mod tests {
             (Rod::new(1e-310, 1e-310), "1 / length"),
             (Rod::from_diameter(1.0, -1.0, 1.0), "diameter"),
             (Rod::from_diameter(1.0, 1.0, f64::INFINITY), "youngs_modulus"),
+            (Rod::from_diameter(1.0, 1e-100, 1.0), "youngs_modulus pi diameter^4 / 64"),
             (Rod::new(1.0, 1.0).unwrap().with_yield_stress(0.0), "yield_stress"),
         ] {
             let message = result.unwrap_err().to_string();
             assert!(message.contains(what) && message.contains("positive"), "{message}");
         }
+    }
+
+    #[test]
+    fn a_wire_is_not_thicker_than_long() {
+        // 0.5 mm, taken for 0.5 m
+        let error = Rod::from_diameter(0.1, 0.5, 206e9).unwrap_err();
+        assert_eq!(error, RodError::TooThick { diameter: 0.5, length: 0.1 });
+        assert_eq!(error.to_string(), "diameter is 0.5 m, expected at most the length, 0.1 m");
+        assert!(Rod::from_diameter(0.1, 0.1, 206e9).is_ok());
     }
 
     #[test]

@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn a_contour_elsewhere_is_not_seen() {
-        let line = Composite::single(Parabola::new([0.0, 7.0], 0.0).unwrap());
+        let line = Composite::single(Parabola::new([0.0, 7.0], 0.0).unwrap()).unwrap();
         assert!(visible(&line, Bounds { min: [0.0, 0.0], max: [1.0, 1.0] }).is_empty());
     }
 }

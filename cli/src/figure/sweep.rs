@@ -32,7 +32,11 @@ pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
 
 /// The name of the scene and its phases, as many as there is room for.
 fn title(scan: &Scan) -> String {
-    let stop = if scan.outcome.stop.is_some() { ", stopped early" } else { "" };
+    let stop = match (&scan.interrupted, &scan.outcome.stop) {
+        (Some(_), _) => ", interrupted",
+        (None, Some(_)) => ", stopped early",
+        (None, None) => "",
+    };
     let start = format!("{}: phases ", scan.scene.name);
     let fits = |title: &String| width(title, TITLE) <= SIZE.0 as i32 - 2 * EDGE;
     let whole = format!("{start}{}{stop}", scan.cycle().titled());
@@ -78,7 +82,7 @@ mod tests {
         let scene = Scene::parse("O1_q40.toml".as_ref(), include_str!("../../../scenes/O1_q40.toml")).unwrap();
         let names = ["A", "B", "BA", "BB"].repeat(30);
         let events = names.windows(2).map(|pair| event(1.0, pair[0], pair[1], EventKind::Touch)).collect();
-        let title = title(&Scan { scene, outcome: outcome(&[(0.0, "A")], events) });
+        let title = title(&Scan { scene, outcome: outcome(&[(0.0, "A")], events), interrupted: None });
         assert!(title.starts_with("O1_q40: phases A B BA BB A") && title.ends_with(" …"), "{title}");
         assert!((1500..SIZE.0 as i32).contains(&width(&title, TITLE)), "{}", width(&title, TITLE));
     }

@@ -144,7 +144,7 @@ mod tests {
             ("BA", "A", EventKind::Snap),
         ];
         let events = steps.into_iter().map(|(from, to, kind)| event(1.0, from, to, kind)).collect();
-        let scan = Scan { scene, outcome: outcome(&[(0.0, "free")], events) };
+        let scan = Scan { scene, outcome: outcome(&[(0.0, "free")], events), interrupted: None };
         let counts = count([&scan]);
         let expected = [
             ((Label::Free, Label::A, false), 1),

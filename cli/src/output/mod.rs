@@ -3,17 +3,21 @@
 mod profile;
 mod records;
 mod staged;
+mod stages;
+mod sweep;
 
 pub use profile::write_profiles;
 pub use staged::{OutputError, Staged};
+pub use stages::abandon;
 
 use crate::{Error, Scan, figure};
 use records::{CSV_COLUMNS, EventRecord, StateRecord, csv_row};
 use std::io::{self, Write};
 use std::path::Path;
+use sweep::SweepRecord;
 
 impl Scan {
-    /// Writes states.jsonl, states.csv, events.jsonl and sweep.svg into `folder` of the staged directory.
+    /// Writes states.jsonl, states.csv, events.jsonl, sweep.svg and sweep.json into `folder` of the staged directory.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
@@ -23,6 +27,7 @@ impl Scan {
         staged.write(&folder.join("states.csv"), |file| self.write_table(file))?;
         staged.write(&folder.join("events.jsonl"), |file| self.write_events(file))?;
         staged.write(&folder.join("sweep.svg"), |file| file.write_all(figure.as_bytes()))?;
+        staged.write(&folder.join("sweep.json"), |file| pretty_json(file, &SweepRecord::from(self)))?;
         Ok(())
     }
 
@@ -65,6 +70,11 @@ pub(crate) fn write_csv(
 /// Writes rows as they are, the names of the columns being one of them.
 pub(crate) fn csv_writer(out: &mut dyn Write) -> csv::Writer<&mut dyn Write> {
     csv::WriterBuilder::new().has_headers(false).from_writer(out)
+}
+
+pub(crate) fn pretty_json(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, record)?;
+    out.write_all(b"\n")
 }
 
 fn json_line(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {

@@ -19,6 +19,9 @@ pub(super) struct StateRecord {
     stable: bool,
     energy: f64,
     max_stress: Option<f64>,
+    /// Proven lower bound of the gap; none where the rod goes through.
+    min_gap_bound: Option<f64>,
+    gap_proven: bool,
 }
 
 impl From<&State> for StateRecord {
@@ -33,10 +36,12 @@ impl From<&State> for StateRecord {
             m0z: state.reactions.m0z,
             contacts: state.contacts.iter().map(ContactRecord::from).collect(),
             residual: state.certificate.residual,
-            min_gap: state.certificate.min_gap,
+            min_gap: state.certificate.min_gap.seen,
             stable: state.certificate.stable,
             energy: state.energy,
             max_stress: state.max_stress,
+            min_gap_bound: Some(state.certificate.min_gap.lower).filter(|bound| bound.is_finite()),
+            gap_proven: state.certificate.min_gap.proven,
         }
     }
 }
@@ -98,12 +103,27 @@ impl From<&Event> for EventRecord {
 }
 
 /// The columns of states.csv.
-pub(super) const CSV_COLUMNS: [&str; 12] =
-    ["x0", "y0", "phi0", "phase", "f0x", "f0y", "m0z", "residual", "min_gap", "stable", "energy", "max_stress"];
+pub(super) const CSV_COLUMNS: [&str; 14] = [
+    "x0",
+    "y0",
+    "phi0",
+    "phase",
+    "f0x",
+    "f0y",
+    "m0z",
+    "residual",
+    "min_gap",
+    "stable",
+    "energy",
+    "max_stress",
+    "min_gap_bound",
+    "gap_proven",
+];
 
 /// A row of states.csv.
 pub(super) fn csv_row(state: &State) -> impl Serialize {
-    let StateRecord { x0, y0, phi0, phase, f0x, f0y, m0z, contacts: _, residual, min_gap, stable, energy, max_stress } =
-        state.into();
-    (x0, y0, phi0, phase, f0x, f0y, m0z, residual, min_gap, stable, energy, max_stress)
+    let r = StateRecord::from(state);
+    let forces = (r.f0x, r.f0y, r.m0z);
+    let checks = (r.residual, r.min_gap, r.stable);
+    ((r.x0, r.y0, r.phi0, r.phase), forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven))
 }

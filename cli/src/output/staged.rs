@@ -1,5 +1,6 @@
 //! A directory of results that appears as a whole or not at all.
 
+use super::stages::{self, Registration};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -40,11 +41,13 @@ pub enum OutputError {
 }
 
 /// Files written beside where they belong, and moved there by [`publish`](Self::publish) once all of them are complete.
-/// Dropped before, it leaves what was there untouched.
+/// Dropped before, it leaves what was there untouched. [`abandon`](super::abandon) does that for all of a process.
 #[derive(Debug)]
 pub struct Staged {
     target: PathBuf,
     stage: TempDir,
+    // after the stage, in which order they are dropped
+    _registration: Registration,
 }
 
 impl Staged {
@@ -53,13 +56,17 @@ impl Staged {
     /// # Errors
     /// [`OutputError::Directory`].
     pub fn new(target: &Path) -> Result<Self, OutputError> {
+        let mut stages = stages::lock();
+        let missing = |directory: &&Path| !directory.as_os_str().is_empty() && !directory.exists();
+        let made = target.ancestors().take_while(missing).map(Path::to_path_buf).collect();
         let stage = || {
             fs::create_dir_all(target)?;
             // Within the target: a rename never crosses from one file system to another.
             tempfile::Builder::new().prefix(".vibrissa-").tempdir_in(target)
         };
         let stage = stage().map_err(|source| OutputError::Directory { directory: target.to_path_buf(), source })?;
-        Ok(Self { target: target.to_path_buf(), stage })
+        let _registration = stages.open(stage.path(), made);
+        Ok(Self { target: target.to_path_buf(), stage, _registration })
     }
 
     /// Files for the directory of the file `out`, and the name of that one there.
@@ -87,11 +94,15 @@ impl Staged {
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), OutputError> {
         let file = self.stage.path().join(name);
-        let write = || {
+        let create = || {
+            let _held = stages::lock();
             if let Some(folder) = file.parent() {
                 fs::create_dir_all(folder)?;
             }
-            let mut out = BufWriter::new(File::create(&file)?);
+            File::create(&file)
+        };
+        let write = || {
+            let mut out = BufWriter::new(create()?);
             content(&mut out)?;
             out.flush()
         };
@@ -103,6 +114,9 @@ impl Staged {
     /// # Errors
     /// [`OutputError::File`]; those moved before it stay.
     pub fn publish(self) -> Result<(), OutputError> {
+        // let go before `self`, which takes it again when it is dropped
+        let mut stages = stages::lock();
+        stages.published = true;
         publish(self.stage.path(), &self.target).map_err(|(file, source)| OutputError::File { file, source })
     }
 }
@@ -146,5 +160,19 @@ mod tests {
         drop(staged);
         assert_eq!(fs::read(&good).unwrap(), b"good");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "the stage is gone");
+    }
+
+    #[test]
+    fn directories_made_for_nothing_go_again() {
+        let dir = tempfile::tempdir().unwrap();
+        let staged = Staged::new(&dir.path().join("a/b")).unwrap();
+        staged.write("file".as_ref(), |out| out.write_all(b"half")).unwrap();
+        assert!(dir.path().join("a/b").exists());
+        drop(staged);
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+
+        fs::create_dir(dir.path().join("a")).unwrap();
+        drop(Staged::new(&dir.path().join("a/b")).unwrap());
+        assert!(dir.path().join("a").exists(), "what was there before stays");
     }
 }

@@ -98,13 +98,14 @@ mod tests {
 
     #[test]
     fn a_line_is_followed_to_the_end_of_the_reach() {
-        let line = Composite::single(Parabola::new([0.0, 0.9], 0.0).unwrap());
+        let line = Composite::single(Parabola::new([0.0, 0.9], 0.0).unwrap()).unwrap();
         let range = Reach::new(&path(), 1.0).range(&line, 0);
         assert!((range.from + 1.2).abs() < 1e-12 && (range.to - 11.2).abs() < 1e-12, "{range:?}");
-        let far = Composite::single(Parabola::new([0.0, 9.0], 0.0).unwrap());
+        let far = Composite::single(Parabola::new([0.0, 9.0], 0.0).unwrap()).unwrap();
         let range = Reach::new(&path(), 1.0).range(&far, 0);
         assert!((range.to - 10.0 - (9.5_f64 * 9.5 - 81.0).sqrt()).abs() < 1e-9, "{range:?}");
-        let half = Composite::single(Parabola::new([0.0, 0.9], 0.0).unwrap().between(1.0, f64::INFINITY).unwrap());
+        let half =
+            Composite::single(Parabola::new([0.0, 0.9], 0.0).unwrap().between(1.0, f64::INFINITY).unwrap()).unwrap();
         assert_eq!(Reach::new(&path(), 1.0).range(&half, 0).from, 1.0);
     }
 }

@@ -11,7 +11,7 @@ mod truth;
 pub(crate) use truth::naive_touch;
 pub use truth::{Comparison, Transition, TruthError};
 
-use crate::output::write_csv;
+use crate::output::{pretty_json, write_csv};
 use crate::{Error, Recording, Scene, Staged, figure};
 pub(crate) use points::PointRecord;
 use report::ReportRecord;
@@ -91,10 +91,7 @@ impl Reconstructed {
     pub fn write(&self, staged: &Staged) -> Result<(), Error> {
         staged.write(Path::new("points.jsonl"), |file| self.write_points(file))?;
         staged.write(Path::new("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
-        staged.write(Path::new("report.json"), |file| {
-            serde_json::to_writer_pretty(&mut *file, &ReportRecord::of(self))?;
-            file.write_all(b"\n")
-        })?;
+        staged.write(Path::new("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;
         for (name, figure) in [("contour.svg", figure::reconstruction(self)?), ("phases.svg", figure::reactions(self)?)]
         {
             staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;

@@ -41,6 +41,8 @@ pub struct Recording {
     pub late: Vec<u64>,
     /// Whether the end is missing, as far as that can be told.
     pub cut: bool,
+    /// What the file says where it ends early, as `vibrissa simulate` does when it is interrupted.
+    pub incomplete: Option<String>,
 }
 
 /// How to read a recording, where the file alone does not tell.

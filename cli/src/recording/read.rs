@@ -3,6 +3,7 @@
 use super::columns::find;
 use super::row::{RowFault, RowProblem, sample};
 use super::{Reading, Recording, RecordingError, Row};
+use crate::simulation::INCOMPLETE;
 use std::path::Path;
 use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError};
 use vibrissa::{Halt, Rod, Travel};
@@ -92,7 +93,8 @@ impl Recording {
         let ignored = columns.ignored(&table).map(str::to_owned).collect();
         let cut = rows.last().is_some_and(|row| matches!(row, Err(RowFault { problem, .. }) if is_cut(problem)));
         let cut = cut || table.is_whole() == Some(false);
-        Ok(Self { file, rows, ignored, late, cut })
+        let incomplete = table.note(INCOMPLETE).map(str::to_owned);
+        Ok(Self { file, rows, ignored, late, cut, incomplete })
     }
 }
 

@@ -10,7 +10,7 @@ const MOST_LINES: usize = 5;
 
 impl Recording {
     /// A line for each kind of fault, with the file, the first lines where it is, and how many there are; for a time
-    /// that does not grow; and for columns that are not looked at.
+    /// that does not grow; for columns that are not looked at; and for an end that is missing.
     pub fn warnings(&self) -> Vec<String> {
         let file = self.file.display();
         let mut warnings = Vec::new();
@@ -41,6 +41,9 @@ impl Recording {
         }
         if self.cut {
             warnings.push(format!("{file}: the end of the recording is missing"));
+        }
+        if let Some(why) = &self.incomplete {
+            warnings.push(format!("{file}: the recording is incomplete: {why}"));
         }
         warnings
     }

@@ -6,7 +6,7 @@ use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
-use vibrissa::{ClampPath, ContactError, Pose, Rod, RodError};
+use vibrissa::{ClampPath, ContactError, LARGEST_ANGLE, Pose, Rod, RodError};
 
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
 pub(crate) const MOST_STATES: f64 = 1e6;
@@ -18,7 +18,7 @@ pub(super) fn scene(name: String, document: Document, directory: &Path) -> Resul
     let objects = object::all(&tables, &contour, &objects, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
-    Ok(Scene { name, rod, objects, path, step })
+    Ok(Scene { name, rod, objects, path, step, warnings: Vec::new() })
 }
 
 pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
@@ -35,6 +35,7 @@ pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
             RodError::NotPositive { what, .. } => {
                 fields.iter().find(|(name, _)| name == what).and_then(|(_, field)| *field)
             }
+            RodError::TooThick { .. } => diameter.as_ref(),
             _ => None,
         };
         Fault::new(field.map_or(table.span(), Spanned::span), error.to_string())
@@ -74,7 +75,9 @@ fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {
     ClampPath::new(pose(from, angle), pose(to, angle_to)).map_err(|error| {
         let (span, message) = match &error {
             ContactError::NotFinite { what: "from.phi", .. } => (angle.span(), not("angle", *angle.get_ref())),
-            ContactError::NotFinite { what: "to.phi", .. } => (angle_to.span(), not("angle", *angle_to.get_ref())),
+            ContactError::NotFinite { what: "to.phi", .. } => (angle_to.span(), not("angle_to", *angle_to.get_ref())),
+            ContactError::Angle { what: "from.phi", .. } => (angle.span(), too_large("angle", *angle.get_ref())),
+            ContactError::Angle { .. } => (angle_to.span(), too_large("angle_to", *angle_to.get_ref())),
             ContactError::NotFinite { what, .. } if what.starts_with("from") => (from.span(), error.to_string()),
             ContactError::NoPath { .. } => {
                 let message = "the path ends where it starts, expected two different positions, or angle_to for a clamp that turns";
@@ -90,6 +93,11 @@ fn not(what: &str, value: f64) -> String {
     format!("{what} is {value}, expected a finite number of degrees")
 }
 
+fn too_large(what: &str, value: f64) -> String {
+    let most = LARGEST_ANGLE.to_degrees().floor();
+    format!("{what} is {value} degrees, expected at most {most} degrees either way")
+}
+
 /// The step in the unit of the path's parameter.
 fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
     let SweepTable { step, step_angle, .. } = table.get_ref();
@@ -102,9 +110,15 @@ fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
             counted(step.span(), "step_angle", angle, path.length().to_degrees()).map(f64::to_radians)
         }
         (true, Some(step), _) => {
-            Err(Fault::new(step.span(), "the clamp turns without moving, expected step_angle in degrees instead"))
+            let (span, step) = (step.span(), step.get_ref());
+            let message =
+                format!("step is {step}, but the clamp turns without moving, expected step_angle in degrees instead");
+            Err(Fault::new(span, message))
         }
-        (false, _, Some(step)) => Err(Fault::new(step.span(), "the clamp moves, expected only step in m")),
+        (false, _, Some(step)) => {
+            let (span, step) = (step.span(), step.get_ref());
+            Err(Fault::new(span, format!("step_angle is {step}, but the clamp moves, expected only step in m")))
+        }
         (false, None, None) => Err(missing("`step` (m)")),
         (true, None, None) => Err(missing("`step_angle` (degrees)")),
     }

@@ -16,6 +16,8 @@ pub use rod::read_rod;
 use crate::SceneError;
 use crate::toml_file;
 use std::path::Path;
+use toml::Spanned;
+use toml::de::DeTable;
 use vibrissa::{ClampPath, Composite, ContactError, Rod, Sweep};
 
 /// A rod swept along a contour.
@@ -31,6 +33,8 @@ pub struct Scene {
     pub path: ClampPath,
     /// Distance between reported states: m, or radians where the clamp only turns.
     pub step: f64,
+    /// What may be a mistake in the file: angles that look like radians where degrees belong, or the other way round.
+    pub warnings: Vec<String>,
 }
 
 impl Scene {
@@ -69,7 +73,13 @@ impl Scene {
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let directory = file.parent().unwrap_or(file);
-        toml_file::parse(file, text, |table| check::scene(stem(file), document::document(table)?, directory))
+        let read = |table: Spanned<DeTable<'_>>| check::scene(stem(file), document::document(table)?, directory);
+        let (mut scene, mut warnings) = toml_file::parse_angles(file, text, read)?;
+        if let Some(angle) = scene.path.suspicious_angle() {
+            warnings.push(format!("{}: sweep: {angle}", file.display()));
+        }
+        scene.warnings = warnings;
+        Ok(scene)
     }
 
     /// The sweep this scene asks for.

@@ -36,6 +36,7 @@ pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -
         accuracy,
         tare: window(tare)?,
         half_window: half_window.map(|half| positive("half_window", half, "m")).transpose()?,
+        warnings: Vec::new(),
     })
 }
 

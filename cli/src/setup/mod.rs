@@ -16,7 +16,8 @@ use crate::{SceneError, toml_file};
 use document::Document;
 use serde::Deserialize;
 use std::path::Path;
-use toml::de::Deserializer;
+use toml::Spanned;
+use toml::de::{DeTable, Deserializer};
 use vibrissa::hw::rdt::RdtProfile;
 use vibrissa::hw::{Accuracy, Frame, Mounting, RatedLoad, Wrench};
 
@@ -43,6 +44,8 @@ pub struct Setup {
     pub half_window: Option<f64>,
     /// What of a recording is meant.
     pub recording: RecordingSetup,
+    /// What may be a mistake in the file: angles that look like radians where degrees belong.
+    pub warnings: Vec<String>,
 }
 
 /// The window without contact that a scan begins with.
@@ -68,6 +71,7 @@ impl Default for Setup {
             tare: TareSetup { seconds: 1.0, change: None },
             half_window: None,
             recording: RecordingSetup::default(),
+            warnings: Vec::new(),
         }
     }
 }
@@ -100,10 +104,12 @@ impl Setup {
     /// # Errors
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        toml_file::parse(file, text, |table| {
+        let read = |table: Spanned<DeTable<'_>>| {
             let tree = table.get_ref().clone();
             let directory = file.parent().unwrap_or(file);
             check::setup(&Document::deserialize(Deserializer::from(table))?, &tree, directory)
-        })
+        };
+        let (setup, warnings) = toml_file::parse_angles(file, text, read)?;
+        Ok(Self { warnings, ..setup })
     }
 }

@@ -8,13 +8,16 @@ pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
 use crate::scene::MOST_STATES;
-use crate::{Error, Scene, Staged};
+use crate::{Error, Interrupt, Interrupted, Scene, Staged};
 use std::path::Path;
 use vibrissa::{NoiseModel, Pose, Reactions, Stop};
 
 /// The columns, those of the standard deviations last.
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
 const WITHOUT_SIGMAS: usize = 7;
+
+/// What the comment is called that ends a recording which was interrupted.
+pub(crate) const INCOMPLETE: &str = "incomplete";
 
 /// A recording to be made, SI units.
 #[derive(Debug)]
@@ -42,6 +45,8 @@ pub struct Simulated {
     pub lost: usize,
     /// Why the sweep stopped before the end of the path, if it did.
     pub stop: Option<Stop>,
+    /// Where the clamp was when the simulation was interrupted, if it was.
+    pub interrupted: Option<Interrupted>,
 }
 
 /// Why a recording cannot be made.
@@ -60,7 +65,7 @@ pub enum SimulationError {
     },
     /// More samples than a sweep may report.
     #[error(
-        "a rate of {rate} Hz at a speed of {speed} {unit}/s asks for {samples:.1e} samples on a path of {length:.6} {unit}, \
+        "--rate {rate} Hz at --speed {speed} {unit}/s asks for {samples:.1e} samples on a path of {length:.6} {unit}, \
          expected at most {MOST_STATES:e}; lower the rate, raise the speed or cut the path"
     )]
     TooMany {
@@ -77,7 +82,7 @@ pub enum SimulationError {
     },
     /// A channel has no noise whose standard deviation could be written.
     #[error(
-        "the noise model gives {channel} no standard deviation, expected white or AR(1) noise or a quantum in every \
+        "--sigmas: the noise model gives {channel} no standard deviation, expected white or AR(1) noise or a quantum in every \
          channel where standard deviations are to be written"
     )]
     NoSigma {
@@ -93,31 +98,49 @@ impl Simulation {
     ///
     /// The memory it takes does not grow with the number of samples.
     ///
+    /// Interrupted, it ends the file with the comment `# incomplete: ` and where that was; [`Recording`](crate::Recording)
+    /// reads it. Before the first sample it writes no file.
+    ///
     /// # Errors
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Output`]. A sweep that stops early is none: what there is, is
     /// written.
-    pub fn write(&self, out: &Path) -> Result<Simulated, Error> {
+    pub fn write(&self, out: &Path, interrupt: &Interrupt) -> Result<Simulated, Error> {
         let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
-        let ticks = self.ticks()?;
+        let mut ticks = self.ticks()?;
         let (staged, name) = Staged::of_file(out)?;
-        let mut recorded = Simulated { samples: 0, lost: 0, stop: None };
+        let mut recorded = Simulated { samples: 0, lost: 0, stop: None, interrupted: None };
+        let mut last = None;
         staged.write(name, |out| {
             let columns = if sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
             let mut table = csv_writer(out);
             table.write_record(&COLUMNS[..columns])?;
-            for tick in ticks {
-                match tick {
-                    Ok(Tick { number, pose, reactions: Some(reactions) }) => {
+            loop {
+                if interrupt.is_raised() {
+                    recorded.interrupted = Some(Interrupted { pose: last });
+                    break;
+                }
+                match ticks.next() {
+                    Some(Ok(Tick { number, pose, reactions })) => {
+                        last = Some(pose);
+                        let Some(reactions) = reactions else {
+                            recorded.lost += 1;
+                            continue;
+                        };
                         let row = self.row(number, pose, reactions, sigma.unwrap_or_default());
                         table.serialize(&row[..columns])?;
                         recorded.samples += 1;
                     }
-                    Ok(Tick { reactions: None, .. }) => recorded.lost += 1,
-                    Err(stop) => recorded.stop = Some(stop),
+                    Some(Err(stop)) => recorded.stop = Some(stop),
+                    None => break,
                 }
             }
-            table.flush()
+            table.flush()?;
+            drop(table);
+            recorded.interrupted.map_or(Ok(()), |at| writeln!(out, "# {INCOMPLETE}: {at}"))
         })?;
+        if recorded.interrupted.is_some() && recorded.samples == 0 {
+            return Ok(recorded);
+        }
         staged.publish()?;
         Ok(recorded)
     }
@@ -133,7 +156,7 @@ impl Simulation {
         let Self { scene, rate, speed, .. } = self;
         let unit = if scene.path.turns_only() { "rad" } else { "m" };
         let per_second = if scene.path.turns_only() { "rad/s" } else { "m/s" };
-        for (what, value, unit) in [("the rate", *rate, "Hz"), ("the speed", *speed, per_second)] {
+        for (what, value, unit) in [("--rate", *rate, "Hz"), ("--speed", *speed, per_second)] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(SimulationError::NotPositive { what, value, unit });
             }

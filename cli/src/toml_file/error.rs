@@ -66,6 +66,17 @@ impl Fault {
         Self { span, message: message.into() }
     }
 
+    /// What is wrong with a text that is no TOML. Most often a number has a unit behind it: then the message shows both.
+    pub fn of_syntax(error: toml::de::Error, text: &str) -> Self {
+        let fault = Self::from(error);
+        let written = text.get(fault.span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default().trim();
+        if !fault.message.starts_with("string values must be quoted") {
+            return fault;
+        }
+        let message = format!("the value is `{written}`, expected a number without a unit, or a text in quotes");
+        Self { message, ..fault }
+    }
+
     /// The error for the user: `table` is the text's tree, where it has one.
     pub fn in_text(self, file: &Path, text: &str, table: Option<&DeTable<'_>>) -> SceneError {
         let file = file.display().to_string();
@@ -86,6 +97,7 @@ impl Fault {
 impl From<toml::de::Error> for Fault {
     fn from(error: toml::de::Error) -> Self {
         let message = error.message().trim().replace('\n', ", ").replace("expected f64", "expected a number");
+        let message = message.replace("number overflowed", "number overflowed, expected at most 1.7e308 either way");
         // An error without a place concerns the file as a whole.
         Self::new(error.span().unwrap_or(0..0), message)
     }
@@ -116,7 +128,7 @@ pub(crate) fn place_of(table: &DeTable<'_>, path: &str) -> Option<Range<usize>> 
 }
 
 /// Calls `seen` with the span and path of every key and every value.
-fn visit(table: &DeTable<'_>, path: &str, seen: &mut impl FnMut(Range<usize>, &str)) {
+pub(super) fn visit(table: &DeTable<'_>, path: &str, seen: &mut impl FnMut(Range<usize>, &str)) {
     for (key, value) in table {
         let path = if path.is_empty() { key.get_ref().to_string() } else { format!("{path}.{}", key.get_ref()) };
         seen(key.span(), &path);

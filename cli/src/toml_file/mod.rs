@@ -1,5 +1,6 @@
 //! TOML files: read, turned into something, and complained about with the place of what is wrong.
 
+mod angle;
 mod error;
 
 pub(crate) use error::{Fault, place_of};
@@ -20,6 +21,18 @@ pub(crate) fn parse<T>(
     text: &str,
     check: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, Fault>,
 ) -> Result<T, SceneError> {
-    let table = DeTable::parse(text).map_err(|error| Fault::from(error).in_text(file, text, None))?;
-    check(table.clone()).map_err(|fault| fault.in_text(file, text, Some(table.get_ref())))
+    parse_angles(file, text, check).map(|(checked, _)| checked)
+}
+
+/// The same, with a warning for each angle that looks like radians.
+pub(crate) fn parse_angles<T>(
+    file: &Path,
+    text: &str,
+    check: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, Fault>,
+) -> Result<(T, Vec<String>), SceneError> {
+    let table = DeTable::parse(text).map_err(|error| Fault::of_syntax(error, text).in_text(file, text, None))?;
+    let in_text = |fault: Fault| fault.in_text(file, text, Some(table.get_ref()));
+    let checked = check(table.clone()).map_err(in_text)?;
+    let warnings = angle::like_radians(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
+    Ok((checked, warnings.collect()))
 }

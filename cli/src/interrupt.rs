@@ -1,0 +1,58 @@
+//! Ending a command early, with what it has.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use vibrissa::Pose;
+
+/// Asks a command to end early. All clones are one: what is asked of one is asked of all.
+#[derive(Clone, Debug, Default)]
+pub struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// Asks for the end; returns whether that had been asked before.
+    pub fn raise(&self) -> bool {
+        self.0.swap(true, Ordering::Relaxed)
+    }
+
+    /// Whether the end is asked for.
+    pub fn is_raised(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// How far a command had come when it was interrupted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interrupted {
+    /// The clamp at the last state or event; none where there is none yet.
+    pub pose: Option<Pose>,
+}
+
+impl fmt::Display for Interrupted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.pose {
+            Some(Pose { x, y, phi }) => write!(f, "interrupted at clamp ({x:.9}, {y:.9}) m, {phi:.9} rad"),
+            None => write!(f, "interrupted before the first state"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clones_are_one() {
+        let interrupt = Interrupt::default();
+        let clone = interrupt.clone();
+        assert!(!clone.is_raised());
+        assert!(!interrupt.raise() && clone.is_raised() && clone.raise());
+    }
+
+    #[test]
+    fn the_place_is_told() {
+        let at = Interrupted { pose: Some(Pose { x: 0.07, y: -0.04, phi: 1.5 }) };
+        assert_eq!(at.to_string(), "interrupted at clamp (0.070000000, -0.040000000) m, 1.500000000 rad");
+        assert_eq!(Interrupted { pose: None }.to_string(), "interrupted before the first state");
+    }
+}

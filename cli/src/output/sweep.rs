@@ -1,0 +1,50 @@
+//! What sweep.json says of a sweep as a whole.
+
+use crate::Scan;
+use serde::Serialize;
+use vibrissa::Pose;
+
+/// sweep.json: whether the other files hold the whole path of the clamp, and if not, why and where they end.
+#[derive(Serialize)]
+pub(super) struct SweepRecord<'a> {
+    scene: &'a str,
+    complete: bool,
+    stop: Option<StopRecord>,
+    states: usize,
+    events: usize,
+    phases: String,
+}
+
+/// Where and why a sweep ended before its path; SI units.
+#[derive(Serialize)]
+struct StopRecord {
+    /// `interrupted` by the user, or `stopped` by what the rod met.
+    kind: &'static str,
+    x0: Option<f64>,
+    y0: Option<f64>,
+    phi0: Option<f64>,
+    message: String,
+}
+
+impl StopRecord {
+    fn new(kind: &'static str, pose: Option<Pose>, message: String) -> Self {
+        let [x0, y0, phi0] = [pose.map(|pose| pose.x), pose.map(|pose| pose.y), pose.map(|pose| pose.phi)];
+        Self { kind, x0, y0, phi0, message }
+    }
+}
+
+impl<'a> From<&'a Scan> for SweepRecord<'a> {
+    fn from(scan: &'a Scan) -> Self {
+        let interrupted = scan.interrupted.map(|at| StopRecord::new("interrupted", at.pose, at.to_string()));
+        let stopped =
+            || scan.outcome.stop.as_ref().map(|stop| StopRecord::new("stopped", Some(stop.pose), stop.to_string()));
+        Self {
+            scene: &scan.scene.name,
+            complete: scan.is_complete(),
+            stop: interrupted.or_else(stopped),
+            states: scan.outcome.states.len(),
+            events: scan.outcome.events.len(),
+            phases: scan.cycle().to_string(),
+        }
+    }
+}
