@@ -33,7 +33,7 @@ fn a_sweep_writes_states_events_and_a_figure() {
     let out = directory.path().join("out/scene");
     let mut names: Vec<_> = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["events.jsonl", "states.csv", "states.jsonl", "sweep.svg"]);
+    assert_eq!(names, ["events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]);
 
     let states = lines(&out.join("states.jsonl"));
     assert_eq!(states.len(), 41);
@@ -49,6 +49,8 @@ fn a_sweep_writes_states_events_and_a_figure() {
         "contacts",
         "residual",
         "min_gap",
+        "min_gap_bound",
+        "gap_proven",
         "stable",
         "energy",
         "max_stress",
@@ -86,7 +88,7 @@ fn the_table_holds_the_same_numbers_to_the_last_bit() {
     let directory = swept(SCENE);
     let out = directory.path().join("out/scene");
     let mut table = csv::Reader::from_path(out.join("states.csv")).unwrap();
-    let header = "x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress";
+    let header = "x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress,min_gap_bound,gap_proven";
     assert_eq!(table.headers().unwrap().iter().collect::<Vec<_>>().join(","), header);
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
     let states = lines(&out.join("states.jsonl"));
@@ -108,7 +110,7 @@ fn a_rod_without_thickness_has_no_stress() {
     let states = lines(&directory.path().join("out/scene/states.jsonl"));
     assert!(states.iter().all(|state| state["max_stress"].is_null()));
     let table = fs::read_to_string(directory.path().join("out/scene/states.csv")).unwrap();
-    assert!(table.lines().skip(1).all(|line| line.ends_with(',')));
+    assert!(table.lines().skip(1).all(|line| line.split(',').nth(11) == Some("")));
 }
 
 #[test]
@@ -169,7 +171,7 @@ fn a_failure_leaves_the_earlier_results_alone() {
     let output = vibrissa(directory.path(), &["sweep", "scene.toml"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(fs::read(&file).unwrap(), good);
-    assert_eq!(fs::read_dir(directory.path().join("out/scene")).unwrap().count(), 4, "no stage is left behind");
+    assert_eq!(fs::read_dir(directory.path().join("out/scene")).unwrap().count(), 5, "no stage is left behind");
 }
 
 #[test]
@@ -185,4 +187,8 @@ fn a_sweep_that_stops_early_keeps_what_it_has() {
     let states = lines(&directory.path().join("out/scene/states.jsonl"));
     assert!((50..200).contains(&states.len()), "{}", states.len());
     assert!(fs::read_to_string(directory.path().join("out/scene/sweep.svg")).unwrap().contains("stopped early"));
+    let summary: Value =
+        serde_json::from_str(&fs::read_to_string(directory.path().join("out/scene/sweep.json")).unwrap()).unwrap();
+    assert_eq!((&summary["complete"], &summary["stop"]["kind"]), (&false.into(), &"stopped".into()));
+    assert!(message.contains(summary["stop"]["message"].as_str().unwrap()), "{summary}");
 }

@@ -28,11 +28,14 @@ fn the_nine_scans_give_the_phases_of_the_paper() {
             for end in [states.lines().next(), states.lines().last()] {
                 assert!(end.unwrap().contains("\"phase\":\"free\""), "a scan starts and ends free");
             }
-            for file in ["states.csv", "events.jsonl", "sweep.svg"] {
+            for file in ["states.csv", "events.jsonl", "sweep.svg", "sweep.json"] {
                 assert!(folder.join(file).metadata().unwrap().len() > 0);
             }
         }
     }
+    let report = fs::read_to_string(out.join("paper.json")).unwrap();
+    assert!(report.contains("\"complete\": true") && report.contains("\"missing\": []"), "{report}");
+    assert_eq!(report.matches("\"matches\": true").count(), 9, "{report}");
     let cycles = fs::read_to_string(out.join("phase_cycles.svg")).unwrap();
     assert_eq!(cycles.matches(", as in the paper").count(), 9);
     let criterion = fs::read_to_string(out.join("criterion.svg")).unwrap();

@@ -53,6 +53,16 @@ fn a_wrong_type() {
 }
 
 #[test]
+fn a_number_that_toml_does_not_take() {
+    let unit = "the value is `100 mm`, expected a number without a unit, or a text in quotes";
+    says(&edited("length = 0.1", "length = 100 mm"), &["scene.toml:2:10: ", unit]);
+    says(
+        &edited("50.0", "1e400"),
+        &["scene.toml:9:15: contour.piece[1].coefficient: ", "overflowed, expected at most 1.7e308"],
+    );
+}
+
+#[test]
 fn a_length_that_is_none() {
     says(
         &edited("0.1", "-0.1"),
@@ -60,6 +70,8 @@ fn a_length_that_is_none() {
     );
     says(&edited("0.1", "0.0"), &["scene.toml:2:10: rod.length: ", "length is 0, expected a positive"]);
     says(&edited("0.5e-3", "-5e-4"), &["scene.toml:3:12: rod.diameter: ", "diameter is -0.0005, expected a positive"]);
+    let expected = "diameter is 0.5 m, expected at most the length, 0.1 m";
+    says(&edited("0.5e-3", "0.5"), &["scene.toml:3:12: rod.diameter: ", expected]);
     says(&edited("206e9", "0"), &["scene.toml:4:18: rod.youngs_modulus: ", "youngs_modulus is 0, expected a positive"]);
     let stiffness = edited("diameter = 0.5e-3\nyoungs_modulus = 206e9", "bending_stiffness = 0.0");
     says(&stiffness, &["scene.toml:3:21: rod.bending_stiffness: ", "is 0, expected a positive"]);
@@ -81,6 +93,13 @@ fn a_number_that_is_none() {
     says(&edited("90.0", "nan"), &["scene.toml:19:9: sweep.angle: ", "NaN", "degrees"]);
     says(&edited("90.0", "90\nangle_to = inf"), &["scene.toml:20:12: sweep.angle_to: ", "inf", "degrees"]);
     says(&edited("1e-3", "nan"), &["scene.toml:20:8: sweep.step: ", "step is NaN, expected a positive, finite"]);
+}
+
+#[test]
+fn an_angle_beyond_all_turns() {
+    let expected = "is 9000 degrees, expected at most 5729 degrees either way";
+    says(&edited("90.0", "9e3"), &["scene.toml:19:9: sweep.angle: ", "angle ", expected]);
+    says(&edited("90.0", "90\nangle_to = 9000"), &["scene.toml:20:12: sweep.angle_to: ", "angle_to ", expected]);
 }
 
 #[test]
@@ -106,7 +125,10 @@ fn a_sweep_that_is_none() {
         &edited("1e-3", "1e-12"),
         &["scene.toml:20:8: sweep.step: ", "step is 1e-12", "4.0e10 states, expected at most 1e6"],
     );
-    says(&edited("step = 1e-3", "step_angle = 1.0"), &["sweep.step_angle: ", "the clamp moves", "step in m"]);
+    says(
+        &edited("step = 1e-3", "step_angle = 1.0"),
+        &["sweep.step_angle: ", "step_angle is 1, but the clamp moves", "step in m"],
+    );
     let turning = edited("to = [0.03", "to = [0.07").replace("90.0", "90.0\nangle_to = 120.0");
     says(&turning, &["scene.toml:21:8: sweep.step: ", "turns without moving", "step_angle"]);
     let turning = turning.replace("step = 1e-3", "step_angle = -1.0");

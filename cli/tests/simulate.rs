@@ -179,15 +179,15 @@ fn a_sweep_that_stops_early_keeps_what_it_has() {
 
 #[test]
 fn a_rate_or_speed_that_is_none() {
-    refuses(SCENE, "", &["--rate", "0"], &["the rate is 0, expected a positive, finite number of Hz"]);
-    refuses(SCENE, "", &["--rate", "-500"], &["the rate is -500, expected a positive"]);
-    refuses(SCENE, "", &["--speed", "nan"], &["the speed is NaN, expected a positive, finite number of m/s"]);
+    refuses(SCENE, "", &["--rate", "0"], &["--rate is 0, expected a positive, finite number of Hz"]);
+    refuses(SCENE, "", &["--rate", "-500"], &["--rate is -500, expected a positive"]);
+    refuses(SCENE, "", &["--speed", "nan"], &["--speed is NaN, expected a positive, finite number of m/s"]);
     refuses(
         SCENE,
         "",
         &["--rate", "1e5"],
         &[
-            "a rate of 100000 Hz at a speed of 0.001 m/s asks for 4.0e6 samples on a path of 0.040000 m, expected at most 1e6",
+            "--rate 100000 Hz at --speed 0.001 m/s asks for 4.0e6 samples on a path of 0.040000 m, expected at most 1e6",
             "lower the rate, raise the speed or cut the path",
         ],
     );

@@ -70,10 +70,8 @@ impl<'a> Case<'a> {
 
     /// Everything that falls short.
     pub fn judge(&self, outlines: &[Outline<'_>]) -> Vec<Bad> {
-        let mut bad = Vec::new();
+        let mut bad = self.equilibrium();
         self.certified(&mut bad);
-        self.balance(&mut bad);
-        self.lies_on_contacts(&mut bad);
         for (j, contact) in self.state.contacts.iter().enumerate() {
             match outlines.get(contact.object) {
                 Some(outline) => self.on_contour(j, outline, &mut bad),
@@ -86,11 +84,24 @@ impl<'a> Case<'a> {
         bad
     }
 
+    /// What falls short of an equilibrium of the rod, whatever the objects are.
+    pub fn equilibrium(&self) -> Vec<Bad> {
+        let mut bad = Vec::new();
+        self.balance(&mut bad);
+        self.lies_on_contacts(&mut bad);
+        bad
+    }
+
+    /// How far off the rod may be, in its lengths.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// The certificate says that it is one.
     fn certified(&self, bad: &mut Vec<Bad>) {
         let certificate = &self.state.certificate;
         need(bad, "a residual is left", certificate.residual, 1e-10);
-        need(bad, "the certificate knows of a penetration", -certificate.min_gap / self.length, TOLERANCE);
+        need(bad, "the certificate knows of a penetration", -certificate.min_gap.lower / self.length, TOLERANCE);
     }
 
     fn balance(&self, bad: &mut Vec<Bad>) {

@@ -35,6 +35,13 @@ impl Dice {
         (value * 1e5).round() / 1e5
     }
 
+    /// Evenly in the logarithm, to all digits: for lengths far below 1e-5.
+    #[allow(dead_code, reason = "only sharp scenes have such lengths")]
+    pub fn fine_between(&mut self, from: f64, to: f64) -> f64 {
+        let share = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
+        from * (to / from).powf(share)
+    }
+
     /// One of `from`, ..., `to`.
     pub fn whole(&mut self, from: usize, to: usize) -> usize {
         from + (self.next() % (to - from + 1) as u64) as usize

@@ -60,7 +60,8 @@ pub fn scene(seed: u64) -> Generated {
     Generated { seed, kind, text: text(dice, seed, kind, &objects, &way) }
 }
 
-type Placed = (Object, Place);
+/// An object, and where it stands.
+pub type Placed = (Object, Place);
 
 fn alone(object: Object, dice: &mut Dice, turned: bool) -> Vec<Placed> {
     let angle = if turned { dice.angle() } else { 0.0 };
@@ -112,7 +113,8 @@ fn both_sides(dice: &mut Dice) -> (Vec<Placed>, Way) {
     }
 }
 
-fn text(dice: &mut Dice, seed: u64, kind: &str, objects: &[Placed], way: &Way) -> String {
+/// The scene file, all of it put at some place in the plane.
+pub fn text(dice: &mut Dice, seed: u64, kind: &str, objects: &[Placed], way: &Way) -> String {
     let length = if dice.chance(0.5) { 1.0 } else { 0.1 };
     let stiffness = dice.log_between(1e-3, 10.0);
     // nothing depends on where all of it stands

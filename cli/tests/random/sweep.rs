@@ -206,7 +206,7 @@ impl Examiner<'_> {
                 format!("{:?} {}.{}@{share:.6} s={s:.6} f={f:.3e} {angle:.4} deg", c.kind, c.object, c.piece)
             };
             let contacts: Vec<_> = state.contacts.iter().map(contact).collect();
-            let (tau, gap) = (self.along(state).0 / self.unit(), state.certificate.min_gap / length);
+            let (tau, gap) = (self.along(state).0 / self.unit(), state.certificate.min_gap.seen / length);
             format!("{tau:.9} {} gap={gap:.2e} [{}]", state.phase(), contacts.join(", "))
         };
         match item {
