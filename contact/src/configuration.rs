@@ -31,14 +31,6 @@ impl Configuration {
         Self { contacts: SmallVec::new(), z: SmallVec::from_slice(&[tau]) }
     }
 
-    /// Some contact, where it only matters that there is one.
-    pub fn held() -> Self {
-        let mut held = Self::free(0.0);
-        held.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0; 3]);
-        held.contacts[0].hold = Hold::Tangent { offset: 0.0 };
-        held
-    }
-
     pub fn count(&self) -> usize {
         self.contacts.len()
     }

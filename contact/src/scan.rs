@@ -69,7 +69,7 @@ impl Scanner {
         self.shape.follow(world, path, configuration);
         let Proof { lower, seen, crossings, clamp_inside } = self.prover.prove(world, configuration, &self.shape);
         let gap = GapBounds { lower, seen, proven: world.is_proven() };
-        let tip = self.shape.nodes.last().map_or((0.0, 0.0), |tip| (tip.at.x, tip.at.y));
+        let (_, tip) = self.shape.ends();
         Scan { gap, crossings, clamp_inside, tip, sides: sides(world, &self.shape) }
     }
 
@@ -82,16 +82,13 @@ impl Scanner {
         from: &Configuration,
         before: &Scan,
     ) -> Option<Passing> {
-        let [clamp, tip] = [self.shape.nodes.first(), self.shape.nodes.last()].map(|node| {
-            let at = node.map(|node| node.at);
-            at.map_or(before.tip, |at| (at.x, at.y))
-        });
+        let (clamp, tip) = self.shape.ends();
         let was = path.at(from.tau());
-        if self.prover.crossing(world, ((was.x, was.y), clamp), |_| false).is_some() {
+        if self.prover.is_crossed(world, ((was.x, was.y), clamp), |_| false) {
             return Some(Passing::Clamp);
         }
         let skip = |run: usize| passing::holds(world, from, run);
-        if self.prover.crossing(world, (before.tip, tip), skip).is_some() {
+        if self.prover.is_crossed(world, (before.tip, tip), skip) {
             return Some(Passing::Rod);
         }
         let clear = world.objects() == 1 && from.count() > 0;

@@ -109,6 +109,12 @@ impl Shape {
         bulge(forces, nodes, firsts);
     }
 
+    /// Where the clamp and the tip are.
+    pub fn ends(&self) -> ((f64, f64), (f64, f64)) {
+        let [first, last] = [&self.nodes[0], &self.nodes[self.nodes.len() - 1]].map(|node| (node.at.x, node.at.y));
+        (first, last)
+    }
+
     /// A box around the points.
     pub fn bounds(&self) -> Bounds {
         self.nodes.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y))

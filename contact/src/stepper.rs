@@ -224,22 +224,17 @@ impl<'a> Stepper<'a> {
         if scan.has_swept_over_an_end(&from.scan) {
             return too_long_or(StopReason::EndOfContour);
         }
-        match self.first_transition(from, &next, &scan, &tangent, length) {
-            Ok(None) if scan.is_outside() => match self.passes(from, length) {
-                None => {}
-                Some(Passing::Rod) => return Ok(None),
-                Some(Passing::Clamp) => return too_long_or(StopReason::ClampInside),
-            },
-            Ok(None) => return Ok(None),
-            Ok(Some(step)) => {
-                return match self.passes(from, length) {
-                    None => Ok(Some(step)),
-                    Some(Passing::Rod) => Ok(None),
-                    Some(Passing::Clamp) => too_long_or(StopReason::ClampInside),
-                };
-            }
+        let ended = match self.first_transition(from, &next, &scan, &tangent, length) {
+            Ok(None) if !scan.is_outside() => return Ok(None),
+            Ok(ended) => ended,
             Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
             Err(NoTransition::NotLocated) => return Ok(None),
+        };
+        match self.passes(from, length) {
+            None if ended.is_some() => return Ok(ended),
+            None => {}
+            Some(Passing::Rod) => return Ok(None),
+            Some(Passing::Clamp) => return too_long_or(StopReason::ClampInside),
         }
         // still the last that was scanned: where others were, there was a transition
         if !self.is_stable(&next) {

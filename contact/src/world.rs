@@ -10,6 +10,9 @@ use smallvec::SmallVec;
 /// sweep takes any point of it.
 const SKIN: f64 = 0.1;
 
+/// Arc length of the contour that is looked at for a piece of rod of length 1.
+pub(crate) const AHEAD: f64 = 1.25;
+
 /// Intervals of a part whose curvature is sampled.
 const SAMPLES: u32 = 8;
 
@@ -61,9 +64,14 @@ impl Foot {
 
     /// The outward normal of the contour.
     pub fn normal(&self) -> (f64, f64) {
-        let (sin, cos) = self.alpha.sin_cos();
-        (sin, -cos)
+        normal(self.alpha)
     }
+}
+
+/// The outward normal of a contour whose tangent angle is `alpha`.
+fn normal(alpha: f64) -> (f64, f64) {
+    let (sin, cos) = alpha.sin_cos();
+    (sin, -cos)
 }
 
 /// The point of a run that is closest to a given point.
@@ -207,8 +215,7 @@ impl<'a> World<'a> {
     /// Calls `visit` with all parts of all contours that meet `bounds`, and perhaps with others near by. Their ranges
     /// stay in the contours' unit, so that they come back to the contour as they are.
     pub fn parts_near(&self, bounds: Bounds, mut visit: impl FnMut(Part)) {
-        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
-        let bounds = Bounds { min: scaled(bounds.min), max: scaled(bounds.max) };
+        let bounds = self.in_unit(bounds);
         self.index.meeting(bounds, &mut |object| {
             let first = self.first[object];
             self.objects[object].parts_near(bounds, |part| visit(Part { stretch: first + part.stretch, ..part }));
@@ -264,6 +271,13 @@ impl<'a> World<'a> {
         self.scaled(object.run_bounds(own))
     }
 
+    /// A box in the contours' unit.
+    fn in_unit(&self, Bounds { min, max }: Bounds) -> Bounds {
+        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
+        Bounds { min: scaled(min), max: scaled(max) }
+    }
+
+    /// A box in lengths of the rod.
     fn scaled(&self, Bounds { min, max }: Bounds) -> Bounds {
         let scaled = |side: [f64; 2]| side.map(|side| side / self.length);
         Bounds { min: scaled(min), max: scaled(max) }
@@ -271,8 +285,7 @@ impl<'a> World<'a> {
 
     /// Calls `visit` with the runs that meet `bounds`, and perhaps with others.
     pub fn runs_near(&self, bounds: Bounds, mut visit: impl FnMut(usize)) {
-        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
-        let bounds = Bounds { min: scaled(bounds.min), max: scaled(bounds.max) };
+        let bounds = self.in_unit(bounds);
         self.index.meeting(bounds, &mut |object| {
             self.objects[object].runs_near(bounds, |run| visit(self.first_run[object] + run));
         });
@@ -337,28 +350,26 @@ impl<'a> World<'a> {
     /// The outward normals at both ends of a joint.
     pub fn joint_normals(&self, joint: usize) -> [(f64, f64); 2] {
         let Range { from, to } = self.range(joint);
-        [from, to].map(|t| {
-            let (sin, cos) = self.support(joint, t).alpha.sin_cos();
-            (sin, -cos)
-        })
+        [from, to].map(|t| normal(self.support(joint, t).alpha))
     }
 
     /// Lower bound of the curvature of a stretch from `t` on in the sense `ahead` (+1 or -1), as far as the contour runs over the
-    /// tangent at `t` for a length of `reach` / 1.25, or to the end of the stretch; beyond that a run that bends outwards
-    /// keeps doing so. None where it turns by more than `most`.
+    /// tangent at `t` for a `length`, or to the end of the stretch; beyond that a run that bends outwards keeps doing so. None
+    /// where it turns by more than `most`.
     pub fn curvature_ahead(
         &self,
         outward: bool,
         stretch: usize,
         t: f64,
         ahead: f64,
-        reach: f64,
+        length: f64,
         most: f64,
     ) -> Option<f64> {
         let (object, own) = self.at(stretch);
         let here = self.support(stretch, t);
         let border = self.border(stretch, ahead > 0.0);
         let (sin, cos) = here.alpha.sin_cos();
+        let reach = AHEAD * length;
         // a contour that slows down is followed for longer
         for longer in [1.0, 2.0, 4.0] {
             let to = t + ahead * longer * reach / here.speed;
@@ -372,7 +383,7 @@ impl<'a> World<'a> {
             if (there.alpha - here.alpha).abs() > most {
                 return None;
             }
-            if !clipped && over < reach / 1.25 {
+            if !clipped && over < length {
                 continue;
             }
             let unit = self.unit((object, own));
@@ -418,8 +429,7 @@ impl<'a> World<'a> {
 
     /// Calls `visit` with the closed objects that are wholly within a box, and a point of each.
     pub fn closed_objects_in(&self, around: Bounds, mut visit: impl FnMut(usize, (f64, f64))) {
-        let scaled = |side: [f64; 2]| side.map(|side| side * self.length);
-        let around = Bounds { min: scaled(around.min), max: scaled(around.max) };
+        let around = self.in_unit(around);
         self.index.meeting(around, &mut |number| {
             let object = &self.objects[number];
             let Bounds { min, max } = object.bounds();

@@ -213,14 +213,6 @@ impl Composite {
         }
     }
 
-    /// Whether a part of a stretch, by the stretch's own parameter, [is convex](Contour::is_convex).
-    pub fn own_is_convex(&self, stretch: usize, range: Range) -> bool {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.shape.is_convex(range),
-            At::Joint(_) => true,
-        }
-    }
-
     /// The least and the largest [curvature](Contour::curvature_in) of a part of a stretch, by the stretch's own parameter:
     /// infinity for a corner, minus infinity for a notch.
     pub fn own_curvature_in(&self, stretch: usize, range: Range) -> (f64, f64) {
@@ -235,14 +227,6 @@ impl Composite {
         match self.at(stretch) {
             At::Piece(piece) => piece.shape.closest_is_exact(),
             At::Joint(_) => true,
-        }
-    }
-
-    /// A box that contains a part of a stretch, by the stretch's own parameter.
-    pub fn own_bounds_in(&self, stretch: usize, range: Range) -> Bounds {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.bounds_in(range),
-            At::Joint(joint) => joint.bounds(),
         }
     }
 

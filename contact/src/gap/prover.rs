@@ -12,7 +12,7 @@ use super::touch::Rod;
 use super::{Crossing, GAP_TOLERANCE};
 use crate::configuration::Configuration;
 use crate::shape::Shape;
-use crate::world::{Foot, RunFoot, World};
+use crate::world::{AHEAD, RunFoot, World};
 use rod_contours::{Bend, Bounds, Run};
 use rod_core::Hold;
 use smallvec::SmallVec;
@@ -26,8 +26,6 @@ const PROVEN: f64 = 1e-11;
 const PARALLEL: f64 = 1e-9;
 /// Largest turn of the rod and of the contour over an interval along which they are compared, rad.
 const LARGEST_TURN: f64 = 0.5;
-/// Arc length of the contour that is looked at for an interval of length 1.
-const AHEAD: f64 = 1.25;
 /// Room for rounding in the curvatures that are compared, in units of 1 / L.
 const SLACK: f64 = 1e-9;
 /// An interval with a bound below this may touch the contour, and what follows may be on its other side.
@@ -83,23 +81,8 @@ pub(crate) struct Proof {
 impl Prover {
     /// Looks at the rod of `configuration`, whose `shape` is known.
     pub fn prove(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape) -> Proof {
-        self.lines.resize_with(world.runs(), Lines::default);
-        self.outside.resize_with(world.objects(), SmallVec::new);
         let free = configuration.count() == 0;
-        // where there is a contact, there the gap is zero
-        let seen = if free { f64::INFINITY } else { 0.0 };
-        let proof = Proof { lower: f64::INFINITY, seen, crossings: SmallVec::new(), clamp_inside: false };
-        let mut search = Search {
-            world,
-            configuration,
-            shape,
-            known: self,
-            proof,
-            run: 0,
-            object: 0,
-            refuted: SmallVec::new(),
-            looks: 0,
-        };
+        let mut search = Search::new(self, world, Some(configuration), shape);
         if free {
             search.proof.seen = search.nearest();
         }
@@ -112,58 +95,45 @@ impl Prover {
         }
         proof
     }
-}
 
-impl Prover {
-    /// Where the straight way between two points goes through an object, runs that `skip` names left out.
-    pub fn crossing(
+    /// Whether the straight way between two points goes through an object, runs that `skip` names left out.
+    pub fn is_crossed(
         &mut self,
         world: &World<'_>,
         (from, to): ((f64, f64), (f64, f64)),
         skip: impl Fn(usize) -> bool,
-    ) -> Option<Crossing> {
+    ) -> bool {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = dx.hypot(dy);
         if length <= 0.0 || length.is_nan() {
-            return None;
+            return false;
         }
-        self.lines.resize_with(world.runs(), Lines::default);
         self.outside.resize_with(world.objects(), SmallVec::new);
         // a disc without solid that holds both ends holds the way
         let holds = |(x, y, gap): &(f64, f64, f64)| {
             [from, to].iter().all(|end| (end.0 - x).powi(2) + (end.1 - y).powi(2) < gap * gap)
         };
         if world.is_small() && self.outside.iter().all(|discs| discs.iter().any(holds)) {
-            return None;
+            return false;
         }
         self.gates.clear();
-        let (shape, held) = (Shape::straight(from, dy.atan2(dx), length), Configuration::held());
-        let proof = Proof { lower: 0.0, seen: 0.0, crossings: SmallVec::new(), clamp_inside: false };
+        let shape = Shape::straight(from, dy.atan2(dx), length);
         let part = interval(&shape, 0);
         let mut near: SmallVec<[usize; CROWD]> = SmallVec::new();
         world.runs_near(part.bounds(0.0), |run| near.push(run));
-        let mut search = Search {
-            world,
-            configuration: &held,
-            shape: &shape,
-            known: self,
-            proof,
-            run: 0,
-            object: 0,
-            refuted: SmallVec::new(),
-            looks: 0,
-        };
-        near.into_iter().filter(|run| !skip(*run)).find_map(|run| {
+        let mut search = Search::new(self, world, None, &shape);
+        near.into_iter().filter(|run| !skip(*run)).any(|run| {
             search.take(run);
             search.clear(0, &part);
-            search.proof.crossings.pop()
+            !search.refuted.is_empty()
         })
     }
 }
 
 struct Search<'a> {
     world: &'a World<'a>,
-    configuration: &'a Configuration,
+    /// The rod's contacts; none where what is looked at is no rod but the way of a point.
+    configuration: Option<&'a Configuration>,
     shape: &'a Shape,
     known: &'a mut Prover,
     proof: Proof,
@@ -176,10 +146,28 @@ struct Search<'a> {
     looks: usize,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(
+        known: &'a mut Prover,
+        world: &'a World<'a>,
+        configuration: Option<&'a Configuration>,
+        shape: &'a Shape,
+    ) -> Self {
+        known.lines.resize_with(world.runs(), Lines::default);
+        known.outside.resize_with(world.objects(), SmallVec::new);
+        // where there is a contact, there the gap is zero
+        let proof = Proof { lower: f64::INFINITY, seen: 0.0, crossings: SmallVec::new(), clamp_inside: false };
+        Self { world, configuration, shape, known, proof, run: 0, object: 0, refuted: SmallVec::new(), looks: 0 }
+    }
+
+    /// Whether it is a rod without contacts.
+    fn is_free(&self) -> bool {
+        self.configuration.is_some_and(|configuration| configuration.count() == 0)
+    }
+
     /// The gap that must be proven: of a free rod nearly all that was seen, so that the bound is of use.
     fn least(&self) -> f64 {
-        if self.configuration.count() > 0 || self.proof.seen < NEARLY_CLOSED {
+        if !self.is_free() || self.proof.seen < NEARLY_CLOSED {
             return -PROVEN;
         }
         ((1.0 - BESIDE) * self.proof.seen).min(f64::MAX)
@@ -288,16 +276,14 @@ impl Search<'_> {
         while let Some(part) = parts.pop() {
             let reach = self.least().max(0.0);
             let mut near: SmallVec<[usize; CROWD]> = SmallVec::new();
-            let mut count = 0;
             // below the reach itself no part meets fewer of them
             let halve = part.length > SHORTEST.max(0.1 * reach);
             self.world.runs_near(part.bounds(reach), |run| {
-                if (count <= CROWD || !halve) && !part.misses(&self.world.run_bounds(run), reach) {
-                    count += 1;
+                if (near.len() <= CROWD || !halve) && !part.misses(&self.world.run_bounds(run), reach) {
                     near.push(run);
                 }
             });
-            if count > CROWD && halve {
+            if near.len() > CROWD && halve {
                 parts.extend(part.split(&self.shape.spans[part.span], 0.5 * (part.from.s + part.to.s)));
                 continue;
             }
@@ -406,8 +392,8 @@ impl Search<'_> {
             (_, Some(j)) => (j, false),
             _ => return None,
         };
-        let contact = self.configuration.contacts[j];
-        let t = self.configuration.t(j);
+        let configuration = self.configuration?;
+        let (contact, t) = (configuration.contacts[j], configuration.t(j));
         if contact.hold == Hold::Tip || !self.world.is_on_run(self.run, contact.stretch, t) {
             return None;
         }
@@ -433,17 +419,18 @@ impl Search<'_> {
         self.world.is_inside(self.object, at.x, at.y, GAP_TOLERANCE)
     }
 
-    /// Notes that the rod is inside the object at a point: it goes through the run that is nearest there.
+    /// Notes that a point is inside the object: the rod goes through the run that is nearest there.
     fn refute(&mut self, knot: &Knot) {
         let run = self.world.run_at(self.object, knot.at.x, knot.at.y);
         if self.refuted.contains(&run) {
             return;
         }
         self.refuted.push(run);
+        let Some(configuration) = self.configuration else { return };
         let crossing = Rod { world: self.world, shape: self.shape }.touch(run, knot);
         self.proof.clamp_inside |= crossing.s <= 0.0;
         self.proof.seen = self.proof.seen.min(crossing.foot.gap);
-        if !(crossing.tip && ends_at_tip(self.configuration)) {
+        if !(crossing.tip && configuration.ends_at_tip()) {
             self.proof.crossings.push(crossing);
         }
     }
@@ -557,7 +544,7 @@ impl Search<'_> {
         }
         let ahead = if forward { sense } else { -sense };
         let outward = run.bend == Bend::Outward;
-        let least = self.world.curvature_ahead(outward, *stretch, foot.t, ahead, part.length * AHEAD, LARGEST_TURN)?;
+        let least = self.world.curvature_ahead(outward, *stretch, foot.t, ahead, part.length, LARGEST_TURN)?;
         let height = foot.gap - AHEAD * part.length * slope.abs();
         (bend <= least + SLACK).then_some(height - SLACK * part.length * part.length)
     }
@@ -576,11 +563,7 @@ impl Search<'_> {
         if !(room > 0.0 && sharpest.is_finite()) {
             return None;
         }
-        let slope = |at: &rod_core::Station, foot: &Foot| {
-            let (nx, ny) = foot.normal();
-            nx * at.cos + ny * at.sin
-        };
-        let (d0, d1) = (slope(&part.from.at, &from.foot), slope(&part.to.at, &to.foot));
+        let (d0, d1) = (rate(&part.from, from.foot.normal()), rate(&part.to, to.foot.normal()));
         Some(part.least((g0, d0), (g1, d1), -part.bent - sharpest / room))
     }
 
@@ -669,19 +652,16 @@ fn interval(shape: &Shape, i: usize) -> Interval {
     Interval::new(Knot::from(from), Knot::from(to), from.span, shape.force(from.span))
 }
 
+/// How fast the rod runs in a direction.
+fn rate(Knot { at, .. }: &Knot, (x, y): (f64, f64)) -> f64 {
+    x * at.cos + y * at.sin
+}
+
 /// Where to halve an interval: about where the gap is least, as its slopes at the ends tell. A rod that grazes the contour
 /// there is clear on both sides, compared with the contour from that point on.
 fn lowest(part: &Interval, feet: &[RunFoot; 2]) -> f64 {
-    let slope = |at: &rod_core::Station, foot: &Foot| {
-        let (nx, ny) = foot.uphill(at.x, at.y);
-        nx * at.cos + ny * at.sin
-    };
-    let (d0, d1) = (slope(&part.from.at, &feet[0].foot), slope(&part.to.at, &feet[1].foot));
+    let [d0, d1] = [(&part.from, &feet[0].foot), (&part.to, &feet[1].foot)]
+        .map(|(knot, foot)| rate(knot, foot.uphill(knot.at.x, knot.at.y)));
     let share = if d0 < 0.0 && d1 > 0.0 { d0 / (d0 - d1) } else { 0.5 };
     part.from.s + share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE) * part.length
-}
-
-/// Whether a contact holds the rod at its tip.
-pub(super) fn ends_at_tip(configuration: &Configuration) -> bool {
-    configuration.contacts.last().is_some_and(|contact| contact.hold == Hold::Tip)
 }
