@@ -3,13 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::function::{self, Function};
 use crate::jet::{Jet, variable};
-use crate::limits::{self, LimitsOf};
-use crate::search::{self, CELLS, Probe};
+use crate::limits::LimitsOf;
+use crate::search::CELLS;
 use crate::vector::{cross, dot};
-use crate::{
-    Bounds, Closest, Contour, ContourError, Frame, Limits, Range, angle, check, curvature, cuts, one_way, proven,
-};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, angle, check};
 
 /// Halvings of a cell in which the direction turns fast, before it counts as a jump.
 const HALVINGS: u32 = 30;
@@ -109,15 +108,8 @@ impl Curve {
     /// [`ContourError::NotFinite`] for a range that goes on for ever; [`ContourError::BeyondLimit`] where one of 768 samples lies
     /// outside the limits of a part around it. What lies outside between the samples goes unseen.
     pub fn with_limits(self, limits: impl Fn(Range) -> Limits + Send + Sync + 'static) -> Result<Self, ContourError> {
-        let Range { from, to } = self.range;
-        check::finite([("the start of the range", from), ("the end of the range", to)])?;
-        let known: LimitsOf = Arc::new(limits);
-        limits::check(&self, &known)?;
+        let known = function::checked(&self, limits)?;
         Ok(Self { limits: Some(known), ..self })
-    }
-
-    fn derivatives_at(&self, t: f64) -> [[f64; 2]; 3] {
-        (self.derivatives)(t)
     }
 
     /// Alpha at `t` where the direction is `angle`, but for whole turns.
@@ -128,6 +120,16 @@ impl Curve {
         let share = ((t - t_before) / (t_after - t_before)).clamp(0.0, 1.0);
         let near = before + share * (after - before);
         angle::near(angle, near)
+    }
+}
+
+impl Function for Curve {
+    fn limits(&self) -> Option<&LimitsOf> {
+        self.limits.as_ref()
+    }
+
+    fn derivatives_at(&self, t: f64) -> [[f64; 2]; 3] {
+        (self.derivatives)(t)
     }
 }
 
@@ -155,33 +157,24 @@ impl Contour for Curve {
     }
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        if let Some(limits) = &self.limits {
-            let range = self.range.within(range);
-            let t = proven::nearest(|t| self.derivatives_at(t), &**limits, range, [x, y]);
-            return Closest::new(t, self.frame(t), range.is_interior(t), x, y);
-        }
-        search::closest_by(self, range, x, y, |t| Probe::new(t, self.derivatives_at(t), x, y))
+        function::closest_in(self, range, x, y)
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
-        match &self.limits {
-            Some(known) => limits::bounds(self, known, self.range.within(range)),
-            None => search::bounds(self, range),
-        }
+        function::bounds_in(self, range)
     }
 
     fn cuts(&self, range: Range) -> Vec<f64> {
-        let known = self.limits.as_ref().and_then(|known| one_way::cuts(self, known, self.range.within(range)));
-        known.unwrap_or_else(|| cuts::sampled(self, range))
+        function::cuts(self, range)
     }
 
     /// Where the limits show that it bends one way only.
     fn is_convex(&self, range: Range) -> bool {
-        self.limits.as_ref().is_some_and(|known| one_way::is_convex(self, known, self.range.within(range)))
+        function::is_convex(self, range)
     }
 
     fn curvature_in(&self, range: Range) -> (f64, f64) {
-        self.limits.as_ref().map_or(curvature::ANY, |known| known(self.range.within(range)).curvature)
+        function::curvature_in(self, range)
     }
 
     /// With limits.

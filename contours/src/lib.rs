@@ -49,6 +49,7 @@ mod error;
 #[cfg(feature = "files")]
 pub mod file;
 mod frame;
+mod function;
 mod graph;
 mod index;
 mod jet;
