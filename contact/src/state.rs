@@ -41,8 +41,8 @@ pub struct Contact {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapBounds {
     /// The gap is nowhere smaller than this: a bound over all points of the rod, not over samples. Above -1e-9 L in every
-    /// state that a sweep reports, and within 1e-3 of `seen` for a free rod. Minus infinity where the rod goes through an
-    /// object.
+    /// state at a pose that a sweep reports, and within 1e-3 of `seen` for a free rod. Minus infinity where nothing is proven:
+    /// the rod is inside an object by more than 1e-12 L, as it may be in a state at an event, or the search was given up.
     pub lower: f64,
     /// The smallest gap that was computed; negative: penetration.
     pub seen: f64,

@@ -1,10 +1,14 @@
 //! A proof that the rod stays outside of the objects, or the places where it does not.
 //!
 //! The rod is cut into intervals, the contours into [runs](rod_contours::Run) that bend one way. An interval is clear of a
-//! run where a line separates the two (one that is known from an earlier interval or state, mostly), where the rod leaves a
-//! point at which it is parallel to the run with less bend than the run has, or where both ends are farther away than it is
-//! long; else it is halved. What no run is met by stays on one side of the contour, so that a few signed distances tell
-//! which: at the clamp, and behind each interval that the contour may have been touched in.
+//! run if a line separates the two (mostly one that an earlier interval or state has found), if rod and run are parallel at
+//! a point from which on the rod curves towards the solid no more than the run, or if the distances of its ends from the
+//! run add up to more than its length. Otherwise it is halved. A part of the rod that meets no run lies wholly inside or
+//! wholly outside: the sign of the distance, at the clamp and behind each interval that may touch, decides which.
+
+mod candidates;
+mod compare;
+mod sides;
 
 use super::interval::{Interval, Knot};
 use super::separator::{Line, Lines};
@@ -12,50 +16,48 @@ use super::touch::Rod;
 use super::{Crossing, GAP_TOLERANCE};
 use crate::configuration::Configuration;
 use crate::shape::Shape;
-use crate::world::{AHEAD, RunFoot, World};
-use rod_contours::{Bend, Bounds, Run};
-use rod_core::Hold;
+use crate::world::{RunFoot, World};
 use smallvec::SmallVec;
 
-/// Length of an interval that is not halved any more, in lengths of the rod: its points are no deeper than half of it.
+/// Length (L) of an interval that is not halved any more: its points are no deeper than half of it.
 const SHORTEST: f64 = 1e-12;
-/// Depth (L) to which the rod is proven not to be in a contour. Ten times that at which it is called inside: the room between
-/// the two is what an interval next to a flat contact needs to be cleared without being cut to pieces.
+/// A gap above minus this (L) is proven. Ten times the depth at which a point counts as inside: with one number for both, an
+/// interval next to a flat contact would be halved millions of times.
 const PROVEN: f64 = 1e-11;
-/// Sine of the angle between rod and contour below which they count as parallel.
-const PARALLEL: f64 = 1e-9;
 /// Largest turn of the rod and of the contour over an interval along which they are compared, rad.
 const LARGEST_TURN: f64 = 0.5;
-/// Room for rounding in the curvatures that are compared, in units of 1 / L.
-const SLACK: f64 = 1e-9;
-/// An interval with a bound below this may touch the contour, and what follows may be on its other side.
+/// Bound (L) of an interval below which it may touch the contour: what follows may be on the other side.
 const GATE: f64 = 1e-12;
 /// An interval that meets the boxes of more runs than this is halved first.
 const CROWD: usize = 12;
-/// Of a free rod, how much smaller the proven gap may be than the smallest one seen, as a share of that.
+/// Largest difference between the smallest gap seen of a free rod and the proven one, as a share of the former.
 const BESIDE: f64 = 1e-3;
 /// Length of an interval of a free rod that is not halved any more, as a share of the gap.
 const COARSE: f64 = 1e-3;
-/// Gap of a free rod below which only that it is not closed is proven.
+/// Gap (L) of a free rod below which only the sign is proven.
 const NEARLY_CLOSED: f64 = 1e-9;
-/// Most intervals that are compared with the contour at once.
-const AT_ONCE: usize = 6;
 /// Discs without solid that are kept of one object.
 const DISCS: usize = 4;
 /// Least share of an interval that is cut off.
 const LEAST_SHARE: f64 = 0.1;
 /// Most parts of intervals that are looked at one by one; a state takes some tens. Beyond that nothing is proven.
 const MOST_LOOKS: usize = 100_000;
-/// Closer to a vertex than this the direction to it is rounding.
-const AT_VERTEX: f64 = 1e-6;
+
+/// A point outside of an object and its gap: a disc without solid.
+type Disc = (f64, f64, f64);
+
+/// Whether a point is in a disc.
+fn holds((x, y, gap): &Disc, point: (f64, f64)) -> bool {
+    (point.0 - x).powi(2) + (point.1 - y).powi(2) < gap * gap
+}
 
 /// Proves gaps, with what it learned in earlier states.
 #[derive(Debug, Default)]
 pub(crate) struct Prover {
     /// Of each run.
     lines: Vec<Lines>,
-    /// Of each object: points outside of it, and their gaps.
-    outside: Vec<SmallVec<[(f64, f64, f64); DISCS]>>,
+    /// Of each object.
+    outside: Vec<SmallVec<[Disc; DISCS]>>,
     /// Which of an object's discs is replaced next.
     next: usize,
     /// The run that a free rod was nearest to, and where.
@@ -110,10 +112,8 @@ impl Prover {
         }
         self.outside.resize_with(world.objects(), SmallVec::new);
         // a disc without solid that holds both ends holds the way
-        let holds = |(x, y, gap): &(f64, f64, f64)| {
-            [from, to].iter().all(|end| (end.0 - x).powi(2) + (end.1 - y).powi(2) < gap * gap)
-        };
-        if world.is_small() && self.outside.iter().all(|discs| discs.iter().any(holds)) {
+        let both = |disc: &Disc| holds(disc, from) && holds(disc, to);
+        if world.is_small() && self.outside.iter().all(|discs| discs.iter().any(both)) {
             return false;
         }
         self.gates.clear();
@@ -385,35 +385,6 @@ impl<'a> Search<'a> {
         self.world.run_foot(self.run, knot.at.x, knot.at.y)
     }
 
-    /// How many intervals from number `i` on, up to number `last`, next to a contact with the run, are clear of it.
-    fn beside_contact(&mut self, i: usize, last: usize) -> Option<usize> {
-        let (j, forward) = match (self.shape.contact_at(i), self.shape.contact_at(i + 1)) {
-            (Some(j), _) => (j, true),
-            (_, Some(j)) => (j, false),
-            _ => return None,
-        };
-        let configuration = self.configuration?;
-        let (contact, t) = (configuration.contacts[j], configuration.t(j));
-        if contact.hold == Hold::Tip || !self.world.is_on_run(self.run, contact.stretch, t) {
-            return None;
-        }
-        let span = self.shape.nodes[i].span;
-        // as many intervals as there may be, then one alone
-        let most = if forward { AT_ONCE.min(self.shape.last_of(span).min(last) - i) } else { 1 };
-        [most, 1].into_iter().take(if most > 1 { 2 } else { 1 }).find_map(|count| {
-            let [from, to] = [i, i + count].map(|k| Knot::from(&self.shape.nodes[k]));
-            let part = Interval::new(from, to, span, self.shape.force(span));
-            let at = if forward { &from.at } else { &to.at };
-            let foot = self.world.touched(contact.stretch, t, at.x, at.y);
-            let run = *self.known.lines[self.run].run.get_or_insert_with(|| self.world.run(self.run));
-            let foot =
-                RunFoot { foot, stretch: contact.stretch, end: None, joint: self.world.is_corner(contact.stretch) };
-            let bound = self.compared(&run, &foot, &part, forward).filter(|bound| *bound > self.least())?;
-            self.note(if forward { i } else { i + count - 1 }, bound, false);
-            Some(count)
-        })
-    }
-
     /// Whether a point behind the run is inside the object: it may be outside, behind another part.
     fn is_inside(&self, Knot { at, .. }: &Knot) -> bool {
         self.world.is_inside(self.object, at.x, at.y, GAP_TOLERANCE)
@@ -433,216 +404,6 @@ impl<'a> Search<'a> {
         if !(crossing.tip && configuration.ends_at_tip()) {
             self.proof.crossings.push(crossing);
         }
-    }
-
-    /// Hands out lines that keep the run behind them, as its closest point `foot` to an end of the interval suggests them,
-    /// until one is taken.
-    fn candidates(
-        &self,
-        run: &Run,
-        RunFoot { foot, stretch, end, joint }: &RunFoot,
-        Knot { at, .. }: &Knot,
-        length: f64,
-        mut take: impl FnMut(Line) -> bool,
-    ) {
-        let line = |at: (f64, f64), normal: (f64, f64), outward: bool| Line { at, normal, outward };
-        let ends = run.ends;
-        let outward = run.bend == Bend::Outward;
-        if outward && end.is_none() {
-            if foot.gap >= -GAP_TOLERANCE {
-                let away = (at.x - foot.x).hypot(at.y - foot.y);
-                let normal = if *joint && away < AT_VERTEX { foot.normal() } else { foot.uphill(at.x, at.y) };
-                if take(line((foot.x, foot.y), normal, true)) {
-                    return;
-                }
-                // at a vertex both its edges hold the run
-                let edges = joint.then(|| self.world.joint_normals(*stretch));
-                if edges.into_iter().flatten().any(|normal| take(line((foot.x, foot.y), normal, true))) {
-                    return;
-                }
-            } else if let [Some(from), Some(to)] = &ends
-                && from.into[0] * to.into[0] + from.into[1] * to.into[1] < -1.0 + f64::EPSILON
-                && take(line((foot.x, foot.y), (-from.normal[0], -from.normal[1]), false))
-            {
-                return;
-            }
-        }
-        // the chord, with the run on the side it bends to
-        if let [Some(from), Some(to)] = &ends
-            && run.bend != Bend::Mixed
-        {
-            let (dx, dy) = (to.x - from.x, to.y - from.y);
-            let chord = dx.hypot(dy);
-            let side = if outward { -1.0 } else { 1.0 };
-            if chord > 0.0 && take(line((from.x, from.y), (side * dy / chord, -side * dx / chord), !outward)) {
-                return;
-            }
-        }
-        for number in 0..2 {
-            let Some(corner) = ends[number] else { continue };
-            let (dx, dy) = (at.x - corner.x, at.y - corner.y);
-            let away = dx.hypot(dy);
-            if *end != Some(number) && away > 2.0 * length {
-                continue;
-            }
-            let turn = if run.bend == Bend::Mixed { self.turn() } else { 0.0 };
-            if turn > LARGEST_TURN {
-                continue;
-            }
-            let holds = |(ux, uy): (f64, f64)| {
-                let along = ux * corner.into[0] + uy * corner.into[1];
-                // the chord bounds the run's directions on the other side
-                let chord = ends[1 - number].map(|other| (other.x - corner.x, other.y - corner.y));
-                let chord = chord.or(run.far[1 - number].map(|[x, y]| (x, y)));
-                along <= f64::EPSILON - turn
-                    && (turn > 0.0 || chord.is_some_and(|(x, y)| ux * x + uy * y <= f64::EPSILON))
-            };
-            let normal = (corner.normal[0], corner.normal[1]);
-            if outward && take(line((corner.x, corner.y), normal, true)) {
-                return;
-            }
-            let aim = if away > AT_VERTEX { (dx / away, dy / away) } else { normal };
-            let (tangent, across) = ((at.cos, at.sin), (-at.sin, at.cos));
-            let minus = |(x, y): (f64, f64)| (-x, -y);
-            for normal in [aim, across, minus(across), tangent, minus(tangent)] {
-                if holds(normal) && take(line((corner.x, corner.y), normal, false)) {
-                    return;
-                }
-            }
-        }
-    }
-
-    /// Largest angle between two tangents of the run, as its box and its curvature allow.
-    fn turn(&self) -> f64 {
-        let (least, largest) = self.world.run_curvature(self.run);
-        let Bounds { min, max } = self.world.run_bounds(self.run);
-        // an arc that turns by half a radian is longer than its chord by less than a tenth
-        1.1 * (max[0] - min[0]).hypot(max[1] - min[1]) * largest.max(-least)
-    }
-
-    /// Lower bound of the gap along an interval that begins (or, where it does not go `forward`, ends) where the rod is
-    /// parallel to the contour. There both are graphs over the common tangent, with d(sin theta)/dx = curvature: while the rod
-    /// bends towards the solid by no more than the contour does, slopes and heights stay in order.
-    fn compared(
-        &self,
-        run: &Run,
-        RunFoot { foot, stretch, end, joint }: &RunFoot,
-        part: &Interval,
-        forward: bool,
-    ) -> Option<f64> {
-        let knot = if forward { &part.from } else { &part.to };
-        let (sin, cos) = foot.alpha.sin_cos();
-        let slope = knot.at.cos * sin - knot.at.sin * cos;
-        if slope.abs() > PARALLEL || *joint || end.is_some() && foot.gap.abs() > PARALLEL {
-            return None;
-        }
-        let along = knot.at.cos * cos + knot.at.sin * sin;
-        let sense = along.signum();
-        let bend = (sense * part.curvature.0).max(sense * part.curvature.1);
-        if part.bent * part.length > LARGEST_TURN {
-            return None;
-        }
-        let ahead = if forward { sense } else { -sense };
-        let outward = run.bend == Bend::Outward;
-        let least = self.world.curvature_ahead(outward, *stretch, foot.t, ahead, part.length, LARGEST_TURN)?;
-        let height = foot.gap - AHEAD * part.length * slope.abs();
-        (bend <= least + SLACK).then_some(height - SLACK * part.length * part.length)
-    }
-
-    /// Lower bound of the gap between two feet on a run that bends inwards somewhere: g'' >= -k - q / (1 - q g), where the
-    /// rod's curvature is at most k and the run's at most q away from the solid. As long as q g < 1 the foot of an arc that
-    /// turns by no more than a right angle moves without a jump.
-    fn concave(&self, run: &Run, [from, to]: &[RunFoot; 2], part: &Interval) -> Option<f64> {
-        let (g0, g1) = (from.foot.gap, to.foot.gap);
-        if run.bend == Bend::Outward || from.end.is_some() || to.end.is_some() || g0.min(g1) < -GAP_TOLERANCE {
-            return None;
-        }
-        let sharpest = (-self.world.run_curvature(self.run).0).max(0.0);
-        let highest = 0.5 * (g0 + g1 + part.length);
-        let room = 1.0 - sharpest * highest;
-        if !(room > 0.0 && sharpest.is_finite()) {
-            return None;
-        }
-        let (d0, d1) = (rate(&part.from, from.foot.normal()), rate(&part.to, to.foot.normal()));
-        Some(part.least((g0, d0), (g1, d1), -part.bent - sharpest / room))
-    }
-
-    /// Whether the clamp is inside an object.
-    fn clamp(&mut self) {
-        let Knot { at, .. } = self.point(0, 0.0);
-        let world = self.world;
-        world.objects_at(at.x, at.y, |object| {
-            self.object = object;
-            if !self.is_outside(0, 0.0) {
-                self.proof.clamp_inside = true;
-                self.proof.seen = self.proof.seen.min(world.object_gap(object, at.x, at.y));
-            }
-        });
-    }
-
-    /// Asks on which side of an object the rod is, where it may have touched it: in the middle of the stretch behind those
-    /// intervals, at the tip where nothing is behind, and in an interval that is clear of the run, but on either side.
-    fn sides(&mut self) {
-        let mut gates = std::mem::take(&mut self.known.gates);
-        gates.sort_unstable();
-        let last = self.shape.nodes.len() - 1;
-        let mut k = 0;
-        while let Some(&(object, i, unsigned)) = gates.get(k) {
-            k += 1;
-            let next = gates.get(k).filter(|next| next.0 == object).map(|next| next.1);
-            self.object = object;
-            if self.world.is_one_convex(object) {
-                continue;
-            }
-            let behind = match next {
-                Some(next) if next <= i + 1 => None,
-                next => Some(i + 1 + (next.unwrap_or(last) - i - 1) / 2),
-            };
-            let doubts = unsigned.then_some([(i, 0.5), (i + 1, 0.0)]);
-            let asked = behind.map(|k| (k, 0.0)).into_iter().chain(doubts.into_iter().flatten());
-            for (k, share) in asked {
-                if !self.is_outside(k, share) {
-                    let knot = self.point(k, share);
-                    self.refute(&knot);
-                }
-            }
-        }
-        self.known.gates = gates;
-    }
-
-    /// The node `k`, or a point by a share of the way to the next one.
-    fn point(&self, k: usize, share: f64) -> Knot {
-        let node = &self.shape.nodes[k];
-        if share == 0.0 {
-            return Knot::from(node);
-        }
-        let s = node.s + share * (self.shape.nodes[k + 1].s - node.s);
-        Knot::on(&self.shape.spans[node.span], s)
-    }
-
-    /// Whether a point of the rod is outside of the object: mostly it is in a disc that is known to be.
-    fn is_outside(&mut self, k: usize, share: f64) -> bool {
-        let (world, object) = (self.world, self.object);
-        let Knot { at, .. } = self.point(k, share);
-        if world.is_far_outside(object, at.x, at.y) {
-            return true;
-        }
-        let discs = &mut self.known.outside[object];
-        let within = |(x, y, gap): &(f64, f64, f64)| (at.x - x).powi(2) + (at.y - y).powi(2) < gap * gap;
-        if discs.iter().any(within) {
-            return true;
-        }
-        let gap = world.object_gap(object, at.x, at.y);
-        if gap > 0.0 {
-            let disc = (at.x, at.y, gap);
-            if discs.len() < DISCS {
-                discs.push(disc);
-            } else {
-                self.known.next = (self.known.next + 1) % DISCS;
-                discs[self.known.next] = disc;
-            }
-        }
-        !world.is_inside(object, at.x, at.y, GAP_TOLERANCE)
     }
 }
 

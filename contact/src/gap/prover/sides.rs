@@ -1,0 +1,84 @@
+//! On which side of the objects the rod is, where its intervals leave that open.
+
+use super::{DISCS, Search, holds};
+use crate::gap::GAP_TOLERANCE;
+use crate::gap::interval::Knot;
+
+impl Search<'_> {
+    /// Whether the clamp is inside an object.
+    pub(super) fn clamp(&mut self) {
+        let Knot { at, .. } = self.point(0, 0.0);
+        let world = self.world;
+        world.objects_at(at.x, at.y, |object| {
+            self.object = object;
+            if !self.is_outside(0, 0.0) {
+                self.proof.clamp_inside = true;
+                self.proof.seen = self.proof.seen.min(world.object_gap(object, at.x, at.y));
+            }
+        });
+    }
+
+    /// Asks on which side of an object the rod is, where it may have touched it: in the middle of the stretch behind those
+    /// intervals, at the tip where nothing is behind, and in an interval that is clear of the run, but on either side.
+    pub(super) fn sides(&mut self) {
+        let mut gates = std::mem::take(&mut self.known.gates);
+        gates.sort_unstable();
+        let last = self.shape.nodes.len() - 1;
+        let mut k = 0;
+        while let Some(&(object, i, unsigned)) = gates.get(k) {
+            k += 1;
+            let next = gates.get(k).filter(|next| next.0 == object).map(|next| next.1);
+            self.object = object;
+            if self.world.is_one_convex(object) {
+                continue;
+            }
+            let behind = match next {
+                Some(next) if next <= i + 1 => None,
+                next => Some(i + 1 + (next.unwrap_or(last) - i - 1) / 2),
+            };
+            let doubts = unsigned.then_some([(i, 0.5), (i + 1, 0.0)]);
+            let asked = behind.map(|k| (k, 0.0)).into_iter().chain(doubts.into_iter().flatten());
+            for (k, share) in asked {
+                if !self.is_outside(k, share) {
+                    let knot = self.point(k, share);
+                    self.refute(&knot);
+                }
+            }
+        }
+        self.known.gates = gates;
+    }
+
+    /// The node `k`, or a point by a share of the way to the next one.
+    fn point(&self, k: usize, share: f64) -> Knot {
+        let node = &self.shape.nodes[k];
+        if share == 0.0 {
+            return Knot::from(node);
+        }
+        let s = node.s + share * (self.shape.nodes[k + 1].s - node.s);
+        Knot::on(&self.shape.spans[node.span], s)
+    }
+
+    /// Whether a point of the rod is outside of the object: mostly it is in a disc that is known to be.
+    fn is_outside(&mut self, k: usize, share: f64) -> bool {
+        let (world, object) = (self.world, self.object);
+        let Knot { at, .. } = self.point(k, share);
+        if world.is_far_outside(object, at.x, at.y) {
+            return true;
+        }
+        let discs = &mut self.known.outside[object];
+        if discs.iter().any(|disc| holds(disc, (at.x, at.y))) {
+            return true;
+        }
+        let gap = world.object_gap(object, at.x, at.y);
+        if gap > 0.0 {
+            let disc = (at.x, at.y, gap);
+            if discs.len() < DISCS {
+                discs.push(disc);
+            } else {
+                self.known.next = (self.known.next + 1) % DISCS;
+                discs[self.known.next] = disc;
+            }
+        }
+        !world.is_inside(object, at.x, at.y, GAP_TOLERANCE)
+    }
+}
