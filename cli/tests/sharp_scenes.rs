@@ -11,8 +11,11 @@ use rayon::prelude::*;
 use sharp::bounds::{FALSE_EVENTS, FALSE_STATES, GAVE_UP, STEPS_DISAGREE};
 use sharp::report::table;
 use sharp::scene::scene;
+use sharp::unit::in_unit;
 use sharp::verdict::{Verdict, verdict};
 use std::ops::Range;
+use vibrissa_cli::Scene;
+use witness::run::Run;
 
 /// Of so many scenes one is swept at other steps too. It has no divisor in common with the number of kinds, and so goes
 /// through all of them.
@@ -45,6 +48,35 @@ fn three_hundred_scenes() {
     // scenes without contact prove nothing
     let touching = verdicts.iter().filter(|v| v.touching > 0).count();
     assert!(touching as f64 > 0.5 * verdicts.len() as f64, "{touching} scenes with contact");
+}
+
+/// What a scene and the same one in another unit of length differ in, if they do.
+fn depends_on_the_unit(seed: u64) -> Option<String> {
+    let generated = scene(seed);
+    let length = Scene::parse("scene.toml".as_ref(), &generated.text).unwrap().rod.length();
+    let own = Run::within_time(&generated.text, 1.0);
+    // powers of two, so that no number of the scene is rounded
+    [-20, 7, 20].into_iter().find_map(|power| {
+        let unit = 2f64.powi(power);
+        let mut other = Run::within_time(&in_unit(&generated.text, unit), 1.0);
+        for event in &mut other.events {
+            let pose = &mut event.before.pose;
+            (pose.x, pose.y) = (pose.x / unit, pose.y / unit);
+        }
+        let differs = own.differs(&other, length)?;
+        Some(format!("{seed}, {}, in units of 2^{power}: {differs}", generated.kind))
+    })
+}
+
+/// Scenes of the first sixty in which a contact hangs on the last bits of the numbers, so that a change of the unit changes what
+/// comes of it. The number may only be lowered.
+const UNIT_MATTERS: usize = 2;
+
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let different: Vec<_> = (0..60).into_par_iter().filter_map(depends_on_the_unit).collect();
+    println!("{different:#?}");
+    assert!(different.len() <= UNIT_MATTERS, "{different:#?}");
 }
 
 /// `SEEDS=0..10000 cargo test ... -- --ignored --nocapture these_scenes` prints the table of a range; `SEEDS=12,345` prints

@@ -143,10 +143,10 @@ impl<'a> World<'a> {
         Some(self.first[object] + stretch)
     }
 
-    /// Length of the contour's parameter that counts as 1 here: of pieces the rod's length, of joints, which are
-    /// measured by angle, 1.
+    /// What of the contour's parameter counts as 1 here: of pieces about the rod's length, so that nothing depends on the unit
+    /// of length or on how the shape is parametrised; of joints, which are measured by angle, 1.
     fn unit(&self, (object, own): (&Composite, usize)) -> f64 {
-        if matches!(object.kind(own), StretchKind::Piece(_)) { self.length } else { 1.0 }
+        object.own_pace(own).map_or(1.0, |pace| self.length * pace)
     }
 
     /// Range of a stretch in its own parameter.

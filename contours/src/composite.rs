@@ -201,6 +201,15 @@ impl Composite {
         }
     }
 
+    /// Change of a stretch's own parameter per length of the contour, about its middle and rounded to a power of two; none for
+    /// a joint, whose parameter is an angle.
+    pub fn own_pace(&self, stretch: usize) -> Option<f64> {
+        match self.at(stretch) {
+            At::Piece(piece) => Some(piece.pace),
+            At::Joint(_) => None,
+        }
+    }
+
     /// [`closest_on`](Self::closest_on) for a part of the stretch, by the stretch's own parameter.
     pub fn own_closest_in(&self, stretch: usize, range: Range, x: f64, y: f64) -> Closest {
         match self.at(stretch) {
@@ -393,6 +402,7 @@ impl Composite {
     pub(crate) fn laid_out(mut pieces: Vec<Piece>, turns: i32) -> Self {
         let mut order = Vec::with_capacity(pieces.iter().map(|piece| 1 + usize::from(piece.has_joint())).sum());
         for (index, piece) in pieces.iter_mut().enumerate() {
+            piece.set_pace();
             piece.stretch = order.len() as u32;
             order.push(2 * index as u32);
             if piece.has_joint() {

@@ -18,6 +18,8 @@ pub(crate) struct Piece {
     pub turns: i32,
     /// Index of its stretch.
     pub stretch: u32,
+    /// Change of the parameter per length about the middle, as a power of two: a product with it loses no digit.
+    pub pace: f64,
     /// The turn to the next piece, rad; 0 where that joint is smooth, or there is none.
     turn: f64,
     /// The point and the angle (of the composite) where the piece ends; known where there is a turn.
@@ -27,7 +29,15 @@ pub(crate) struct Piece {
 impl Piece {
     /// A piece that keeps its own parameter and angle.
     pub fn new(shape: Box<dyn Contour>, range: Range) -> Self {
-        Self { shape, range, offset: 0.0, turns: 0, stretch: 0, turn: 0.0, end: [0.0; 3] }
+        Self { shape, range, offset: 0.0, turns: 0, stretch: 0, pace: 1.0, turn: 0.0, end: [0.0; 3] }
+    }
+
+    /// Measures the pace, once the range is what it stays.
+    pub fn set_pace(&mut self) {
+        // of a piece that goes on for ever: where it begins, or at 0, as these are the same points in any unit of length
+        let t = if self.range.is_finite() { self.range.at(0.5) } else { self.range.clamp(0.0) };
+        let speed = self.shape.frame(t).speed;
+        self.pace = if speed.is_normal() && speed > 0.0 { (-speed.log2().round()).exp2() } else { 1.0 };
     }
 
     /// Sets the joint after it, which turns by `turn`, rad.

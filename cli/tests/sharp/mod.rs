@@ -8,5 +8,6 @@ pub mod flat;
 pub mod notches;
 pub mod report;
 pub mod scene;
+pub mod unit;
 pub mod verdict;
 pub mod walls;
