@@ -212,6 +212,13 @@ pub enum ContourError {
         y: f64,
     },
 
+    /// A polygon without area: a rod would pass through it unseen.
+    #[error("the points enclose an area of {area:e}, no more than rounding; expected a polygon with an inside")]
+    NoArea {
+        /// The area, lengths squared.
+        area: f64,
+    },
+
     /// Points of a solid polygon in the order of a hole.
     #[error("the points run clockwise, which would put the solid outside; reverse them, or ask for a cavity")]
     Clockwise,

@@ -42,10 +42,10 @@ impl Composite {
     ///
     /// # Errors
     ///
-    /// Those of [`polyline`](Self::polyline), for fewer than three points; points that run clockwise
-    /// ([`ContourError::Clockwise`]).
+    /// Those of [`polyline`](Self::polyline), for fewer than three points; no area, as of points on one line
+    /// ([`ContourError::NoArea`]); points that run clockwise ([`ContourError::Clockwise`]).
     pub fn polygon(points: &[[f64; 2]]) -> Result<Self, ContourError> {
-        let polygon = of_edges(edges(points, true)?)?;
+        let polygon = of_edges(closed_edges(points)?)?;
         if polygon.is_cavity() { Err(ContourError::Clockwise) } else { Ok(polygon) }
     }
 
@@ -63,7 +63,7 @@ impl Composite {
     ///
     /// Those of [`polygon`](Self::polygon), with [`ContourError::Counterclockwise`] for the other direction.
     pub fn cavity(points: &[[f64; 2]]) -> Result<Self, ContourError> {
-        let cavity = of_edges(edges(points, true)?)?;
+        let cavity = of_edges(closed_edges(points)?)?;
         if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
     }
 }
@@ -73,6 +73,20 @@ pub(crate) fn comes_back(points: &[[f64; 2]]) -> bool {
     let [first, .., last] = *points else { return false };
     let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
     distance(first, last) <= CLOSED * around
+}
+
+/// The edges of a closed polygon that has an inside.
+fn closed_edges(points: &[[f64; 2]]) -> Result<Vec<Box<dyn Contour>>, ContourError> {
+    let edges = edges(points, true)?;
+    let [first, rest @ ..] = points else { return Ok(edges) };
+    let (mut area, mut terms) = (0.0, 0.0);
+    for pair in rest.windows(2) {
+        let [[x0, y0], [x1, y1]] = [0, 1].map(|k| [0, 1].map(|axis| pair[k][axis] - first[axis]));
+        area += 0.5 * (x0 * y1 - x1 * y0);
+        terms += 0.5 * ((x0 * y1).abs() + (x1 * y0).abs());
+    }
+    let rounding = points.len() as f64 * f64::EPSILON * terms;
+    if area.abs() <= rounding { Err(ContourError::NoArea { area }) } else { Ok(edges) }
 }
 
 /// The edges from point to point, and back to the first one if they are closed.
@@ -117,6 +131,16 @@ fn of_edges(edges: Vec<Box<dyn Contour>>) -> Result<Composite, ContourError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn points_on_one_line_are_no_polygon() {
+        for tilt in [0.0, 0.3] {
+            let line = [0.0, 0.4, 1.0, 0.7].map(|x: f64| [x, tilt * x]);
+            assert!(matches!(Composite::polygon(&line), Err(ContourError::NoArea { .. })), "{tilt}");
+            assert!(matches!(Composite::cavity(&line), Err(ContourError::NoArea { .. })), "{tilt}");
+        }
+        assert!(Composite::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e-12]]).is_ok());
+    }
 
     const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
