@@ -74,12 +74,8 @@ impl Scene {
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let directory = file.parent().unwrap_or(file);
         let read = |table: Spanned<DeTable<'_>>| check::scene(stem(file), document::document(table)?, directory);
-        let (mut scene, mut warnings) = toml_file::parse_angles(file, text, read)?;
-        if let Some(angle) = scene.path.suspicious_angle() {
-            warnings.push(format!("{}: sweep: {angle}", file.display()));
-        }
-        scene.warnings = warnings;
-        Ok(scene)
+        let (scene, warnings) = toml_file::parse_angles(file, text, read)?;
+        Ok(Self { warnings, ..scene })
     }
 
     /// The sweep this scene asks for.

@@ -1,4 +1,4 @@
-//! Angles in degrees that look as if they had been given in radians.
+//! Angles in degrees that may be mistakes: those that look like radians, and clamps turned many times.
 
 use super::error::{Fault, visit};
 use std::f64::consts::FRAC_PI_2;
@@ -11,18 +11,23 @@ const ANGLES: [&str; 6] = ["angle", "angle_to", "from_angle", "to_angle", "rotat
 /// the point. With a larger one, degrees that are meant would be warned of.
 const NEAR: f64 = 1e-3;
 
-/// A warning for each angle near pi/2, pi, 3 pi/2 or 2 pi of either sign.
-pub(super) fn like_radians(table: &DeTable<'_>, text: &str) -> Vec<Fault> {
+/// Angle of the clamp, degrees, beyond which it is warned of: two turns.
+const MOST_TURNED: f64 = 720.0;
+
+/// A warning for each angle near pi/2, pi, 3 pi/2 or 2 pi of either sign, and for a clamp turned more than twice.
+pub(super) fn suspicious(table: &DeTable<'_>, text: &str) -> Vec<Fault> {
     let mut warnings = Vec::new();
     visit(table, "", &mut |span, path| {
         let name = path.rsplit('.').next().unwrap_or(path);
         // that of the key is no number
         let value = text.get(span.clone()).and_then(|text| text.replace('_', "").parse::<f64>().ok());
-        if let Some(value) = value.filter(|_| ANGLES.contains(&name))
-            && let Some(quarters) = quarters(value)
-        {
+        let Some(value) = value.filter(|_| ANGLES.contains(&name)) else { return };
+        if let Some(quarters) = quarters(value) {
             let meant = 90 * quarters;
             warnings.push(Fault::new(span, format!("{name} is {value} degrees; is {meant} degrees meant?")));
+        } else if path.starts_with("sweep.") && value.abs() > MOST_TURNED {
+            let turned = format!("{name} is {value} degrees, more than two turns of the clamp; is that meant?");
+            warnings.push(Fault::new(span, turned));
         }
     });
     warnings

@@ -24,7 +24,7 @@ pub(crate) fn parse<T>(
     parse_angles(file, text, check).map(|(checked, _)| checked)
 }
 
-/// The same, with a warning for each angle that looks like radians.
+/// The same, with a warning for each angle that looks like radians or turns the clamp more than twice.
 pub(crate) fn parse_angles<T>(
     file: &Path,
     text: &str,
@@ -33,6 +33,6 @@ pub(crate) fn parse_angles<T>(
     let table = DeTable::parse(text).map_err(|error| Fault::of_syntax(error, text).in_text(file, text, None))?;
     let in_text = |fault: Fault| fault.in_text(file, text, Some(table.get_ref()));
     let checked = check(table.clone()).map_err(in_text)?;
-    let warnings = angle::like_radians(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
+    let warnings = angle::suspicious(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
     Ok((checked, warnings.collect()))
 }
