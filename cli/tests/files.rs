@@ -189,6 +189,6 @@ fn a_sweep_that_stops_early_keeps_what_it_has() {
     assert!(fs::read_to_string(directory.path().join("out/scene/sweep.svg")).unwrap().contains("stopped early"));
     let summary: Value =
         serde_json::from_str(&fs::read_to_string(directory.path().join("out/scene/sweep.json")).unwrap()).unwrap();
-    assert_eq!((&summary["complete"], &summary["stop"]["kind"]), (&false.into(), &"stopped".into()));
+    assert_eq!((&summary["complete"], &summary["stop"]["kind"]), (&false.into(), &"clamp-inside".into()));
     assert!(message.contains(summary["stop"]["message"].as_str().unwrap()), "{summary}");
 }

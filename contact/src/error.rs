@@ -81,6 +81,22 @@ pub enum StopReason {
     StepBudget,
 }
 
+/// A name in small letters with hyphens, such as `no-landing`.
+impl std::fmt::Display for StopReason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::NoStart => "no-start",
+            Self::StepTooSmall => "step-too-small",
+            Self::NoLanding => "no-landing",
+            Self::EndOfContour => "end-of-contour",
+            Self::LineContact => "line-contact",
+            Self::ClampInside => "clamp-inside",
+            Self::Chatter => "chatter",
+            Self::StepBudget => "step-budget",
+        })
+    }
+}
+
 impl std::fmt::Display for Stop {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (why, advice) = match self.reason {

@@ -18,8 +18,8 @@ pub(super) struct SweepRecord<'a> {
 /// Where and why a sweep ended before its path; SI units.
 #[derive(Serialize)]
 struct StopRecord {
-    /// `interrupted` by the user, or `stopped` by what the rod met.
-    kind: &'static str,
+    /// `interrupted` by the user, or the [reason](vibrissa::StopReason) why the sweep could not go on.
+    kind: String,
     x0: Option<f64>,
     y0: Option<f64>,
     phi0: Option<f64>,
@@ -27,7 +27,7 @@ struct StopRecord {
 }
 
 impl StopRecord {
-    fn new(kind: &'static str, pose: Option<Pose>, message: String) -> Self {
+    fn new(kind: String, pose: Option<Pose>, message: String) -> Self {
         let [x0, y0, phi0] = [pose.map(|pose| pose.x), pose.map(|pose| pose.y), pose.map(|pose| pose.phi)];
         Self { kind, x0, y0, phi0, message }
     }
@@ -35,9 +35,9 @@ impl StopRecord {
 
 impl<'a> From<&'a Scan> for SweepRecord<'a> {
     fn from(scan: &'a Scan) -> Self {
-        let interrupted = scan.interrupted.map(|at| StopRecord::new("interrupted", at.pose, at.to_string()));
-        let stopped =
-            || scan.outcome.stop.as_ref().map(|stop| StopRecord::new("stopped", Some(stop.pose), stop.to_string()));
+        let interrupted = scan.interrupted.map(|at| StopRecord::new("interrupted".into(), at.pose, at.to_string()));
+        let stop = scan.outcome.stop.as_ref();
+        let stopped = || stop.map(|stop| StopRecord::new(stop.reason.to_string(), Some(stop.pose), stop.to_string()));
         Self {
             scene: &scan.scene.name,
             complete: scan.is_complete(),
