@@ -1,7 +1,7 @@
 //! A look at the rod in a configuration: its shape, its gap to the objects, its stability.
 
 use crate::configuration::{Configuration, Span};
-use crate::gap::{Crossing, Proof, Prover};
+use crate::gap::{AT_TRANSITION, Crossing, GAP_TOLERANCE, Proof, Prover};
 use crate::passing::{self, Passing};
 use crate::path::ClampPath;
 use crate::shape::{Node, Shape};
@@ -66,8 +66,19 @@ pub(crate) struct Scanner {
 impl Scanner {
     /// Looks at the whole rod in `configuration`.
     pub fn scan(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
+        self.scan_to(GAP_TOLERANCE, world, path, configuration)
+    }
+
+    /// The same of a rod at a transition, where another contact, about to form, may be deeper.
+    pub fn scan_transition(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
+        let scan = self.scan(world, path, configuration);
+        if scan.is_outside() { scan } else { self.scan_to(AT_TRANSITION, world, path, configuration) }
+    }
+
+    fn scan_to(&mut self, depth: f64, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
         self.shape.follow(world, path, configuration);
-        let Proof { lower, seen, crossings, clamp_inside } = self.prover.prove(world, configuration, &self.shape);
+        let proof = self.prover.prove(world, configuration, &self.shape, depth);
+        let Proof { lower, seen, crossings, clamp_inside } = proof;
         let gap = GapBounds { lower, seen, proven: world.is_proven() };
         let (_, tip) = self.shape.ends();
         Scan { gap, crossings, clamp_inside, tip, sides: sides(world, &self.shape) }

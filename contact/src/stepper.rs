@@ -33,12 +33,12 @@ const LEAST_COSINE: f64 = 0.9;
 const LARGEST_CORRECTION: f64 = 0.3;
 /// Slowest d tau / d arclength at which a pose is aimed at directly.
 const STEEPEST: f64 = 1e-3;
-/// Penetration that a transition may leave elsewhere: a shorter step would have met it first.
+/// Depth (L) of a free rod that is no rounding.
 const DEEPEST: f64 = 1e-9;
 /// Residual beyond which nothing is a solution, whatever the forces.
 const LARGEST_RESIDUAL: f64 = 1e-9;
 /// A contact this near to the clamp is at the clamp.
-const AT_CLAMP: f64 = 1e-3;
+const AT_CLAMP: f64 = 1e-4;
 /// Transitions this close together along the branch are one but for rounding.
 const AT_ONCE: f64 = 1e-12;
 /// Arclength by which a touch may be behind the start of the step: where the gap closes slowly, the depth that a proof leaves
@@ -114,7 +114,8 @@ impl<'a> Stepper<'a> {
     /// A point with everything known of it.
     pub fn point(&mut self, configuration: Configuration) -> Point {
         let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
-        let scan = self.scan(&configuration);
+        let Corrector { world, path, .. } = &self.corrector;
+        let scan = self.scanner.scan_transition(world, path, &configuration);
         let stable = self.is_stable(&configuration);
         Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
     }
@@ -410,8 +411,8 @@ impl<'a> Stepper<'a> {
             Some((_, Step::Ended(fold))) => fold,
             Some((_, Step::Moved(point))) => &point.configuration,
         };
-        let seen = self.scan(reached);
-        if ordered_or_new(reached) && seen.gap.seen > -DEEPEST {
+        let Corrector { world, path, .. } = &self.corrector;
+        if ordered_or_new(reached) && self.scanner.scan_transition(world, path, reached).is_outside() {
             Ok(first.map(|(_, step)| step))
         } else {
             Err(NoTransition::NotLocated)

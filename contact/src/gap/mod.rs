@@ -12,6 +12,9 @@ use crate::world::Foot;
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
 
+/// The same (L) at a located transition, where another contact may be about to form: what is proven there is ten times this.
+pub(crate) const AT_TRANSITION: f64 = 1e-10;
+
 /// A place where the rod goes through the contour: a local minimum of the gap along the rod.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {

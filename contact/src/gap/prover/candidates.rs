@@ -1,7 +1,6 @@
 //! Lines that may separate an interval of the rod from a run, as its closest points suggest them.
 
 use super::{LARGEST_TURN, Search};
-use crate::gap::GAP_TOLERANCE;
 use crate::gap::interval::Knot;
 use crate::gap::separator::Line;
 use crate::world::RunFoot;
@@ -25,7 +24,7 @@ impl Search<'_> {
         let ends = run.ends;
         let outward = run.bend == Bend::Outward;
         if outward && end.is_none() {
-            if foot.gap >= -GAP_TOLERANCE {
+            if foot.gap >= -self.depth {
                 let away = (at.x - foot.x).hypot(at.y - foot.y);
                 let normal = if *joint && away < AT_VERTEX { foot.normal() } else { foot.uphill(at.x, at.y) };
                 if take(line((foot.x, foot.y), normal, true)) {

@@ -1,7 +1,6 @@
 //! The gap of the rod next to a touch, and to what bends away from it: bounds that no line gives.
 
 use super::{LARGEST_TURN, Search, rate};
-use crate::gap::GAP_TOLERANCE;
 use crate::gap::interval::{Interval, Knot};
 use crate::world::{AHEAD, RunFoot};
 use rod_contours::{Bend, Run};
@@ -78,7 +77,7 @@ impl Search<'_> {
     /// turns by no more than a right angle moves without a jump.
     pub(super) fn concave(&self, run: &Run, [from, to]: &[RunFoot; 2], part: &Interval) -> Option<f64> {
         let (g0, g1) = (from.foot.gap, to.foot.gap);
-        if run.bend == Bend::Outward || from.end.is_some() || to.end.is_some() || g0.min(g1) < -GAP_TOLERANCE {
+        if run.bend == Bend::Outward || from.end.is_some() || to.end.is_some() || g0.min(g1) < -self.depth {
             return None;
         }
         let sharpest = (-self.world.run_curvature(self.run).0).max(0.0);

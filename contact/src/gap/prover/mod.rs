@@ -21,9 +21,9 @@ use smallvec::SmallVec;
 
 /// Length (L) of an interval that is not halved any more: its points are no deeper than half of it.
 const SHORTEST: f64 = 1e-12;
-/// A gap above minus this (L) is proven. Ten times the depth at which a point counts as inside: with one number for both, an
-/// interval next to a flat contact would be halved millions of times.
-const PROVEN: f64 = 1e-11;
+/// What is proven is a gap above minus this many times the depth at which a point counts as inside: with one number for both,
+/// an interval next to a flat contact would be halved millions of times.
+const PROVEN: f64 = 10.0;
 /// Largest turn of the rod and of the contour over an interval along which they are compared, rad.
 const LARGEST_TURN: f64 = 0.5;
 /// Bound (L) of an interval below which it may touch the contour: what follows may be on the other side.
@@ -81,10 +81,10 @@ pub(crate) struct Proof {
 }
 
 impl Prover {
-    /// Looks at the rod of `configuration`, whose `shape` is known.
-    pub fn prove(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape) -> Proof {
+    /// Looks at the rod of `configuration`, whose `shape` is known. Points of it no deeper than `depth` (L) count as outside.
+    pub fn prove(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape, depth: f64) -> Proof {
         let free = configuration.count() == 0;
-        let mut search = Search::new(self, world, Some(configuration), shape);
+        let mut search = Search::new(self, world, Some(configuration), shape, depth);
         if free {
             search.proof.seen = search.nearest();
         }
@@ -121,7 +121,7 @@ impl Prover {
         let part = interval(&shape, 0);
         let mut near: SmallVec<[usize; CROWD]> = SmallVec::new();
         world.runs_near(part.bounds(0.0), |run| near.push(run));
-        let mut search = Search::new(self, world, None, &shape);
+        let mut search = Search::new(self, world, None, &shape, GAP_TOLERANCE);
         near.into_iter().filter(|run| !skip(*run)).any(|run| {
             search.take(run);
             search.clear(0, &part);
@@ -135,6 +135,8 @@ struct Search<'a> {
     /// The rod's contacts; none where what is looked at is no rod but the way of a point.
     configuration: Option<&'a Configuration>,
     shape: &'a Shape,
+    /// Depth (L) down to which a point counts as outside.
+    depth: f64,
     known: &'a mut Prover,
     proof: Proof,
     /// The run that is looked at, and its object.
@@ -152,12 +154,13 @@ impl<'a> Search<'a> {
         world: &'a World<'a>,
         configuration: Option<&'a Configuration>,
         shape: &'a Shape,
+        depth: f64,
     ) -> Self {
         known.lines.resize_with(world.runs(), Lines::default);
         known.outside.resize_with(world.objects(), SmallVec::new);
         // where there is a contact, there the gap is zero
         let proof = Proof { lower: f64::INFINITY, seen: 0.0, crossings: SmallVec::new(), clamp_inside: false };
-        Self { world, configuration, shape, known, proof, run: 0, object: 0, refuted: SmallVec::new(), looks: 0 }
+        Self { world, configuration, shape, depth, known, proof, run: 0, object: 0, refuted: SmallVec::new(), looks: 0 }
     }
 
     /// Whether it is a rod without contacts.
@@ -168,7 +171,7 @@ impl<'a> Search<'a> {
     /// The gap that must be proven: of a free rod nearly all that was seen, so that the bound is of use.
     fn least(&self) -> f64 {
         if !self.is_free() || self.proof.seen < NEARLY_CLOSED {
-            return -PROVEN;
+            return -PROVEN * self.depth;
         }
         ((1.0 - BESIDE) * self.proof.seen).min(f64::MAX)
     }
@@ -335,7 +338,7 @@ impl<'a> Search<'a> {
         }
         let feet = [self.foot(&part.from), self.foot(&part.to)];
         for (knot, foot) in [(&part.from, &feet[0]), (&part.to, &feet[1])] {
-            if foot.end.is_none() && foot.foot.gap < -GAP_TOLERANCE && self.is_inside(knot) {
+            if foot.end.is_none() && foot.foot.gap < -self.depth && self.is_inside(knot) {
                 self.refute(knot);
                 return None;
             }
@@ -387,7 +390,7 @@ impl<'a> Search<'a> {
 
     /// Whether a point behind the run is inside the object: it may be outside, behind another part.
     fn is_inside(&self, Knot { at, .. }: &Knot) -> bool {
-        self.world.is_inside(self.object, at.x, at.y, GAP_TOLERANCE)
+        self.world.is_inside(self.object, at.x, at.y, self.depth)
     }
 
     /// Notes that a point is inside the object: the rod goes through the run that is nearest there.

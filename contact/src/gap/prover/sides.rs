@@ -1,7 +1,6 @@
 //! On which side of the objects the rod is, where its intervals leave that open.
 
 use super::{DISCS, Search, holds};
-use crate::gap::GAP_TOLERANCE;
 use crate::gap::interval::Knot;
 
 impl Search<'_> {
@@ -79,6 +78,6 @@ impl Search<'_> {
                 discs[self.known.next] = disc;
             }
         }
-        !world.is_inside(object, at.x, at.y, GAP_TOLERANCE)
+        !world.is_inside(object, at.x, at.y, self.depth)
     }
 }
