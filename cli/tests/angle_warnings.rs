@@ -33,7 +33,8 @@ fn radians_in_a_scene() {
 fn a_clamp_that_turns_more_than_twice() {
     assert!(warnings(&edited("90.0", "720")).is_empty());
     let warned = warnings(&edited("90.0", "5156.62"));
-    let clamp = "scene.toml:19:9: sweep.angle: angle is 5156.62 degrees, more than two turns of the clamp; is that meant?";
+    let clamp =
+        "scene.toml:19:9: sweep.angle: angle is 5156.62 degrees, more than two turns of the clamp; is that meant?";
     assert_eq!(warned, [clamp]);
 }
 

@@ -45,7 +45,8 @@ impl Composite {
     /// Those of [`polyline`](Self::polyline), for fewer than three points; no area, as of points on one line
     /// ([`ContourError::NoArea`]); points that run clockwise ([`ContourError::Clockwise`]).
     pub fn polygon(points: &[[f64; 2]]) -> Result<Self, ContourError> {
-        let polygon = of_edges(closed_edges(points)?)?;
+        let polygon = of_edges(edges(points, true)?)?;
+        encloses(points)?;
         if polygon.is_cavity() { Err(ContourError::Clockwise) } else { Ok(polygon) }
     }
 
@@ -63,7 +64,8 @@ impl Composite {
     ///
     /// Those of [`polygon`](Self::polygon), with [`ContourError::Counterclockwise`] for the other direction.
     pub fn cavity(points: &[[f64; 2]]) -> Result<Self, ContourError> {
-        let cavity = of_edges(closed_edges(points)?)?;
+        let cavity = of_edges(edges(points, true)?)?;
+        encloses(points)?;
         if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
     }
 }
@@ -75,10 +77,9 @@ pub(crate) fn comes_back(points: &[[f64; 2]]) -> bool {
     distance(first, last) <= CLOSED * around
 }
 
-/// The edges of a closed polygon that has an inside.
-fn closed_edges(points: &[[f64; 2]]) -> Result<Vec<Box<dyn Contour>>, ContourError> {
-    let edges = edges(points, true)?;
-    let [first, rest @ ..] = points else { return Ok(edges) };
+/// Whether the edges of a closed polygon enclose an area larger than rounding.
+fn encloses(points: &[[f64; 2]]) -> Result<(), ContourError> {
+    let [first, rest @ ..] = points else { return Ok(()) };
     let (mut area, mut terms) = (0.0, 0.0);
     for pair in rest.windows(2) {
         let [[x0, y0], [x1, y1]] = [0, 1].map(|k| [0, 1].map(|axis| pair[k][axis] - first[axis]));
@@ -86,7 +87,7 @@ fn closed_edges(points: &[[f64; 2]]) -> Result<Vec<Box<dyn Contour>>, ContourErr
         terms += 0.5 * ((x0 * y1).abs() + (x1 * y0).abs());
     }
     let rounding = points.len() as f64 * f64::EPSILON * terms;
-    if area.abs() <= rounding { Err(ContourError::NoArea { area }) } else { Ok(edges) }
+    if area.abs() <= rounding { Err(ContourError::NoArea { area }) } else { Ok(()) }
 }
 
 /// The edges from point to point, and back to the first one if they are closed.

@@ -3,7 +3,8 @@
 use toml::{Table, Value};
 
 /// Fields that are lengths, or lists of them, wherever they stand.
-const LENGTHS: [&str; 10] = ["length", "points", "from", "to", "center", "radius", "radii", "vertex", "position", "step"];
+const LENGTHS: [&str; 10] =
+    ["length", "points", "from", "to", "center", "radius", "radii", "vertex", "position", "step"];
 
 /// The scene file `text` with all lengths, and what depends on them, times `factor`: the same problem. By a power of two no
 /// digit changes.
@@ -21,7 +22,9 @@ fn scale(table: &mut Table, factor: f64) {
             "bending_stiffness" => times(value, factor * factor),
             _ => match value {
                 Value::Table(table) => scale(table, factor),
-                Value::Array(tables) => tables.iter_mut().filter_map(Value::as_table_mut).for_each(|t| scale(t, factor)),
+                Value::Array(tables) => {
+                    tables.iter_mut().filter_map(Value::as_table_mut).for_each(|t| scale(t, factor))
+                }
                 _ => {}
             },
         }
