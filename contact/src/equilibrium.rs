@@ -1,13 +1,13 @@
 //! Equilibrium at one pose for a given contact set.
 
-use crate::branch::Corrector;
-use crate::certify::{Quality, state};
-use crate::configuration::{Configuration, Held, Unknowns, lying};
+use crate::contact_set::{Configuration, Held, Unknowns, lying};
+use crate::continuation::branch::Corrector;
+use crate::continuation::certify::{Quality, state};
 use crate::error::ContactError;
+use crate::gap::scan::Scanner;
 use crate::path::{ClampPath, check};
-use crate::scan::Scanner;
+use crate::scene::world::{Foot, World};
 use crate::state::{Contact, ContactKind, State};
-use crate::world::{Foot, World};
 use rod_contours::{Composite, StretchKind};
 use rod_core::{Hold, MultiPoint, Pose, Rod, Section, SolveReport, advance};
 use smallvec::SmallVec;

@@ -31,30 +31,19 @@
 //! This crate knows nothing of sensors, files or reconstruction.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
-mod branch;
-mod certify;
-mod chain;
-mod configuration;
-mod corner;
+mod contact_set;
+mod continuation;
 mod equilibrium;
 mod error;
 mod event;
-mod fold;
 mod gap;
-mod inflection;
-mod landing;
-mod notch;
-mod passing;
 mod path;
 mod phase;
-mod scan;
-mod shape;
+mod scene;
+mod snap;
 mod stability;
 mod state;
-mod stepper;
 mod sweep;
-mod transition;
-mod world;
 
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Stop, StopReason};

@@ -1,19 +1,20 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
-use crate::branch::Corrector;
-use crate::certify::{Quality, state};
-use crate::chain::Chain;
-use crate::configuration::Configuration;
+use crate::contact_set::Configuration;
+use crate::contact_set::edit::{beside_corner, beyond_corner};
+use crate::continuation::branch::Corrector;
+use crate::continuation::certify::{Quality, state};
+use crate::continuation::inflection::is_at_inflection;
+use crate::continuation::step::{FIRST_STEP, Point, SAME_POSE, Step, Stepper};
+use crate::continuation::transition::Transition;
 use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
-use crate::inflection::is_at_inflection;
-use crate::landing::settle;
+use crate::gap::scan::{Scan, Scanner};
 use crate::path::ClampPath;
-use crate::scan::{Scan, Scanner};
+use crate::scene::world::World;
+use crate::snap::chain::Chain;
+use crate::snap::settle::settle;
 use crate::state::State;
-use crate::stepper::{FIRST_STEP, Point, Step, Stepper};
-use crate::transition::{Transition, beside_corner, beyond_corner};
-use crate::world::World;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
 use std::collections::VecDeque;
@@ -64,9 +65,6 @@ const MOST_STEPS: f64 = 1e15;
 
 /// Steps after which a sweep ends, by default.
 const MOST_STEPS_TAKEN: u64 = 2_000_000;
-/// A pose that is beyond a transition by less than this is at the transition, where the state before it is reported: it still
-/// holds there, up to rounding.
-pub(crate) const SAME_POSE: f64 = 1e-13;
 
 /// More transitions than this at one pose are no physics.
 const MOST_AT_ONE_POSE: usize = 12;
@@ -215,7 +213,7 @@ impl<'a> Sweep<'a> {
                 self.count_crowd(transition.after.tau())?;
                 let Transition { kind, before, after, .. } = *transition;
                 // a corner at the very tip is none
-                let beside = beside_corner(&after, &self.stepper.corrector);
+                let beside = beside_corner(&after, &self.stepper.corrector.world);
                 self.stepper.h = FIRST_STEP;
                 let goes_on = std::iter::once(after).chain(beside).find_map(|after| {
                     let after = self.stepper.point(after);

@@ -1,7 +1,7 @@
 //! A short interval of the rod, and how far a function of its points may fall below its values at the ends.
 
-use crate::configuration::Span;
-use crate::shape::Node;
+use crate::contact_set::Span;
+use crate::gap::shape::Node;
 use rod_contours::Bounds;
 use rod_core::{Station, advance};
 

@@ -1,13 +1,16 @@
 //! The gap between the whole rod and the objects: proven from below, or the places where the rod goes through.
 
 mod interval;
+pub(crate) mod passing;
 mod prover;
+pub(crate) mod scan;
 mod separator;
+pub(crate) mod shape;
 mod touch;
 
 pub(crate) use prover::{Proof, Prover};
 
-use crate::world::Foot;
+use crate::scene::world::Foot;
 
 /// Gaps down to minus this count as closed: what a residual at rounding level leaves.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;

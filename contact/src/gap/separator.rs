@@ -1,7 +1,7 @@
 //! Straight lines that keep a run of a contour on one side.
 
 use super::interval::Interval;
-use crate::shape::Node;
+use crate::gap::shape::Node;
 use rod_contours::Run;
 use smallvec::SmallVec;
 

@@ -2,8 +2,8 @@
 
 use super::interval::Knot;
 use super::{Crossing, GAP_TOLERANCE};
-use crate::shape::Shape;
-use crate::world::{Foot, RunFoot, World};
+use crate::gap::shape::Shape;
+use crate::scene::world::{Foot, RunFoot, World};
 use rod_contours::Bend;
 use rod_core::{Section, advance};
 use std::f64::consts::PI;

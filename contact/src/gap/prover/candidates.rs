@@ -3,7 +3,7 @@
 use super::{LARGEST_TURN, Search};
 use crate::gap::interval::Knot;
 use crate::gap::separator::Line;
-use crate::world::RunFoot;
+use crate::scene::world::RunFoot;
 use rod_contours::{Bend, Bounds, Run};
 
 /// Closer to a vertex than this the direction to it is rounding.

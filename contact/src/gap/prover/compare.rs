@@ -2,7 +2,7 @@
 
 use super::{LARGEST_TURN, Search, rate};
 use crate::gap::interval::{Interval, Knot};
-use crate::world::{AHEAD, RunFoot};
+use crate::scene::world::{AHEAD, RunFoot};
 use rod_contours::{Bend, Run};
 use rod_core::Hold;
 

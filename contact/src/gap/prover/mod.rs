@@ -14,9 +14,9 @@ use super::interval::{Interval, Knot};
 use super::separator::{Line, Lines};
 use super::touch::Rod;
 use super::{Crossing, GAP_TOLERANCE};
-use crate::configuration::Configuration;
-use crate::shape::Shape;
-use crate::world::{RunFoot, World};
+use crate::contact_set::Configuration;
+use crate::gap::shape::Shape;
+use crate::scene::world::{RunFoot, World};
 use smallvec::SmallVec;
 
 /// Length (L) of an interval that is not halved any more: its points are no deeper than half of it.

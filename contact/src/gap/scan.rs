@@ -1,13 +1,13 @@
 //! A look at the rod in a configuration: its shape, its gap to the objects, its stability.
 
-use crate::configuration::{Configuration, Span};
+use crate::contact_set::{Configuration, Span};
+use crate::gap::passing::{self, Passing};
+use crate::gap::shape::{Node, Shape};
 use crate::gap::{AT_TRANSITION, Crossing, GAP_TOLERANCE, Proof, Prover};
-use crate::passing::{self, Passing};
 use crate::path::ClampPath;
-use crate::shape::{Node, Shape};
+use crate::scene::world::World;
 use crate::stability::Judge;
 use crate::state::GapBounds;
-use crate::world::World;
 use rod_core::{Section, advance};
 use smallvec::SmallVec;
 

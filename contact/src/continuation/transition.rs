@@ -1,15 +1,14 @@
 //! Transitions: which condition of a contact set is broken, and where on the branch it broke.
 
-use crate::branch::{Condition, Corrector, Tangent};
-use crate::configuration::{Configuration, Held, lying};
+use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour};
+use crate::contact_set::notch::{lying_angle, merged, parted, straddles, wall_run_into};
+use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, lying};
+use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
 use crate::gap::Crossing;
-use crate::notch::{lying_angle, merged, parted, straddles, wall_run_into};
-use crate::scan::Scan;
-use crate::world::World;
+use crate::gap::scan::Scan;
 use rod_core::Hold;
 use smallvec::SmallVec;
-use std::f64::consts::TAU;
 
 /// A condition of the contact set that no longer holds.
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +27,6 @@ pub(crate) enum Break {
     Touch(Crossing),
 }
 
-/// Forces down to minus this count as zero.
-pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 /// Arc lengths and angles beyond their limits by this are on them.
 const LIMIT_TOLERANCE: f64 = 1e-13;
 
@@ -167,11 +164,11 @@ impl Break {
             }
             Self::TangentToTip => {
                 let before = on(corrector, broken.clone(), 3 * last + 2, 1.0)?;
-                (EventKind::TangentToTip, before.clone(), as_tip(before, corrector))
+                (EventKind::TangentToTip, before.clone(), as_tip(before, &corrector.world))
             }
             Self::TipToTangent(angle) => {
                 let after = on(corrector, as_tangent(broken.clone(), angle), 3 * last + 2, 1.0)?;
-                (EventKind::TipToTangent, as_tip(after.clone(), corrector), after)
+                (EventKind::TipToTangent, as_tip(after.clone(), &corrector.world), after)
             }
             Self::Touch(crossing) if corrector.world.is_notch(crossing.stretch) => {
                 return Err(NoTransition::NotLocated);
@@ -205,78 +202,6 @@ pub(crate) fn on(
 ) -> Result<Configuration, NoTransition> {
     let report = corrector.correct(&mut start, Condition::Fixed { index, value });
     if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
-}
-
-/// Contact j moved over the border of its stretch to where `next` begins. The angle of a closed contour jumps by whole
-/// turns where it begins anew.
-pub(crate) fn onto_neighbour(
-    mut configuration: Configuration,
-    j: usize,
-    upwards: bool,
-    next: usize,
-    world: &World<'_>,
-) -> Configuration {
-    let here = configuration.contacts[j].stretch;
-    let (leaves, enters) = (world.border(here, upwards), world.border(next, !upwards));
-    if let Hold::Tangent { offset } = &mut configuration.contacts[j].hold {
-        let jump = world.support(here, leaves).alpha - world.support(next, enters).alpha;
-        *offset += TAU * (jump / TAU).round();
-    }
-    configuration.contacts[j].stretch = next;
-    configuration.z[3 * j] = enters;
-    configuration
-}
-
-/// The tip, at an end of its piece where there is a convex corner, on the piece beyond that: on the corner itself it cannot
-/// rest.
-pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
-    let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
-    let (here, t) = (configuration.contacts[last].stretch, configuration.t(last));
-    let range = world.range(here);
-    let upwards = t - range.from > range.to - t;
-    let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
-    let beyond = world.neighbour(corner, upwards)?;
-    configuration.contacts[last].stretch = beyond;
-    configuration.z[3 * last] = world.border(beyond, !upwards);
-    Some(configuration)
-}
-
-/// The last contact, new on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.
-pub(crate) fn beside_corner(configuration: &Configuration, corrector: &Corrector<'_>) -> SmallVec<[Configuration; 2]> {
-    let world = &corrector.world;
-    let is_new = |j: usize| !configuration.is_tip(j) && configuration.force(j).abs() < FORCE_TOLERANCE;
-    let at_tip = |j: usize| (configuration.s(j) - 1.0).abs() < BEYOND_END;
-    let on_corner = |j: usize| world.is_corner(configuration.contacts[j].stretch);
-    let last = configuration.count().checked_sub(1).filter(|j| is_new(*j) && at_tip(*j) && on_corner(*j));
-    let Some(last) = last else { return SmallVec::new() };
-    let corner = configuration.contacts[last].stretch;
-    let pieces = [false, true].into_iter().filter_map(|after| Some((world.neighbour(corner, after)?, after)));
-    let on_piece = |(piece, after): (usize, bool)| {
-        let mut beside = as_tip(configuration.clone(), corrector);
-        beside.contacts[last].stretch = piece;
-        beside.z[3 * last] = world.border(piece, !after);
-        beside
-    };
-    pieces.map(on_piece).collect()
-}
-
-/// The last contact, tangential at s = 1, as a contact of the tip.
-pub(crate) fn as_tip(mut configuration: Configuration, corrector: &Corrector<'_>) -> Configuration {
-    let last = configuration.count() - 1;
-    let Held { stretch, hold } = configuration.contacts[last];
-    if let Hold::Tangent { offset } = hold {
-        configuration.z[3 * last + 2] = corrector.world.support(stretch, configuration.t(last)).alpha + offset;
-        configuration.contacts[last].hold = Hold::Tip;
-    }
-    configuration
-}
-
-/// The contact at the tip, where phi(1) - alpha is about `angle`, as a tangential one at s = 1.
-pub(crate) fn as_tangent(mut configuration: Configuration, angle: f64) -> Configuration {
-    let last = configuration.count() - 1;
-    configuration.contacts[last].hold = lying(angle);
-    configuration.z[3 * last + 2] = 1.0;
-    configuration
 }
 
 /// `configuration` with one more contact, without force, where the rod crosses the contour; and its number.

@@ -4,8 +4,8 @@
 //! leaves sideways: where the rod lies down on one wall at the tip, the force parts into a tangential contact on that wall,
 //! which then moves up the rod, and the tip on the other one.
 
-use crate::configuration::{Configuration, Held, lying};
-use crate::world::World;
+use crate::contact_set::{Configuration, Held, lying};
+use crate::scene::world::World;
 use rod_core::Hold;
 use std::f64::consts::{PI, TAU};
 

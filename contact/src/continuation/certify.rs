@@ -1,10 +1,10 @@
 //! A configuration as a state in SI units, with its certificate.
 
-use crate::configuration::Configuration;
+use crate::contact_set::Configuration;
+use crate::gap::scan::Scan;
 use crate::path::ClampPath;
-use crate::scan::Scan;
+use crate::scene::world::World;
 use crate::state::{Certificate, Contact, GapBounds, State};
-use crate::world::World;
 use rod_core::{MultiPoint, Pose, Rod, SolveReport, Supports, Units};
 
 /// Rounding of an arc length.

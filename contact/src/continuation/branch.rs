@@ -2,9 +2,9 @@
 //! more, linear, condition. The condition is what makes it a solve at a pose, a step of pseudo-arclength or the location of
 //! an event.
 
-use crate::configuration::{Configuration, Held, Holding, Unknowns};
+use crate::contact_set::{Configuration, Held, Holding, Unknowns};
 use crate::path::ClampPath;
-use crate::world::World;
+use crate::scene::world::World;
 use rod_core::{MultiPoint, NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, System, newton_step, solve};
 
 /// The condition that picks a point of the branch.

@@ -4,9 +4,9 @@
 //! over. An object that crosses neither rod nor one of the two ways is either outside of that, or all of it is inside: then
 //! the rod has gone through it.
 
-use crate::configuration::{Configuration, Held};
-use crate::shape::Shape;
-use crate::world::World;
+use crate::contact_set::{Configuration, Held};
+use crate::gap::shape::Shape;
+use crate::scene::world::World;
 
 /// What has gone through an object within a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

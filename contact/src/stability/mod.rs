@@ -14,10 +14,10 @@
 //! modes of a free cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
 //! Cholesky factor.
 
-use crate::configuration::{Configuration, Span};
+use crate::contact_set::{Configuration, Span};
+use crate::gap::shape::{Node, Shape};
 use crate::path::ClampPath;
-use crate::shape::{Node, Shape};
-use crate::world::World;
+use crate::scene::world::World;
 use nalgebra::{DMatrix, SMatrix};
 use rod_core::{Hold, Supports};
 use smallvec::SmallVec;
@@ -267,7 +267,7 @@ fn lies_flat(turning: f64, kappa: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::configuration::Held;
+    use crate::contact_set::Held;
     use rod_contours::{Composite, Parabola};
     use rod_core::Pose;
 

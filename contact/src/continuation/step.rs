@@ -1,20 +1,22 @@
 //! One step along a branch: predict, correct, look for what broke, locate the first transition.
 
-use crate::branch::{Condition, Corrector, Tangent};
-use crate::certify::Quality;
-use crate::configuration::Configuration;
+use crate::contact_set::Configuration;
+use crate::contact_set::order::ordered;
+use crate::continuation::branch::{Condition, Corrector, Tangent};
+use crate::continuation::certify::Quality;
+use crate::continuation::fold::locate_fold;
+use crate::continuation::inflection::{parted, run_together};
+use crate::continuation::transition::{Break, NoTransition, Transition, breaks};
 use crate::error::StopReason;
-use crate::fold::locate_fold;
-use crate::inflection::{parted, run_together};
-use crate::landing::ordered;
-use crate::passing::Passing;
-use crate::scan::{Scan, Scanner};
+use crate::gap::passing::Passing;
+use crate::gap::scan::{Scan, Scanner};
 use crate::stability::wraps;
-use crate::sweep::SAME_POSE;
-use crate::transition::{Break, NoTransition, Transition, breaks};
 use rod_core::SolveReport;
 use smallvec::SmallVec;
 
+/// A pose that is beyond a transition by less than this is at the transition, where the state before it is reported: it still
+/// holds there, up to rounding.
+pub(crate) const SAME_POSE: f64 = 1e-13;
 /// A step so short that what it ends in is where it ends.
 const SHORT: f64 = 1e-3;
 /// Longest step in arclength of the branch (lengths, angles, relative forces), and in the path parameter of a rod in

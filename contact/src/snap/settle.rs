@@ -1,12 +1,14 @@
 //! From a guess of the contacts to a verified equilibrium at one pose: solve, look what is broken, mend the contact set,
 //! solve again.
 
-use crate::branch::Corrector;
-use crate::configuration::Configuration;
-use crate::notch::{parted, straddles};
-use crate::scan::Scanner;
-use crate::transition::{Break, as_tangent, as_tip, beyond_corner, breaks, onto_neighbour, with_contact};
-use crate::world::World;
+use crate::contact_set::Configuration;
+use crate::contact_set::edit::{as_tangent, as_tip, beyond_corner, onto_neighbour};
+use crate::contact_set::notch::parted;
+use crate::contact_set::order::ordered;
+use crate::continuation::branch::Corrector;
+use crate::continuation::transition::{Break, breaks, with_contact};
+use crate::gap::scan::Scanner;
+use crate::scene::world::World;
 
 /// Most repairs of one guess.
 const MOST_REPAIRS: usize = 12;
@@ -50,13 +52,6 @@ pub(crate) fn settle(
     settled
 }
 
-/// Whether the contacts follow each other along the rod. Two that straddle a notch may run past each other: their meeting
-/// is a transition of its own.
-pub(crate) fn ordered(world: &World<'_>, configuration: &Configuration) -> bool {
-    let n = configuration.count() - usize::from(straddles(world, configuration));
-    (0..n).all(|j| configuration.s(j) > if j == 0 { 0.0 } else { configuration.s(j - 1) })
-}
-
 /// What to mend first: a force that pulls before all, then what is furthest off.
 fn badness(b: &Break, configuration: &Configuration) -> f64 {
     match b {
@@ -75,7 +70,7 @@ fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -
         },
         Break::TipToTangent(angle) => configuration = as_tangent(configuration, angle),
         Break::OntoWall(wall, _) => configuration = parted(&corrector.world, &configuration, wall),
-        Break::TangentToTip => configuration = as_tip(configuration, corrector),
+        Break::TangentToTip => configuration = as_tip(configuration, &corrector.world),
         Break::Touch(crossing) => configuration = with_contact(&configuration, &crossing).0,
     }
     configuration

@@ -1,6 +1,6 @@
 //! A convex corner under the rod: which side of it the rod passes on.
 
-use crate::world::World;
+use crate::scene::world::World;
 use rod_core::Section;
 use std::f64::consts::PI;
 

@@ -1,8 +1,8 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
-use crate::configuration::{Configuration, Span, Spans};
+use crate::contact_set::{Configuration, Span, Spans};
 use crate::path::ClampPath;
-use crate::world::World;
+use crate::scene::world::World;
 use rod_contours::Bounds;
 use rod_core::{Section, Station, stations};
 use smallvec::{SmallVec, smallvec};

@@ -6,12 +6,12 @@
 //! tip with the force 6 c (the rate of the contour's curvature) and at a distance of order l^2 from the inflection.
 //! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps.
 
-use crate::branch::Corrector;
-use crate::configuration::{Configuration, Held};
+use crate::contact_set::order::ordered;
+use crate::contact_set::{Configuration, Held};
+use crate::continuation::branch::Corrector;
+use crate::continuation::transition::{Transition, on};
 use crate::event::EventKind;
-use crate::landing::ordered;
-use crate::transition::{Transition, on};
-use crate::world::World;
+use crate::scene::world::World;
 use rod_contours::StretchKind;
 use rod_core::{Hold, find_root};
 

@@ -2,10 +2,10 @@
 
 use super::near::Near;
 use super::{Chain, LINK, LINKS};
-use crate::configuration::{Configuration, Held, lying};
-use crate::corner::Corner;
-use crate::notch::into_notch;
-use crate::world::World;
+use crate::contact_set::notch::into_notch;
+use crate::contact_set::{Configuration, Held, lying};
+use crate::scene::corner::Corner;
+use crate::scene::world::World;
 use rod_core::{Hold, Section};
 use smallvec::{SmallVec, smallvec};
 

@@ -1,7 +1,7 @@
 //! The fold of a branch: where the path parameter stops to grow along it.
 
-use crate::branch::{Condition, Corrector, Tangent};
-use crate::configuration::Configuration;
+use crate::contact_set::Configuration;
+use crate::continuation::branch::{Condition, Corrector, Tangent};
 use rod_core::{RodError, find_root};
 use std::cell::RefCell;
 

@@ -1,12 +1,19 @@
 //! A contact set with its unknowns at a pose: one point on a branch of equilibria.
 
+pub(crate) mod edit;
+pub(crate) mod notch;
+pub(crate) mod order;
+
 use crate::path::ClampPath;
+use crate::scene::world::World;
 use crate::state::ContactKind;
-use crate::world::World;
 use rod_contours::StretchKind;
 use rod_core::{Hold, MultiPoint, Section, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
+
+/// Forces down to minus this (E I / L^2) count as zero: a hundred times what a solve leaves of a force that vanishes.
+pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 
 /// Where a contact is (a stretch of the contour) and how it holds the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]

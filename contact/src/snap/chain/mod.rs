@@ -10,9 +10,9 @@ mod near;
 mod pressed;
 mod programme;
 
-use crate::configuration::Configuration;
+use crate::contact_set::Configuration;
 use crate::path::ClampPath;
-use crate::world::World;
+use crate::scene::world::World;
 use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
 use programme::Programme;

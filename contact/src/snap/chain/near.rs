@@ -1,8 +1,8 @@
 //! What of the chain could meet a contour within a step.
 
 use super::{LINK, LINKS, Nodes, REACH};
-use crate::corner::Corner;
-use crate::world::World;
+use crate::scene::corner::Corner;
+use crate::scene::world::World;
 use rod_contours::{Bounds, Part, StretchKind};
 use rod_core::Section;
 

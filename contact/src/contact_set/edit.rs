@@ -1,0 +1,82 @@
+//! Contact sets changed: a contact moved onto the next stretch, the tip onto the other side of a corner, a tip contact made
+//! tangential or the other way round.
+
+use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, lying};
+use crate::scene::world::World;
+use rod_core::Hold;
+use smallvec::SmallVec;
+use std::f64::consts::TAU;
+
+/// Distance (L) from the tip that is rounding.
+const AT_TIP: f64 = 1e-12;
+
+/// Contact j moved over the border of its stretch to where `next` begins. The angle of a closed contour jumps by whole
+/// turns where it begins anew.
+pub(crate) fn onto_neighbour(
+    mut configuration: Configuration,
+    j: usize,
+    upwards: bool,
+    next: usize,
+    world: &World<'_>,
+) -> Configuration {
+    let here = configuration.contacts[j].stretch;
+    let (leaves, enters) = (world.border(here, upwards), world.border(next, !upwards));
+    if let Hold::Tangent { offset } = &mut configuration.contacts[j].hold {
+        let jump = world.support(here, leaves).alpha - world.support(next, enters).alpha;
+        *offset += TAU * (jump / TAU).round();
+    }
+    configuration.contacts[j].stretch = next;
+    configuration.z[3 * j] = enters;
+    configuration
+}
+
+/// The tip, at an end of its piece where there is a convex corner, on the piece beyond that: on the corner itself it cannot
+/// rest.
+pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
+    let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
+    let (here, t) = (configuration.contacts[last].stretch, configuration.t(last));
+    let range = world.range(here);
+    let upwards = t - range.from > range.to - t;
+    let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
+    let beyond = world.neighbour(corner, upwards)?;
+    configuration.contacts[last].stretch = beyond;
+    configuration.z[3 * last] = world.border(beyond, !upwards);
+    Some(configuration)
+}
+
+/// The last contact, new on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.
+pub(crate) fn beside_corner(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
+    let is_new = |j: usize| !configuration.is_tip(j) && configuration.force(j).abs() < FORCE_TOLERANCE;
+    let at_tip = |j: usize| (configuration.s(j) - 1.0).abs() < AT_TIP;
+    let on_corner = |j: usize| world.is_corner(configuration.contacts[j].stretch);
+    let last = configuration.count().checked_sub(1).filter(|j| is_new(*j) && at_tip(*j) && on_corner(*j));
+    let Some(last) = last else { return SmallVec::new() };
+    let corner = configuration.contacts[last].stretch;
+    let pieces = [false, true].into_iter().filter_map(|after| Some((world.neighbour(corner, after)?, after)));
+    let on_piece = |(piece, after): (usize, bool)| {
+        let mut beside = as_tip(configuration.clone(), world);
+        beside.contacts[last].stretch = piece;
+        beside.z[3 * last] = world.border(piece, !after);
+        beside
+    };
+    pieces.map(on_piece).collect()
+}
+
+/// The last contact, tangential at s = 1, as a contact of the tip.
+pub(crate) fn as_tip(mut configuration: Configuration, world: &World<'_>) -> Configuration {
+    let last = configuration.count() - 1;
+    let Held { stretch, hold } = configuration.contacts[last];
+    if let Hold::Tangent { offset } = hold {
+        configuration.z[3 * last + 2] = world.support(stretch, configuration.t(last)).alpha + offset;
+        configuration.contacts[last].hold = Hold::Tip;
+    }
+    configuration
+}
+
+/// The contact at the tip, where phi(1) - alpha is about `angle`, as a tangential one at s = 1.
+pub(crate) fn as_tangent(mut configuration: Configuration, angle: f64) -> Configuration {
+    let last = configuration.count() - 1;
+    configuration.contacts[last].hold = lying(angle);
+    configuration.z[3 * last + 2] = 1.0;
+    configuration
+}

@@ -1,0 +1,9 @@
+//! Pseudo-arclength continuation (Keller 1977) of the equilibria with one contact set along the path of the clamp, up to the
+//! transition at which the contact set changes.
+
+pub(crate) mod branch;
+pub(crate) mod certify;
+pub(crate) mod fold;
+pub(crate) mod inflection;
+pub(crate) mod step;
+pub(crate) mod transition;
