@@ -6,10 +6,11 @@ use crate::continuation::certify::{Quality, state};
 use crate::error::ContactError;
 use crate::gap::scan::Scanner;
 use crate::path::{ClampPath, check};
-use crate::scene::world::{Foot, World};
+use crate::scene::setup::Setup;
+use crate::scene::world::Foot;
 use crate::state::{Contact, ContactKind, State};
 use rod_contours::{Composite, StretchKind};
-use rod_core::{Hold, MultiPoint, Pose, Rod, Section, SolveReport, advance};
+use rod_core::{Hold, Pose, Rod, Section, SolveReport, advance};
 use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
@@ -113,8 +114,8 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, ContactError> {
     check(pose, ["pose.x", "pose.y", "pose.phi"])?;
     let units = rod.units();
-    let path = ClampPath::standing(pose).dimensionless(units);
-    let world = World::new(objects.as_ref(), units.length);
+    let mut corrector = Corrector::new(Setup::new(rod, objects.as_ref(), ClampPath::standing(pose)));
+    let Setup { world, path, .. } = &corrector.setup;
     let mut supposed: SmallVec<[Supposed; 8]> = SmallVec::new();
     for (index, contact) in guess.iter().enumerate() {
         let wrong = |reason| Err(ContactError::Guess { index, reason });
@@ -142,18 +143,15 @@ pub fn equilibrium(
     let [by_chords, by_forces] =
         [by_chords(clamp, &supposed), by_forces(clamp, &supposed)].map(|phi| held(&supposed, &phi));
     let off = |configuration: &Configuration| {
-        let supports = configuration.supports(&world);
-        let mut residual = Unknowns::from_elem(0.0, 3 * configuration.count());
-        let (problem, u) = (MultiPoint { clamp, supports: &supports }, &configuration.z[..residual.len()]);
-        problem.evaluate_into(u, &mut residual, None);
+        let (supports, u) = (configuration.supports(world), configuration.of_contacts());
+        let mut residual = Unknowns::from_elem(0.0, u.len());
+        corrector.setup.problem(&supports, 0.0).evaluate_into(u, &mut residual, None);
         residual.iter().map(|r| r * r).sum::<f64>()
     };
     let (first, second) =
         if off(&by_forces) < off(&by_chords) { (by_forces, by_chords) } else { (by_chords, by_forces) };
-    let mut corrector = Corrector::new(world.clone(), path);
-    corrector.options.max_iterations = 60;
     let mut solve = |mut configuration: Configuration| {
-        let report = corrector.at_pose(&mut configuration, 0.0);
+        let report = corrector.from_guess(&mut configuration, 0.0);
         (configuration, report)
     };
     let (mut configuration, mut report) = solve(first);
@@ -164,8 +162,9 @@ pub fn equilibrium(
         }
     }
     let mut scanner = Scanner::default();
-    let scan = scanner.scan(&world, &path, &configuration);
-    let stable = report.status.is_solved() && scanner.is_stable(&world, &configuration);
+    let setup = &corrector.setup;
+    let scan = scanner.scan(setup, &configuration);
+    let stable = report.status.is_solved() && scanner.is_stable(&setup.world, &configuration, &scan);
     let quality = Quality::new(&report, stable);
-    Ok(Equilibrium { state: state(rod, &world, &path, &configuration, &scan, quality), report })
+    Ok(Equilibrium { state: state(setup, &configuration, &scan, quality), report })
 }

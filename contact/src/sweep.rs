@@ -11,7 +11,7 @@ use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::gap::scan::{Scan, Scanner};
 use crate::path::ClampPath;
-use crate::scene::world::World;
+use crate::scene::setup::Setup;
 use crate::snap::chain::Chain;
 use crate::snap::settle::settle;
 use crate::state::State;
@@ -44,7 +44,6 @@ pub struct Outcome {
 /// over; all items before stand.
 #[derive(Debug)]
 pub struct Sweep<'a> {
-    rod: Rod,
     stepper: Stepper<'a>,
     /// Distance of reported states, dimensionless.
     step: f64,
@@ -102,27 +101,32 @@ impl<'a> Sweep<'a> {
         if !(step.is_finite() && step > 0.0) {
             return Err(wrong);
         }
-        let units = rod.units();
-        let step = if path.turns_only() { step } else { step / units.length };
-        let path = path.dimensionless(units);
+        let step = if path.turns_only() { step } else { step / rod.length() };
+        let setup = Setup::new(rod, objects.as_ref(), path);
         // a path that is a whole number of steps long but for rounding reports its end
-        let steps = (path.length() / step * (1.0 + 1e-12)).floor();
+        let steps = (setup.path.length() / step * (1.0 + 1e-12)).floor();
         if steps > MOST_STEPS {
             return Err(wrong);
         }
-        let corrector = Corrector::new(World::new(objects.as_ref(), units.length), path);
-        Ok(Self {
-            rod: *rod,
-            stepper: Stepper::new(corrector, MOST_STEPS_TAKEN),
+        Ok(Self::from_setup(setup, MOST_STEPS_TAKEN, step, steps as usize + 1))
+    }
+
+    fn from_setup(setup: Setup<'a>, steps_left: u64, step: f64, reports: usize) -> Self {
+        Self {
+            stepper: Stepper::new(Corrector::new(setup), steps_left),
             step,
-            reports: steps as usize + 1,
+            reports,
             reported: 0,
             at: None,
             ahead: None,
             pending: VecDeque::new(),
             over: false,
             crowd: (f64::NAN, 0),
-        })
+        }
+    }
+
+    fn setup(&self) -> &Setup<'a> {
+        &self.stepper.corrector.setup
     }
 
     /// Ends with [`StopReason::StepBudget`] after so many steps along branches of equilibria, those counted that were tried and
@@ -159,7 +163,7 @@ impl<'a> Sweep<'a> {
         while self.pose() < point.configuration.tau() - SAME_POSE && self.reported < self.reports {
             self.reported += 1;
         }
-        let (end, pose) = (self.stepper.corrector.path.length(), self.pose());
+        let (end, pose) = (self.setup().path.length(), self.pose());
         if self.reported < self.reports && pose <= point.configuration.tau() + SAME_POSE {
             self.report(&point);
             self.at = Some(point);
@@ -182,12 +186,12 @@ impl<'a> Sweep<'a> {
                 }
                 if pose < step.tau() {
                     // the step has passed over something
-                    self.stepper.step(&point, pose).and_then(|step| self.take(step))
+                    self.stepper.step(&point, pose).and_then(|step| self.arrive(step))
                 } else {
-                    self.take(step)
+                    self.arrive(step)
                 }
             }
-            ahead => ahead.and_then(|step| self.take(step)),
+            ahead => ahead.and_then(|step| self.arrive(step)),
         };
         match next {
             Ok(next) => self.at = Some(next),
@@ -202,18 +206,18 @@ impl<'a> Sweep<'a> {
 
     /// The next pose to report; the last one may be beyond the end by rounding.
     fn pose(&self) -> f64 {
-        (self.step * self.reported as f64).min(self.stepper.corrector.path.length())
+        (self.step * self.reported as f64).min(self.setup().path.length())
     }
 
     /// Where a step leads, with the transition that ends it.
-    fn take(&mut self, step: Step) -> Result<Box<Point>, StopReason> {
+    fn arrive(&mut self, step: Step) -> Result<Box<Point>, StopReason> {
         match step {
             Step::Moved(next) => Ok(next),
             Step::Changed(transition) => {
                 self.count_crowd(transition.after.tau())?;
                 let Transition { kind, before, after, .. } = *transition;
                 // a corner at the very tip is none
-                let beside = beside_corner(&after, &self.stepper.corrector.world);
+                let beside = beside_corner(&after, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
                 let goes_on = std::iter::once(after).chain(beside).find_map(|after| {
                     let after = self.stepper.point(after);
@@ -270,7 +274,7 @@ impl<'a> Sweep<'a> {
                 let landed = self.stepper.point(landed);
                 Ok(self.jumped(last, landed))
             }
-            None if is_at_inflection(&self.stepper.corrector.world, &last) => Err(StopReason::LineContact),
+            None if is_at_inflection(&self.setup().world, &last) => Err(StopReason::LineContact),
             None => Err(StopReason::NoLanding),
         }
     }
@@ -280,11 +284,11 @@ impl<'a> Sweep<'a> {
     fn slip(&mut self, last: &Configuration) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let here = last.contacts.last()?.stretch;
-        let from = corrector.world.support(here, last.t(last.count() - 1));
-        let guess = beyond_corner(last.clone(), &corrector.world)?;
+        let from = corrector.setup.world.support(here, last.t(last.count() - 1));
+        let guess = beyond_corner(last.clone(), &corrector.setup.world)?;
         let landed = settle(corrector, scanner, guess)?;
         let tip = landed.count().checked_sub(1).filter(|_| landed.ends_at_tip() && landed.count() == last.count())?;
-        let to = corrector.world.support(landed.contacts[tip].stretch, landed.t(tip));
+        let to = corrector.setup.world.support(landed.contacts[tip].stretch, landed.t(tip));
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
         let slips = landed.contacts[tip].stretch != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
@@ -311,8 +315,8 @@ impl<'a> Sweep<'a> {
     /// can be.
     fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let clamp = corrector.path.at(tau + kick);
-        let mut chain = Chain::of(&corrector.world, &corrector.path, last, clamp);
+        let clamp = corrector.setup.path.at(tau + kick);
+        let mut chain = Chain::of(&corrector.setup, last, clamp);
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(BENDS[0]);
         let beyond = rest(&mut chain, corrector, scanner, tau + kick, |_| true);
@@ -323,7 +327,7 @@ impl<'a> Sweep<'a> {
             settle(corrector, scanner, back).filter(elsewhere)
         });
         let back = back.or_else(|| {
-            chain.clamp = corrector.path.at(tau);
+            chain.clamp = corrector.setup.path.at(tau);
             rest(&mut chain, corrector, scanner, tau, elsewhere)
         });
         back.or(beyond)
@@ -337,12 +341,9 @@ impl<'a> Sweep<'a> {
         if self.scan_straight(0.0).clamp_inside {
             return Err(StopReason::ClampInside);
         }
-        let own = self.stepper.corrector.path;
+        let own = self.setup().path;
         let ways = std::iter::once(own).chain(own.others_to_its_start());
         let brought = ways.into_iter().find_map(|way| self.brought_by(way));
-        self.stepper.corrector.path = own;
-        self.pending.clear();
-        (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
         let start = brought.or_else(|| self.let_go()).ok_or(StopReason::NoStart)?;
         Ok(self.stepper.point(start))
     }
@@ -350,16 +351,23 @@ impl<'a> Sweep<'a> {
     /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
     /// further back, it is free.
     fn brought_by(&mut self, way: ClampPath) -> Option<Configuration> {
-        self.stepper.corrector.path = way;
         let farthest = if way.turns_only() { PI } else { BACK.0 };
         let tries = (farthest / BACK.1) as usize;
-        let start = (1..=tries).find_map(|k| self.free(-BACK.1 * k as f64))?;
-        (self.stepper.h, self.crowd) = (FIRST_STEP, (f64::NAN, 0));
-        let mut point = Box::new(self.stepper.point(start));
-        while point.configuration.tau() < 0.0 {
-            point = self.stepper.step(&point, 0.0).and_then(|step| self.take(step)).ok()?;
-        }
-        Some(point.configuration)
+        let mut silent = Self::from_setup(self.setup().along(way), self.stepper.steps_left, f64::INFINITY, 0);
+        let start = (1..=tries).find_map(|k| silent.free(-BACK.1 * k as f64))?;
+        let mut point = Box::new(silent.stepper.point(start));
+        let brought = loop {
+            if point.configuration.tau() >= 0.0 {
+                break Some(point.configuration);
+            }
+            match silent.stepper.step(&point, 0.0).and_then(|step| silent.arrive(step)) {
+                Ok(next) => point = next,
+                Err(_) => break None,
+            }
+            silent.pending.clear();
+        };
+        self.stepper.steps_left = silent.stepper.steps_left;
+        brought
     }
 
     /// The straight rod at a pose, if it touches nothing there.
@@ -370,17 +378,15 @@ impl<'a> Sweep<'a> {
 
     /// A look at the straight rod where it has not come from elsewhere: all that is behind an open contour is solid.
     fn scan_straight(&mut self, tau: f64) -> Scan {
-        let skin = std::mem::replace(&mut self.stepper.corrector.world.skin, f64::INFINITY);
-        let scan = self.stepper.scan(&Configuration::free(tau));
-        self.stepper.corrector.world.skin = skin;
-        scan
+        let filled = self.setup().filled();
+        self.stepper.scanner.scan(&filled, &Configuration::free(tau))
     }
 
     /// The straight rod let go in the first pose.
     fn let_go(&mut self) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         BENDS.into_iter().find_map(|bend| {
-            rest(&mut Chain::straight(corrector.path.at(0.0), bend), corrector, scanner, 0.0, |_| true)
+            rest(&mut Chain::straight(corrector.setup.path.at(0.0), bend), corrector, scanner, 0.0, |_| true)
         })
     }
 
@@ -395,18 +401,17 @@ impl<'a> Sweep<'a> {
     }
 
     fn state(&self, point: &Point) -> State {
-        let Stepper { corrector, .. } = &self.stepper;
         let free = point.configuration.count() == 0;
         let quality = if free { Quality::FREE } else { point.quality };
-        state(&self.rod, &corrector.world, &corrector.path, &point.configuration, &point.scan, quality)
+        state(self.setup(), &point.configuration, &point.scan, quality)
     }
 
     fn stop(&self, reason: StopReason) -> Stop {
-        let Stepper { corrector, .. } = &self.stepper;
+        let Setup { rod, path, .. } = self.setup();
         let tau = self.at.as_ref().map_or(0.0, |point| point.configuration.tau());
-        let length = self.rod.length();
-        let Pose { x, y, phi } = corrector.path.at(tau);
-        let unit = if corrector.path.turns_only() { 1.0 } else { length };
+        let length = rod.length();
+        let Pose { x, y, phi } = path.at(tau);
+        let unit = if path.turns_only() { 1.0 } else { length };
         Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: tau * unit, reason }
     }
 }
@@ -419,7 +424,7 @@ fn rest(
     tau: f64,
     accept: impl Fn(&Configuration) -> bool,
 ) -> Option<Configuration> {
-    let guesses = chain.settle(&corrector.world, tau);
+    let guesses = chain.settle(&corrector.setup.world, tau);
     guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
 }
 

@@ -1,7 +1,7 @@
 //! Contact sets changed: a contact moved onto the next stretch, the tip onto the other side of a corner, a tip contact made
 //! tangential or the other way round.
 
-use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, lying};
+use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
 use crate::scene::world::World;
 use rod_core::Hold;
 use smallvec::SmallVec;
@@ -26,7 +26,7 @@ pub(crate) fn onto_neighbour(
         *offset += TAU * (jump / TAU).round();
     }
     configuration.contacts[j].stretch = next;
-    configuration.z[3 * j] = enters;
+    configuration.set(Unknown::Parameter(j), enters);
     configuration
 }
 
@@ -40,7 +40,7 @@ pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>)
     let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
     let beyond = world.neighbour(corner, upwards)?;
     configuration.contacts[last].stretch = beyond;
-    configuration.z[3 * last] = world.border(beyond, !upwards);
+    configuration.set(Unknown::Parameter(last), world.border(beyond, !upwards));
     Some(configuration)
 }
 
@@ -56,7 +56,7 @@ pub(crate) fn beside_corner(configuration: &Configuration, world: &World<'_>) ->
     let on_piece = |(piece, after): (usize, bool)| {
         let mut beside = as_tip(configuration.clone(), world);
         beside.contacts[last].stretch = piece;
-        beside.z[3 * last] = world.border(piece, !after);
+        beside.set(Unknown::Parameter(last), world.border(piece, !after));
         beside
     };
     pieces.map(on_piece).collect()
@@ -67,7 +67,8 @@ pub(crate) fn as_tip(mut configuration: Configuration, world: &World<'_>) -> Con
     let last = configuration.count() - 1;
     let Held { stretch, hold } = configuration.contacts[last];
     if let Hold::Tangent { offset } = hold {
-        configuration.z[3 * last + 2] = world.support(stretch, configuration.t(last)).alpha + offset;
+        let lying = world.support(stretch, configuration.t(last)).alpha + offset;
+        configuration.set(Unknown::Slope(last), lying);
         configuration.contacts[last].hold = Hold::Tip;
     }
     configuration
@@ -77,6 +78,6 @@ pub(crate) fn as_tip(mut configuration: Configuration, world: &World<'_>) -> Con
 pub(crate) fn as_tangent(mut configuration: Configuration, angle: f64) -> Configuration {
     let last = configuration.count() - 1;
     configuration.contacts[last].hold = lying(angle);
-    configuration.z[3 * last + 2] = 1.0;
+    configuration.set(Unknown::ArcLength(last), 1.0);
     configuration
 }

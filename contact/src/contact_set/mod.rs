@@ -4,11 +4,11 @@ pub(crate) mod edit;
 pub(crate) mod notch;
 pub(crate) mod order;
 
-use crate::path::ClampPath;
+use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::state::ContactKind;
 use rod_contours::StretchKind;
-use rod_core::{Hold, MultiPoint, Section, Support, Supports};
+use rod_core::{Hold, Section, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -20,6 +20,33 @@ pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 pub(crate) struct Held {
     pub stretch: usize,
     pub hold: Hold,
+}
+
+/// An unknown of the boundary-value problem along the path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unknown {
+    /// Parameter of contact j along its stretch.
+    Parameter(usize),
+    /// Force of contact j.
+    Force(usize),
+    /// Arc length of contact j, where the rod is tangential.
+    ArcLength(usize),
+    /// Slope angle of the rod at contact j, where that is the tip's.
+    Slope(usize),
+    /// Parameter of the clamp's path; behind those of all contacts.
+    Path,
+}
+
+impl Unknown {
+    /// Its place among the unknowns of so many contacts.
+    pub const fn index(self, contacts: usize) -> usize {
+        match self {
+            Self::Parameter(j) => 3 * j,
+            Self::Force(j) => 3 * j + 1,
+            Self::ArcLength(j) | Self::Slope(j) => 3 * j + 2,
+            Self::Path => 3 * contacts,
+        }
+    }
 }
 
 /// Unknowns of the boundary-value problem, three a contact, and the path parameter behind them.
@@ -42,21 +69,39 @@ impl Configuration {
         self.contacts.len()
     }
 
+    pub fn get(&self, unknown: Unknown) -> f64 {
+        self.z[unknown.index(self.count())]
+    }
+
+    pub fn set(&mut self, unknown: Unknown, value: f64) {
+        let index = unknown.index(self.count());
+        self.z[index] = value;
+    }
+
     pub fn tau(&self) -> f64 {
-        self.z[3 * self.count()]
+        self.get(Unknown::Path)
     }
 
     pub fn set_tau(&mut self, tau: f64) {
-        let last = 3 * self.count();
-        self.z[last] = tau;
+        self.set(Unknown::Path, tau);
     }
 
     pub fn t(&self, j: usize) -> f64 {
-        self.z[3 * j]
+        self.get(Unknown::Parameter(j))
     }
 
     pub fn force(&self, j: usize) -> f64 {
-        self.z[3 * j + 1]
+        self.get(Unknown::Force(j))
+    }
+
+    /// Slope angle of the rod at its tip, where contact j is.
+    pub fn slope(&self, j: usize) -> f64 {
+        self.get(Unknown::Slope(j))
+    }
+
+    /// The unknowns of the contacts.
+    pub fn of_contacts(&self) -> &[f64] {
+        &self.z[..self.z.len() - 1]
     }
 
     pub fn is_tip(&self, j: usize) -> bool {
@@ -69,17 +114,18 @@ impl Configuration {
     }
 
     pub fn s(&self, j: usize) -> f64 {
-        if self.is_tip(j) { 1.0 } else { self.z[3 * j + 2] }
+        if self.is_tip(j) { 1.0 } else { self.get(Unknown::ArcLength(j)) }
     }
 
     pub fn insert(&mut self, j: usize, held: Held, unknowns: [f64; 3]) {
         self.contacts.insert(j, held);
-        self.z.insert_from_slice(3 * j, &unknowns);
+        self.z.insert_from_slice(Unknown::Parameter(j).index(self.count()), &unknowns);
     }
 
     pub fn remove(&mut self, j: usize) {
         self.contacts.remove(j);
-        self.z.drain(3 * j..3 * j + 3);
+        let first = Unknown::Parameter(j).index(self.count());
+        self.z.drain(first..first + 3);
     }
 
     /// The contacts as supports of the rod.
@@ -87,16 +133,12 @@ impl Configuration {
         Holding { world, contacts: &self.contacts }
     }
 
-    /// Visits the rod's segments: arc length and section at the start, force (A, B).
-    pub fn segments(&self, world: &World<'_>, path: &ClampPath, visit: impl FnMut(f64, Section, f64, f64)) {
-        let supports = self.supports(world);
-        MultiPoint { clamp: path.at(self.tau()), supports: &supports }.segments(&self.z[..3 * self.count()], visit);
-    }
-
     /// The rod's segments from the clamp to the tip; the last one is free.
-    pub fn spans(&self, world: &World<'_>, path: &ClampPath) -> Spans {
+    pub fn spans(&self, setup: &Setup<'_>) -> Spans {
         let mut spans = Spans::new();
-        self.segments(world, path, |s, start, a, b| spans.push(Span { s, start, a, b }));
+        let supports = self.supports(&setup.world);
+        let problem = setup.problem(&supports, self.tau());
+        problem.segments(self.of_contacts(), |s, start, a, b| spans.push(Span { s, start, a, b }));
         spans
     }
 

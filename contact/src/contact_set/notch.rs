@@ -4,7 +4,7 @@
 //! leaves sideways: where the rod lies down on one wall at the tip, the force parts into a tangential contact on that wall,
 //! which then moves up the rod, and the tip on the other one.
 
-use crate::contact_set::{Configuration, Held, lying};
+use crate::contact_set::{Configuration, Held, Unknown, lying};
 use crate::scene::world::World;
 use rod_core::Hold;
 use std::f64::consts::{PI, TAU};
@@ -22,7 +22,7 @@ pub(crate) fn wall_run_into(world: &World<'_>, configuration: &Configuration, to
     if !configuration.is_tip(last) || !world.is_notch(notch) {
         return None;
     }
-    let phi = configuration.z[3 * last + 2];
+    let phi = configuration.slope(last);
     world
         .walls(notch)
         .into_iter()
@@ -47,10 +47,10 @@ pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usi
     let ((t, alpha_wall), (t_other, alpha_other)) = (edge(world, notch, wall), edge(world, notch, other));
     let (f, alpha) = (configuration.force(last), world.support(notch, configuration.t(last)).alpha);
     let whole = (alpha_other - alpha_wall).sin();
-    let hold = lying(configuration.z[3 * last + 2] - alpha_wall);
+    let hold = lying(configuration.slope(last) - alpha_wall);
     parted.contacts[last].stretch = other;
-    parted.z[3 * last] = t_other;
-    parted.z[3 * last + 1] = f * (alpha - alpha_wall).sin() / whole;
+    parted.set(Unknown::Parameter(last), t_other);
+    parted.set(Unknown::Force(last), f * (alpha - alpha_wall).sin() / whole);
     let force = f * (alpha_other - alpha).sin() / whole;
     parted.insert(last, Held { stretch: wall, hold }, [t, force, 1.0]);
     parted
@@ -69,8 +69,8 @@ pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, s
     let turned = world.support(notch, range.from).alpha - b.atan2(a);
     let t = range.from + turned - TAU * (turned / TAU).round();
     configuration.contacts[last].stretch = notch;
-    configuration.z[3 * last] = t.clamp(range.from, range.to);
-    configuration.z[3 * last + 1] = a.hypot(b);
+    configuration.set(Unknown::Parameter(last), t.clamp(range.from, range.to));
+    configuration.set(Unknown::Force(last), a.hypot(b));
 }
 
 /// Whether the last two contacts are the two walls of one notch, the tip on one and the rod lying on the other.

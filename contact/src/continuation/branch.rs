@@ -2,16 +2,15 @@
 //! more, linear, condition. The condition is what makes it a solve at a pose, a step of pseudo-arclength or the location of
 //! an event.
 
-use crate::contact_set::{Configuration, Held, Holding, Unknowns};
-use crate::path::ClampPath;
-use crate::scene::world::World;
-use rod_core::{MultiPoint, NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, System, newton_step, solve};
+use crate::contact_set::{Configuration, Held, Holding, Unknown, Unknowns};
+use crate::scene::setup::Setup;
+use rod_core::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, Supports, System, newton_step, solve};
 
 /// The condition that picks a point of the branch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Condition<'a> {
     /// One unknown has a given value: the pose, a vanishing force, a contact at the tip or at the border of its stretch.
-    Fixed { index: usize, value: f64 },
+    Fixed { unknown: Unknown, value: f64 },
     /// The plane across a tangent at a distance from a point.
     Plane { tangent: &'a Tangent, from: &'a [f64], distance: f64 },
 }
@@ -47,9 +46,14 @@ impl Tangent {
         ahead
     }
 
-    /// The rate of one unknown by arclength.
+    /// The rate of unknown number `i` by arclength.
     pub fn rate(&self, i: usize) -> f64 {
         self.direction[i]
+    }
+
+    /// The rate of an unknown of a contact by arclength.
+    pub fn rate_of(&self, unknown: Unknown) -> f64 {
+        self.direction[unknown.index(self.direction.len() / 3)]
     }
 
     /// Change of the path parameter by arclength.
@@ -70,15 +74,15 @@ impl Tangent {
 }
 
 struct Bordered<'a> {
+    setup: &'a Setup<'a>,
     holding: Holding<'a>,
-    path: &'a ClampPath,
     condition: Condition<'a>,
 }
 
 impl Bordered<'_> {
     fn condition_row(&self, column: usize) -> f64 {
         match self.condition {
-            Condition::Fixed { index, .. } => f64::from(u8::from(index == column)),
+            Condition::Fixed { unknown, .. } => f64::from(u8::from(unknown.index(self.holding.count()) == column)),
             Condition::Plane { tangent, .. } => tangent.row(column),
         }
     }
@@ -86,14 +90,14 @@ impl Bordered<'_> {
 
 impl System for Bordered<'_> {
     fn dimension(&self) -> usize {
-        3 * self.holding.contacts.len() + 1
+        Unknown::Path.index(self.holding.count()) + 1
     }
 
     fn evaluate(&self, z: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
         let (last, size) = (z.len() - 1, z.len());
-        let problem = MultiPoint { clamp: self.path.at(z[last]), supports: &self.holding };
+        let problem = self.setup.problem(&self.holding, z[last]);
         residual[last] = match self.condition {
-            Condition::Fixed { index, value } => z[index] - value,
+            Condition::Fixed { unknown, value } => z[unknown.index(self.holding.count())] - value,
             Condition::Plane { tangent, from, distance } => tangent.along(z, from) - distance,
         };
         match jacobian {
@@ -104,7 +108,7 @@ impl System for Bordered<'_> {
                     matrix[column * size + last] = self.condition_row(column);
                 }
                 // the clamp moves: only the first segment ends there
-                let rate = self.path.rate();
+                let rate = self.setup.path.rate();
                 let by_tau = &mut matrix[last * size..][..last];
                 by_tau.fill(0.0);
                 for (entry, rate) in by_tau.iter_mut().zip([rate.x, rate.y, rate.phi]) {
@@ -116,8 +120,7 @@ impl System for Bordered<'_> {
 
     fn weights(&self, z: &[f64], weights: &mut [f64]) {
         let last = z.len() - 1;
-        let problem = MultiPoint { clamp: self.path.at(z[last]), supports: &self.holding };
-        problem.weights(&z[..last], &mut weights[..last]);
+        self.setup.problem(&self.holding, z[last]).weights(&z[..last], &mut weights[..last]);
         weights[last] = 1.0;
     }
 }
@@ -125,69 +128,88 @@ impl System for Bordered<'_> {
 /// Solves for points of branches, with the memory to do so.
 #[derive(Debug)]
 pub(crate) struct Corrector<'a> {
-    pub world: World<'a>,
-    pub path: ClampPath,
-    pub options: NewtonOptions,
+    pub setup: Setup<'a>,
     workspace: NewtonWorkspace,
 }
 
+/// Most iterations from a point of the same branch: one that needs more has left it.
+const WARM: u32 = 12;
+/// Most iterations from a guess.
+const COLD: u32 = 60;
+
+fn options(max_iterations: u32) -> NewtonOptions {
+    NewtonOptions { max_iterations, longest_step: 0.5, ..NewtonOptions::default() }
+}
+
 impl<'a> Corrector<'a> {
-    pub fn new(world: World<'a>, path: ClampPath) -> Self {
-        // A warm start that needs more steps than this has left its branch.
-        let options = NewtonOptions { max_iterations: 12, longest_step: 0.5, ..NewtonOptions::default() };
-        Self { world, path, options, workspace: NewtonWorkspace::new() }
+    pub fn new(setup: Setup<'a>) -> Self {
+        Self { setup, workspace: NewtonWorkspace::new() }
     }
 
-    /// Moves `configuration` onto the branch where `condition` holds.
+    /// Moves `configuration`, near a branch, onto it where `condition` holds.
     pub fn correct(&mut self, configuration: &mut Configuration, condition: Condition<'_>) -> SolveReport {
-        let Configuration { contacts, z } = configuration;
-        let system = bordered(&self.world, &self.path, contacts, condition);
-        solve(&system, z, &self.options, &mut self.workspace)
+        self.solve(configuration, condition, WARM)
     }
 
-    /// Solves at the pose `tau`.
+    fn solve(&mut self, configuration: &mut Configuration, condition: Condition<'_>, iterations: u32) -> SolveReport {
+        let Configuration { contacts, z } = configuration;
+        let system = bordered(&self.setup, contacts, condition);
+        solve(&system, z, &options(iterations), &mut self.workspace)
+    }
+
+    /// The same, with the tangent there by the last Jacobian of the solve, which was taken at most one small correction away;
+    /// none where the solve failed.
+    pub fn correct_with_tangent(
+        &mut self,
+        configuration: &mut Configuration,
+        condition: Condition<'_>,
+    ) -> (SolveReport, Option<Tangent>) {
+        let report = self.correct(configuration, condition);
+        let tangent = report.status.is_solved().then(|| self.tangent(configuration));
+        (report, tangent)
+    }
+
+    /// Solves at the pose `tau` from near by.
     pub fn at_pose(&mut self, configuration: &mut Configuration, tau: f64) -> SolveReport {
-        let index = 3 * configuration.count();
-        self.correct(configuration, Condition::Fixed { index, value: tau })
+        self.correct(configuration, Condition::Fixed { unknown: Unknown::Path, value: tau })
+    }
+
+    /// Solves at the pose `tau` from a guess.
+    pub fn from_guess(&mut self, configuration: &mut Configuration, tau: f64) -> SolveReport {
+        self.solve(configuration, Condition::Fixed { unknown: Unknown::Path, value: tau }, COLD)
     }
 
     /// The tangent of the branch at `configuration`, in the direction in which the condition's row grows (with the pose
     /// fixed towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its
     /// equations.
     pub fn inspect(&mut self, configuration: &Configuration, condition: Condition<'_>) -> (Tangent, SolveReport) {
-        let system = bordered(&self.world, &self.path, &configuration.contacts, condition);
+        let system = bordered(&self.setup, &configuration.contacts, condition);
         let mut z = configuration.z.clone();
         self.workspace.prepare(&system, &z);
-        newton_step(&system, &mut z, &self.options, &mut self.workspace);
+        newton_step(&system, &mut z, &options(WARM), &mut self.workspace);
         let status = SolveStatus::Converged;
         let report = self.workspace.report(&system, &configuration.z, status, 0, 0.0);
-        (self.last_tangent(configuration), report)
+        (self.tangent(configuration), report)
     }
 
     /// [`inspect`](Self::inspect) with the pose fixed.
     pub fn inspect_at_pose(&mut self, configuration: &Configuration) -> (Tangent, SolveReport) {
-        let index = 3 * configuration.count();
-        self.inspect(configuration, Condition::Fixed { index, value: configuration.tau() })
+        self.inspect(configuration, Condition::Fixed { unknown: Unknown::Path, value: configuration.tau() })
     }
 
-    /// The tangent by the Jacobian of the last solve, which was taken at most one small correction away.
-    pub fn last_tangent(&self, configuration: &Configuration) -> Tangent {
+    /// The tangent at `configuration` by the inverse that the workspace holds.
+    fn tangent(&self, configuration: &Configuration) -> Tangent {
         let size = configuration.z.len();
         let column = &self.workspace.inverse()[size * (size - 1)..][..size];
         let mut weights = Unknowns::from_elem(1.0, size);
-        let holding = configuration.supports(&self.world);
-        let clamp = self.path.at(configuration.tau());
-        MultiPoint { clamp, supports: &holding }.weights(&configuration.z, &mut weights[..size - 1]);
+        let holding = configuration.supports(&self.setup.world);
+        let problem = self.setup.problem(&holding, configuration.tau());
+        problem.weights(&configuration.z, &mut weights[..size - 1]);
         let length = column.iter().zip(&weights).map(|(d, w)| (d * w).powi(2)).sum::<f64>().sqrt();
         Tangent { direction: column.iter().map(|d| d / length).collect(), weights }
     }
 }
 
-fn bordered<'a>(
-    world: &'a World<'a>,
-    path: &'a ClampPath,
-    contacts: &'a [Held],
-    condition: Condition<'a>,
-) -> Bordered<'a> {
-    Bordered { holding: Holding { world, contacts }, path, condition }
+fn bordered<'a>(setup: &'a Setup<'a>, contacts: &'a [Held], condition: Condition<'a>) -> Bordered<'a> {
+    Bordered { setup, holding: Holding { world: &setup.world, contacts }, condition }
 }

@@ -2,10 +2,9 @@
 
 use crate::contact_set::Configuration;
 use crate::gap::scan::Scan;
-use crate::path::ClampPath;
-use crate::scene::world::World;
+use crate::scene::setup::Setup;
 use crate::state::{Certificate, Contact, GapBounds, State};
-use rod_core::{MultiPoint, Pose, Rod, SolveReport, Supports, Units};
+use rod_core::{Pose, SolveReport, Supports, Units};
 
 /// Rounding of an arc length.
 const AT_TIP: f64 = 1e-12;
@@ -28,21 +27,14 @@ impl Quality {
     }
 }
 
-/// The state of `rod` in `configuration`.
-pub(crate) fn state(
-    rod: &Rod,
-    world: &World<'_>,
-    path: &ClampPath,
-    configuration: &Configuration,
-    scan: &Scan,
-    quality: Quality,
-) -> State {
+/// The state of the rod in `configuration`.
+pub(crate) fn state(setup: &Setup<'_>, configuration: &Configuration, scan: &Scan, quality: Quality) -> State {
+    let Setup { rod, world, .. } = setup;
     let Units { length, force, .. } = rod.units();
     let n = configuration.count();
     let supports = configuration.supports(world);
-    let clamp = path.at(configuration.tau());
-    let problem = MultiPoint { clamp, supports: &supports };
-    let shape = problem.elastica(&configuration.z[..3 * n], rod.units());
+    let problem = setup.problem(&supports, configuration.tau());
+    let (clamp, shape) = (problem.clamp, problem.elastica(configuration.of_contacts(), rod.units()));
     let mut contacts = Vec::with_capacity(n);
     let mut min_force = f64::INFINITY;
     for j in 0..n {

@@ -7,7 +7,7 @@
 //! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps.
 
 use crate::contact_set::order::ordered;
-use crate::contact_set::{Configuration, Held};
+use crate::contact_set::{Configuration, Held, Unknown};
 use crate::continuation::branch::Corrector;
 use crate::continuation::transition::{Transition, on};
 use crate::event::EventKind;
@@ -75,18 +75,18 @@ pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration)
 /// at the inflection, and after it the two as soon as they can be told apart.
 pub(crate) fn parted(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {
     let j = from.count().checked_sub(1)?;
-    let Inflection { t, rate, by_s } = inflection(&corrector.world, from, j)?;
-    let before = on(corrector, from.clone(), 3 * j, t).ok()?;
+    let Inflection { t, rate, by_s } = inflection(&corrector.setup.world, from, j)?;
+    let before = on(corrector, from.clone(), Unknown::Parameter(j), t).ok()?;
     let (s, f) = (before.s(j), before.force(j));
     let after = FARTHER.into_iter().find_map(|farther| {
         let l = farther * APART;
         let first = t - l * by_s;
         let mut two = before.clone();
-        two.z[3 * j + 1] = rate;
+        two.set(Unknown::Force(j), rate);
         two.insert(j, two.contacts[j], [first, f - rate, s - l]);
-        let two = on(corrector, two, 3 * j, first).ok()?;
+        let two = on(corrector, two, Unknown::Parameter(j), first).ok()?;
         let way = two.tau() - before.tau();
-        let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && ordered(&corrector.world, &two);
+        let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && ordered(&corrector.setup.world, &two);
         ((0.0..LONGEST_WAY).contains(&way) && holds).then_some(two)
     })?;
     Some(Transition { kind: EventKind::Touch, before, after, along: 0.0 })
@@ -99,11 +99,11 @@ pub(crate) fn run_together(corrector: &mut Corrector<'_>, from: &Configuration) 
     if one != other || from.s(j + 1) - from.s(j) > APART {
         return None;
     }
-    let Inflection { t, by_s, .. } = inflection(&corrector.world, from, j + 1)?;
+    let Inflection { t, by_s, .. } = inflection(&corrector.setup.world, from, j + 1)?;
     let mut together = from.clone();
     together.remove(j);
-    together.z[3 * j + 1] += from.force(j);
-    let after = on(corrector, together, 3 * j, t + CONVEX * by_s).ok()?;
+    together.set(Unknown::Force(j), from.force(j + 1) + from.force(j));
+    let after = on(corrector, together, Unknown::Parameter(j), t + CONVEX * by_s).ok()?;
     let way = after.tau() - from.tau();
     (0.0..LONGEST_WAY).contains(&way).then(|| Transition {
         kind: EventKind::Release,

@@ -1,7 +1,7 @@
 //! One step along a branch: predict, correct, look for what broke, locate the first transition.
 
-use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
+use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::continuation::certify::Quality;
 use crate::continuation::fold::locate_fold;
@@ -95,6 +95,15 @@ impl Step {
     }
 }
 
+/// The next point of a branch, before it is judged.
+struct Ahead {
+    next: Configuration,
+    tangent: Tangent,
+    report: SolveReport,
+    /// Arclength of the step along the first tangent.
+    length: f64,
+}
+
 /// Follows branches.
 #[derive(Debug)]
 pub(crate) struct Stepper<'a> {
@@ -116,19 +125,17 @@ impl<'a> Stepper<'a> {
     /// A point with everything known of it.
     pub fn point(&mut self, configuration: Configuration) -> Point {
         let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
-        let Corrector { world, path, .. } = &self.corrector;
-        let scan = self.scanner.scan_transition(world, path, &configuration);
-        let stable = self.is_stable(&configuration);
+        let scan = self.scanner.scan_transition(&self.corrector.setup, &configuration);
+        let stable = self.is_stable(&configuration, &scan);
         Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
     }
 
     pub fn scan(&mut self, configuration: &Configuration) -> Scan {
-        self.scanner.scan(&self.corrector.world, &self.corrector.path, configuration)
+        self.scanner.scan(&self.corrector.setup, configuration)
     }
 
-    /// Whether the configuration that was scanned last is stable.
-    fn is_stable(&mut self, scanned: &Configuration) -> bool {
-        self.scanner.is_stable(&self.corrector.world, scanned)
+    fn is_stable(&mut self, configuration: &Configuration, scan: &Scan) -> bool {
+        self.scanner.is_stable(&self.corrector.setup.world, configuration, scan)
     }
 
     /// The equilibrium at the pose `tau` on the way of `step` from `from`, where all that was known of the step holds there
@@ -154,14 +161,17 @@ impl<'a> Stepper<'a> {
             here = self.by_arclength(&way, tau)?;
             report = self.corrector.at_pose(&mut here, tau);
         }
-        if !report.status.is_solved() || report.residual > LARGEST_RESIDUAL || !ordered(&self.corrector.world, &here) {
+        if !report.status.is_solved()
+            || report.residual > LARGEST_RESIDUAL
+            || !ordered(&self.corrector.setup.world, &here)
+        {
             return None;
         }
         here.set_tau(tau);
         let scan = self.scan(&here);
         let mut holds = scan.is_outside();
         breaks(&self.corrector, &here, &scan, |_| holds = false);
-        let stable = holds && self.is_stable(&here);
+        let stable = holds && self.is_stable(&here, &scan);
         let tangent = from.tangent.clone();
         stable.then(|| Point { configuration: here, scan, quality: Quality::new(&report, true), tangent })
     }
@@ -207,8 +217,9 @@ impl<'a> Stepper<'a> {
 
     /// A step of the present length. None: it was too long, a shorter one meets something before.
     fn attempt(&mut self, from: &Point, target: f64) -> Result<Option<Step>, StopReason> {
-        let Some((next, report, length)) = self.predict_and_correct(from, target) else { return Ok(None) };
-        let tangent = self.corrector.last_tangent(&next);
+        let Some(Ahead { next, tangent, report, length }) = self.predict_and_correct(from, target) else {
+            return Ok(None);
+        };
         if tangent.cosine(&from.tangent) < LEAST_COSINE {
             return Ok(None);
         }
@@ -219,7 +230,7 @@ impl<'a> Stepper<'a> {
             return too_long_or(StopReason::ClampInside);
         }
         // No point of a free rod has gone further than the smallest gap was: it came around an end.
-        let is_open = !self.corrector.world.open_ends().is_empty();
+        let is_open = !self.corrector.setup.world.open_ends().is_empty();
         let is_free = next.count() == 0 && length * self.fastest() <= from.scan.gap.lower;
         if is_open && is_free && scan.gap.seen < -DEEPEST {
             return Err(StopReason::EndOfContour);
@@ -233,14 +244,13 @@ impl<'a> Stepper<'a> {
             Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
             Err(NoTransition::NotLocated) => return Ok(None),
         };
-        match self.passes(from, length) {
+        match self.passes(from, &scan, length) {
             None if ended.is_some() => return Ok(ended),
             None => {}
             Some(Passing::Rod) => return Ok(None),
             Some(Passing::Clamp) => return too_long_or(StopReason::ClampInside),
         }
-        // still the last that was scanned: where others were, there was a transition
-        if !self.is_stable(&next) {
+        if !self.is_stable(&next, &scan) {
             return if length > PROBE { Ok(None) } else { self.end(from, &next).map(Some) };
         }
         if let Some(transition) = self.runs_together(&next, &tangent) {
@@ -253,17 +263,16 @@ impl<'a> Stepper<'a> {
         Ok(Some(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent }))))
     }
 
-    /// What the rod, on its way to where it was scanned last, has gone through and is beside now.
-    fn passes(&mut self, from: &Point, length: f64) -> Option<Passing> {
-        let Corrector { world, path, .. } = &self.corrector;
-        let far = length > LEAST_SWEPT;
-        far.then(|| self.scanner.passes(world, path, &from.configuration, &from.scan)).flatten()
+    /// What the rod, on its way to where it is seen `now`, has gone through and is beside.
+    fn passes(&mut self, from: &Point, now: &Scan, length: f64) -> Option<Passing> {
+        let (world, far) = (&self.corrector.setup.world, length > LEAST_SWEPT);
+        far.then(|| self.scanner.passes(world, &from.configuration, &from.scan, now)).flatten()
     }
 
     /// The end of the branch at `from`, from where `next`, just beyond, is not stable.
     fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
         let here = || Step::Ended(Box::new(from.configuration.clone()));
-        match wraps(&self.corrector.world, &self.corrector.path, next) {
+        match wraps(&self.corrector.setup, next) {
             Some(last) if last + 1 == next.count() => {
                 let parted = parted(&mut self.corrector, &from.configuration).map(Box::new);
                 Ok(parted.map_or_else(here, Step::Changed))
@@ -277,13 +286,13 @@ impl<'a> Stepper<'a> {
     /// The last two contacts run together, if they are about to.
     fn runs_together(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
         let j = next.count().checked_sub(2).filter(|_| !next.ends_at_tip())?;
-        let closes = tangent.direction[3 * j + 5] < tangent.direction[3 * j + 2];
+        let closes = tangent.rate_of(Unknown::ArcLength(j + 1)) < tangent.rate_of(Unknown::ArcLength(j));
         closes.then(|| run_together(&mut self.corrector, next)).flatten()
     }
 
     /// The next point of the branch, by the tangent and Newton's method: at `target` where it is near enough, else a
     /// step of pseudo-arclength. None: the step was too long.
-    fn predict_and_correct(&mut self, from: &Point, target: f64) -> Option<(Configuration, SolveReport, f64)> {
+    fn predict_and_correct(&mut self, from: &Point, target: f64) -> Option<Ahead> {
         let Point { configuration, tangent, scan, .. } = from;
         let tau = configuration.tau();
         let slope = tangent.by_tau();
@@ -300,15 +309,15 @@ impl<'a> Stepper<'a> {
         let mut next = tangent.ahead(configuration, length);
         let predicted = next.z.clone();
         let condition = if land {
-            Condition::Fixed { index: 3 * next.count(), value: target }
+            Condition::Fixed { unknown: Unknown::Path, value: target }
         } else {
             Condition::Plane { tangent, from: &configuration.z, distance: length }
         };
-        let mut report = self.corrector.correct(&mut next, condition);
+        let (mut report, mut ahead) = self.corrector.correct_with_tangent(&mut next, condition);
         let off = tangent.distance(&next.z, &predicted);
         if !report.status.is_solved()
             || report.residual > LARGEST_RESIDUAL
-            || !ordered(&self.corrector.world, &next)
+            || !ordered(&self.corrector.setup.world, &next)
             || off > LARGEST_CORRECTION * length + 1e-9
         {
             return None;
@@ -319,9 +328,12 @@ impl<'a> Stepper<'a> {
             for (z, start) in next.z.iter_mut().zip(&configuration.z) {
                 *z = start + part * (*z - start);
             }
-            report = self.corrector.at_pose(&mut next, target);
+            let at_pose = Condition::Fixed { unknown: Unknown::Path, value: target };
+            (report, ahead) = self.corrector.correct_with_tangent(&mut next, at_pose);
             let length = tangent.along(&next.z, &configuration.z);
-            if !report.status.is_solved() || !ordered(&self.corrector.world, &next) || !(0.0..=reach).contains(&length)
+            if !report.status.is_solved()
+                || !ordered(&self.corrector.setup.world, &next)
+                || !(0.0..=reach).contains(&length)
             {
                 return None;
             }
@@ -329,11 +341,10 @@ impl<'a> Stepper<'a> {
         }
         if land {
             // to the last bit, so that the sweep knows it has arrived
-            let last = next.z.len() - 1;
-            next.z[last] = target;
+            next.set_tau(target);
         }
         let length = tangent.along(&next.z, &configuration.z);
-        Some((next, report, length))
+        ahead.map(|tangent| Ahead { next, tangent, report, length })
     }
 
     /// Length of a step that takes a contact over the border of its stretch for certain, but not much further: there may be
@@ -341,8 +352,8 @@ impl<'a> Stepper<'a> {
     fn to_border(&self, from: &Point) -> f64 {
         let Point { configuration, tangent, .. } = from;
         let step = |j: usize| {
-            let (t, rate) = (configuration.t(j), tangent.direction[3 * j]);
-            let border = self.corrector.world.border(configuration.contacts[j].stretch, rate > 0.0);
+            let (t, rate) = (configuration.t(j), tangent.rate_of(Unknown::Parameter(j)));
+            let border = self.corrector.setup.world.border(configuration.contacts[j].stretch, rate > 0.0);
             1.5 * ((border - t) / rate).max(0.0) + PROBE
         };
         (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)
@@ -367,7 +378,7 @@ impl<'a> Stepper<'a> {
 
     /// Fastest way of any point of a straight rod by the path parameter.
     fn fastest(&self) -> f64 {
-        let rate = self.corrector.path.rate();
+        let rate = self.corrector.setup.path.rate();
         rate.x.hypot(rate.y) + rate.phi.abs()
     }
 
@@ -413,8 +424,7 @@ impl<'a> Stepper<'a> {
             Some((_, Step::Ended(fold))) => fold,
             Some((_, Step::Moved(point))) => &point.configuration,
         };
-        let Corrector { world, path, .. } = &self.corrector;
-        if ordered_or_new(reached) && self.scanner.scan_transition(world, path, reached).is_outside() {
+        if ordered_or_new(reached) && self.scanner.scan_transition(&self.corrector.setup, reached).is_outside() {
             Ok(first.map(|(_, step)| step))
         } else {
             Err(NoTransition::NotLocated)
@@ -441,7 +451,7 @@ impl<'a> Stepper<'a> {
         let scan = self.scan(&probe);
         let mut holds = true;
         breaks(&self.corrector, &probe, &scan, |_| holds = false);
-        holds && self.is_stable(&probe)
+        holds && self.is_stable(&probe, &scan)
     }
 }
 
@@ -505,7 +515,7 @@ impl Way<'_> {
 /// Whether the last contact, which is at s = 1, is about to leave the rod.
 fn runs_off(Point { configuration, tangent, .. }: &Point) -> bool {
     configuration.count().checked_sub(1).is_some_and(|j| {
-        !configuration.is_tip(j) && configuration.s(j) > 1.0 - AT_ONCE && tangent.direction[3 * j + 2] > 0.0
+        !configuration.is_tip(j) && configuration.s(j) > 1.0 - AT_ONCE && tangent.rate_of(Unknown::ArcLength(j)) > 0.0
     })
 }
 

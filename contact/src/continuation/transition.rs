@@ -2,7 +2,7 @@
 
 use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour};
 use crate::contact_set::notch::{lying_angle, merged, parted, straddles, wall_run_into};
-use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, lying};
+use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
 use crate::gap::Crossing;
@@ -49,18 +49,18 @@ pub(crate) fn breaks(
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
         }
-        let range = corrector.world.range(configuration.contacts[j].stretch);
+        let range = corrector.setup.world.range(configuration.contacts[j].stretch);
         let t = configuration.t(j);
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
         let upwards = t > range.to + slack;
         if upwards || t < range.from - slack {
-            let next = corrector.world.neighbour(configuration.contacts[j].stretch, upwards);
+            let next = corrector.setup.world.neighbour(configuration.contacts[j].stretch, upwards);
             // A rod that comes to lie on a straight edge comes upon the corner at its other end at once, and what runs past a
             // notch goes into its other wall.
-            let beyond = next.and_then(|next| corrector.world.neighbour(next, upwards));
-            let past_notch = next.is_some_and(|next| corrector.world.is_notch(next));
+            let beyond = next.and_then(|next| corrector.setup.world.neighbour(next, upwards));
+            let past_notch = next.is_some_and(|next| corrector.setup.world.is_notch(next));
             entered.extend(next);
-            entered.extend(beyond.filter(|beyond| past_notch || corrector.world.is_corner(*beyond)));
+            entered.extend(beyond.filter(|beyond| past_notch || corrector.setup.world.is_corner(*beyond)));
             visit(Break::Border(j, upwards));
         }
     }
@@ -69,10 +69,10 @@ pub(crate) fn breaks(
         if configuration.is_tip(last) {
             let angle = tip_angle(corrector, configuration);
             let stretch = configuration.contacts[last].stretch;
-            if angle.sin() < -LIMIT_TOLERANCE && !corrector.world.is_notch(stretch) {
+            if angle.sin() < -LIMIT_TOLERANCE && !corrector.setup.world.is_notch(stretch) {
                 visit(Break::TipToTangent(angle));
                 lying_down = Some(stretch);
-            } else if let Some((wall, angle)) = wall_run_into(&corrector.world, configuration, LIMIT_TOLERANCE) {
+            } else if let Some((wall, angle)) = wall_run_into(&corrector.setup.world, configuration, LIMIT_TOLERANCE) {
                 visit(Break::OntoWall(wall, angle));
                 lying_down = Some(wall);
             }
@@ -95,7 +95,7 @@ pub(crate) fn breaks(
 fn tip_angle(corrector: &Corrector<'_>, configuration: &Configuration) -> f64 {
     let last = configuration.count() - 1;
     let stretch = configuration.contacts[last].stretch;
-    configuration.z[3 * last + 2] - corrector.world.support(stretch, configuration.t(last)).alpha
+    configuration.slope(last) - corrector.setup.world.support(stretch, configuration.t(last)).alpha
 }
 
 /// A transition, located.
@@ -136,47 +136,47 @@ impl Break {
         let last = broken.count().wrapping_sub(1);
         let (kind, before, after) = match self {
             Self::Release(j) => {
-                let before = on(corrector, broken.clone(), 3 * j + 1, 0.0)?;
+                let before = on(corrector, broken.clone(), Unknown::Force(j), 0.0)?;
                 let mut after = before.clone();
                 after.remove(j);
                 (EventKind::Release, before, after)
             }
             Self::Border(j, upwards) => {
                 let here = broken.contacts[j].stretch;
-                let border = corrector.world.border(here, upwards);
-                let next = corrector.world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
-                let before = on(corrector, broken.clone(), 3 * j, border)?;
-                if corrector.world.is_notch(next)
-                    && straddles(&corrector.world, &before)
+                let border = corrector.setup.world.border(here, upwards);
+                let next = corrector.setup.world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
+                let before = on(corrector, broken.clone(), Unknown::Parameter(j), border)?;
+                if corrector.setup.world.is_notch(next)
+                    && straddles(&corrector.setup.world, &before)
                     && (1.0 - before.s(before.count() - 2)).abs() < MEETING
                 {
-                    let after = merged(&corrector.world, &before);
+                    let after = merged(&corrector.setup.world, &before);
                     (EventKind::Release, before, after)
                 } else {
-                    (EventKind::Piece, before.clone(), onto_neighbour(before, j, upwards, next, &corrector.world))
+                    (EventKind::Piece, before.clone(), onto_neighbour(before, j, upwards, next, &corrector.setup.world))
                 }
             }
             Self::OntoWall(wall, angle) => {
-                let phi = lying_angle(&corrector.world, broken, wall, angle);
-                let before = on(corrector, broken.clone(), 3 * last + 2, phi)?;
-                let after = parted(&corrector.world, &before, wall);
+                let phi = lying_angle(&corrector.setup.world, broken, wall, angle);
+                let before = on(corrector, broken.clone(), Unknown::Slope(last), phi)?;
+                let after = parted(&corrector.setup.world, &before, wall);
                 (EventKind::Touch, before, after)
             }
             Self::TangentToTip => {
-                let before = on(corrector, broken.clone(), 3 * last + 2, 1.0)?;
-                (EventKind::TangentToTip, before.clone(), as_tip(before, &corrector.world))
+                let before = on(corrector, broken.clone(), Unknown::ArcLength(last), 1.0)?;
+                (EventKind::TangentToTip, before.clone(), as_tip(before, &corrector.setup.world))
             }
             Self::TipToTangent(angle) => {
-                let after = on(corrector, as_tangent(broken.clone(), angle), 3 * last + 2, 1.0)?;
-                (EventKind::TipToTangent, as_tip(after.clone(), &corrector.world), after)
+                let after = on(corrector, as_tangent(broken.clone(), angle), Unknown::ArcLength(last), 1.0)?;
+                (EventKind::TipToTangent, as_tip(after.clone(), &corrector.setup.world), after)
             }
-            Self::Touch(crossing) if corrector.world.is_notch(crossing.stretch) => {
+            Self::Touch(crossing) if corrector.setup.world.is_notch(crossing.stretch) => {
                 return Err(NoTransition::NotLocated);
             }
             Self::Touch(crossing) => {
                 let (start, j) = with_contact(broken, &crossing);
-                let after = on(corrector, start, 3 * j + 1, 0.0)?;
-                let (range, t) = (corrector.world.range(crossing.stretch), after.t(j));
+                let after = on(corrector, start, Unknown::Force(j), 0.0)?;
+                let (range, t) = (corrector.setup.world.range(crossing.stretch), after.t(j));
                 if (t - range.clamp(t)).abs() > BEYOND_END * (1.0 + t.abs()) {
                     // it has gone so deep that it is a neighbour that it met first
                     return Err(NoTransition::NotLocated);
@@ -197,10 +197,10 @@ impl Break {
 pub(crate) fn on(
     corrector: &mut Corrector<'_>,
     mut start: Configuration,
-    index: usize,
+    unknown: Unknown,
     value: f64,
 ) -> Result<Configuration, NoTransition> {
-    let report = corrector.correct(&mut start, Condition::Fixed { index, value });
+    let report = corrector.correct(&mut start, Condition::Fixed { unknown, value });
     if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
 }
 

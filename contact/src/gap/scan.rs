@@ -4,7 +4,7 @@ use crate::contact_set::{Configuration, Span};
 use crate::gap::passing::{self, Passing};
 use crate::gap::shape::{Node, Shape};
 use crate::gap::{AT_TRANSITION, Crossing, GAP_TOLERANCE, Proof, Prover};
-use crate::path::ClampPath;
+use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::stability::Judge;
 use crate::state::GapBounds;
@@ -23,14 +23,13 @@ const ON_ROD: f64 = 1e-12;
 /// What a scan found.
 #[derive(Clone, Debug)]
 pub(crate) struct Scan {
+    shape: Shape,
     /// Bounds of the smallest gap over the whole rod.
     pub gap: GapBounds,
     /// Where the rod goes through a contour.
     pub crossings: SmallVec<[Crossing; 2]>,
     /// The clamp itself is inside the solid.
     pub clamp_inside: bool,
-    /// Where the tip is.
-    pub tip: (f64, f64),
     /// On which side of the rod, and how far, the ends of open contours are; NaN where the rod does not run by.
     sides: SmallVec<[f64; 2]>,
 }
@@ -57,63 +56,49 @@ impl Scan {
 /// Looks at the rod, in memory that is used again.
 #[derive(Debug, Default)]
 pub(crate) struct Scanner {
-    /// The shape of the rod that was looked at last.
-    shape: Shape,
     prover: Prover,
     judge: Judge,
 }
 
 impl Scanner {
     /// Looks at the whole rod in `configuration`.
-    pub fn scan(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
-        self.scan_to(GAP_TOLERANCE, world, path, configuration)
+    pub fn scan(&mut self, setup: &Setup<'_>, configuration: &Configuration) -> Scan {
+        self.scan_shape(Shape::of(setup, configuration), setup, configuration, GAP_TOLERANCE)
     }
 
     /// The same of a rod at a transition, where another contact, about to form, may be deeper.
-    pub fn scan_transition(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
-        let scan = self.scan(world, path, configuration);
-        if scan.is_outside() { scan } else { self.scan_to(AT_TRANSITION, world, path, configuration) }
+    pub fn scan_transition(&mut self, setup: &Setup<'_>, configuration: &Configuration) -> Scan {
+        let scan = self.scan(setup, configuration);
+        if scan.is_outside() { scan } else { self.scan_shape(scan.shape, setup, configuration, AT_TRANSITION) }
     }
 
-    fn scan_to(&mut self, depth: f64, world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Scan {
-        self.shape.follow(world, path, configuration);
-        let proof = self.prover.prove(world, configuration, &self.shape, depth);
-        let Proof { lower, seen, crossings, clamp_inside } = proof;
+    fn scan_shape(&mut self, shape: Shape, setup: &Setup<'_>, configuration: &Configuration, depth: f64) -> Scan {
+        let world = &setup.world;
+        let Proof { lower, seen, crossings, clamp_inside } = self.prover.prove(world, configuration, &shape, depth);
         let gap = GapBounds { lower, seen, proven: world.is_proven() };
-        let (_, tip) = self.shape.ends();
-        Scan { gap, crossings, clamp_inside, tip, sides: sides(world, &self.shape) }
+        let sides = sides(world, &shape);
+        Scan { shape, gap, crossings, clamp_inside, sides }
     }
 
-    /// What the rod has gone through, and is beside now, on its way from a configuration and what was seen there to the one that
-    /// was looked at last.
-    pub fn passes(
-        &mut self,
-        world: &World<'_>,
-        path: &ClampPath,
-        from: &Configuration,
-        before: &Scan,
-    ) -> Option<Passing> {
-        let (clamp, tip) = self.shape.ends();
-        let was = path.at(from.tau());
-        if self.prover.is_crossed(world, ((was.x, was.y), clamp), |_| false) {
+    /// What the rod has gone through, and is beside now, on its way from a configuration and what was seen there to what is seen
+    /// `now`.
+    pub fn passes(&mut self, world: &World<'_>, from: &Configuration, before: &Scan, now: &Scan) -> Option<Passing> {
+        let ((clamp_before, tip_before), (clamp, tip)) = (before.shape.ends(), now.shape.ends());
+        if self.prover.is_crossed(world, (clamp_before, clamp), |_| false) {
             return Some(Passing::Clamp);
         }
         let skip = |run: usize| passing::holds(world, from, run);
-        if self.prover.is_crossed(world, (before.tip, tip), skip) {
+        if self.prover.is_crossed(world, (tip_before, tip), skip) {
             return Some(Passing::Rod);
         }
         let clear = world.objects() == 1 && from.count() > 0;
-        let swept = !clear && {
-            let mut was = Shape::default();
-            was.follow(world, path, from);
-            passing::swept_over(world, &was, &self.shape, from)
-        };
+        let swept = !clear && passing::swept_over(world, &before.shape, &now.shape, from);
         swept.then_some(Passing::Rod)
     }
 
-    /// Whether the rod is stable in the configuration that was looked at last.
-    pub fn is_stable(&mut self, world: &World<'_>, scanned: &Configuration) -> bool {
-        self.judge.is_stable(world, scanned, &self.shape)
+    /// Whether the rod is stable in a configuration that was scanned.
+    pub fn is_stable(&mut self, world: &World<'_>, configuration: &Configuration, scan: &Scan) -> bool {
+        self.judge.is_stable(world, configuration, &scan.shape)
     }
 }
 

@@ -1,8 +1,7 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
 use crate::contact_set::{Configuration, Span, Spans};
-use crate::path::ClampPath;
-use crate::scene::world::World;
+use crate::scene::setup::Setup;
 use rod_contours::Bounds;
 use rod_core::{Section, Station, stations};
 use smallvec::{SmallVec, smallvec};
@@ -24,6 +23,9 @@ const FEWEST: usize = 4;
 /// the smallest one, whatever the force.
 const LARGEST_PHASE: f64 = 0.5;
 const SMALLEST_SPACING: f64 = 1.0 / 512.0;
+
+/// Points that a shape mostly has at most.
+const USUAL: usize = 80;
 
 /// A point of the rod.
 #[derive(Clone, Copy, Debug)]
@@ -73,10 +75,16 @@ impl Shape {
         }
     }
 
-    /// Becomes the shape of the rod in `configuration`, in the memory of the last one.
-    pub fn follow(&mut self, world: &World<'_>, path: &ClampPath, configuration: &Configuration) {
+    /// The shape of the rod in `configuration`.
+    pub fn of(setup: &Setup<'_>, configuration: &Configuration) -> Self {
+        let mut shape = Self { nodes: Vec::with_capacity(USUAL), ..Self::default() };
+        shape.follow(setup, configuration);
+        shape
+    }
+
+    fn follow(&mut self, setup: &Setup<'_>, configuration: &Configuration) {
         let Self { spans, nodes, firsts, forces } = self;
-        *spans = configuration.spans(world, path);
+        *spans = configuration.spans(setup);
         forces.clear();
         forces.extend(spans.iter().map(|span| span.a.hypot(span.b)));
         nodes.clear();

@@ -1,4 +1,5 @@
-//! The objects in lengths of the rod, and what a rod meets at their corners.
+//! Rod, objects and path of a sweep, in lengths of the rod, and what a rod meets at the objects' corners.
 
 pub(crate) mod corner;
+pub(crate) mod setup;
 pub(crate) mod world;

@@ -30,7 +30,7 @@ pub(crate) struct World<'a> {
     first_run: SmallVec<[usize; 5]>,
     ends: SmallVec<[(f64, f64); 2]>,
     /// Depth to which there is solid behind an open contour.
-    pub skin: f64,
+    skin: f64,
     /// Length of the rod in the contours' unit.
     length: f64,
 }
@@ -108,6 +108,11 @@ impl<'a> World<'a> {
         let index =
             Index::new(objects.iter().map(|object| if is_bounded(object) { object.bounds() } else { Bounds::ALL }));
         Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length }
+    }
+
+    /// Makes solid all that is behind an open contour.
+    pub fn fill(&mut self) {
+        self.skin = f64::INFINITY;
     }
 
     /// The number of the object that a stretch belongs to.

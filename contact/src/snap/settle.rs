@@ -22,15 +22,12 @@ pub(crate) fn settle(
 ) -> Option<Configuration> {
     let mut configuration = guess;
     let tau = configuration.tau();
-    let patient = corrector.options;
-    corrector.options.max_iterations = 60;
-    let mut settled = None;
     for _ in 0..MOST_REPAIRS {
-        let report = (configuration.count() > 0).then(|| corrector.at_pose(&mut configuration, tau));
-        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&corrector.world, &configuration) {
-            break;
+        let report = (configuration.count() > 0).then(|| corrector.from_guess(&mut configuration, tau));
+        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&corrector.setup.world, &configuration) {
+            return None;
         }
-        let scan = scanner.scan(&corrector.world, &corrector.path, &configuration);
+        let scan = scanner.scan(&corrector.setup, &configuration);
         let mut worst = None;
         breaks(corrector, &configuration, &scan, |b| {
             let weight = badness(&b, &configuration);
@@ -41,15 +38,12 @@ pub(crate) fn settle(
         match worst {
             Some((_, b)) => configuration = mend(configuration, b, corrector),
             None => {
-                let stable = scanner.is_stable(&corrector.world, &configuration);
-                let holds = scan.is_outside() && stable;
-                settled = holds.then_some(configuration);
-                break;
+                let stable = scanner.is_stable(&corrector.setup.world, &configuration, &scan);
+                return (scan.is_outside() && stable).then_some(configuration);
             }
         }
     }
-    corrector.options = patient;
-    settled
+    None
 }
 
 /// What to mend first: a force that pulls before all, then what is furthest off.
@@ -64,13 +58,13 @@ fn badness(b: &Break, configuration: &Configuration) -> f64 {
 fn mend(mut configuration: Configuration, b: Break, corrector: &Corrector<'_>) -> Configuration {
     match b {
         Break::Release(j) => configuration.remove(j),
-        Break::Border(j, upwards) => match slid(&configuration, j, upwards, &corrector.world) {
+        Break::Border(j, upwards) => match slid(&configuration, j, upwards, &corrector.setup.world) {
             Some(slid) => configuration = slid,
             None => configuration.remove(j),
         },
         Break::TipToTangent(angle) => configuration = as_tangent(configuration, angle),
-        Break::OntoWall(wall, _) => configuration = parted(&corrector.world, &configuration, wall),
-        Break::TangentToTip => configuration = as_tip(configuration, &corrector.world),
+        Break::OntoWall(wall, _) => configuration = parted(&corrector.setup.world, &configuration, wall),
+        Break::TangentToTip => configuration = as_tip(configuration, &corrector.setup.world),
         Break::Touch(crossing) => configuration = with_contact(&configuration, &crossing).0,
     }
     configuration

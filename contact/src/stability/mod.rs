@@ -16,7 +16,7 @@
 
 use crate::contact_set::{Configuration, Span};
 use crate::gap::shape::{Node, Shape};
-use crate::path::ClampPath;
+use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use nalgebra::{DMatrix, SMatrix};
 use rod_core::{Hold, Supports};
@@ -245,9 +245,9 @@ fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
 }
 
 /// The contact where the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
-pub(crate) fn wraps(world: &World<'_>, path: &ClampPath, configuration: &Configuration) -> Option<usize> {
-    let supports = configuration.supports(world);
-    let spans = configuration.spans(world, path);
+pub(crate) fn wraps(setup: &Setup<'_>, configuration: &Configuration) -> Option<usize> {
+    let supports = configuration.supports(&setup.world);
+    let spans = configuration.spans(setup);
     configuration.contacts.iter().zip(&spans[1..]).enumerate().position(|(j, (contact, span))| match contact.hold {
         Hold::Tangent { offset } => {
             let support = supports.support(j, configuration.t(j));
@@ -268,19 +268,18 @@ fn lies_flat(turning: f64, kappa: f64) -> bool {
 mod tests {
     use super::*;
     use crate::contact_set::Held;
+    use crate::path::ClampPath;
     use rod_contours::{Composite, Parabola};
-    use rod_core::Pose;
+    use rod_core::{Pose, Rod};
 
     /// A straight rod standing under a ceiling y = 1 + c x^2, pressed with force f: the tip slides, the clamp holds.
     fn stands(c: f64, f: f64) -> bool {
         let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap()).unwrap();
-        let world = World::new(contour.as_ref(), 1.0);
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
+        let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), contour.as_ref(), path);
         let mut column = Configuration::free(0.0);
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
-        let mut shape = Shape::default();
-        shape.follow(&world, &path, &column);
-        Judge::default().is_stable(&world, &column, &shape)
+        Judge::default().is_stable(&setup.world, &column, &Shape::of(&setup, &column))
     }
 
     #[test]

@@ -11,7 +11,7 @@ mod pressed;
 mod programme;
 
 use crate::contact_set::Configuration;
-use crate::path::ClampPath;
+use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
@@ -62,13 +62,13 @@ impl Chain {
     }
 
     /// The shape of the rod in `configuration`, on another clamp.
-    pub fn of(world: &World<'_>, path: &ClampPath, configuration: &Configuration, clamp: Pose) -> Self {
-        let spans = configuration.spans(world, path);
+    pub fn of(setup: &Setup<'_>, configuration: &Configuration, clamp: Pose) -> Self {
+        let spans = configuration.spans(setup);
         let phi = |s: f64| {
             let span = spans[spans.partition_point(|span| span.s <= s).saturating_sub(1)];
             advance(&span.start, span.a, span.b, s - span.s).phi
         };
-        let mut before = path.at(configuration.tau()).phi;
+        let mut before = setup.path.at(configuration.tau()).phi;
         let joints = std::array::from_fn(|i| {
             let here = phi((i as f64 + 0.5) * LINK);
             let joint = here - before;

@@ -1,0 +1,39 @@
+//! What a sweep is about: the rod, the objects and the way of its clamp.
+
+use crate::path::ClampPath;
+use crate::scene::world::World;
+use rod_contours::Composite;
+use rod_core::{MultiPoint, Rod, Supports};
+
+/// A rod, the objects and the way of the clamp, dimensionless: from it and a contact set comes every boundary-value problem.
+#[derive(Clone, Debug)]
+pub(crate) struct Setup<'a> {
+    pub rod: Rod,
+    pub world: World<'a>,
+    pub path: ClampPath,
+}
+
+impl<'a> Setup<'a> {
+    /// `path` is in the units of the rod and the objects.
+    pub fn new(rod: &Rod, objects: &'a [Composite], path: ClampPath) -> Self {
+        let units = rod.units();
+        Self { rod: *rod, world: World::new(objects, units.length), path: path.dimensionless(units) }
+    }
+
+    /// The rod held by `supports`, with its clamp at `tau` of the path.
+    pub fn problem<'s, S: Supports>(&self, supports: &'s S, tau: f64) -> MultiPoint<'s, S> {
+        MultiPoint { clamp: self.path.at(tau), supports }
+    }
+
+    /// The same rod and objects on another way of the clamp, dimensionless.
+    pub fn along(&self, path: ClampPath) -> Self {
+        Self { path, ..self.clone() }
+    }
+
+    /// The same, where all that is behind an open contour is solid: for a rod that has not come there along the path.
+    pub fn filled(&self) -> Self {
+        let mut filled = self.clone();
+        filled.world.fill();
+        filled
+    }
+}
