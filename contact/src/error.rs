@@ -65,8 +65,8 @@ pub struct Stop {
 pub enum StopReason {
     /// No equilibrium was found for the first pose of the path.
     NoStart,
-    /// The equilibrium could not be followed: the step fell below its smallest size without convergence.
-    StepTooSmall,
+    /// The equilibrium could not be followed: also the smallest step met an obstacle.
+    StepTooSmall(Obstacle),
     /// The rod snaps, and no stable equilibrium was found for it to land in.
     NoLanding,
     /// A contact ran off the end of an open contour, or the rod came upon such an end from the side.
@@ -81,12 +81,54 @@ pub enum StopReason {
     StepBudget,
 }
 
+/// Why a step along a branch of equilibria is refused, and tried at half its length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Obstacle {
+    /// Newton's method did not converge, or to a point too far from the predicted one.
+    NotConverged,
+    /// The branch turns by more than 26 degrees within the step.
+    Turns,
+    /// The rod goes through an object, and no first contact with it was located within the step.
+    Touch,
+    /// A condition of the contact set is broken, and where it broke was not located within the step.
+    NotLocated,
+    /// The rod or its tip would pass over a thin object.
+    PassesOver,
+    /// The next equilibrium is not stable, and no fold was located.
+    Unstable,
+}
+
+impl Obstacle {
+    /// Whether the rod goes through an object, where that is known.
+    pub(crate) fn touches(self) -> Option<bool> {
+        match self {
+            Self::NotConverged | Self::Turns => None,
+            Self::Touch => Some(true),
+            Self::NotLocated | Self::PassesOver | Self::Unstable => Some(false),
+        }
+    }
+}
+
+impl std::fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::NotConverged => "Newton's method does not converge",
+            Self::Turns => "the branch turns too sharply",
+            Self::Touch => "a new contact cannot be located",
+            Self::NotLocated => "a transition cannot be located",
+            Self::PassesOver => "the rod would pass over a thin object",
+            Self::Unstable => "the equilibrium loses its stability",
+        })
+    }
+}
+
 /// A name in small letters with hyphens, such as `no-landing`.
 impl std::fmt::Display for StopReason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.pad(match self {
             Self::NoStart => "no-start",
-            Self::StepTooSmall => "step-too-small",
+            Self::StepTooSmall(_) => "step-too-small",
             Self::NoLanding => "no-landing",
             Self::EndOfContour => "end-of-contour",
             Self::LineContact => "line-contact",
@@ -99,29 +141,31 @@ impl std::fmt::Display for StopReason {
 
 impl std::fmt::Display for Stop {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (why, advice) = match self.reason {
-            StopReason::NoStart => ("no equilibrium found for the first pose", "start where the rod is free"),
-            StopReason::StepTooSmall => {
-                ("the equilibrium could not be followed", "look at the last states, or start beyond")
+        let Pose { x, y, phi } = self.pose;
+        write!(f, "the sweep stopped at clamp ({x:.9}, {y:.9}) m, {phi:.9} rad: ")?;
+        let why = match self.reason {
+            StopReason::NoStart => "no equilibrium found for the first pose; start where the rod is free",
+            StopReason::StepTooSmall(obstacle) => {
+                return write!(
+                    f,
+                    "the equilibrium could not be followed, {obstacle}; look at the last states, or start beyond"
+                );
             }
-            StopReason::NoLanding => ("the rod snaps and no stable equilibrium was found", "start a new sweep beyond"),
+            StopReason::NoLanding => "the rod snaps and no stable equilibrium was found; start a new sweep beyond",
             StopReason::EndOfContour => {
-                ("the rod came to the end of an open contour", "make the contour longer, or close it")
+                "the rod came to the end of an open contour; make the contour longer, or close it"
             }
             StopReason::LineContact => {
-                ("the rod wraps around the contour and would touch it along a line", "end the path before it")
+                "the rod wraps around the contour and would touch it along a line; end the path before it"
             }
             StopReason::ClampInside if self.tau == 0.0 => {
-                ("the clamp is inside an object in the first pose", "start with the clamp outside of all objects")
+                "the clamp is inside an object in the first pose; start with the clamp outside of all objects"
             }
-            StopReason::ClampInside => ("the clamp itself runs into the object", "end the path before it"),
-            StopReason::StepBudget => {
-                ("the sweep has taken all the steps it may take", "allow more, or sweep in parts")
-            }
-            StopReason::Chatter => ("contacts come and go at one pose without end", "start a new sweep beyond"),
+            StopReason::ClampInside => "the clamp itself runs into the object; end the path before it",
+            StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
+            StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",
         };
-        let Pose { x, y, phi } = self.pose;
-        write!(f, "the sweep stopped at clamp ({x:.9}, {y:.9}) m, {phi:.9} rad: {why}; {advice}")
+        f.write_str(why)
     }
 }
 

@@ -46,7 +46,7 @@ mod state;
 mod sweep;
 
 pub use equilibrium::{Equilibrium, equilibrium};
-pub use error::{ContactError, LARGEST_ANGLE, Stop, StopReason};
+pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};
 pub use path::{ClampPath, SuspiciousAngle};
 pub use phase::Phase;

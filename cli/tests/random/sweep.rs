@@ -73,7 +73,7 @@ impl Verdict {
         use StopReason::{Chatter, NoLanding, NoStart, StepTooSmall};
         match &self.end {
             End::Stopped(NoStart) => self.doubt.is_some(),
-            End::Stopped(reason) => matches!(reason, Chatter | NoLanding | StepTooSmall),
+            End::Stopped(reason) => matches!(reason, Chatter | NoLanding | StepTooSmall(_)),
             End::Endless => true,
             _ => false,
         }

@@ -39,7 +39,7 @@ impl End {
     fn of(reason: StopReason) -> Self {
         match reason {
             StopReason::NoStart => Self::NoStart,
-            StopReason::StepTooSmall => Self::StepTooSmall,
+            StopReason::StepTooSmall(_) => Self::StepTooSmall,
             StopReason::NoLanding => Self::NoLanding,
             StopReason::EndOfContour => Self::EndOfContour,
             StopReason::LineContact => Self::LineContact,

@@ -7,7 +7,7 @@ use crate::continuation::certify::Quality;
 use crate::continuation::fold::locate_fold;
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::transition::{Break, NoTransition, Transition, breaks};
-use crate::error::StopReason;
+use crate::error::{Obstacle, StopReason};
 use crate::gap::passing::Passing;
 use crate::gap::scan::{Scan, Scanner};
 use crate::stability::wraps;
@@ -95,6 +95,14 @@ impl Step {
     }
 }
 
+/// Why a step was not taken.
+enum Refused {
+    /// A shorter one may be.
+    TooLong(Obstacle),
+    /// Nor would any other.
+    Ended(StopReason),
+}
+
 /// The next point of a branch, before it is judged.
 struct Ahead {
     next: Configuration,
@@ -111,15 +119,13 @@ pub(crate) struct Stepper<'a> {
     pub scanner: Scanner,
     /// Length of the next step.
     pub h: f64,
-    /// Whether the step that was tried last went through a contour.
-    touches: bool,
     /// How many more steps may be tried.
     pub steps_left: u64,
 }
 
 impl<'a> Stepper<'a> {
     pub fn new(corrector: Corrector<'a>, steps_left: u64) -> Self {
-        Self { corrector, scanner: Scanner::default(), h: FIRST_STEP, touches: false, steps_left }
+        Self { corrector, scanner: Scanner::default(), h: FIRST_STEP, steps_left }
     }
 
     /// A point with everything known of it.
@@ -200,67 +206,83 @@ impl<'a> Stepper<'a> {
 
     /// One step from `from` towards the pose `target`, at most there.
     pub fn step(&mut self, from: &Point, target: f64) -> Result<Step, StopReason> {
+        let (mut obstacle, mut touches) = (Obstacle::NotConverged, false);
         while self.h >= SHORTEST_STEP {
             self.steps_left = self.steps_left.checked_sub(1).ok_or(StopReason::StepBudget)?;
-            match self.attempt(from, target)? {
-                Some(step) => return Ok(step),
-                None => self.h *= 0.5,
-            }
-        }
-        // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
-        if self.touches && !from.scan.is_by_an_end() {
-            return Ok(Step::Ended(Box::new(from.configuration.clone())));
+            obstacle = match self.attempt(from, target) {
+                Ok(step) => return Ok(step),
+                Err(Refused::Ended(reason)) => return Err(reason),
+                Err(Refused::TooLong(obstacle)) => obstacle,
+            };
+            touches = obstacle.touches().unwrap_or(touches);
+            self.h *= 0.5;
         }
         // Behind the end of an open contour there is no telling inside from outside.
-        Err(if from.scan.is_by_an_end() { StopReason::EndOfContour } else { StopReason::StepTooSmall })
+        if from.scan.is_by_an_end() {
+            return Err(StopReason::EndOfContour);
+        }
+        // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
+        if touches {
+            return Ok(Step::Ended(Box::new(from.configuration.clone())));
+        }
+        Err(StopReason::StepTooSmall(obstacle))
     }
 
-    /// A step of the present length. None: it was too long, a shorter one meets something before.
-    fn attempt(&mut self, from: &Point, target: f64) -> Result<Option<Step>, StopReason> {
-        let Some(Ahead { next, tangent, report, length }) = self.predict_and_correct(from, target) else {
-            return Ok(None);
-        };
+    /// A step of the present length.
+    fn attempt(&mut self, from: &Point, target: f64) -> Result<Step, Refused> {
+        let Ahead { next, tangent, report, length } =
+            self.predict_and_correct(from, target).ok_or(Refused::TooLong(Obstacle::NotConverged))?;
         if tangent.cosine(&from.tangent) < LEAST_COSINE {
-            return Ok(None);
+            return Err(Refused::TooLong(Obstacle::Turns));
         }
-        let too_long_or = |reason| if length < SHORT { Err(reason) } else { Ok(None) };
         let scan = self.scan(&next);
-        self.touches = !scan.crossings.is_empty();
+        let unexplained = if scan.crossings.is_empty() { Obstacle::NotLocated } else { Obstacle::Touch };
+        let ends_if_short = |reason| {
+            if length < SHORT { Refused::Ended(reason) } else { Refused::TooLong(unexplained) }
+        };
         if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
-            return too_long_or(StopReason::ClampInside);
+            return Err(ends_if_short(StopReason::ClampInside));
         }
         // No point of a free rod has gone further than the smallest gap was: it came around an end.
         let is_open = !self.corrector.setup.world.open_ends().is_empty();
         let is_free = next.count() == 0 && length * self.fastest() <= from.scan.gap.lower;
         if is_open && is_free && scan.gap.seen < -DEEPEST {
-            return Err(StopReason::EndOfContour);
+            return Err(Refused::Ended(StopReason::EndOfContour));
         }
         if scan.has_swept_over_an_end(&from.scan) {
-            return too_long_or(StopReason::EndOfContour);
+            return Err(ends_if_short(StopReason::EndOfContour));
         }
         let ended = match self.first_transition(from, &next, &scan, &tangent, length) {
-            Ok(None) if !scan.is_outside() => return Ok(None),
+            Ok(None) if !scan.is_outside() => return Err(Refused::TooLong(unexplained)),
             Ok(ended) => ended,
-            Err(NoTransition::EndOfContour) => return too_long_or(StopReason::EndOfContour),
-            Err(NoTransition::NotLocated) => return Ok(None),
+            Err(NoTransition::EndOfContour) => return Err(ends_if_short(StopReason::EndOfContour)),
+            Err(NoTransition::NotLocated) => return Err(Refused::TooLong(unexplained)),
         };
         match self.passes(from, &scan, length) {
-            None if ended.is_some() => return Ok(ended),
             None => {}
-            Some(Passing::Rod) => return Ok(None),
-            Some(Passing::Clamp) => return too_long_or(StopReason::ClampInside),
+            Some(Passing::Rod) if ended.is_some() => return Err(Refused::TooLong(unexplained)),
+            Some(Passing::Rod) => return Err(Refused::TooLong(Obstacle::PassesOver)),
+            Some(Passing::Clamp) => return Err(ends_if_short(StopReason::ClampInside)),
+        }
+        if let Some(ended) = ended {
+            return Ok(ended);
         }
         if !self.is_stable(&next, &scan) {
-            return if length > PROBE { Ok(None) } else { self.end(from, &next).map(Some) };
+            let long = length > PROBE;
+            return if long {
+                Err(Refused::TooLong(Obstacle::Unstable))
+            } else {
+                self.end(from, &next).map_err(Refused::Ended)
+            };
         }
         if let Some(transition) = self.runs_together(&next, &tangent) {
-            return Ok(Some(Step::Changed(Box::new(transition))));
+            return Ok(Step::Changed(Box::new(transition)));
         }
         if report.iterations <= 2 {
             self.h = (2.0 * self.h).min(LONGEST_STEP);
         }
         let quality = Quality::new(&report, true);
-        Ok(Some(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent }))))
+        Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })))
     }
 
     /// What the rod, on its way to where it is seen `now`, has gone through and is beside.
