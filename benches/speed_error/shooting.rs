@@ -1,7 +1,7 @@
 //! The boundary-value problem by shooting through an integrator, with a Jacobian of differences.
 
 use crate::integrators::Integrator;
-use vibrissa::{Cut, MultiPoint, Section, Supports, System};
+use vibrissa::{Cut, MultiPoint, Segment, Supports, System};
 
 /// Differences of what is exact to rounding: the root of the rounding.
 const LEAST_STEP: f64 = 2e-8;
@@ -18,16 +18,17 @@ pub struct Shooting<'a, S> {
 impl<S: Supports> Shooting<'_, S> {
     fn residual(&self, u: &[f64], residual: &mut [f64]) {
         let mut rows = residual.chunks_exact_mut(3);
-        let mut before: Option<(f64, Section, f64, f64)> = None;
-        self.problem.segments(u, |s, section, a, b| {
-            if let (Some((from, start, a, b)), Some(row)) = (before, before.and_then(|_| rows.next())) {
+        let mut before: Option<Segment> = None;
+        self.problem.segments(u, |segment| {
+            let Segment { s, start: section, .. } = segment;
+            if let (Some(Segment { s: from, start, a, b }), Some(row)) = (before, before.and_then(|_| rows.next())) {
                 let cut = Cut { x: start.x, y: start.y, phi: start.phi, moment: start.kappa };
                 // no number tells Newton's method that this is no way
                 let end = self.integrator.rod.advance(from, &cut, a, b, s - from);
                 let off = end.map(|end| [end.x - section.x, end.y - section.y, end.phi - section.phi]);
                 row.copy_from_slice(&off.unwrap_or([f64::NAN; 3]));
             }
-            before = Some((s, section, a, b));
+            before = Some(segment);
         });
     }
 }

@@ -5,7 +5,7 @@ use crate::error::{RodError, finite};
 use crate::loads::{clamp_cut, forces_ahead, march};
 use crate::pose::{Pose, Reactions};
 use crate::propagator::{ClosedForm, Cut};
-use crate::segment::{Section, advance, axial};
+use crate::segment::{Section, Segment, advance, axial};
 use crate::units::Units;
 use std::f64::consts::{PI, TAU};
 
@@ -28,17 +28,8 @@ pub struct Load {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elastica {
     units: Units,
-    /// Dimensionless: arc length and section where each segment starts, and the force (A, B) along it. The last one is
-    /// free.
+    /// The last one is free.
     pub(crate) segments: Vec<Segment>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Segment {
-    pub s: f64,
-    pub start: Section,
-    pub a: f64,
-    pub b: f64,
 }
 
 impl Elastica {

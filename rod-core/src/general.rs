@@ -6,7 +6,7 @@ use crate::error::{RodError, finite};
 use crate::loads::{clamp_cut, clamp_moment, forces_ahead, march};
 use crate::pose::{Pose, Reactions};
 use crate::propagator::{Cut, Propagator};
-use crate::segment::Section;
+use crate::segment::{Section, Segment};
 use crate::units::Units;
 
 /// The elastica of a clamped rod of any kind under n point forces: what [`Elastica`](crate::Elastica) is to the uniform
@@ -27,21 +27,13 @@ use crate::units::Units;
 pub struct GeneralElastica<'rod> {
     rod: &'rod dyn Propagator,
     units: Units,
-    pieces: Vec<Piece>,
-}
-
-/// A piece between two loads: where it starts, and the force (A, B) along it. The last one is free.
-#[derive(Clone, Copy)]
-struct Piece {
-    s: f64,
-    start: Cut,
-    a: f64,
-    b: f64,
+    /// The last one is free.
+    segments: Vec<Segment<Cut>>,
 }
 
 impl std::fmt::Debug for GeneralElastica<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("GeneralElastica").field("units", &self.units).field("pieces", &self.pieces.len()).finish()
+        f.debug_struct("GeneralElastica").field("units", &self.units).field("segments", &self.segments.len()).finish()
     }
 }
 
@@ -61,9 +53,9 @@ impl<'rod> GeneralElastica<'rod> {
         let forces = forces_ahead(units, loads)?;
         let clamp = clamp_cut(units, pose, -m0z / units.moment);
         clamp.check()?;
-        let mut pieces = Vec::with_capacity(loads.len() + 1);
-        march(rod, clamp, &forces, |s, start, a, b| pieces.push(Piece { s, start, a, b }))?;
-        Ok(Self { rod, units, pieces })
+        let mut segments = Vec::with_capacity(loads.len() + 1);
+        march(rod, clamp, &forces, |s, start, a, b| segments.push(Segment { s, start, a, b }))?;
+        Ok(Self { rod, units, segments })
     }
 
     /// The elastica under dead loads, as [`Elastica::under_loads`](crate::Elastica::under_loads).
@@ -81,8 +73,8 @@ impl<'rod> GeneralElastica<'rod> {
     }
 
     fn cut(&self, s: f64) -> Result<Cut, RodError> {
-        let i = self.pieces.partition_point(|piece| piece.s <= s).saturating_sub(1);
-        let Piece { s: from, start, a, b } = self.pieces[i];
+        let i = self.segments.partition_point(|segment| segment.s <= s).saturating_sub(1);
+        let Segment { s: from, start, a, b } = self.segments[i];
         self.rod.advance(from, &start, a, b, s - from)
     }
 
@@ -112,7 +104,7 @@ impl<'rod> GeneralElastica<'rod> {
 
     /// What the clamp feels.
     pub fn reactions(&self) -> Reactions {
-        let Piece { start, a, b, .. } = self.pieces[0];
+        let Segment { start, a, b, .. } = self.segments[0];
         Reactions { f0x: -b * self.units.force, f0y: a * self.units.force, m0z: -start.moment * self.units.moment }
     }
 }

@@ -78,6 +78,6 @@ pub use propagator::{ClosedForm, Cut, Propagator};
 pub use rod::Rod;
 pub use sample::Sample;
 pub use scalar::Scalar;
-pub use segment::{Section, Sensitivities, advance, advance_with_sensitivities};
+pub use segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
 pub use units::Units;
 pub use walk::{Station, stations, walk};

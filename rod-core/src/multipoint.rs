@@ -14,10 +14,10 @@
 //! equations a support (Merker et al. 2021, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
 //! unknowns: no error grows from one to the next.
 
-use crate::elastica::{Elastica, Segment};
+use crate::elastica::Elastica;
 use crate::newton::System;
 use crate::pose::Pose;
-use crate::segment::{Section, advance, advance_with_sensitivities};
+use crate::segment::{Section, Segment, advance, advance_with_sensitivities};
 use crate::units::Units;
 use smallvec::SmallVec;
 
@@ -225,19 +225,17 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         })
     }
 
-    /// The segments from the clamp to the last support: for each the section where it starts (at its end nearer to the
-    /// clamp), its arc length there, and its force (A, B). The rod is straight and free beyond the last support, whose
-    /// section ends the list with zero force.
-    pub fn segments(&self, u: &[f64], mut visit: impl FnMut(f64, Section, f64, f64)) {
+    /// The segments from the clamp to the last support, and the rod beyond that, which is straight and free of force.
+    pub fn segments(&self, u: &[f64], mut visit: impl FnMut(Segment)) {
         let nodes = self.nodes(u);
         let kappa =
             nodes.first().map_or(0.0, |n| n.kappa + n.a * (self.clamp.x - n.at.x) + n.b * (self.clamp.y - n.at.y));
         let (mut s, mut start) = (0.0, Section { x: self.clamp.x, y: self.clamp.y, phi: self.clamp.phi, kappa });
         for node in &nodes {
-            visit(s, start, node.a, node.b);
+            visit(Segment { s, start, a: node.a, b: node.b });
             (s, start) = (node.s, node.section());
         }
-        visit(s, start, 0.0, 0.0);
+        visit(Segment { s, start, a: 0.0, b: 0.0 });
     }
 
     /// The shape of the rod whose problem `u` solves, in `units`. Each segment starts where its support holds the rod: what is
@@ -262,7 +260,7 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
     /// ```
     pub fn elastica(&self, u: &[f64], units: Units) -> Elastica {
         let mut segments = Vec::with_capacity(self.supports.count() + 1);
-        self.segments(u, |s, start, a, b| segments.push(Segment { s, start, a, b }));
+        self.segments(u, |segment| segments.push(segment));
         Elastica::known(units, segments)
     }
 }

@@ -22,6 +22,20 @@ pub struct Section<T = f64> {
     pub kappa: T,
 }
 
+/// A part of the rod between two contacts, along which the force is constant: where it starts (at its end nearer to the clamp)
+/// and the force. Dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment<S = Section> {
+    /// Arc length of its start.
+    pub s: f64,
+    /// The section where it starts.
+    pub start: S,
+    /// Force A: what the contacts ahead push with along x.
+    pub a: f64,
+    /// Force B, along y.
+    pub b: f64,
+}
+
 /// Derivatives of the end of a segment, each as (x, y, phi, kappa).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivities<T = f64> {

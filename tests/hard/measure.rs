@@ -98,7 +98,7 @@ pub fn measure(problem: &Problem, u: &[f64], status: SolveStatus) -> Measure {
     let row = |i: usize| inverse.row(i).iter().map(|v| v.abs()).sum::<f64>() * weights[i];
     let condition = (0..n).map(row).fold(1.0, f64::max);
     let mut bend = 1.0_f64;
-    system.segments(u, |_, start, _, _| bend = bend.max(start.kappa.abs()));
+    system.segments(u, |segment| bend = bend.max(segment.start.kappa.abs()));
     let backward = exact.amax() / bend;
     if moved > LARGEST_CORRECTION {
         return Measure { status, forward: moved, backward, condition };

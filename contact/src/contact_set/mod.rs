@@ -8,7 +8,7 @@ use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::state::ContactKind;
 use rod_contours::StretchKind;
-use rod_core::{Hold, Section, Support, Supports};
+use rod_core::{Hold, Segment, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -134,12 +134,12 @@ impl Configuration {
     }
 
     /// The rod's segments from the clamp to the tip; the last one is free.
-    pub fn spans(&self, setup: &Setup<'_>) -> Spans {
-        let mut spans = Spans::new();
+    pub fn segments(&self, setup: &Setup<'_>) -> Segments {
+        let mut segments = Segments::new();
         let supports = self.supports(&setup.world);
         let problem = setup.problem(&supports, self.tau());
-        problem.segments(self.of_contacts(), |s, start, a, b| spans.push(Span { s, start, a, b }));
-        spans
+        problem.segments(self.of_contacts(), |segment| segments.push(segment));
+        segments
     }
 
     pub fn kind(&self, world: &World<'_>, j: usize) -> ContactKind {
@@ -153,17 +153,8 @@ impl Configuration {
     }
 }
 
-/// A segment of the rod: arc length and section where it starts, force (A, B) along it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Span {
-    pub s: f64,
-    pub start: Section,
-    pub a: f64,
-    pub b: f64,
-}
-
 /// The segments of a rod.
-pub(crate) type Spans = SmallVec<[Span; 9]>;
+pub(crate) type Segments = SmallVec<[Segment; 9]>;
 
 /// The hold of a rod that lies on a contour, from its slope angle less the contour's, about a multiple of pi.
 pub(crate) fn lying(angle: f64) -> Hold {

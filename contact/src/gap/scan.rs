@@ -1,6 +1,6 @@
 //! A look at the rod in a configuration: its shape, its gap to the objects, its stability.
 
-use crate::contact_set::{Configuration, Span};
+use crate::contact_set::Configuration;
 use crate::gap::passing::{self, Passing};
 use crate::gap::shape::{Node, Shape};
 use crate::gap::{AT_TRANSITION, Crossing, GAP_TOLERANCE, Proof, Prover};
@@ -8,7 +8,7 @@ use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::stability::Judge;
 use crate::state::GapBounds;
-use rod_core::{Section, advance};
+use rod_core::{Section, Segment, advance};
 use smallvec::SmallVec;
 
 /// Distance (L) from an end of an open contour within which a rod that has swept over that end is known to have done so.
@@ -109,7 +109,7 @@ fn sides(world: &World<'_>, shape: &Shape) -> SmallVec<[f64; 2]> {
             let ahead = |Node { at, .. }: &Node| (at.x - x) * at.cos + (at.y - y) * at.sin;
             let (before, after) = (ahead(&pair[0]), ahead(&pair[1]));
             (before < 0.0 && after >= 0.0).then(|| {
-                let at = pass(&shape.spans, (&pair[0], &pair[1]), (x, y), before, after);
+                let at = pass(&shape.segments, (&pair[0], &pair[1]), (x, y), before, after);
                 let (sin, cos) = at.phi.sin_cos();
                 (y - at.y) * cos - (x - at.x) * sin
             })
@@ -120,12 +120,12 @@ fn sides(world: &World<'_>, shape: &Shape) -> SmallVec<[f64; 2]> {
 }
 
 /// Where between two nodes the rod runs by a point; (r - point) . tangent is given at both.
-fn pass(spans: &[Span], nodes: (&Node, &Node), point: (f64, f64), before: f64, after: f64) -> Section {
-    let span = &spans[nodes.0.span];
+fn pass(segments: &[Segment], nodes: (&Node, &Node), point: (f64, f64), before: f64, after: f64) -> Section {
+    let segment = &segments[nodes.0.segment];
     let mut s = nodes.0.s + (nodes.1.s - nodes.0.s) * before / (before - after);
-    let mut at = span.start;
+    let mut at = segment.start;
     for _ in 0..6 {
-        at = advance(&span.start, span.a, span.b, s - span.s);
+        at = advance(&segment.start, segment.a, segment.b, s - segment.s);
         let (sin, cos) = at.phi.sin_cos();
         let (dx, dy) = (at.x - point.0, at.y - point.1);
         let rate = (1.0 + at.kappa * (dy * cos - dx * sin)).max(0.1);

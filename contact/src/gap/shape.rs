@@ -1,9 +1,9 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
-use crate::contact_set::{Configuration, Span, Spans};
+use crate::contact_set::{Configuration, Segments};
 use crate::scene::setup::Setup;
 use rod_contours::Bounds;
-use rod_core::{Section, Station, stations};
+use rod_core::{Section, Segment, Station, stations};
 use smallvec::{SmallVec, smallvec};
 
 /// Largest distance between the points. Between them the gap to an object is bounded by its slope (a rod moves through the
@@ -16,7 +16,7 @@ const STRAIGHT: usize = 4;
 /// Points up to the last contact, at least: several a wave of the highest mode by which stability is judged.
 const LOADED: f64 = 28.0;
 
-/// Intervals of a span under load, at least, for Simpson's rule.
+/// Intervals of a segment under load, at least, for Simpson's rule.
 const FEWEST: usize = 4;
 
 /// Largest distance between the points in the elastica's own wavelength, in units of the square root of EI over the force; and
@@ -32,7 +32,7 @@ const USUAL: usize = 80;
 pub(crate) struct Node {
     pub s: f64,
     pub at: Station,
-    pub span: usize,
+    pub segment: usize,
     /// How far at most the rod leaves the chord from here to the next point.
     pub bulge: f64,
 }
@@ -52,11 +52,11 @@ impl Node {
 /// odd number at equal distances.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shape {
-    pub spans: Spans,
+    pub segments: Segments,
     pub nodes: Vec<Node>,
-    /// Index of the first point of each span: beyond the first span, of the contact there.
+    /// Index of the first point of each segment: beyond the first segment, of the contact there.
     firsts: SmallVec<[usize; 9]>,
-    /// Size of the force on each span.
+    /// Size of the force on each segment.
     forces: SmallVec<[f64; 9]>,
 }
 
@@ -66,9 +66,9 @@ impl Shape {
         let start = Section { x, y, phi, kappa: 0.0 };
         let at = Station::from(&start);
         let end = Station { x: x + length * at.cos, y: y + length * at.sin, ..at };
-        let node = |s, at| Node { s, at, span: 0, bulge: 0.0 };
+        let node = |s, at| Node { s, at, segment: 0, bulge: 0.0 };
         Self {
-            spans: smallvec![Span { s: 0.0, start, a: 0.0, b: 0.0 }],
+            segments: smallvec![Segment { s: 0.0, start, a: 0.0, b: 0.0 }],
             nodes: vec![node(0.0, at), node(length, end)],
             firsts: smallvec![0],
             forces: smallvec![0.0],
@@ -83,19 +83,19 @@ impl Shape {
     }
 
     fn follow(&mut self, setup: &Setup<'_>, configuration: &Configuration) {
-        let Self { spans, nodes, firsts, forces } = self;
-        *spans = configuration.spans(setup);
+        let Self { segments, nodes, firsts, forces } = self;
+        *segments = configuration.segments(setup);
         forces.clear();
-        forces.extend(spans.iter().map(|span| span.a.hypot(span.b)));
+        forces.extend(segments.iter().map(|segment| segment.a.hypot(segment.b)));
         nodes.clear();
         firsts.clear();
-        let loaded = spans.last().map_or(0.0, |free| free.s);
-        for (i, span) in spans.iter().enumerate() {
-            let next = spans.get(i + 1);
-            let node = |s, at| Node { s, at, span: i, bulge: 0.0 };
+        let loaded = segments.last().map_or(0.0, |free| free.s);
+        for (i, segment) in segments.iter().enumerate() {
+            let next = segments.get(i + 1);
+            let node = |s, at| Node { s, at, segment: i, bulge: 0.0 };
             firsts.push(nodes.len());
-            nodes.push(node(span.s, Station::from(&span.start)));
-            let length = next.map_or(1.0, |next| next.s) - span.s;
+            nodes.push(node(segment.s, Station::from(&segment.start)));
+            let length = next.map_or(1.0, |next| next.s) - segment.s;
             if length <= 0.0 {
                 continue;
             }
@@ -105,14 +105,14 @@ impl Shape {
                 let Station { x, y, cos, sin, .. } = nodes[nodes.len() - 1].at;
                 let at = |s: f64| Station { x: x + s * cos, y: y + s * sin, cos, sin, kappa: 0.0 };
                 let part = |k: usize| length * (k as f64 / steps as f64);
-                nodes.extend((1..=steps).map(|k| node(span.s + part(k), at(part(k)))));
+                nodes.extend((1..=steps).map(|k| node(segment.s + part(k), at(part(k)))));
                 continue;
             }
             let steps = 2 * ((0.5 * length / spacing(forces[i]).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2);
             let h = length / steps as f64;
-            // the last point of a span is the first of the next, where it is known better
-            let between = stations(&span.start, span.a, span.b, length, steps).take(steps - 1).enumerate();
-            nodes.extend(between.map(|(k, at)| node(span.s + h * (k + 1) as f64, at)));
+            // the last point of a segment is the first of the next, where it is known better
+            let between = stations(&segment.start, segment.a, segment.b, length, steps).take(steps - 1).enumerate();
+            nodes.extend(between.map(|(k, at)| node(segment.s + h * (k + 1) as f64, at)));
         }
         bulge(forces, nodes, firsts);
     }
@@ -128,14 +128,14 @@ impl Shape {
         self.nodes.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y))
     }
 
-    /// Size of the force on a span.
-    pub fn force(&self, span: usize) -> f64 {
-        self.forces[span]
+    /// Size of the force on a segment.
+    pub fn force(&self, segment: usize) -> f64 {
+        self.forces[segment]
     }
 
-    /// The last point of a span: beyond it, if another span begins there, the two share it.
-    pub fn last_of(&self, span: usize) -> usize {
-        self.firsts.get(span + 1).copied().unwrap_or(self.nodes.len() - 1)
+    /// The last point of a segment: beyond it, if another segment begins there, the two share it.
+    pub fn last_of(&self, segment: usize) -> usize {
+        self.firsts.get(segment + 1).copied().unwrap_or(self.nodes.len() - 1)
     }
 
     /// The contact at a point, if there is one.
@@ -143,14 +143,14 @@ impl Shape {
         self.firsts[1..].iter().position(|first| *first == node)
     }
 
-    /// The points of span number `i` with both its ends.
+    /// The points of segment number `i` with both its ends.
     pub fn along(&self, i: usize) -> &[Node] {
         let after = self.firsts.get(i + 1).map_or(self.nodes.len(), |next| next + 1);
         &self.nodes[self.firsts[i]..after]
     }
 }
 
-/// Finds how far the rod leaves the chords between the points of the spans under load: between two of them the curvature
+/// Finds how far the rod leaves the chords between the points of the segments under load: between two of them the curvature
 /// changes no faster than by the force.
 fn bulge(forces: &[f64], nodes: &mut [Node], firsts: &[usize]) {
     for (force, ends) in forces.iter().zip(firsts.windows(2)) {
@@ -162,7 +162,7 @@ fn bulge(forces: &[f64], nodes: &mut [Node], firsts: &[usize]) {
     }
 }
 
-/// Distance between the points of a span under load.
+/// Distance between the points of a segment under load.
 fn spacing(force: f64) -> f64 {
     (LARGEST_PHASE / force.sqrt()).clamp(SMALLEST_SPACING, SPACING)
 }

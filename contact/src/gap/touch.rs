@@ -30,9 +30,9 @@ pub(super) struct Rod<'a> {
 impl Rod<'_> {
     /// The rod and its slope angle, whole turns included, at an arc length.
     fn section(&self, s: f64) -> Section {
-        let spans = &self.shape.spans;
-        let span = &spans[spans.partition_point(|span| span.s <= s).saturating_sub(1)];
-        advance(&span.start, span.a, span.b, s - span.s)
+        let segments = &self.shape.segments;
+        let segment = &segments[segments.partition_point(|segment| segment.s <= s).saturating_sub(1)];
+        advance(&segment.start, segment.a, segment.b, s - segment.s)
     }
 
     fn foot(&self, run: usize, s: f64) -> (Section, RunFoot, f64) {

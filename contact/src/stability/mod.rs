@@ -14,12 +14,12 @@
 //! modes of a free cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
 //! Cholesky factor.
 
-use crate::contact_set::{Configuration, Span};
+use crate::contact_set::Configuration;
 use crate::gap::shape::{Node, Shape};
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use nalgebra::{DMatrix, SMatrix};
-use rod_core::{Hold, Supports};
+use rod_core::{Hold, Segment, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -63,7 +63,7 @@ impl Judge {
         integrals.reset(size);
         let supports = configuration.supports(world);
         for j in 0..n {
-            let Span { a, b, .. } = shape.spans[j];
+            let Segment { a, b, .. } = shape.segments[j];
             integrals.add(shape.along(j), (a, b), scale);
             let support = supports.support(j, configuration.t(j));
             integrals.shifts(support.alpha.sin_cos(), along, across);
@@ -74,7 +74,7 @@ impl Judge {
                 Hold::Tip if v == 0.0 => return false,
                 Hold::Tip => [-f * w / v, 0.0, 0.0],
                 Hold::Tangent { offset } => {
-                    let kappa = offset.cos() * shape.spans[j + 1].start.kappa;
+                    let kappa = offset.cos() * shape.segments[j + 1].start.kappa;
                     let divisor = w - v * kappa;
                     if lies_flat(w, kappa) {
                         [0.0, 0.0, PENALTY]
@@ -181,7 +181,7 @@ impl Integrals {
         self.moments.resize(2 * size, zero);
     }
 
-    /// Goes on along the `nodes` of a span under the force (A, B), with x = `scale` s.
+    /// Goes on along the `nodes` of a segment under the force (A, B), with x = `scale` s.
     fn add(&mut self, nodes: &[Node], (a, b): (f64, f64), scale: f64) {
         let [first, .., last] = nodes else { return };
         let intervals = nodes.len() - 1;
@@ -247,14 +247,16 @@ fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
 /// The contact where the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
 pub(crate) fn wraps(setup: &Setup<'_>, configuration: &Configuration) -> Option<usize> {
     let supports = configuration.supports(&setup.world);
-    let spans = configuration.spans(setup);
-    configuration.contacts.iter().zip(&spans[1..]).enumerate().position(|(j, (contact, span))| match contact.hold {
-        Hold::Tangent { offset } => {
-            let support = supports.support(j, configuration.t(j));
-            let kappa = offset.cos() * span.start.kappa;
-            support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
+    let segments = configuration.segments(setup);
+    configuration.contacts.iter().zip(&segments[1..]).enumerate().position(|(j, (contact, segment))| {
+        match contact.hold {
+            Hold::Tangent { offset } => {
+                let support = supports.support(j, configuration.t(j));
+                let kappa = offset.cos() * segment.start.kappa;
+                support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
+            }
+            Hold::Tip => false,
         }
-        Hold::Tip => false,
     })
 }
 

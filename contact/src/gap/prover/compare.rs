@@ -26,12 +26,12 @@ impl Search<'_> {
         if contact.hold == Hold::Tip || !self.world.is_on_run(self.run, contact.stretch, t) {
             return None;
         }
-        let span = self.shape.nodes[i].span;
+        let segment = self.shape.nodes[i].segment;
         // as many intervals as there may be, then one alone
-        let most = if forward { AT_ONCE.min(self.shape.last_of(span).min(last) - i) } else { 1 };
+        let most = if forward { AT_ONCE.min(self.shape.last_of(segment).min(last) - i) } else { 1 };
         [most, 1].into_iter().take(if most > 1 { 2 } else { 1 }).find_map(|count| {
             let [from, to] = [i, i + count].map(|k| Knot::from(&self.shape.nodes[k]));
-            let part = Interval::new(from, to, span, self.shape.force(span));
+            let part = Interval::new(from, to, segment, self.shape.force(segment));
             let at = if forward { &from.at } else { &to.at };
             let foot = self.world.touched(contact.stretch, t, at.x, at.y);
             let run = *self.known.lines[self.run].run.get_or_insert_with(|| self.world.run(self.run));

@@ -179,8 +179,8 @@ impl<'a> Search<'a> {
     /// A gap of the rod that is not far from the smallest one: at the point where that was seen last, else of a few points.
     fn nearest(&self) -> f64 {
         if let Some((run, s)) = self.known.closest {
-            let spans = &self.shape.spans;
-            let knot = Knot::on(&spans[spans.len() - 1], s);
+            let segments = &self.shape.segments;
+            let knot = Knot::on(&segments[segments.len() - 1], s);
             return self.world.run_foot(run, knot.at.x, knot.at.y).foot.gap.abs();
         }
         self.shape.nodes.iter().map(|node| self.world.gap(node.at.x, node.at.y)).fold(f64::INFINITY, f64::min)
@@ -287,7 +287,7 @@ impl<'a> Search<'a> {
                 }
             });
             if near.len() > CROWD && halve {
-                parts.extend(part.split(&self.shape.spans[part.span], 0.5 * (part.from.s + part.to.s)));
+                parts.extend(part.split(&self.shape.segments[part.segment], 0.5 * (part.from.s + part.to.s)));
                 continue;
             }
             for run in near {
@@ -308,7 +308,7 @@ impl<'a> Search<'a> {
     /// Clears a part of interval `i` of the run, halving it where that is needed, or finds where it goes through.
     fn clear(&mut self, i: usize, part: &Interval) {
         let Some(s) = self.clear_at_once(i, part) else { return };
-        let mut parts = part.split(&self.shape.spans[part.span], s).to_vec();
+        let mut parts = part.split(&self.shape.segments[part.segment], s).to_vec();
         parts.reverse();
         while let Some(part) = parts.pop() {
             self.looks += 1;
@@ -317,7 +317,7 @@ impl<'a> Search<'a> {
                 return;
             }
             if let Some(s) = self.clear_at_once(i, &part) {
-                let [before, after] = part.split(&self.shape.spans[part.span], s);
+                let [before, after] = part.split(&self.shape.segments[part.segment], s);
                 parts.push(after);
                 parts.push(before);
             }
@@ -413,7 +413,7 @@ impl<'a> Search<'a> {
 /// The rod between node `i` and the next one.
 fn interval(shape: &Shape, i: usize) -> Interval {
     let [from, to] = [&shape.nodes[i], &shape.nodes[i + 1]];
-    Interval::new(Knot::from(from), Knot::from(to), from.span, shape.force(from.span))
+    Interval::new(Knot::from(from), Knot::from(to), from.segment, shape.force(from.segment))
 }
 
 /// How fast the rod runs in a direction.

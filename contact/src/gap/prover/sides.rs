@@ -54,7 +54,7 @@ impl Search<'_> {
             return Knot::from(node);
         }
         let s = node.s + share * (self.shape.nodes[k + 1].s - node.s);
-        Knot::on(&self.shape.spans[node.span], s)
+        Knot::on(&self.shape.segments[node.segment], s)
     }
 
     /// Whether a point of the rod is outside of the object: mostly it is in a disc that is known to be.

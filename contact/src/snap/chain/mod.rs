@@ -63,10 +63,10 @@ impl Chain {
 
     /// The shape of the rod in `configuration`, on another clamp.
     pub fn of(setup: &Setup<'_>, configuration: &Configuration, clamp: Pose) -> Self {
-        let spans = configuration.spans(setup);
+        let segments = configuration.segments(setup);
         let phi = |s: f64| {
-            let span = spans[spans.partition_point(|span| span.s <= s).saturating_sub(1)];
-            advance(&span.start, span.a, span.b, s - span.s).phi
+            let segment = segments[segments.partition_point(|segment| segment.s <= s).saturating_sub(1)];
+            advance(&segment.start, segment.a, segment.b, s - segment.s).phi
         };
         let mut before = setup.path.at(configuration.tau()).phi;
         let joints = std::array::from_fn(|i| {
