@@ -162,7 +162,7 @@ impl Composite {
     pub fn frame_on(&self, stretch: usize, t: f64) -> Frame {
         match self.at(stretch) {
             At::Piece(piece) => piece.frame(t),
-            At::Joint(joint) => joint.frame(t),
+            At::Joint(joint) => joint.frame(t - joint.range().from),
         }
     }
 
@@ -197,7 +197,7 @@ impl Composite {
     pub fn own_frame(&self, stretch: usize, u: f64) -> Frame {
         match self.at(stretch) {
             At::Piece(piece) => piece.own_frame(u),
-            At::Joint(joint) => joint.frame(joint.range().from + u),
+            At::Joint(joint) => joint.frame(u),
         }
     }
 
@@ -214,11 +214,7 @@ impl Composite {
     pub fn own_closest_in(&self, stretch: usize, range: Range, x: f64, y: f64) -> Closest {
         match self.at(stretch) {
             At::Piece(piece) => piece.own_closest_in(range, x, y),
-            At::Joint(joint) => {
-                let from = joint.range().from;
-                let closest = joint.closest_in(range.shifted(from), x, y);
-                Closest { t: range.clamp(closest.t - from), ..closest }
-            }
+            At::Joint(joint) => joint.closest_in(range, x, y),
         }
     }
 

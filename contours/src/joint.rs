@@ -3,31 +3,32 @@
 use crate::angle::wrapped;
 use crate::{Bounds, Closest, Frame, Range};
 
-/// A vertex: the point stands still while alpha runs from one tangent to the other.
+/// A vertex: the point stands still while alpha runs from one tangent to the other. Its own parameter is the angle turned, from
+/// 0: that of the composite, behind long pieces, would lose digits of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Joint {
     /// The frame at the start, with speed 0 and turning +1 (convex corner) or -1 (notch).
     start: Frame,
-    /// Its part of the composite's parameter.
-    range: Range,
+    /// The composite's parameter where it begins.
+    from: f64,
+    /// The size of the turn, rad.
+    turn: f64,
 }
 
 impl Joint {
     /// The joint that begins at parameter `from` in the point and direction of `before` and turns by `turn`, rad.
     pub fn new(before: Frame, from: f64, turn: f64) -> Self {
-        Self {
-            start: Frame { speed: 0.0, turning: turn.signum(), ..before },
-            range: Range { from, to: from + turn.abs() },
-        }
+        Self { start: Frame { speed: 0.0, turning: turn.signum(), ..before }, from, turn: turn.abs() }
     }
 
+    /// Its part of the composite's parameter.
     pub fn range(&self) -> Range {
-        self.range
+        Range { from: self.from, to: self.from + self.turn }
     }
 
     /// The angle turned, from 0.
     pub fn own_range(&self) -> Range {
-        Range { from: 0.0, to: self.range.length() }
+        Range { from: 0.0, to: self.turn }
     }
 
     /// The vertex as a box.
@@ -41,11 +42,13 @@ impl Joint {
         (curvature, curvature)
     }
 
-    pub fn frame(&self, t: f64) -> Frame {
-        Frame { alpha: self.start.alpha + self.start.turning * (t - self.range.from), ..self.start }
+    /// The frame by its own parameter.
+    pub fn frame(&self, u: f64) -> Frame {
+        Frame { alpha: self.start.alpha + self.start.turning * u, ..self.start }
     }
 
-    /// The vertex as seen from `(x, y)`, with the tangent, of those in `range`, whose normal points at `(x, y)` best.
+    /// The vertex as seen from `(x, y)`, with the tangent, of those in `range` of its own parameter, whose normal points at
+    /// `(x, y)` best.
     pub fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let convex = self.start.turning > 0.0;
         let (dx, dy) = (x - self.start.x, y - self.start.y);
@@ -57,7 +60,7 @@ impl Joint {
         let t = middle + self.start.turning * off;
         // The solid at a corner is what lies left of both tangents, at a notch what lies left of either.
         let left = |t: f64| self.frame(t).local(x, y).1 < 0.0;
-        let (first, second) = (left(self.range.from), left(self.range.to));
+        let (first, second) = (left(0.0), left(self.turn));
         let inside = if convex { first && second } else { first || second };
         let on = range.clamp(t);
         Closest {
@@ -81,26 +84,26 @@ mod tests {
     #[test]
     fn below_a_corner_the_normal_points_up() {
         let corner = vertex(1.0);
-        let closest = corner.closest_in(corner.range(), 1.0, 1.5);
-        assert!((closest.t - 10.5).abs() < 1e-15 && closest.frame.alpha.abs() < 1e-15);
+        let closest = corner.closest_in(corner.own_range(), 1.0, 1.5);
+        assert!((closest.t - 0.5).abs() < 1e-15 && closest.frame.alpha.abs() < 1e-15);
         assert_eq!((closest.gap, closest.interior), (0.5, true));
-        let aside = corner.closest_in(corner.range(), 2.0, 2.0);
-        assert_eq!((aside.gap, aside.interior, aside.t), (1.0, false, 11.0));
-        assert_eq!(corner.closest_in(corner.range(), 1.0, 2.5).gap, -0.5);
+        let aside = corner.closest_in(corner.own_range(), 2.0, 2.0);
+        assert_eq!((aside.gap, aside.interior, aside.t), (1.0, false, 1.0));
+        assert_eq!(corner.closest_in(corner.own_range(), 1.0, 2.5).gap, -0.5);
     }
 
     #[test]
     fn above_a_notch_lies_the_solid() {
         let notch = vertex(-1.0);
-        let closest = notch.closest_in(notch.range(), 1.0, 2.5);
-        assert!((closest.t - 10.5).abs() < 1e-15);
+        let closest = notch.closest_in(notch.own_range(), 1.0, 2.5);
+        assert!((closest.t - 0.5).abs() < 1e-15);
         assert_eq!((closest.gap, closest.interior), (-0.5, true));
-        assert_eq!(notch.closest_in(notch.range(), 1.0, 1.5).gap, 0.5);
+        assert_eq!(notch.closest_in(notch.own_range(), 1.0, 1.5).gap, 0.5);
     }
 
     #[test]
     fn the_vertex_itself_is_on_the_contour() {
-        let closest = vertex(1.0).closest_in(vertex(1.0).range(), 1.0, 2.0);
-        assert_eq!((closest.gap, closest.interior, closest.t), (0.0, true, 10.5));
+        let closest = vertex(1.0).closest_in(vertex(1.0).own_range(), 1.0, 2.0);
+        assert_eq!((closest.gap, closest.interior, closest.t), (0.0, true, 0.5));
     }
 }
