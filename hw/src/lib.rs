@@ -10,12 +10,11 @@
 //! From raw values to reactions:
 //! - [`SignalChain`]: all of it, in this order: [`Rails`] for what is saturated, a [`Timekeeper`] for when, a [`Calibration`], a
 //!   [`Tare`], the stage, the [`Mounting`] of the sensor to the clamp. `SimulatedSensor`: the way back.
-//! - [`Calibration`]: raw values to a wrench; [`Scale`] of counts, [`GaugeMatrix`] and [`GsvMatrix`], and with the feature `cal`
+//! - [`Calibration`]: raw values to a wrench; [`Scale`] of counts, [`GaugeMatrix`] of gauges, and with the feature `cal`
 //!   `AtiCalibration` from a file of ATI. [`Unit`]s by name, checked.
 //! - [`TareWindow`]: samples without load to a [`Zero`], of which one or two make a [`Tare`].
 //! - [`Accuracy`], [`RatedLoad`]: how far a sensor can be trusted. [`SensorCheck`]: whether it suits a rod.
-//! - [`Despike`] marks spikes; `LowPass` and `fill_gaps` are for recordings that need them, `fit_lever_arm` for a mounting that
-//!   was not measured.
+//! - `fit_lever_arm`: the lever arm of a mounting that was not measured.
 //!
 //! From bytes to raw values:
 //! - [`Protocol`]: bytes to raw samples, without any input or output of its own; [`Transport`]: bytes there and back; [`Link`]: a
@@ -23,7 +22,6 @@
 //! - [`rdt`]: sensors over UDP that speak ATI's RDT; with the feature `rdt` the transport `Udp` and a fake sensor.
 //! - [`framed`]: sensors on a serial line; the transport `ReadWrite`, with the feature `serial` `SerialPort`; `fake`: devices that
 //!   fail by a script.
-//! - `adc` (feature `embedded-hal`): converters of strain gauges on SPI, I2C or two pins. [`IioRecord`]: those of Linux.
 //!
 //! From recordings:
 //! - `recording` (feature `recordings`): tables of text, LabVIEW's among them, read; samples recorded.
@@ -36,8 +34,6 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
-#[cfg(feature = "embedded-hal")]
-pub mod adc;
 #[cfg(any(feature = "tdms", feature = "mcap"))]
 #[allow(dead_code, reason = "each format needs a part of it")]
 mod bytes;
@@ -46,19 +42,13 @@ mod chain;
 mod clock;
 mod component;
 mod counters;
-mod despike;
 #[cfg(feature = "std")]
 pub mod fake;
 mod frame;
 pub mod framed;
 #[cfg(feature = "std")]
-mod gaps;
-mod iio;
-#[cfg(feature = "std")]
 mod lever_arm;
 mod link;
-#[cfg(feature = "std")]
-mod low_pass;
 #[cfg(feature = "mcap")]
 pub mod mcap;
 mod mounting;
@@ -94,8 +84,8 @@ mod wrench;
 mod wrench_sample;
 
 pub use calibration::{
-    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, GsvMatrix,
-    RatedLoad, Scale, SensorCheck, SensorFinding, Thermometer, WrenchUnits,
+    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, RatedLoad,
+    Scale, SensorCheck, SensorFinding, WrenchUnits,
 };
 #[cfg(feature = "cal")]
 pub use calibration::{AtiCalibration, AtiFile, AtiFileError};
@@ -105,16 +95,10 @@ pub use clock::Clock;
 pub use clock::HostClock;
 pub use component::Component;
 pub use counters::LinkCounters;
-pub use despike::{Despike, DespikeError};
 pub use frame::{Axis, Frame, FrameError};
-#[cfg(feature = "std")]
-pub use gaps::fill_gaps;
-pub use iio::{IioError, IioRecord, ScanType};
 #[cfg(feature = "std")]
 pub use lever_arm::{LeverArm, LeverArmError, fit_lever_arm};
 pub use link::{Link, LinkError, LinkSettings, Reconnect};
-#[cfg(feature = "std")]
-pub use low_pass::{LowPass, LowPassError};
 pub use mounting::{Mounting, Sense};
 pub use protocol::{FrameFault, Protocol, Request};
 pub use quality::{Quality, QualityError};
@@ -135,7 +119,7 @@ pub use simulated::{Counts, CountsError, SimulatedSensor};
 pub use source::{RawSource, WrenchSource};
 #[cfg(feature = "std")]
 pub use spawn::{Spawned, spawn};
-pub use stage::{ConstantSpeed, FnStage, Shifted, StageError, StageSource, Velocity};
+pub use stage::{ConstantSpeed, FnStage, StageError, StageSource, Velocity};
 #[cfg(feature = "std")]
 pub use stage::{StageTable, StageTableError};
 pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};

@@ -25,8 +25,6 @@ use rod_core::Scalar;
 pub struct Accuracy<T = f64> {
     sigma: Option<Wrench<T>>,
     bound: Wrench<T>,
-    /// Bounds of what parts of one component add to another.
-    relative: Option<[[T; 6]; 6]>,
 }
 
 impl<T: Scalar> Accuracy<T> {
@@ -36,7 +34,7 @@ impl<T: Scalar> Accuracy<T> {
     /// [`CalibrationDataError::OfComponent`] where one is negative or not finite.
     pub fn new(bound: Wrench<T>) -> Result<Self, CalibrationDataError> {
         not_negative("the bound of the systematic error", &bound)?;
-        Ok(Self { sigma: None, bound, relative: None })
+        Ok(Self { sigma: None, bound })
     }
 
     /// The maker's accuracy class: percent of the rated load for each component. A component that is not measured may be
@@ -73,37 +71,9 @@ impl<T: Scalar> Accuracy<T> {
         Ok(Self { sigma: Some(sigma), ..self })
     }
 
-    /// The same with errors that grow with the load: bounds of what one unit of each component (columns, Fx to Tz in SI)
-    /// adds to each component (rows). The diagonal is the error of gain as a part, the rest is crosstalk.
-    ///
-    /// ```
-    /// use rod_hw::{Accuracy, Wrench, WrenchSample};
-    /// let mut relative = [[0.0; 6]; 6];
-    /// relative[0][0] = 0.01; // a gain of Fx off by up to 1 %
-    /// relative[0][5] = 0.2; // up to 0.2 N of Fx for 1 N m of Tz
-    /// let accuracy = Accuracy::new(Wrench { force: [1e-3, 0.0, 0.0], torque: [0.0; 3] })?.with_relative(relative)?;
-    /// let wrench = Wrench { force: [2.0, 0.0, 0.0], torque: [0.0, 0.0, -0.1] };
-    /// let bound = accuracy.fill(&WrenchSample::new(0.0, wrench)).systematic.ok_or("no bound")?;
-    /// assert_eq!(bound.force[0], 1e-3 + 0.01 * 2.0 + 0.2 * 0.1);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`CalibrationDataError::OfComponent`] where one is negative or not finite.
-    pub fn with_relative(self, relative: [[T; 6]; 6]) -> Result<Self, CalibrationDataError> {
-        for row in relative {
-            not_negative("an error per load", &Wrench::from_components(row))?;
-        }
-        Ok(Self { relative: Some(relative), ..self })
-    }
-
-    /// Bounds of the systematic error of a wrench, N and N m.
-    pub fn systematic(&self, wrench: &Wrench<T>) -> Wrench<T> {
-        let Some(relative) = &self.relative else { return self.bound };
-        let zero = T::from_f64(0.0);
-        let sizes = wrench.components().map(|w| if w < zero { -w } else { w });
-        let sums = relative.map(|row| row.iter().zip(&sizes).fold(zero, |sum, (&part, &size)| sum + part * size));
-        self.bound + Wrench::from_components(sums)
+    /// Bounds of the systematic error, N and N m.
+    pub fn systematic(&self) -> Wrench<T> {
+        self.bound
     }
 
     /// The sample with its standard deviations and bounds. Where it has some already, the larger ones count.
@@ -115,7 +85,7 @@ impl<T: Scalar> Accuracy<T> {
         };
         WrenchSample {
             sigma: larger(sample.sigma, self.sigma),
-            systematic: larger(sample.systematic, Some(self.systematic(&sample.wrench))),
+            systematic: larger(sample.systematic, Some(self.bound)),
             ..*sample
         }
     }
@@ -151,30 +121,12 @@ mod tests {
             "the class of Ty is 101, expected percent of the rated load, from 0 to 100"
         );
         let accuracy = Accuracy::of_class(&rated, of([0.1, 0.1, 0.0, 0.1, 0.1, 0.1])).unwrap();
-        assert_eq!(accuracy.systematic(&Wrench::default()).force[2], 0.0);
+        assert_eq!(accuracy.systematic().force[2], 0.0);
         let error = accuracy.with_sigma(of([-1.0; 6])).unwrap_err().to_string();
         assert_eq!(error, "the standard deviation of Fx is -1, expected a finite number, not negative");
-        assert!(accuracy.with_relative([[f64::NAN; 6]; 6]).is_err());
     }
 
     proptest! {
-        /// Whatever the errors of gain and crosstalk within the bounds: what is measured is as near to the truth as said.
-        #[test]
-        fn the_bound_holds(
-            load in proptest::array::uniform6(-10.0..10.0_f64),
-            limits in proptest::collection::vec(0.0..0.05_f64, 36),
-            shares in proptest::collection::vec(-1.0..1.0_f64, 36),
-        ) {
-            let limit = |i: usize, j: usize| limits[6 * i + j];
-            let relative = core::array::from_fn(|i| core::array::from_fn(|j| limit(i, j)));
-            let accuracy = Accuracy::new(of([1e-9; 6])).unwrap().with_relative(relative).unwrap();
-            let bound = accuracy.systematic(&of(load)).components();
-            for i in 0..6 {
-                let error: f64 = (0..6).map(|j| shares[6 * i + j] * limit(i, j) * load[j]).sum();
-                prop_assert!(error.abs() <= bound[i]);
-            }
-        }
-
         /// Twice filled is once filled, and what a sample knows of itself is not made better.
         #[test]
         fn filling_twice_is_filling_once(known in proptest::array::uniform6(0.0..2.0_f64)) {

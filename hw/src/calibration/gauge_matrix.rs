@@ -1,7 +1,7 @@
 //! Gauges to a wrench, by a matrix.
 
 use super::rank::weakest;
-use super::temperature::{Compensation, Thermometer};
+use super::temperature::Compensation;
 use super::wrench_units::{WrenchUnits, finite};
 use super::{Calibration, CalibrationDataError, CalibrationError};
 use crate::component::Component;
@@ -37,11 +37,8 @@ pub struct GaugeMatrix<const N: usize, T = f64> {
     /// N and N m per raw unit.
     rows: [[T; N]; 6],
     measured: [bool; 6],
-    /// What the gauges read without load, and at which temperature.
+    /// What the gauges read without load.
     bias: [f64; N],
-    bias_temperature: Option<f64>,
-    /// The bias at the reference temperature.
-    offset: [f64; N],
     compensation: Option<Compensation<N>>,
     /// Where the gauges are in a sample, and how many channels it has.
     channels: [usize; N],
@@ -82,8 +79,6 @@ impl<const N: usize, T: Scalar> GaugeMatrix<N, T> {
             rows: si.map(|row| row.map(T::from_f64)),
             measured,
             bias: [0.0; N],
-            bias_temperature: None,
-            offset: [0.0; N],
             compensation: None,
             channels: from_fn(|i| i),
             count: N,
@@ -98,27 +93,19 @@ impl<const N: usize, T: Scalar> GaugeMatrix<N, T> {
         Self::new(&Component::ALL.map(|component| (component, rows[component.index()])), units)
     }
 
-    /// The same with what the gauges read without load, raw. A calibration that compensates for temperature wants
-    /// [`with_bias_at`](Self::with_bias_at).
+    /// The same with what the gauges read without load, raw.
     ///
     /// # Errors
-    /// [`CalibrationDataError`] where one is not finite, or its temperature is needed.
+    /// [`CalibrationDataError`] where one is not finite, or the calibration compensates for temperature: the bias changes with
+    /// it, too.
     pub fn with_bias(self, bias: [f64; N]) -> Result<Self, CalibrationDataError> {
-        Self { bias, bias_temperature: None, ..self }.settled()
+        Self { bias, ..self }.settled()
     }
 
-    /// The same with what the gauges read without load, raw, at a temperature in the unit of the thermometer.
+    /// The same, compensated for temperature: without a bias, which is left to the tare.
     ///
     /// # Errors
-    /// [`CalibrationDataError::Number`] where one is not finite, or the temperature is out of range.
-    pub fn with_bias_at(self, bias: [f64; N], temperature: f64) -> Result<Self, CalibrationDataError> {
-        Self { bias, bias_temperature: Some(temperature), ..self }.settled()
-    }
-
-    /// The same, compensated for temperature: gauges first, then the bias is taken off, which is compensated, too.
-    ///
-    /// # Errors
-    /// [`CalibrationDataError`] where there is a bias of no known temperature, or the thermometer is no channel of the
+    /// [`CalibrationDataError`] where there is a bias, or the thermometer is no channel of the
     /// sample: tell the channels first.
     pub fn with_compensation(self, compensation: Compensation<N>) -> Result<Self, CalibrationDataError> {
         Self { compensation: Some(compensation), ..self }.settled()
@@ -159,22 +146,15 @@ impl<const N: usize, T: Scalar> GaugeMatrix<N, T> {
     }
 
     /// With all parts checked beside each other.
-    fn settled(mut self) -> Result<Self, CalibrationDataError> {
+    fn settled(self) -> Result<Self, CalibrationDataError> {
         finite("a bias", &self.bias)?;
-        finite("the temperature of the bias", self.bias_temperature.as_slice())?;
-        self.offset = self.bias;
         if let Some(compensation) = &self.compensation {
-            if let Thermometer::Channel(channel) = compensation.thermometer()
-                && (channel >= self.count || self.channels.contains(&channel))
-            {
+            let channel = compensation.channel();
+            if channel >= self.count || self.channels.contains(&channel) {
                 return Err(CalibrationDataError::Channel { channel: channel.saturating_add(1), count: self.count });
             }
-            if self.bias != [0.0; N] || self.bias_temperature.is_some() {
-                let value = self.bias_temperature.ok_or(CalibrationDataError::BiasTemperature)?;
-                let field = "the temperature of the bias";
-                let expected = "one at which all gains are positive";
-                let number = |_| CalibrationDataError::Number { field, value, expected };
-                self.offset = compensation.at_reference(self.bias, value).map_err(number)?;
+            if self.bias != [0.0; N] {
+                return Err(CalibrationDataError::BiasTemperature);
             }
         }
         Ok(self)
@@ -192,7 +172,7 @@ impl<const N: usize, T: Scalar> Calibration<T> for GaugeMatrix<N, T> {
             gauges = compensation.at_reference(gauges, compensation.temperature(raw)?)?;
         }
         // the bias may be much larger than what the load adds to it: it goes before the rounding to T
-        let loads: [T; N] = from_fn(|i| T::from_f64(gauges[i] - self.offset[i]));
+        let loads: [T; N] = from_fn(|i| T::from_f64(gauges[i] - self.bias[i]));
         let zero = T::from_f64(0.0);
         super::finished(raw, self.rows.map(|row| row.iter().zip(&loads).fold(zero, |sum, (&a, &v)| sum + a * v)))
     }

@@ -5,7 +5,6 @@ mod accuracy;
 mod ati;
 mod error;
 mod gauge_matrix;
-mod gsv_matrix;
 mod rank;
 mod rated_load;
 mod scale;
@@ -18,11 +17,10 @@ pub use accuracy::Accuracy;
 pub use ati::{AtiCalibration, AtiFile, AtiFileError};
 pub use error::CalibrationDataError;
 pub use gauge_matrix::GaugeMatrix;
-pub use gsv_matrix::GsvMatrix;
 pub use rated_load::RatedLoad;
 pub use scale::Scale;
 pub use sensor_check::{SensorCheck, SensorFinding};
-pub use temperature::{Compensation, Thermometer};
+pub use temperature::Compensation;
 pub use wrench_units::WrenchUnits;
 
 use crate::component::Component;
@@ -63,9 +61,6 @@ pub enum CalibrationError {
         /// Its value.
         value: f64,
     },
-    /// The calibration compensates for a temperature that the device does not tell.
-    #[error("the sample has no temperature, which this calibration needs; expected one with every sample")]
-    NoTemperature,
     /// A temperature that the compensation is not for.
     #[error(
         "a temperature of {temperature} gives gauge {gauge} a gain of 1 / {divisor}, expected a positive one; check thermometer \

@@ -95,20 +95,6 @@ impl<T: Scalar> Scale<T> {
         Self { factors: Component::ALL.map(|c| T::from_f64(units.factor(c))), ..Self::si() }
     }
 
-    /// The fixed counts of OnRobot's (OptoForce's) Ethernet converter, 10,000 per N and 100,000 per N m, while its web page
-    /// is set to N and N m (manual of the converter, 2.0).
-    ///
-    /// ```
-    /// use rod_hw::{Calibration, Channels, RawSample, Scale};
-    /// let raw = RawSample::new(0.0, Channels::from([100.0, -200.0, 300.0, 10.0, -20.0, 30.0]));
-    /// assert_eq!(Scale::<f64>::onrobot().wrench(&raw)?.wrench.force[..2], [0.01, -0.02]);
-    /// # Ok::<(), rod_hw::CalibrationError>(())
-    /// ```
-    pub fn onrobot() -> Self {
-        let [f, t] = [1e-4, 1e-5].map(T::from_f64);
-        Self { factors: [f, f, f, t, t, t], ..Self::si() }
-    }
-
     /// The same with other channels: what each channel of a sample is, none where it is no component. Components that
     /// there are no channels for are zero.
     ///

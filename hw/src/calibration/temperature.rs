@@ -4,21 +4,12 @@ use super::wrench_units::finite;
 use super::{CalibrationDataError, CalibrationError, finite_channel};
 use crate::raw::RawSample;
 
-/// Where the temperature is that a [`Compensation`] needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Thermometer {
-    /// [`RawSample::temperature`], degrees Celsius.
-    Sample,
-    /// A channel of the sample, from 0, in its raw unit: thermistors are read as volts.
-    Channel(usize),
-}
-
 /// How gauges change with temperature: (v + bias_slope (T - T0)) / (1 - gain_slope (T - T0)) is what gauge v would read at
 /// T0 (ATI's DAQ F/T library). Slopes are per unit of the thermometer, in raw units and as parts.
 ///
 /// ```
-/// use rod_hw::{Compensation, Thermometer};
-/// let compensation = Compensation::new([0.002, 0.0], [0.0, 0.01], 25.0, Thermometer::Sample)?;
+/// use rod_hw::{Compensation};
+/// let compensation = Compensation::new([0.002, 0.0], [0.0, 0.01], 25.0, 2)?;
 /// assert_eq!(compensation.at_reference([1.0, 2.0], 30.0)?, [1.0 + 0.002 * 5.0, 2.0 / 0.95]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -27,11 +18,12 @@ pub struct Compensation<const N: usize> {
     bias_slopes: [f64; N],
     gain_slopes: [f64; N],
     reference: f64,
-    thermometer: Thermometer,
+    channel: usize,
 }
 
 impl<const N: usize> Compensation<N> {
-    /// Of a slope of bias and one of gain for each gauge, and the temperature T0 at which they read as calibrated.
+    /// Of a slope of bias and one of gain for each gauge, the temperature T0 at which they read as calibrated, and the channel of
+    /// the thermometer, from 0, in its raw unit: thermistors are read as volts.
     ///
     /// # Errors
     /// [`CalibrationDataError::Number`] where one is not finite.
@@ -39,12 +31,12 @@ impl<const N: usize> Compensation<N> {
         bias_slopes: [f64; N],
         gain_slopes: [f64; N],
         reference: f64,
-        thermometer: Thermometer,
+        channel: usize,
     ) -> Result<Self, CalibrationDataError> {
         finite("a slope of bias", &bias_slopes)?;
         finite("a slope of gain", &gain_slopes)?;
         finite("the reference temperature", &[reference])?;
-        Ok(Self { bias_slopes, gain_slopes, reference, thermometer })
+        Ok(Self { bias_slopes, gain_slopes, reference, channel })
     }
 
     /// What the gauges would read at the reference temperature, in their unit.
@@ -65,13 +57,10 @@ impl<const N: usize> Compensation<N> {
 
     /// The temperature of a sample.
     pub(super) fn temperature(&self, raw: &RawSample) -> Result<f64, CalibrationError> {
-        match self.thermometer {
-            Thermometer::Sample => raw.temperature.filter(|t| t.is_finite()).ok_or(CalibrationError::NoTemperature),
-            Thermometer::Channel(channel) => finite_channel(raw, channel),
-        }
+        finite_channel(raw, self.channel)
     }
 
-    pub(super) fn thermometer(&self) -> Thermometer {
-        self.thermometer
+    pub(super) fn channel(&self) -> usize {
+        self.channel
     }
 }

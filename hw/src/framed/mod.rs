@@ -8,7 +8,6 @@
 //! | [`Bota`] | Bota Systems SensONE, Rokubi | CRC-16/X.25 | time, us | Fx Fy Fz Mx My Mz, N and N m |
 //! | [`OptoForce`] | OptoForce, OnRobot by USB | sum of bytes | counter | 3, 6 or 12 counts |
 //! | [`Robotiq`] | Robotiq FT 300, FT 150 | CRC-16/MODBUS | none | Fx to Mz, counts of 10 mN and 1 mN m |
-//! | [`Hx711`] | strain gauges at HX711s, on an Arduino | delimiter only | none | up to 16, mV |
 //!
 //! The layouts are those of the makers' published programs and manuals; that of OptoForce was checked with a recording of a real
 //! sensor, that of the GSV with its maker's library at the other end. None of the devices was at hand.
@@ -19,7 +18,6 @@
 mod bota;
 mod engine;
 pub mod gsv;
-mod hx711;
 mod optoforce;
 mod profile;
 mod robotiq;
@@ -29,7 +27,6 @@ pub use crate::onrobot_filter::OnRobotFilter as OptoForceFilter;
 pub use bota::{Bota, BotaFilter};
 pub use engine::Framed;
 pub use gsv::{Gsv, GsvValues};
-pub use hx711::Hx711;
 pub use optoforce::{OptoForce, OptoForceRate, OptoForceSetup};
 pub use profile::{Await, Content, Counter, Framing, Head, Profile, Reading, SetupStep};
 pub use robotiq::Robotiq;

@@ -15,11 +15,6 @@ pub trait Framing {
     /// Whether a frame begins with these bytes, at least one, and how long it is.
     fn head(&self, bytes: &[u8]) -> Head;
 
-    /// How many bytes at the end of a frame are the beginning of the next one, too.
-    fn overlap(&self) -> usize {
-        0
-    }
-
     /// Whether a frame is what was sent.
     ///
     /// # Errors

@@ -61,7 +61,7 @@ impl Scanner {
             }
             match framing.check(&held[..length]) {
                 Ok(()) => {
-                    self.out = length - framing.overlap().min(length - 1);
+                    self.out = length;
                     self.damaged = 0;
                     return Some(Ok(&self.buffer[self.from..self.from + length]));
                 }

@@ -1,8 +1,7 @@
 //! Recordings of ROS: MCAP files.
 //!
-//! Wrenches (`geometry_msgs/WrenchStamped`), and for the stage poses (`geometry_msgs/PoseStamped`) and joints
-//! (`sensor_msgs/JointState`), of ROS 2 (CDR, both byte orders) and ROS 1. A file that breaks off gives what is complete,
-//! and a [`McapFault`] that says where. Chunks that are compressed need the feature `mcap-compression`. Bags of ROS 1 and
+//! Wrenches (`geometry_msgs/WrenchStamped`) of ROS 2 (CDR, both byte orders) and ROS 1. A file that breaks off gives what is
+//! complete, and a [`McapFault`] that says where. Chunks that are compressed need the feature `mcap-compression`. Bags of ROS 1 and
 //! databases of ROS 2 become MCAP files by `mcap convert`.
 //!
 //! A file is a slice of bytes, whole: read into memory or mapped by the caller. Chunks are
@@ -14,11 +13,10 @@ mod message;
 mod records;
 
 pub use error::{McapError, McapFault, McapTopic, MessageFault};
-pub use message::{Message, RosJoints, RosPose, Stamped};
 
 use crate::raw::{Channels, RawSample};
-use crate::wrench::Wrench;
 use crate::wrench_sample::WrenchSample;
+use message::NAME;
 use records::{Event, MAGIC, Records};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -28,12 +26,10 @@ use std::sync::Arc;
 /// An MCAP file.
 ///
 /// ```
-/// use rod_hw::mcap::{McapFile, RosPose};
+/// use rod_hw::mcap::McapFile;
 /// let file = McapFile::read("tests/mcap/vectors/wrench.mcap")?;
 /// let sample = file.wrenches("/ft_sensor/wrench")?.next().ok_or("no sample")??;
 /// assert_eq!(sample.wrench.force, [0.1, -0.2, 0.3]); // N
-/// let pose = file.messages::<RosPose>("/stage")?.next().ok_or("no pose")??;
-/// assert_eq!((pose.time(), pose.message.planar().x), (0.001, 0.08)); // s, m
 /// let error = file.wrenches("/ft").err().ok_or("expected none")?.to_string();
 /// assert!(error.starts_with("no topic `/ft`; there are `/ft_sensor/wrench` of geometry_msgs/msg/WrenchStamped"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -121,15 +117,16 @@ impl<'a> McapFile<'a> {
         self.origin
     }
 
-    /// The messages of a topic, in the order they were logged. An iterator that goes on after a message that is wrong; why the
-    /// file breaks off, if it does, comes last.
+    /// The wrenches of a topic, in the order they were logged: a [`WrenchSource`](crate::WrenchSource), N and N m as ROS has them.
+    /// Their time is that of the header where it has one, that of the log otherwise; the host's time is that of the log. It goes
+    /// on after a message that is wrong; why the file breaks off, if it does, comes last.
     ///
     /// # Errors
-    /// [`McapError::NoTopic`] with those there are, [`McapError::Type`] where it has others.
-    pub fn messages<M: Message>(
+    /// [`McapError::NoTopic`] with those there are, [`McapError::Type`] where it has messages of another type.
+    pub fn wrenches(
         &self,
         topic: &str,
-    ) -> Result<impl Iterator<Item = Result<Stamped<M>, McapError>> + use<'_, M>, McapError> {
+    ) -> Result<impl Iterator<Item = Result<WrenchSample, McapError>> + use<'_>, McapError> {
         let named = || self.topics.iter().enumerate().filter(|(_, found)| found.name == topic);
         if named().next().is_none() {
             return Err(McapError::NoTopic {
@@ -140,7 +137,7 @@ impl<'a> McapFile<'a> {
         }
         // one topic can have channels of several types or encodings
         let is_right = |found: &McapTopic| match found.encoding.as_str() {
-            "cdr" | "ros1" => *found.type_name == *M::NAME || *found.type_name == M::NAME.replace("/msg/", "/"),
+            "cdr" | "ros1" => *found.type_name == *NAME || *found.type_name == NAME.replace("/msg/", "/"),
             _ => false,
         };
         if let Some((_, found)) = named().find(|(_, found)| !is_right(found)) {
@@ -148,7 +145,7 @@ impl<'a> McapFile<'a> {
                 topic: topic.to_owned(),
                 found: found.type_name.to_string(),
                 encoding: found.encoding.clone(),
-                expected: M::NAME,
+                expected: NAME,
             });
         }
         let topic = topic.to_owned();
@@ -159,31 +156,14 @@ impl<'a> McapFile<'a> {
                 Err(fault) => return Some(Err(fault.into())),
             };
             let found = self.topics.get(*self.channels.get(&header.channel_id)?).filter(|found| found.name == topic)?;
-            let decoded = message::decode::<M>(&data, found.encoding == "ros1");
-            Some(match decoded {
-                Ok((stamp, frame, message)) => {
-                    let log_time = self.seconds(header.log_time.into());
-                    Ok(Stamped { log_time, stamp: stamp.map(|stamp| self.seconds(stamp)), frame, message })
+            Some(match message::decode(&data, found.encoding == "ros1") {
+                Ok((stamp, wrench)) => {
+                    let device_time = stamp.map(|stamp| self.seconds(stamp));
+                    let (log_time, channels) =
+                        (self.seconds(header.log_time.into()), Channels::from(wrench.components()));
+                    Ok(WrenchSample::of(&RawSample { device_time, ..RawSample::new(log_time, channels) }, wrench))
                 }
                 Err(what) => Err(McapError::Message { topic: topic.clone(), log_time: header.log_time, what }),
-            })
-        }))
-    }
-
-    /// The wrenches of a topic: a [`WrenchSource`](crate::WrenchSource), N and N m as ROS has them. Their time is that of the
-    /// header where it has one, that of the log otherwise; the host's time is that of the log.
-    ///
-    /// # Errors
-    /// As for [`messages`](Self::messages).
-    pub fn wrenches(
-        &self,
-        topic: &str,
-    ) -> Result<impl Iterator<Item = Result<WrenchSample, McapError>> + use<'_>, McapError> {
-        Ok(self.messages::<Wrench>(topic)?.map(|found| {
-            found.map(|Stamped { log_time, stamp, message, .. }| {
-                let channels = Channels::from(message.components());
-                let raw = RawSample { device_time: stamp, ..RawSample::new(log_time, channels) };
-                WrenchSample::of(&raw, message)
             })
         }))
     }

@@ -7,8 +7,6 @@
 //! Sources: ATI 9620-05-Net FT (11 and C-Ethernet Axia-02), OptoForce Ethernet Converter 2.0 (2017).
 
 #[cfg(feature = "rdt")]
-mod configuration;
-#[cfg(feature = "rdt")]
 mod fake;
 mod profile;
 mod protocol;
@@ -18,8 +16,6 @@ mod request;
 mod scaling;
 
 pub use crate::onrobot_filter::OnRobotFilter;
-#[cfg(feature = "rdt")]
-pub use configuration::RdtConfiguration;
 #[cfg(feature = "rdt")]
 pub use fake::{FakeRdt, FakeRdtAccount, FakeRdtSettings, RdtFault};
 pub use profile::RdtProfile;

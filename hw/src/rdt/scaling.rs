@@ -1,7 +1,7 @@
 //! What a count is in N and N m.
 
 use crate::calibration::{CalibrationDataError, Scale};
-use crate::unit::{Dimension, Unit, UnitError};
+use crate::unit::{Dimension, Unit};
 use rod_core::Scalar;
 use std::io::{Error, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -90,14 +90,6 @@ pub enum RdtScalingError {
         /// Its code.
         code: u8,
     },
-    /// A unit of unknown name.
-    #[error("`{field}` of netftapi2.xml: {cause}")]
-    UnitName {
-        /// Its element.
-        field: &'static str,
-        /// What is wrong with it.
-        cause: UnitError,
-    },
     /// Counts per unit that cannot be.
     #[error("{counts} counts per unit of {dimension}, expected more than 0; set the scaling on the sensor's web page")]
     Counts {
@@ -105,19 +97,6 @@ pub enum RdtScalingError {
         dimension: Dimension,
         /// How many.
         counts: f64,
-    },
-    /// The text is no XML.
-    #[error("netftapi2.xml cannot be read: {0}")]
-    Xml(String),
-    /// An element that is missing, there twice, or no number.
-    #[error("`{field}` of netftapi2.xml is {found}, expected one {expected}")]
-    Field {
-        /// Its name.
-        field: &'static str,
-        /// What is there.
-        found: String,
-        /// What should be there.
-        expected: &'static str,
     },
 }
 

@@ -17,42 +17,6 @@ pub trait StageSource {
     /// # Errors
     /// [`StageError`] where that is not known: a stage does not extrapolate.
     fn pose_at(&mut self, t: f64) -> Result<Pose, StageError>;
-
-    /// The same stage, whose clock shows `offset` (s) more than that of the samples.
-    ///
-    /// ```
-    /// use rod_core::Pose;
-    /// use rod_hw::{ConstantSpeed, StageError, StageSource, Velocity};
-    /// let pose = Pose { x: 0.0, y: -0.04, phi: 1.571 };
-    /// let mut stage = ConstantSpeed::within(pose, Pose { x: -0.01, ..pose }, 100.0, 110.0)?.shifted(98.0);
-    /// assert_eq!(stage.pose_at(7.0)?.x, -0.005); // 105 s on its own clock
-    /// assert_eq!(stage.pose_at(1.0), Err(StageError::Outside { t: 1.0, from: 2.0, to: 12.0 }));
-    /// # Ok::<(), StageError>(())
-    /// ```
-    fn shifted(self, offset: f64) -> Shifted<Self>
-    where
-        Self: Sized,
-    {
-        Shifted { stage: self, offset }
-    }
-}
-
-/// A stage with a clock of its own; from [`StageSource::shifted`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shifted<S> {
-    stage: S,
-    offset: f64,
-}
-
-impl<S: StageSource> StageSource for Shifted<S> {
-    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
-        let Self { stage, offset } = self;
-        stage.pose_at(t + *offset).map_err(|error| match error {
-            StageError::Outside { from, to, .. } => StageError::Outside { t, from: from - *offset, to: to - *offset },
-            StageError::NotFinite { .. } => StageError::NotFinite { t },
-            other => other,
-        })
-    }
 }
 
 /// Why there is no pose.
@@ -76,14 +40,6 @@ pub enum StageError {
     NotFinite {
         /// The time asked for, s.
         t: f64,
-    },
-    /// A motion that never arrives.
-    #[error("a way of {way} m at {speed} m/s, expected both above 0")]
-    Motion {
-        /// How far, m.
-        way: f64,
-        /// How fast, m/s.
-        speed: f64,
     },
     /// A motion that arrives before it leaves.
     #[error("the motion ends at {to} s, expected a time after its start at {from} s")]

@@ -3,7 +3,7 @@
 use crate::component::Component;
 use crate::quality::Quality;
 
-/// Why a window of samples gives no zero, or zeros no tare.
+/// Why a window of samples gives no zero.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TareError {
@@ -91,19 +91,6 @@ pub enum TareError {
         /// The largest change accepted.
         limit: f64,
     },
-    /// The zero is too far from none.
-    #[error(
-        "{component} is {value:.3e} {si} on average, expected at most {limit:.1e} in size without load; is the rod in \
-         contact? Else set the sensor's own bias, or accept a larger zero", si = .component.si()
-    )]
-    Loaded {
-        /// Which component.
-        component: Component,
-        /// Its mean, N or N m.
-        value: f64,
-        /// The largest size accepted.
-        limit: f64,
-    },
     /// The zero is not known well enough to say whether it moves.
     #[error(
         "the zero of {component} has a standard deviation of {sigma:.1e} {si}, more than the change of {limit:.1e} that the \
@@ -134,15 +121,5 @@ pub enum TareError {
         field: &'static str,
         /// Its value.
         value: f64,
-    },
-    /// Two zeros are not one after the other.
-    #[error(
-        "the second zero begins at {from} s, expected it after the end of the first at {to} s; hand them over in order"
-    )]
-    Order {
-        /// When the first ends, s.
-        to: f64,
-        /// When the second begins, s.
-        from: f64,
     },
 }

@@ -16,7 +16,6 @@ use crate::wrench::Wrench;
 pub struct TareLimits {
     shortest: f64,
     change: Wrench,
-    offset: Wrench,
 }
 
 impl TareLimits {
@@ -30,16 +29,7 @@ impl TareLimits {
             return Err(TareError::Limit { field: "the shortest tare window", value: shortest });
         }
         positive("the largest change within a tare window", &change)?;
-        Ok(Self { shortest, change, offset: Wrench { force: [f64::INFINITY; 3], torque: [f64::INFINITY; 3] } })
-    }
-
-    /// The same with the largest size of a zero, N and N m, infinite where any will do.
-    ///
-    /// # Errors
-    /// [`TareError::Limit`] where one is not positive.
-    pub fn with_largest_zero(self, offset: Wrench) -> Result<Self, TareError> {
-        positive("the largest zero", &offset)?;
-        Ok(Self { offset, ..self })
+        Ok(Self { shortest, change })
     }
 
     /// How long a window is at least, s.
@@ -50,11 +40,6 @@ impl TareLimits {
     /// The largest change within a window, N and N m.
     pub fn change(&self) -> Wrench {
         self.change
-    }
-
-    /// The largest size of a zero, N and N m.
-    pub fn largest_zero(&self) -> Wrench {
-        self.offset
     }
 }
 

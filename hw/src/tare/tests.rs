@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::component::Component;
+use crate::wrench::Wrench;
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -143,16 +144,9 @@ fn messages_say_what_where_and_what_to_do() {
         "the tare window has 31 samples, expected 32 or more; let it run longer"
     );
     assert!(message(limits(1e-6), noise(200).collect()).starts_with("the zero of Fy has a standard deviation of "));
-    let bounded = limits(5e-3).with_largest_zero(all(0.1)).unwrap();
-    let error = message(bounded, noise(200).map(|v| v - 0.3).collect());
-    assert!(
-        error.starts_with("Fy is -2.99") && error.contains("expected at most 1.0e-1 in size without load"),
-        "{error}"
-    );
     for value in [0.0, -1.0, f64::NAN] {
         assert!(matches!(TareLimits::new(value, all(1.0)), Err(TareError::Limit { .. })));
         assert!(matches!(TareLimits::new(1.0, all(value)), Err(TareError::Limit { .. })));
-        assert!(matches!(limits(1.0).with_largest_zero(all(value)), Err(TareError::Limit { .. })));
     }
 }
 
@@ -209,10 +203,7 @@ fn a_restart_makes_it_stale() {
     (again.raw.host_time, again.quality) = (0.4, Quality::RESTARTED);
     assert_eq!(tare.apply(&again).quality, Quality::RESTARTED | Quality::TARE_STALE);
     let later = WrenchSample::new(0.1, all(0.0));
-    assert!(tare.is_stale() && tare.apply(&later).quality == Quality::TARE_STALE);
-    let mut moved = Tare::single(Zero::known(all(0.0), all(0.0), 0.0, 1.0).unwrap());
-    moved.invalidate();
-    assert_eq!(moved.apply(&later).quality, Quality::TARE_STALE);
+    assert_eq!(tare.apply(&later).quality, Quality::TARE_STALE);
 }
 
 #[test]
@@ -222,17 +213,11 @@ fn bounds_grow_by_the_zeros_own() {
     (sample.systematic, sample.sigma) = (Some(all(0.1)), Some(all(0.3)));
     let tared = Tare::single(zero(0.0)).apply(&sample);
     assert!((tared.systematic.unwrap().force[0] - 0.7).abs() < 1e-15 && tared.sigma == sample.sigma);
-    // half of each of two independent ones
-    let tared = Tare::two_point(zero(0.0), zero(10.0)).unwrap().apply(&sample);
-    assert!((tared.systematic.unwrap().force[0] - (0.1 + 0.6 / 2.0_f64.sqrt())).abs() < 1e-15);
     sample.systematic = None;
     assert_eq!(Tare::single(zero(0.0)).apply(&sample).systematic, None);
-    assert!(matches!(Tare::two_point(zero(0.0), zero(1.0)), Err(TareError::Order { .. })));
     for (wrench, sigma, from, to) in [(f64::NAN, 0.0, 0.0, 1.0), (0.0, -1.0, 0.0, 1.0), (0.0, 0.0, 2.0, 1.0)] {
         assert!(matches!(Zero::known(all(wrench), all(sigma), from, to), Err(TareError::Zero { .. })));
     }
-    let nowhere = Tare::two_point(zero(0.0), zero(10.0)).unwrap().apply(&WrenchSample::new(f64::NAN, all(1.0)));
-    assert!(nowhere.wrench.is_finite() && nowhere.quality == Quality::TARE_STALE);
 }
 
 proptest! {
@@ -252,20 +237,5 @@ proptest! {
         let again = of(&tared);
         prop_assert!(again.wrench().force[1].abs() < 1e-12, "{}", again.wrench().force[1]);
         prop_assert!((again.sigma().force[1] - zero.sigma().force[1]).abs() < 1e-12);
-    }
-
-    /// A zero that drifts linearly is gone after a tare at both ends, at all times in between.
-    #[test]
-    fn linear_drift_is_gone(start in -10.0..10.0_f64, rate in -0.1..0.1_f64, t in 1.0..99.0_f64, load in -5.0..5.0_f64) {
-        let drift = |t: f64| start + rate * t;
-        let zero = |from: f64| Zero::known(all(drift(from + 1.0)), all(0.0), from, from + 2.0).unwrap();
-        let mut tare = Tare::two_point(zero(0.0), zero(98.0)).unwrap();
-        let tared = tare.apply(&WrenchSample::new(t, all(load + drift(t))));
-        prop_assert!((tared.wrench.force[2] - load).abs() < 1e-13 && tared.quality.is_empty());
-        // outside there is no more drift to be known
-        let after = tare.apply(&WrenchSample::new(100.0 + t, all(0.0)));
-        prop_assert!((after.wrench.force[2] + drift(99.0)).abs() < 1e-13 && after.quality == Quality::TARE_STALE);
-        let before = tare.apply(&WrenchSample::new(-t, all(0.0)));
-        prop_assert!((before.wrench.force[2] + drift(1.0)).abs() < 1e-13 && before.quality == Quality::TARE_STALE);
     }
 }

@@ -153,7 +153,7 @@ impl<T: Scalar> TareWindow<T> {
     }
 
     fn at_rest(&self, component: Component, course: &Course) -> Result<(), TareError> {
-        let [limit, largest] = [self.limits.change(), self.limits.largest_zero()].map(|w| component.of(&w));
+        let limit = component.of(&self.limits.change());
         let seconds = self.seconds();
         let (change, sigma) = (course.slope * seconds, course.slope_sigma * seconds);
         let drift = change.abs() > limit && change.abs() > SLOPE * sigma;
@@ -166,10 +166,6 @@ impl<T: Scalar> TareWindow<T> {
         }
         if course.sigma > limit {
             return Err(TareError::Noisy { component, sigma: course.sigma, limit });
-        }
-        let value = self.mean[component.index()];
-        if value.abs() > largest {
-            return Err(TareError::Loaded { component, value, limit: largest });
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ mod garbage;
 mod vectors;
 
 use rod_hw::fake::{FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeRobotiq};
-use rod_hw::framed::{Bota, Framed, Gsv, GsvValues, Hx711, OptoForce, Profile, Robotiq};
+use rod_hw::framed::{Bota, Framed, Gsv, GsvValues, OptoForce, Profile, Robotiq};
 use rod_hw::{FrameFault, Protocol, Quality, RawSample};
 
 /// A protocol that tells how many bytes it holds.
@@ -27,8 +27,6 @@ struct Kind {
     device: Box<dyn FakeDevice>,
     subject: Box<dyn Subject>,
     length: usize,
-    /// What comes before the first frame.
-    preamble: &'static [u8],
 }
 
 impl Kind {
@@ -40,26 +38,6 @@ impl Kind {
     }
 }
 
-const DELIMITER: [u8; 6] = [0x0d, 0x0a, 0x00, 0x00, 0xfd, 0x44];
-
-/// Strain gauges at an Arduino, which is too simple for a fake of its own.
-struct Arduino;
-
-impl FakeDevice for Arduino {
-    fn hear(&mut self, _: &[u8], _: &mut Vec<u8>) {}
-    fn measure(&mut self, values: &[f64], _: Quality, frame: &mut Vec<u8>) {
-        (0..6).for_each(|i| frame.extend((values.get(i).copied().unwrap_or_default() as f32).to_le_bytes()));
-        frame.extend(DELIMITER);
-    }
-    fn restart(&mut self) {}
-    fn is_sending(&self) -> bool {
-        true
-    }
-    fn rate(&self) -> f64 {
-        88.0
-    }
-}
-
 /// All of them anew.
 fn kinds() -> Vec<Kind> {
     fn kind(
@@ -68,8 +46,7 @@ fn kinds() -> Vec<Kind> {
         profile: impl Profile + 'static,
         length: usize,
     ) -> Kind {
-        let preamble: &[u8] = if name == "hx711" { &DELIMITER } else { &[] };
-        Kind { name, device: Box::new(device), subject: Box::new(Framed::new(profile)), length, preamble }
+        Kind { name, device: Box::new(device), subject: Box::new(Framed::new(profile)), length }
     }
     let gsv = |name, values, length| {
         kind(name, FakeGsv8::new(6, 100.0, values), Gsv { values, channels: Some(6), ..Gsv::default() }, length)
@@ -83,7 +60,6 @@ fn kinds() -> Vec<Kind> {
         kind("optoforce 6", FakeOptoForce::new(6), OptoForce::default(), 22),
         kind("optoforce 12", FakeOptoForce::new(12), OptoForce::default(), 34),
         kind("robotiq", FakeRobotiq::new(), Robotiq, 16),
-        kind("hx711", Arduino, Hx711::new(6).unwrap(), 30),
     ]
 }
 

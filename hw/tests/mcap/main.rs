@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use proptest::prelude::*;
-use rod_hw::Wrench;
-use rod_hw::mcap::{McapError, McapFault, McapFile, Message, MessageFault, RosJoints, RosPose, Stamped};
+use rod_hw::mcap::{McapError, McapFault, McapFile, MessageFault};
+use rod_hw::{Wrench, WrenchSample};
 
 /// Written by `hw/peers/mcap/run vectors`; `hw/peers/mcap/run` compares more of them with what went in.
 const PLAIN: &[u8] = include_bytes!("vectors/wrench.mcap");
@@ -13,35 +13,23 @@ const ZSTD: &[u8] = include_bytes!("vectors/zstd.mcap");
 
 const TOPIC: &str = "/ft_sensor/wrench";
 
-fn all<M: Message>(file: &McapFile<'_>, topic: &str) -> Vec<Stamped<M>> {
-    file.messages(topic).unwrap().map(Result::unwrap).collect()
+fn all(file: &McapFile<'_>) -> Vec<WrenchSample> {
+    file.wrenches(TOPIC).unwrap().map(Result::unwrap).collect()
 }
 
 #[test]
-fn three_kinds_of_messages_in_three_serializations() {
+fn wrenches_in_three_serializations() {
     for bytes in [PLAIN, BIG_ENDIAN, ROS1] {
         let file = McapFile::parse(bytes).unwrap();
         assert_eq!(file.fault(), None);
         assert_eq!(file.origin(), 1_700_000_000_000_000_000);
         assert_eq!(file.topics().iter().map(|topic| topic.messages).collect::<Vec<_>>(), [2, 2, 2]);
 
-        let wrenches = all::<Wrench>(&file, TOPIC);
-        assert_eq!(wrenches[0].message, Wrench { force: [0.1, -0.2, 0.3], torque: [0.0, 0.0, 0.0125] });
+        let wrenches = all(&file);
+        assert_eq!(wrenches[0].wrench, Wrench { force: [0.1, -0.2, 0.3], torque: [0.0, 0.0, 0.0125] });
         // the header's time is a microsecond before the log's
-        assert_eq!((wrenches[0].log_time, wrenches[0].stamp), (0.0, None));
-        assert_eq!((wrenches[1].log_time, wrenches[1].time()), (1e-3, 1e-3 - 1e-6));
-        assert_eq!((wrenches[0].frame.as_str(), wrenches[1].frame.as_str()), ("", "t"));
-
-        let poses = all::<RosPose>(&file, "/stage");
-        assert_eq!(poses[1].message.position, [1.08, -0.04, 0.0]);
-        assert!((poses[1].message.planar().phi - 0.1).abs() < 1e-15);
-        assert_eq!((poses[1].log_time, poses[1].stamp, poses[1].time()), (2.001e-3, Some(2e-3), 2e-3));
-
-        let joints = all::<RosJoints>(&file, "/joints");
-        assert_eq!((joints[0].message.names.len(), joints[0].message.position("x")), (0, None));
-        assert_eq!(joints[1].message.names, ["x"]);
-        assert!(joints[1].message.position("x").is_some());
-        assert_eq!((&joints[1].message.velocities[..], joints[1].message.efforts.len()), (&[0.5][..], 0));
+        assert_eq!((wrenches[0].raw.host_time, wrenches[0].raw.device_time), (0.0, None));
+        assert_eq!((wrenches[1].raw.host_time, wrenches[1].t), (1e-3, 1e-3 - 1e-6));
     }
 }
 
@@ -92,7 +80,7 @@ fn compressed() {
     if cfg!(feature = "mcap-compression") {
         assert_eq!(file.fault(), None);
         let plain = McapFile::parse(PLAIN).unwrap();
-        assert_eq!(all::<Wrench>(&file, TOPIC), all::<Wrench>(&plain, TOPIC));
+        assert_eq!(all(&file), all(&plain));
     } else {
         let fault = file.fault().unwrap().to_string();
         assert!(fault.contains("is compressed with `zstd`, expected one of: none (`lz4` and `zstd` with"), "{fault}");
@@ -199,9 +187,9 @@ fn bytes_of_a_message() {
     let bytes = file_of("cdr", &[&good, &nan, &other, &long, &name, &good[..20], &[], &good]);
     let file = McapFile::parse(&bytes).unwrap();
     assert_eq!(file.fault(), None);
-    let mut found = file.messages::<Wrench>(TOPIC).unwrap();
+    let mut found = file.wrenches(TOPIC).unwrap();
     let first = found.next().unwrap().unwrap();
-    assert_eq!((first.message.components(), first.frame.as_str(), first.stamp), (numbers, "ft", Some(1.5)));
+    assert_eq!((first.wrench.components(), first.raw.device_time), (numbers, Some(1.5)));
     let mut fault = || match found.next().unwrap() {
         Err(McapError::Message { what, .. }) => what,
         other => panic!("{other:?}"),
@@ -224,8 +212,6 @@ fn read_all(bytes: &[u8]) {
     for topic in file.topics() {
         let name = &topic.name;
         let _ = file.wrenches(name).map(Iterator::count);
-        let _ = file.messages::<RosPose>(name).map(Iterator::count);
-        let _ = file.messages::<RosJoints>(name).map(Iterator::count);
     }
 }
 

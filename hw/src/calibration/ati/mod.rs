@@ -6,7 +6,7 @@ mod matrix;
 
 pub use error::AtiFileError;
 
-use super::temperature::{Compensation, Thermometer};
+use super::temperature::Compensation;
 use super::{CalibrationDataError, GaugeMatrix, RatedLoad, WrenchUnits};
 use crate::component::Component;
 use crate::raw::Channels;
@@ -174,8 +174,7 @@ impl AtiCalibration {
         let matrix = self.without_temperature()?;
         let Some(slopes) = &self.slopes else { return Ok(matrix) };
         let of = |slopes: &[f64]| from_fn(|i| slopes.get(i).copied().unwrap_or_default());
-        let thermometer = Thermometer::Channel(N);
-        Compensation::new(of(&slopes.bias), of(&slopes.gain), slopes.thermistor, thermometer)
+        Compensation::new(of(&slopes.bias), of(&slopes.gain), slopes.thermistor, N)
             .and_then(|compensation| matrix.with_channels(from_fn(|i| i), N + 1)?.with_compensation(compensation))
             .map_err(|error| AtiFileError::Data { line: self.line, error })
     }
