@@ -4,7 +4,7 @@
 
 mod common;
 #[allow(dead_code, reason = "a part of it is used here")]
-#[path = "../../hw/tests/tdms/writer.rs"]
+#[path = "../../hw/tdms/tests/suite/writer.rs"]
 mod writer;
 
 use common::{SCENE, complaint, vibrissa};

@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use rod_hw::WrenchSample;
-use rod_hw::mcap::{McapError, McapFile};
+use rod_hw::recording::mcap::{McapError, McapFile};
 use serde_json::{Map, Value, json};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
-use vibrissa::hw::rdt::RdtProfile;
+use vibrissa::hw::device::rdt::RdtProfile;
 use vibrissa::hw::{
     Accuracy, Axis, CalibrationDataError, Component, Dimension, Frame, FrameError, Mounting, RatedLoad, Scale, Sense,
     Unit, Wrench, WrenchUnits,

@@ -1,7 +1,7 @@
 //! MCAP files, not compressed: any bytes.
 #![no_main]
 
-use rod_hw::mcap::McapFile;
+use rod_hw::recording::mcap::McapFile;
 use rod_hw_fuzz::bounded;
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {

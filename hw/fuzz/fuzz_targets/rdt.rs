@@ -3,7 +3,7 @@
 
 use allocation_counter::measure;
 use rod_hw::Protocol;
-use rod_hw::rdt::{OnRobotFilter, Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings};
+use rod_hw::device::rdt::{OnRobotFilter, Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings};
 use rod_hw_fuzz::Choices;
 
 /// Records of a datagram at most.

@@ -1,7 +1,7 @@
 //! The scaling of a sensor that speaks RDT: any answer.
 #![no_main]
 
-use rod_hw::rdt::RdtScaling;
+use rod_hw::device::rdt::RdtScaling;
 use rod_hw::{Calibration, Channels, RawSample};
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {

@@ -2,8 +2,8 @@
 
 use crate::{Choices, is_same};
 use allocation_counter::measure;
-use rod_hw::fake::FakeDevice;
-use rod_hw::framed::{Content, Counter, Framed, Framing, Head, LONGEST_FRAME, Profile, SetupStep};
+use rod_fake_sensor::FakeDevice;
+use rod_hw::device::framed::{Content, Counter, Framed, Framing, Head, LONGEST_FRAME, Profile, SetupStep};
 use rod_hw::{FrameFault, Protocol, Quality, RawSample, Request};
 use std::cell::Cell;
 

@@ -1,0 +1,95 @@
+//! How much a sensor may be loaded.
+
+use super::CalibrationDataError;
+use super::wrench_units::WrenchUnits;
+use crate::sample::Component;
+use crate::sample::Number;
+use crate::sample::Quality;
+use crate::sample::Wrench;
+use crate::sample::WrenchSample;
+
+/// The largest size of each component that the sensor is rated for; infinite where it has no rating.
+///
+/// ```
+/// use rod_hw::{Quality, RatedLoad, Wrench, WrenchSample, WrenchUnits};
+/// let rated = RatedLoad::<f64>::in_units([2.0, 2.0, 2.0, f64::INFINITY, f64::INFINITY, 50.0], WrenchUnits::parse("N", "mN m")?)?;
+/// assert_eq!(rated.largest().torque[2], 0.05);
+/// let sample = WrenchSample::new(0.0, Wrench { force: [0.0, -2.1, 0.0], torque: [0.0; 3] });
+/// assert_eq!(rated.flag(&sample).quality, Quality::SATURATED);
+/// # Ok::<(), rod_hw::CalibrationDataError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RatedLoad<T = f64> {
+    largest: Wrench<T>,
+}
+
+impl<T: Number> RatedLoad<T> {
+    /// The largest sizes, N and N m.
+    ///
+    /// # Errors
+    /// [`CalibrationDataError::OfComponent`] where one is not positive.
+    pub fn new(largest: Wrench<T>) -> Result<Self, CalibrationDataError> {
+        for component in Component::ALL {
+            let value = component.of(&largest).to_f64();
+            if value.is_nan() || value <= 0.0 {
+                let expected = "a positive number, or infinity where there is no rating";
+                return Err(CalibrationDataError::OfComponent { field: "the rated load", component, value, expected });
+            }
+        }
+        Ok(Self { largest })
+    }
+
+    /// The largest Fx, Fy, Fz, Tx, Ty, Tz in these units.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn in_units(largest: [f64; 6], units: WrenchUnits) -> Result<Self, CalibrationDataError> {
+        let si = Component::ALL.map(|c| T::from_f64(units.factor(c) * largest[c.index()]));
+        Self::new(Wrench::from_components(si))
+    }
+
+    /// The largest sizes, N and N m.
+    pub fn largest(&self) -> Wrench<T> {
+        self.largest
+    }
+
+    /// The first component beyond its rating, if any is.
+    pub fn exceeded(&self, wrench: &Wrench<T>) -> Option<Component> {
+        Component::ALL.into_iter().find(|c| c.of(wrench).to_f64().abs() > c.of(&self.largest).to_f64())
+    }
+
+    /// The sample, flagged [`Quality::SATURATED`] where a component is beyond its rating: all six, because an overloaded
+    /// gauge is part of each of them.
+    #[must_use]
+    pub fn flag(&self, sample: &WrenchSample<T>) -> WrenchSample<T> {
+        let mut flagged = *sample;
+        flagged.quality.set(
+            Quality::SATURATED,
+            sample.quality.contains(Quality::SATURATED) || self.exceeded(&sample.wrench).is_some(),
+        );
+        flagged
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratings_are_positive() {
+        for value in [0.0, -1.0, f64::NAN] {
+            let error = RatedLoad::<f64>::in_units([1.0, 1.0, 1.0, 1.0, value, 1.0], WrenchUnits::SI).unwrap_err();
+            let expected = format!("the rated load of Ty is {value}, expected a positive number, or infinity");
+            assert!(error.to_string().starts_with(&expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn flags_are_never_taken_away() {
+        let rated = RatedLoad::<f32>::in_units([1.0; 6], WrenchUnits::SI).unwrap();
+        let mut sample = WrenchSample::new(0.0, Wrench::from_components([1.0_f32; 6]));
+        assert_eq!(rated.flag(&sample), sample);
+        sample.quality = Quality::SATURATED | Quality::SPIKE;
+        assert_eq!(rated.flag(&sample), sample);
+    }
+}
