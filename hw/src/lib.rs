@@ -37,27 +37,27 @@ pub use calibrate::{
 };
 #[cfg(feature = "cal")]
 pub use calibrate::{AtiCalibration, AtiFile, AtiFileError};
+#[cfg(feature = "std")]
+pub use chain::StageTable;
 pub use chain::{
     ChainError, ConstantSpeed, Correction, FnStage, RailError, Rails, SensorError, SignalChain, StageError,
     StageSource, Timekeeper, TimingError, Velocity, WrenchChain,
 };
 #[cfg(feature = "std")]
-pub use chain::{StageTable, StageTableError};
+pub use device::SerialProfile;
+pub use geometry::{Axis, Frame, GeometryError, Mounting, Sense};
 #[cfg(feature = "std")]
-pub use device::{SerialProfile, SerialProfileError};
-pub use geometry::{Axis, Frame, FrameError, Mounting, Sense};
-#[cfg(feature = "std")]
-pub use geometry::{LeverArm, LeverArmError, fit_lever_arm};
+pub use geometry::{LeverArm, fit_lever_arm};
+#[cfg(feature = "serial")]
+pub use link::SerialPort;
+#[cfg(feature = "rdt")]
+pub use link::Udp;
 pub use link::{
     Clock, FrameFault, Link, LinkCounters, LinkError, LinkSettings, Protocol, Reconnect, Request, Sequence,
     SequenceStep, Transport,
 };
 #[cfg(feature = "std")]
-pub use link::{HostClock, ReadWrite, Spawned, spawn};
-#[cfg(feature = "serial")]
-pub use link::{SerialError, SerialPort};
-#[cfg(feature = "rdt")]
-pub use link::{Udp, UdpError};
+pub use link::{HostClock, ReadWrite, Spawned, TransportError, spawn};
 pub use sample::{
     Channels, Component, Dimension, Number, OutOfPlane, Quality, QualityError, RawSample, RawSource, ReactionSample,
     Unit, UnitError, Wrench, WrenchSample, WrenchSource,

@@ -1,9 +1,8 @@
 //! A GSV-8 that is a program.
 
 use super::FakeDevice;
-use rod_hw::FrameFault;
-use rod_hw::Quality;
 use rod_hw::device::framed::{Framing, GsvValues, Head, Scanner};
+use rod_hw::{FrameFault, Quality};
 
 /// Codes of its answers.
 const OK: u8 = 0x00;

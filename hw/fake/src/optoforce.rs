@@ -1,9 +1,8 @@
 //! An OptoForce sensor that is a program.
 
 use super::FakeDevice;
-use rod_hw::FrameFault;
-use rod_hw::Quality;
 use rod_hw::device::framed::{Framing, Head, Scanner};
+use rod_hw::{FrameFault, Quality};
 
 /// An OptoForce sensor with the USB converter, at first sending at 100 Hz: it hears rate and stop. Values are counts.
 ///

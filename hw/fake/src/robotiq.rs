@@ -2,9 +2,8 @@
 
 use super::{FakeDevice, padded};
 use crc::{CRC_16_MODBUS, Crc};
-use rod_hw::FrameFault;
-use rod_hw::Quality;
 use rod_hw::device::framed::{Framing, Head, Robotiq, Scanner};
+use rod_hw::{FrameFault, Quality};
 
 /// Of Modbus.
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_MODBUS);

@@ -1,10 +1,7 @@
 //! How far a calibrated sensor can be trusted.
 
 use super::{CalibrationDataError, RatedLoad};
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
+use crate::sample::{Component, Number, Wrench, WrenchSample};
 
 /// What is known of the errors of a sensor: the standard deviation of the random one, and bounds of the systematic one,
 /// which averaging does not make smaller.

@@ -1,7 +1,6 @@
 //! Why the data of a sensor are no calibration.
 
-use crate::sample::Component;
-use crate::sample::UnitError;
+use crate::sample::{Component, UnitError};
 
 /// Why the data of a sensor are no calibration.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

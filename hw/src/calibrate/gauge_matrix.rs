@@ -4,11 +4,7 @@ use super::rank::weakest;
 use super::temperature::Compensation;
 use super::wrench_units::{WrenchUnits, finite};
 use super::{Calibration, CalibrationDataError, CalibrationError};
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
-use crate::sample::{Channels, RawSample};
+use crate::sample::{Channels, Component, Number, RawSample, WrenchSample};
 use core::array::from_fn;
 
 /// Less than this part of a row that is not in the other rows is what rounding to the five digits of calibration files
@@ -176,12 +172,6 @@ impl<const N: usize, T: Number> Calibration<T> for GaugeMatrix<N, T> {
         let zero = T::from_f64(0.0);
         super::finished(raw, self.rows.map(|row| row.iter().zip(&loads).fold(zero, |sum, (&a, &v)| sum + a * v)))
     }
-}
-
-/// Rows in SI with torques about a point at d (m) from the origin.
-pub(super) fn about<const N: usize>(rows: [[f64; N]; 6], d: [f64; 3]) -> [[f64; N]; 6] {
-    let columns: [[f64; 6]; N] = from_fn(|j| Wrench::from_components(rows.map(|row| row[j])).about(d).components());
-    from_fn(|i| columns.map(|column| column[i]))
 }
 
 #[cfg(test)]

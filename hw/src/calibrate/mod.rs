@@ -25,11 +25,7 @@ pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};
 pub use temperature::Compensation;
 pub use wrench_units::WrenchUnits;
 
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::RawSample;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
+use crate::sample::{Component, Number, RawSample, Wrench, WrenchSample};
 
 /// From raw values to force and torque at the sensor's origin.
 ///

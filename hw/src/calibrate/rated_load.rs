@@ -2,11 +2,7 @@
 
 use super::CalibrationDataError;
 use super::wrench_units::WrenchUnits;
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::Quality;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
+use crate::sample::{Component, Number, Quality, Wrench, WrenchSample};
 
 /// The largest size of each component that the sensor is rated for; infinite where it has no rating.
 ///

@@ -2,12 +2,7 @@
 
 use super::wrench_units::WrenchUnits;
 use super::{Calibration, CalibrationDataError, CalibrationError};
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::Unit;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
-use crate::sample::{Channels, RawSample};
+use crate::sample::{Channels, Component, Number, RawSample, Unit, Wrench, WrenchSample};
 use core::array::from_fn;
 
 /// A factor for each channel: for devices that send components of a wrench, as counts or in units of their own.

@@ -1,8 +1,7 @@
 //! Whether a sensor suits a rod.
 
 use super::{Accuracy, CalibrationDataError, RatedLoad};
-use crate::sample::Component;
-use crate::sample::Wrench;
+use crate::sample::{Component, Wrench};
 use core::fmt;
 use rod_core::Units;
 

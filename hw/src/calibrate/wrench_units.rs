@@ -1,8 +1,7 @@
 //! The units of a wrench.
 
 use super::CalibrationDataError;
-use crate::sample::Component;
-use crate::sample::{Dimension, Unit, UnitError};
+use crate::sample::{Component, Dimension, Unit, UnitError};
 
 /// A unit of force and one of torque.
 ///

@@ -7,7 +7,7 @@ mod timekeeper;
 
 pub use rails::{RailError, Rails};
 pub use signal_chain::{ChainError, Correction, SensorError, SignalChain, WrenchChain};
-pub use stage::{ConstantSpeed, FnStage, StageError, StageSource, Velocity};
 #[cfg(feature = "std")]
-pub use stage::{StageTable, StageTableError};
+pub use stage::StageTable;
+pub use stage::{ConstantSpeed, FnStage, StageError, StageSource, Velocity};
 pub use timekeeper::{Timekeeper, TimingError};

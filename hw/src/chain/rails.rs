@@ -1,7 +1,6 @@
 //! Raw values at their rails.
 
-use crate::sample::Quality;
-use crate::sample::{Channels, RawSample};
+use crate::sample::{Channels, Quality, RawSample};
 
 /// The ends of the range of each channel, in raw units: counts or volts.
 ///

@@ -3,15 +3,9 @@
 use super::rails::{RailError, Rails};
 use super::stage::{StageError, StageSource};
 use super::timekeeper::{Timekeeper, TimingError};
-use crate::calibrate::Tare;
-use crate::calibrate::{Calibration, CalibrationError};
+use crate::calibrate::{Calibration, CalibrationError, Tare};
 use crate::geometry::Mounting;
-use crate::sample::Number;
-use crate::sample::Quality;
-use crate::sample::RawSample;
-use crate::sample::ReactionSample;
-use crate::sample::WrenchSample;
-use crate::sample::{RawSource, WrenchSource};
+use crate::sample::{Number, Quality, RawSample, RawSource, ReactionSample, WrenchSample, WrenchSource};
 use core::mem::take;
 use rod_core::Pose;
 

@@ -1,7 +1,6 @@
 //! When samples were taken.
 
-use crate::sample::Quality;
-use crate::sample::RawSample;
+use crate::sample::{Quality, RawSample};
 
 /// So much faster or slower than the device's clock does time run while it is corrected: it never stands still.
 const SLEW: f64 = 0.01;

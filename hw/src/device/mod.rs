@@ -8,4 +8,4 @@ mod serial_profile;
 
 pub use onrobot_filter::OnRobotFilter;
 #[cfg(feature = "std")]
-pub use serial_profile::{SerialProfile, SerialProfileError};
+pub use serial_profile::SerialProfile;

@@ -1,8 +1,7 @@
 //! Framed sensors by name.
 
 use crate::device::framed::{Bota, Framed, Gsv, OptoForce, Robotiq};
-use crate::link::Protocol;
-use std::fmt;
+use crate::link::{Protocol, TransportError};
 
 /// A framed sensor by name, set to what it needs no settings for.
 ///
@@ -31,22 +30,6 @@ pub enum SerialProfile {
     Robotiq,
 }
 
-/// A name that is none.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{name}` is no serial sensor that is known, expected one of: {}", Names)]
-pub struct SerialProfileError {
-    /// What was asked for.
-    pub name: String,
-}
-
-struct Names;
-
-impl fmt::Display for Names {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&SerialProfile::ALL.map(SerialProfile::name).join(", "))
-    }
-}
-
 impl SerialProfile {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Gsv8, Self::Gsv6, Self::Bota, Self::OptoForce, Self::Robotiq];
@@ -54,10 +37,13 @@ impl SerialProfile {
     /// The one of this name.
     ///
     /// # Errors
-    /// [`SerialProfileError`], with the names that there are.
-    pub fn parse(name: &str) -> Result<Self, SerialProfileError> {
+    /// [`TransportError::Profile`], with the names that there are.
+    pub fn parse(name: &str) -> Result<Self, TransportError> {
         let found = Self::ALL.into_iter().find(|profile| profile.name() == name);
-        found.ok_or_else(|| SerialProfileError { name: name.to_owned() })
+        found.ok_or_else(|| TransportError::Profile {
+            name: name.to_owned(),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
     }
 
     /// Its name.

@@ -1,7 +1,7 @@
 //! Axes and origin, and what a wrench is in others.
 
-use crate::sample::Number;
-use crate::sample::Wrench;
+use super::GeometryError;
+use crate::sample::{Number, Wrench};
 use core::array::from_fn;
 use core::str::FromStr;
 use nalgebra::{Matrix3, Vector3};
@@ -20,7 +20,7 @@ const ORTHONORMAL: f64 = 1e-3;
 /// let found = frame.wrench(&Wrench { force: [-0.5, 0.0, 0.0], torque: [0.0, 0.0, 7e-3] });
 /// assert_eq!(found.force, [0.0, 0.5, 0.0]);
 /// assert!((found.torque[2] - 1e-3).abs() < 1e-12); // 7 mN m less 0.5 N at 12 mm
-/// # Ok::<(), rod_hw::FrameError>(())
+/// # Ok::<(), rod_hw::GeometryError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame<T = f64> {
@@ -50,41 +50,6 @@ pub enum Axis {
     MinusZ,
 }
 
-/// Why axes are none.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FrameError {
-    /// A number that is none, or cannot be what it is given for.
-    #[error("{what} is {value}, expected {expected}")]
-    Value {
-        /// What it is given for.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// What was expected.
-        expected: &'static str,
-    },
-    /// Axes that are not of length 1, or not at right angles.
-    #[error(
-        "axes {a} and {b} have the product {product}, expected {} to within 1e-3; are these the columns or rows of a rotation?",
-        u8::from(.a == .b)
-    )]
-    NotOrthonormal {
-        /// The one, from 1.
-        a: usize,
-        /// The other.
-        b: usize,
-        /// Their scalar product.
-        product: f64,
-    },
-    /// A mirror image.
-    #[error("the axes are left-handed, expected right-handed ones: x cross y is z; check the sign of one of them")]
-    LeftHanded,
-    /// A text that names no axis.
-    #[error("no axis of this name, expected one of x, -x, y, -y, z, -z")]
-    NoAxis,
-}
-
 impl<T: Number> Frame<T> {
     /// The axes and the origin themselves.
     pub fn same() -> Self {
@@ -98,12 +63,12 @@ impl<T: Number> Frame<T> {
     /// let frame = Frame::planar(std::f64::consts::FRAC_PI_2)?;
     /// let along_x = Wrench { force: [1.0, 0.0, 0.0], torque: [0.0; 3] };
     /// assert!((frame.wrench(&along_x).force[1] - 1.0).abs() < 1e-15); // the sensor's x is the scene's y
-    /// # Ok::<(), rod_hw::FrameError>(())
+    /// # Ok::<(), rod_hw::GeometryError>(())
     /// ```
     ///
     /// # Errors
-    /// [`FrameError::Value`] where the angle is no number.
-    pub fn planar(angle: T) -> Result<Self, FrameError> {
+    /// [`GeometryError::Value`] where the angle is no number.
+    pub fn planar(angle: T) -> Result<Self, GeometryError> {
         number("the angle", angle)?;
         Ok(Self::same().turned(angle))
     }
@@ -112,7 +77,7 @@ impl<T: Number> Frame<T> {
     ///
     /// # Errors
     /// Where two point along the same, or they are left-handed.
-    pub fn from_axes(axes: [Axis; 3]) -> Result<Self, FrameError> {
+    pub fn from_axes(axes: [Axis; 3]) -> Result<Self, GeometryError> {
         let columns = axes.map(|axis| Vector3::from(axis.direction().map(T::from_f64)));
         Self::of(Matrix3::from_columns(&columns))
     }
@@ -120,19 +85,19 @@ impl<T: Number> Frame<T> {
     /// From the rotation matrix R, row by row, that takes components in the old axes to those in the new ones.
     ///
     /// ```
-    /// use rod_hw::{Frame, FrameError};
+    /// use rod_hw::{Frame, GeometryError};
     /// assert!(Frame::from_matrix([[0.7071, -0.7071, 0.0], [0.7071, 0.7071, 0.0], [0.0, 0.0, 1.0]]).is_ok());
-    /// assert_eq!(Frame::from_matrix([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), Err(FrameError::LeftHanded));
+    /// assert_eq!(Frame::from_matrix([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), Err(GeometryError::LeftHanded));
     /// ```
     ///
     /// # Errors
-    /// [`FrameError`] where it is not orthonormal to 1e-3, or left-handed; within that, the nearest rotation is taken.
-    pub fn from_matrix(rows: [[T; 3]; 3]) -> Result<Self, FrameError> {
+    /// [`GeometryError`] where it is not orthonormal to 1e-3, or left-handed; within that, the nearest rotation is taken.
+    pub fn from_matrix(rows: [[T; 3]; 3]) -> Result<Self, GeometryError> {
         // nalgebra takes the elements column by column
         Self::of(Matrix3::from(rows).transpose())
     }
 
-    fn of(rotation: Matrix3<T>) -> Result<Self, FrameError> {
+    fn of(rotation: Matrix3<T>) -> Result<Self, GeometryError> {
         for entry in &rotation {
             number("an entry of the rotation matrix", *entry)?;
         }
@@ -142,13 +107,13 @@ impl<T: Number> Frame<T> {
                 let product = gram[(a, b)].to_f64();
                 let expected = f64::from(u8::from(a == b));
                 if (product - expected).abs() > ORTHONORMAL {
-                    return Err(FrameError::NotOrthonormal { a: a + 1, b: b + 1, product });
+                    return Err(GeometryError::NotOrthonormal { a: a + 1, b: b + 1, product });
                 }
             }
         }
         let [x, y, z] = [0, 1, 2].map(|i| rotation.column(i).into_owned());
         if x.cross(&y).dot(&z).to_f64() < 0.0 {
-            return Err(FrameError::LeftHanded);
+            return Err(GeometryError::LeftHanded);
         }
         Ok(Self { rotation: nearest_rotation(rotation), ..Self::same() })
     }
@@ -156,8 +121,8 @@ impl<T: Number> Frame<T> {
     /// With the new origin here, m, as seen from the old one and in the old axes: the lever arm.
     ///
     /// # Errors
-    /// [`FrameError::Value`] where it is no number.
-    pub fn with_origin(self, origin: [T; 3]) -> Result<Self, FrameError> {
+    /// [`GeometryError::Value`] where it is no number.
+    pub fn with_origin(self, origin: [T; 3]) -> Result<Self, GeometryError> {
         for component in origin {
             number("a component of the lever arm", component)?;
         }
@@ -189,7 +154,7 @@ impl<T: Number> Frame<T> {
     /// let wrench = Wrench::from_components([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     /// let back = frame.inverse().wrench(&frame.wrench(&wrench));
     /// assert!((back - wrench).components().iter().all(|c| c.abs() < 1e-14));
-    /// # Ok::<(), rod_hw::FrameError>(())
+    /// # Ok::<(), rod_hw::GeometryError>(())
     /// ```
     pub fn inverse(&self) -> Self {
         let origin = (self.rotation * self.origin).map(|c| -c);
@@ -238,9 +203,9 @@ impl Axis {
 }
 
 impl FromStr for Axis {
-    type Err = FrameError;
+    type Err = GeometryError;
 
-    fn from_str(text: &str) -> Result<Self, FrameError> {
+    fn from_str(text: &str) -> Result<Self, GeometryError> {
         Ok(match text {
             "x" | "+x" => Self::X,
             "-x" => Self::MinusX,
@@ -248,14 +213,14 @@ impl FromStr for Axis {
             "-y" => Self::MinusY,
             "z" | "+z" => Self::Z,
             "-z" => Self::MinusZ,
-            _ => return Err(FrameError::NoAxis),
+            _ => return Err(GeometryError::NoAxis),
         })
     }
 }
 
-pub(crate) fn number<T: Number>(what: &'static str, value: T) -> Result<(), FrameError> {
+pub(crate) fn number<T: Number>(what: &'static str, value: T) -> Result<(), GeometryError> {
     let value = value.to_f64();
-    if value.is_finite() { Ok(()) } else { Err(FrameError::Value { what, value, expected: "a finite number" }) }
+    if value.is_finite() { Ok(()) } else { Err(GeometryError::Value { what, value, expected: "a finite number" }) }
 }
 
 /// The polar factor, by the iteration R (3 - R'R) / 2 of Newton and Schulz: 1e-3 becomes 1e-6, 1e-12, rounding.

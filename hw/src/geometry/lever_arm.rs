@@ -1,5 +1,6 @@
 //! The lever arm, from loads at the clamp.
 
+use super::GeometryError;
 use crate::sample::Wrench;
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,32 +18,6 @@ pub struct LeverArm {
     pub residual: f64,
 }
 
-/// Why there is no lever arm.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LeverArmError {
-    /// Too few.
-    #[error("{found} loads, expected 2 or more in different directions")]
-    Few {
-        /// How many there are.
-        found: usize,
-    },
-    /// A number that is none.
-    #[error("load {load} is not finite, expected finite numbers of N and N m")]
-    NotFinite {
-        /// Which one, from 1.
-        load: usize,
-    },
-    /// The arm along a force does nothing.
-    #[error(
-        "the forces differ by a sine of {spread:.3} only, expected 0.05 or more; hang weights in other directions, or turn the sensor"
-    )]
-    Parallel {
-        /// Sine by which they differ, root mean square.
-        spread: f64,
-    },
-}
-
 /// The lever arm from wrenches that the sensor measured, without its zero, while forces pulled at the clamp and no moment did:
 /// weights on a thread in several directions, or in several positions of the sensor. Least squares of M = d x F.
 ///
@@ -57,17 +32,17 @@ pub enum LeverArmError {
 /// let found = fit_lever_arm(&loads)?;
 /// assert!((found.lever[0] - 3e-3).abs() < 1e-12 && (found.lever[2] - 12e-3).abs() < 1e-12);
 /// assert!(found.residual < 1e-12);
-/// # Ok::<(), rod_hw::LeverArmError>(())
+/// # Ok::<(), rod_hw::GeometryError>(())
 /// ```
 ///
 /// # Errors
-/// [`LeverArmError`]; forces in one direction leave the arm along it open.
-pub fn fit_lever_arm(loads: &[Wrench]) -> Result<LeverArm, LeverArmError> {
+/// [`GeometryError`]; forces in one direction leave the arm along it open.
+pub fn fit_lever_arm(loads: &[Wrench]) -> Result<LeverArm, GeometryError> {
     if loads.len() < 2 {
-        return Err(LeverArmError::Few { found: loads.len() });
+        return Err(GeometryError::Few { found: loads.len() });
     }
     if let Some(load) = loads.iter().position(|load| !load.is_finite()) {
-        return Err(LeverArmError::NotFinite { load: load + 1 });
+        return Err(GeometryError::NotFinite { load: load + 1 });
     }
     // M = d x F = -[F]x d has the normal equations  sum (F.F - F F') d = sum F x M
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
@@ -79,7 +54,7 @@ pub fn fit_lever_arm(loads: &[Wrench]) -> Result<LeverArm, LeverArmError> {
     let size = 0.5 * normal.trace();
     let spread = (normal.determinant() / size.powi(3)).max(0.0).sqrt();
     let inverse = normal.cholesky().filter(|_| spread >= LEAST_SPREAD).map(|cholesky| cholesky.inverse());
-    let inverse = inverse.ok_or(LeverArmError::Parallel { spread: if spread.is_nan() { 0.0 } else { spread } })?;
+    let inverse = inverse.ok_or(GeometryError::Parallel { spread: if spread.is_nan() { 0.0 } else { spread } })?;
     let lever = inverse * right;
     let squares: f64 =
         loads.iter().map(vectors).map(|(force, torque)| (torque - lever.cross(&force)).norm_squared()).sum();
@@ -160,11 +135,11 @@ mod tests {
     #[test]
     fn refuses() {
         let load = Wrench { force: [0.0, -0.5, 0.0], torque: [0.0, 0.0, -1e-3] };
-        assert_eq!(fit_lever_arm(&[load]), Err(LeverArmError::Few { found: 1 }));
+        assert_eq!(fit_lever_arm(&[load]), Err(GeometryError::Few { found: 1 }));
         let error = fit_lever_arm(&[load, load * 2.0, -load]).unwrap_err().to_string();
         assert!(error.starts_with("the forces differ by a sine of 0.000 only"), "{error}");
-        assert_eq!(fit_lever_arm(&[Wrench::default(); 3]), Err(LeverArmError::Parallel { spread: 0.0 }));
+        assert_eq!(fit_lever_arm(&[Wrench::default(); 3]), Err(GeometryError::Parallel { spread: 0.0 }));
         let broken = Wrench { force: [f64::NAN, 0.0, 0.0], ..load };
-        assert_eq!(fit_lever_arm(&[load, broken]), Err(LeverArmError::NotFinite { load: 2 }));
+        assert_eq!(fit_lever_arm(&[load, broken]), Err(GeometryError::NotFinite { load: 2 }));
     }
 }

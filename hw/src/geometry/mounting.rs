@@ -1,11 +1,8 @@
 //! How the sensor sits under the clamp.
 
-use super::frame::{Frame, FrameError, number};
-use crate::sample::Number;
-use crate::sample::Quality;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
-use crate::sample::{OutOfPlane, ReactionSample};
+use super::GeometryError;
+use super::frame::{Frame, number};
+use crate::sample::{Number, OutOfPlane, Quality, ReactionSample, Wrench, WrenchSample};
 use rod_core::{Pose, Reactions};
 
 /// How the sensor sits to the clamp: from the wrench that it measures to the reactions of the clamp on the rod, and back.
@@ -65,12 +62,12 @@ impl<T: Number> Mounting<T> {
     /// let pose = Pose { x: 0.0, y: 0.0, phi: 1.5 + std::f64::consts::FRAC_PI_2 };
     /// let wrench = mounting.wrench(&pulled, &OutOfPlane::default(), pose);
     /// assert!((wrench.force[0] + 1.0).abs() < 1e-15);
-    /// # Ok::<(), rod_hw::FrameError>(())
+    /// # Ok::<(), rod_hw::GeometryError>(())
     /// ```
     ///
     /// # Errors
-    /// [`FrameError::Value`] where the angle is no number.
-    pub fn turning_with_clamp(self, phi: T) -> Result<Self, FrameError> {
+    /// [`GeometryError::Value`] where the angle is no number.
+    pub fn turning_with_clamp(self, phi: T) -> Result<Self, GeometryError> {
         number("the clamp angle of the mounting", phi)?;
         Ok(Self { turning: Some(phi), ..self })
     }
@@ -83,8 +80,8 @@ impl<T: Number> Mounting<T> {
     /// A lever arm known to this distance, m; the moment that it may cost goes into the systematic bound.
     ///
     /// # Errors
-    /// [`FrameError::Value`] where it is negative or no number.
-    pub fn with_lever_tolerance(self, lever_tolerance: T) -> Result<Self, FrameError> {
+    /// [`GeometryError::Value`] where it is negative or no number.
+    pub fn with_lever_tolerance(self, lever_tolerance: T) -> Result<Self, GeometryError> {
         not_negative("the tolerance of the lever arm", lever_tolerance)?;
         Ok(Self { lever_tolerance, ..self })
     }
@@ -93,8 +90,8 @@ impl<T: Number> Mounting<T> {
     /// [`Quality::OUT_OF_PLANE`]. Without this none are.
     ///
     /// # Errors
-    /// [`FrameError::Value`] where one is negative or no number.
-    pub fn with_most_out_of_plane(self, force: T, moment: T) -> Result<Self, FrameError> {
+    /// [`GeometryError::Value`] where one is negative or no number.
+    pub fn with_most_out_of_plane(self, force: T, moment: T) -> Result<Self, GeometryError> {
         not_negative("the bound of the force across the plane", force)?;
         not_negative("the bound of the moments in the plane", moment)?;
         Ok(Self { most_out_of_plane: Some([force, moment]), ..self })
@@ -175,10 +172,10 @@ fn sum<T: Number>(a: [T; 6], b: [T; 6]) -> T {
     a.iter().zip(b).fold(T::from_f64(0.0), |sum, (&a, b)| sum + a * b)
 }
 
-fn not_negative<T: Number>(what: &'static str, value: T) -> Result<(), FrameError> {
+fn not_negative<T: Number>(what: &'static str, value: T) -> Result<(), GeometryError> {
     let value = value.to_f64();
     let expected = "a finite number, 0 or more";
-    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(FrameError::Value { what, value, expected }) }
+    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(GeometryError::Value { what, value, expected }) }
 }
 
 #[cfg(test)]
@@ -293,7 +290,7 @@ mod tests {
             mounting.with_most_out_of_plane(1.0, -1.0).unwrap_err(),
             mounting.turning_with_clamp(f64::INFINITY).unwrap_err(),
         ] {
-            assert!(matches!(error, FrameError::Value { .. }));
+            assert!(matches!(error, GeometryError::Value { .. }));
         }
     }
 

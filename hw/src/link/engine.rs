@@ -4,8 +4,7 @@ use super::clock::Clock;
 use super::counters::LinkCounters;
 use super::protocol::{FrameFault, Protocol};
 use super::transport::Transport;
-use crate::sample::Quality;
-use crate::sample::RawSample;
+use crate::sample::{Quality, RawSample};
 use core::time::Duration;
 
 /// Longer than any datagram of these devices, and so many frames of a stream at a time.
@@ -149,11 +148,6 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
     /// The protocol, to look at its state.
     pub fn protocol(&self) -> &P {
         &self.protocol
-    }
-
-    /// The protocol, to make requests of its own.
-    pub fn protocol_mut(&mut self) -> &mut P {
-        &mut self.protocol
     }
 
     /// The clock that the samples' host times are of.

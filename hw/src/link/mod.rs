@@ -12,6 +12,8 @@ mod serial_port;
 #[cfg(feature = "std")]
 mod spawn;
 mod transport;
+#[cfg(feature = "std")]
+mod transport_error;
 #[cfg(feature = "rdt")]
 mod udp;
 
@@ -25,9 +27,11 @@ pub use protocol::{FrameFault, Protocol, Request};
 pub use read_write::ReadWrite;
 pub use sequence::{Sequence, SequenceStep};
 #[cfg(feature = "serial")]
-pub use serial_port::{SerialError, SerialPort};
+pub use serial_port::SerialPort;
 #[cfg(feature = "std")]
 pub use spawn::{Spawned, spawn};
 pub use transport::Transport;
+#[cfg(feature = "std")]
+pub use transport_error::TransportError;
 #[cfg(feature = "rdt")]
-pub use udp::{Udp, UdpError};
+pub use udp::Udp;

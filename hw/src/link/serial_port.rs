@@ -1,7 +1,7 @@
 //! A serial port by path.
 
-use super::read_write;
 use super::transport::Transport;
+use super::{TransportError, read_write};
 use std::io;
 use std::time::Duration;
 
@@ -27,39 +27,12 @@ pub struct SerialPort {
     port: Option<Box<dyn serialport::SerialPort>>,
 }
 
-/// What is wrong with a serial port.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SerialError {
-    /// It cannot be opened.
-    #[error(
-        "cannot open the serial port {path} at {baud} baud: {source}; is the device plugged in, the port free, and may this \
-         user open it (on Linux: group dialout)?"
-    )]
-    Open {
-        /// Its path.
-        path: String,
-        /// Bits a second.
-        baud: u32,
-        /// Why not.
-        source: io::Error,
-    },
-    /// It was open and broke, or is closed.
-    #[error("the serial port {path} broke: {source}; is the device still plugged in and on?")]
-    Broken {
-        /// Its path.
-        path: String,
-        /// Why.
-        source: io::Error,
-    },
-}
-
 impl SerialPort {
     /// The port of this path (`/dev/ttyUSB0`, `COM3`), at so many bits a second. What arrived before is discarded.
     ///
     /// # Errors
-    /// [`SerialError::Open`].
-    pub fn open(path: &str, baud: u32) -> Result<Self, SerialError> {
+    /// [`TransportError::Open`].
+    pub fn open(path: &str, baud: u32) -> Result<Self, TransportError> {
         let mut port = Self { path: path.to_owned(), baud, port: None };
         port.reconnect()?;
         Ok(port)
@@ -70,32 +43,35 @@ impl SerialPort {
         &self.path
     }
 
-    fn with<T>(&mut self, f: impl FnOnce(&mut dyn serialport::SerialPort) -> io::Result<T>) -> Result<T, SerialError> {
+    fn with<T>(
+        &mut self,
+        f: impl FnOnce(&mut dyn serialport::SerialPort) -> io::Result<T>,
+    ) -> Result<T, TransportError> {
         let closed = || io::Error::new(io::ErrorKind::NotConnected, "it is closed");
         let done = self.port.as_mut().ok_or_else(closed).and_then(|port| f(port.as_mut()));
-        done.map_err(|source| SerialError::Broken { path: self.path.clone(), source })
+        done.map_err(|source| TransportError::SerialBroken { path: self.path.clone(), source })
     }
 }
 
 impl Transport for SerialPort {
-    type Error = SerialError;
+    type Error = TransportError;
 
-    fn send(&mut self, mut bytes: &[u8]) -> Result<(), SerialError> {
+    fn send(&mut self, mut bytes: &[u8]) -> Result<(), TransportError> {
         self.with(|mut port| read_write::send(&mut port, std::mem::take(&mut bytes)))
     }
 
-    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, SerialError> {
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, TransportError> {
         self.with(|mut port| {
             port.set_timeout(wait)?;
             read_write::receive(&mut port, buffer, wait)
         })
     }
 
-    fn reconnect(&mut self) -> Result<(), SerialError> {
+    fn reconnect(&mut self) -> Result<(), TransportError> {
         // closed first, for it is open for one at a time
         self.port = None;
         let opened = serialport::new(&self.path, self.baud).timeout(Duration::from_millis(10)).open();
-        let port = opened.map_err(|error| SerialError::Open {
+        let port = opened.map_err(|error| TransportError::Open {
             path: self.path.clone(),
             baud: self.baud,
             source: error.into(),

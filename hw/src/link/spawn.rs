@@ -5,8 +5,7 @@ use super::counters::LinkCounters;
 use super::engine::{Link, LinkError};
 use super::protocol::Protocol;
 use super::transport::Transport;
-use crate::sample::Quality;
-use crate::sample::RawSample;
+use crate::sample::{Quality, RawSample};
 use std::io::Error;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
@@ -153,9 +152,7 @@ impl<E> Drop for Spawned<E> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::link::HostClock;
-    use crate::link::{FrameFault, Request};
-    use crate::link::{LinkSettings, Reconnect};
+    use crate::link::{FrameFault, HostClock, LinkSettings, Reconnect, Request};
     use crate::sample::Channels;
     use std::sync::atomic::AtomicU64;
     use std::time::Duration;

@@ -1,5 +1,6 @@
 //! Datagrams to and from one device.
 
+use super::TransportError;
 use super::transport::Transport;
 use core::time::Duration;
 use std::io::{Error, ErrorKind};
@@ -12,36 +13,6 @@ const ROOM: usize = 4 << 20;
 
 /// The longest datagram there can be.
 const LONGEST: usize = 65_535;
-
-/// Why there is no connection to a device.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum UdpError {
-    /// The name has no address.
-    #[error("`{host}` has no address ({cause}), expected host:port like `192.168.1.1:49152`; check name and network")]
-    Address {
-        /// What was asked for.
-        host: String,
-        /// Why.
-        cause: Error,
-    },
-    /// No socket to be had.
-    #[error("no UDP socket for {peer} ({cause}); is there a network?")]
-    Socket {
-        /// The device.
-        peer: SocketAddr,
-        /// Why.
-        cause: Error,
-    },
-    /// It does not take or bring datagrams any more.
-    #[error("the UDP socket to {peer} fails ({cause}); check cable, network and address")]
-    Broken {
-        /// The device.
-        peer: SocketAddr,
-        /// Why.
-        cause: Error,
-    },
-}
 
 /// Datagrams to and from one device. What others send is left out and counted, and so are empty datagrams; of one longer
 /// than the buffer comes its beginning, with its true length.
@@ -74,9 +45,9 @@ impl Udp {
     /// To `host:port`, a name or an address. That there is a device is not known before it answers.
     ///
     /// # Errors
-    /// [`UdpError`].
-    pub fn connect(host: &str) -> Result<Self, UdpError> {
-        let failed = |cause| UdpError::Address { host: host.into(), cause };
+    /// [`TransportError`].
+    pub fn connect(host: &str) -> Result<Self, TransportError> {
+        let failed = |cause| TransportError::Address { host: host.into(), cause };
         let addresses: Vec<SocketAddr> = host.to_socket_addrs().map_err(failed)?.collect();
         let version_4 = addresses.iter().find(|address| address.is_ipv4());
         match version_4.or(addresses.first()) {
@@ -88,19 +59,19 @@ impl Udp {
     /// To an address.
     ///
     /// # Errors
-    /// [`UdpError::Socket`].
-    pub fn to(peer: SocketAddr) -> Result<Self, UdpError> {
+    /// [`TransportError::Socket`].
+    pub fn to(peer: SocketAddr) -> Result<Self, TransportError> {
         let socket = Self::socket(peer)?;
         Ok(Self { socket, peer, foreign: 0, wait: None, datagram: vec![0; LONGEST].into() })
     }
 
     /// Not connected by the system, which would leave out what others send without counting.
-    fn socket(peer: SocketAddr) -> Result<UdpSocket, UdpError> {
+    fn socket(peer: SocketAddr) -> Result<UdpSocket, TransportError> {
         let any = match peer {
             SocketAddr::V4(_) => SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)),
             SocketAddr::V6(_) => SocketAddr::from((Ipv6Addr::UNSPECIFIED, 0)),
         };
-        let socket = UdpSocket::bind(any).map_err(|cause| UdpError::Socket { peer, cause })?;
+        let socket = UdpSocket::bind(any).map_err(|cause| TransportError::Socket { peer, cause })?;
         // more room is welcome, less will do
         let _ = socket2::SockRef::from(&socket).set_recv_buffer_size(ROOM);
         Ok(socket)
@@ -114,13 +85,13 @@ impl Udp {
     /// Room for what arrives while nobody asks, bytes, as the system counts them.
     ///
     /// # Errors
-    /// [`UdpError::Broken`].
-    pub fn room(&self) -> Result<usize, UdpError> {
+    /// [`TransportError::UdpBroken`].
+    pub fn room(&self) -> Result<usize, TransportError> {
         socket2::SockRef::from(&self.socket).recv_buffer_size().map_err(|cause| self.broken(cause))
     }
 
-    fn broken(&self, cause: Error) -> UdpError {
-        UdpError::Broken { peer: self.peer, cause }
+    fn broken(&self, cause: Error) -> TransportError {
+        TransportError::UdpBroken { peer: self.peer, cause }
     }
 }
 
@@ -131,13 +102,13 @@ impl core::fmt::Debug for Udp {
 }
 
 impl Transport for Udp {
-    type Error = UdpError;
+    type Error = TransportError;
 
-    fn send(&mut self, bytes: &[u8]) -> Result<(), UdpError> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
         self.socket.send_to(bytes, self.peer).map(drop).map_err(|cause| self.broken(cause))
     }
 
-    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, UdpError> {
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, TransportError> {
         let since = Instant::now();
         // 0 would mean for ever
         let mut left = wait.max(Duration::from_micros(1));
@@ -168,7 +139,7 @@ impl Transport for Udp {
         }
     }
 
-    fn reconnect(&mut self) -> Result<(), UdpError> {
+    fn reconnect(&mut self) -> Result<(), TransportError> {
         self.socket = Self::socket(self.peer)?;
         self.wait = None;
         Ok(())

@@ -1,7 +1,7 @@
 //! MCAP files, as ROS and Python write them, and as they end up on a disk.
 
 use proptest::prelude::*;
-use rod_hw::recording::mcap::{McapError, McapFault, McapFile, MessageFault};
+use rod_hw::recording::mcap::{McapError, McapFault, McapFile};
 use rod_hw::{Wrench, WrenchSample};
 
 /// Written by `hw/peers/mcap/run vectors`; `hw/peers/mcap/run` compares more of them with what went in.
@@ -193,12 +193,12 @@ fn bytes_of_a_message() {
         Err(McapError::Message { what, .. }) => what,
         other => panic!("{other:?}"),
     };
-    assert!(matches!(fault(), MessageFault::NotFinite(value) if value.is_nan()));
-    assert_eq!(fault(), MessageFault::Encapsulation(7));
-    assert_eq!(fault(), MessageFault::Length { found: 76, expected: 68 });
-    assert_eq!(fault(), MessageFault::End { end: 68, at: 16 });
-    assert_eq!(fault(), MessageFault::End { end: 20, at: 20 });
-    assert_eq!(fault(), MessageFault::End { end: 0, at: 0 });
+    assert!(matches!(fault(), McapFault::NotFinite(value) if value.is_nan()));
+    assert_eq!(fault(), McapFault::Encapsulation(7));
+    assert_eq!(fault(), McapFault::Length { found: 76, expected: 68 });
+    assert_eq!(fault(), McapFault::End { end: 68, at: 16 });
+    assert_eq!(fault(), McapFault::End { end: 20, at: 20 });
+    assert_eq!(fault(), McapFault::End { end: 0, at: 0 });
     assert_eq!(found.next().unwrap().unwrap(), first);
     assert!(found.next().is_none());
     let padded = file_of("cdr", &[&padded]);

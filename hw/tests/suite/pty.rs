@@ -8,8 +8,8 @@ use rod_hw::device::framed::{
     Bota, BotaFilter, Framed, Gsv, GsvValues, OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup, Robotiq,
 };
 use rod_hw::{
-    FrameFault, HostClock, Link, LinkError, LinkSettings, Protocol, Quality, RawSample, Reconnect, SerialError,
-    SerialPort, SerialProfile,
+    FrameFault, HostClock, Link, LinkError, LinkSettings, Protocol, Quality, RawSample, Reconnect, SerialPort,
+    SerialProfile, TransportError,
 };
 use std::sync::mpsc;
 use std::thread::JoinHandle;
@@ -217,7 +217,7 @@ fn unplugged_and_plugged_in_again() {
     let before = told(&mut link, 100);
     assert_eq!(before[99].channels[0], 99.0);
     let error = link.next().unwrap().unwrap_err();
-    assert!(matches!(error, LinkError::Broken(SerialError::Broken { .. })), "{error}");
+    assert!(matches!(error, LinkError::Broken(TransportError::SerialBroken { .. })), "{error}");
     let text = error.to_string();
     assert!(text.contains("/sensor broke: ") && text.ends_with("is the device still plugged in and on?"), "{text}");
     let after = told(&mut link, 100);

@@ -1,9 +1,7 @@
 //! What a fake sensor is asked.
 
 use super::account::{Shared, State};
-use rod_hw::device::rdt::RdtProfile;
-use rod_hw::device::rdt::RdtRequest;
-use rod_hw::device::rdt::RdtScaling;
+use rod_hw::device::rdt::{RdtProfile, RdtRequest, RdtScaling};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::sync::atomic::Ordering;

@@ -1,7 +1,6 @@
 //! What a fake sensor is to be.
 
-use rod_hw::device::rdt::RdtProfile;
-use rod_hw::device::rdt::RdtScaling;
+use rod_hw::device::rdt::{RdtProfile, RdtScaling};
 use rod_hw::{Dimension, Unit};
 use std::net::{Ipv4Addr, SocketAddr};
 

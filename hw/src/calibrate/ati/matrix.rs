@@ -3,10 +3,7 @@
 use super::element::Element;
 use super::{AtiFileError, CalibrationDataError};
 use crate::calibrate::WrenchUnits;
-use crate::calibrate::gauge_matrix::about;
-use crate::sample::Channels;
-use crate::sample::Component;
-use crate::sample::Dimension;
+use crate::sample::{Channels, Component, Dimension, Wrench};
 use core::array::from_fn;
 
 type Row = [f64; Channels::MOST];
@@ -150,4 +147,10 @@ impl Transform {
         let lever: f64 = self.shift.iter().map(|d| d.abs()).sum();
         if component.dimension() == Dimension::Torque { alike + lever * of(Dimension::Force) } else { alike }
     }
+}
+
+/// Rows in SI with torques about a point at d (m) from the origin.
+fn about<const N: usize>(rows: [[f64; N]; 6], d: [f64; 3]) -> [[f64; N]; 6] {
+    let columns: [[f64; 6]; N] = from_fn(|j| Wrench::from_components(rows.map(|row| row[j])).about(d).components());
+    from_fn(|i| columns.map(|column| column[i]))
 }

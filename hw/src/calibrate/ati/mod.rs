@@ -8,10 +8,7 @@ pub use error::AtiFileError;
 
 use super::temperature::Compensation;
 use super::{CalibrationDataError, GaugeMatrix, RatedLoad, WrenchUnits};
-use crate::sample::Channels;
-use crate::sample::Component;
-use crate::sample::Dimension;
-use crate::sample::Number;
+use crate::sample::{Channels, Component, Dimension, Number};
 use core::array::from_fn;
 use element::{Element, document};
 use std::path::Path;

@@ -1,7 +1,6 @@
 use super::*;
 use crate::calibrate::{Calibration, CalibrationError};
-use crate::sample::RawSample;
-use crate::sample::Unit;
+use crate::sample::{RawSample, Unit};
 
 /// Of no real sensor; written by the script beside it, which knows another way to `UserAxis`.
 const TURNED: &str = include_str!("../../../tests/data/turned.cal");

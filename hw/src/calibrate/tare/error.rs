@@ -1,7 +1,6 @@
 //! Why a window gives no zero.
 
-use crate::sample::Component;
-use crate::sample::Quality;
+use crate::sample::{Component, Quality};
 
 /// Why a window of samples gives no zero.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

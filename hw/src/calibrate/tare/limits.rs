@@ -1,8 +1,7 @@
 //! What a tare window must be like.
 
 use super::TareError;
-use crate::sample::Component;
-use crate::sample::Wrench;
+use crate::sample::{Component, Wrench};
 
 /// What a tare window must be like to give a zero.
 ///

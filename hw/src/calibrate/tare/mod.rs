@@ -11,9 +11,7 @@ pub use limits::TareLimits;
 pub use window::TareWindow;
 pub use zero::Zero;
 
-use crate::sample::Number;
-use crate::sample::Quality;
-use crate::sample::WrenchSample;
+use crate::sample::{Number, Quality, WrenchSample};
 
 /// The error of a zero is that of all samples it is taken off of: averaging them does not make it smaller. So many of its
 /// standard deviations are its bound.

@@ -1,8 +1,7 @@
 #![allow(clippy::print_stdout, reason = "shares of windows are there to be read")]
 
 use super::*;
-use crate::sample::Component;
-use crate::sample::Wrench;
+use crate::sample::{Component, Wrench};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

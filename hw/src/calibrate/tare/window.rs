@@ -2,11 +2,7 @@
 
 use super::batches::{Batches, Course};
 use super::{TareError, TareLimits, Zero};
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::Quality;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
+use crate::sample::{Component, Number, Quality, Wrench, WrenchSample};
 use core::array::from_fn;
 use core::marker::PhantomData;
 use rod_core::Scalar;

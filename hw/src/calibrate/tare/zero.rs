@@ -1,9 +1,7 @@
 //! What a sensor reads without load.
 
 use super::TareError;
-use crate::sample::Component;
-use crate::sample::Number;
-use crate::sample::Wrench;
+use crate::sample::{Component, Number, Wrench};
 
 /// What a sensor reads without load, and how well that is known.
 ///

@@ -6,7 +6,7 @@ mod table;
 
 pub use constant_speed::{ConstantSpeed, Velocity};
 #[cfg(feature = "std")]
-pub use table::{StageTable, StageTableError};
+pub use table::StageTable;
 
 use rod_core::Pose;
 
@@ -19,7 +19,7 @@ pub trait StageSource {
     fn pose_at(&mut self, t: f64) -> Result<Pose, StageError>;
 }
 
-/// Why there is no pose.
+/// Why there is no pose, or no table of poses.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StageError {
@@ -48,6 +48,42 @@ pub enum StageError {
         from: f64,
         /// When it arrives, s.
         to: f64,
+    },
+    /// A table with nothing to interpolate.
+    #[error("{found} rows, expected at least 2")]
+    Short {
+        /// How many there are.
+        found: usize,
+    },
+    /// A time or a pose is no number.
+    #[error("row {row}: {what} is {value}, expected a finite number")]
+    RowNotFinite {
+        /// Which row, from 1.
+        row: usize,
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Time stands still or runs back.
+    #[error("row {row}: the time is {t} s, expected more than {before} s, that of the row before")]
+    NotGrowing {
+        /// Which row, from 1.
+        row: usize,
+        /// Its time, s.
+        t: f64,
+        /// That of the row before, s.
+        before: f64,
+    },
+    /// An angle that starts anew at a whole turn.
+    #[error(
+        "row {row}: the angle jumps by {jump} rad, expected less than half a turn from row to row; take out the whole turns"
+    )]
+    Turns {
+        /// Which row, from 1.
+        row: usize,
+        /// From the row before, rad.
+        jump: f64,
     },
 }
 

@@ -21,71 +21,29 @@ pub struct StageTable {
     rows: Vec<(f64, Pose)>,
 }
 
-/// Why poses make no table.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StageTableError {
-    /// There is nothing to interpolate.
-    #[error("{found} rows, expected at least 2")]
-    Short {
-        /// How many there are.
-        found: usize,
-    },
-    /// A time or a pose is no number.
-    #[error("row {row}: {what} is {value}, expected a finite number")]
-    NotFinite {
-        /// Which row, from 1.
-        row: usize,
-        /// What it is.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// Time stands still or runs back.
-    #[error("row {row}: the time is {t} s, expected more than {before} s, that of the row before")]
-    NotGrowing {
-        /// Which row, from 1.
-        row: usize,
-        /// Its time, s.
-        t: f64,
-        /// That of the row before, s.
-        before: f64,
-    },
-    /// An angle that starts anew at a whole turn.
-    #[error(
-        "row {row}: the angle jumps by {jump} rad, expected less than half a turn from row to row; take out the whole turns"
-    )]
-    Turns {
-        /// Which row, from 1.
-        row: usize,
-        /// From the row before, rad.
-        jump: f64,
-    },
-}
-
 impl StageTable {
     /// From times (s, strictly growing) and poses there (m, m, rad).
     ///
     /// # Errors
-    /// [`StageTableError`] with the row.
-    pub fn new(rows: Vec<(f64, Pose)>) -> Result<Self, StageTableError> {
+    /// [`StageError`] with the row.
+    pub fn new(rows: Vec<(f64, Pose)>) -> Result<Self, StageError> {
         if rows.len() < 2 {
-            return Err(StageTableError::Short { found: rows.len() });
+            return Err(StageError::Short { found: rows.len() });
         }
         let mut last: Option<(f64, Pose)> = None;
         for (row, &(t, pose)) in (1..).zip(&rows) {
             for (what, value) in [("the time", t), ("x", pose.x), ("y", pose.y), ("the angle", pose.phi)] {
                 if !value.is_finite() {
-                    return Err(StageTableError::NotFinite { row, what, value });
+                    return Err(StageError::RowNotFinite { row, what, value });
                 }
             }
             if let Some((before, pose_before)) = last {
                 let jump = pose.phi - pose_before.phi;
                 if t <= before {
-                    return Err(StageTableError::NotGrowing { row, t, before });
+                    return Err(StageError::NotGrowing { row, t, before });
                 }
                 if jump.abs() >= PI {
-                    return Err(StageTableError::Turns { row, jump });
+                    return Err(StageError::Turns { row, jump });
                 }
             }
             last = Some((t, pose));

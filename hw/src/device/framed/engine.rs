@@ -2,11 +2,8 @@
 
 use super::profile::{Await, Content, Profile, Reading, SetupStep};
 use super::scanner::Scanner;
-use crate::link::LinkCounters;
-use crate::link::{FrameFault, Protocol, Request};
-use crate::link::{Sequence, SequenceStep};
-use crate::sample::Quality;
-use crate::sample::RawSample;
+use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence, SequenceStep};
+use crate::sample::{Quality, RawSample};
 
 /// A request that is not answered is sent again after so long, s: longer than any of these devices takes.
 const RETRY: f64 = 0.5;

@@ -13,9 +13,7 @@
 
 use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
 use crate::link::{FrameFault, Request};
-use crate::sample::Channels;
-use crate::sample::Quality;
-use crate::sample::Unit;
+use crate::sample::{Channels, Quality, Unit};
 
 const SYNC: u8 = 0xaa;
 const TERMINATOR: u8 = 0x85;

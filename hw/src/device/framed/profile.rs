@@ -1,8 +1,7 @@
 //! What differs from device to device.
 
 use crate::link::{FrameFault, Request};
-use crate::sample::Channels;
-use crate::sample::Quality;
+use crate::sample::{Channels, Quality};
 
 /// Where frames begin and end, and whether they are whole.
 ///

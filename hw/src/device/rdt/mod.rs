@@ -14,8 +14,8 @@ mod scaling;
 
 pub use crate::device::onrobot_filter::OnRobotFilter;
 pub use profile::RdtProfile;
-pub use protocol::{Rdt, RdtRequestError, RdtSettings};
+pub use protocol::{Rdt, RdtSettings};
 pub use record::RdtRecord;
 pub use request::RdtRequest;
 #[cfg(feature = "rdt")]
-pub use scaling::{RdtScaling, RdtScalingError, read_scaling};
+pub use scaling::{RdtError, RdtScaling, read_scaling};

@@ -4,11 +4,8 @@ use super::profile::RdtProfile;
 use super::record::RdtRecord;
 use super::request::RdtRequest;
 use crate::device::onrobot_filter::OnRobotFilter;
-use crate::link::LinkCounters;
-use crate::link::Sequence;
-use crate::link::{FrameFault, Protocol, Request};
-use crate::sample::Quality;
-use crate::sample::{Channels, RawSample};
+use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence};
+use crate::sample::{Channels, Quality, RawSample};
 use core::mem::take;
 use core::num::NonZeroU8;
 
@@ -45,28 +42,6 @@ impl RdtSettings {
     pub fn new(profile: RdtProfile) -> Self {
         Self { profile, clock_rate: None, buffered: false, silence: 1.0, filter: None, period: None }
     }
-}
-
-/// Why a request is not made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RdtRequestError {
-    /// Another family's, which this one may take for something else.
-    #[error("{request:?} is no request to {profile:?}; see RdtRequest for whose it is")]
-    Profile {
-        /// The request.
-        request: RdtRequest,
-        /// The family of the sensor.
-        profile: RdtProfile,
-    },
-    /// The last one has not been sent yet.
-    #[error("{request:?} comes before {waiting:?} was sent; ask for a sample in between")]
-    Busy {
-        /// The request.
-        request: RdtRequest,
-        /// The one before.
-        waiting: RdtRequest,
-    },
 }
 
 /// The stream of an RDT sensor (ATI Net F/T and Axia, OnRobot): starts it, again every 0.1 s until data comes and after a
@@ -115,7 +90,6 @@ pub struct Rdt {
     origin: (u64, f64),
     /// Time by the host and by the device of the last sample.
     last: Option<(f64, f64)>,
-    asked: Option<RdtRequest>,
     counters: LinkCounters,
 }
 
@@ -151,7 +125,6 @@ impl Rdt {
             flags: Quality::empty(),
             origin: (0, 0.0),
             last: None,
-            asked: None,
             counters: LinkCounters::default(),
         }
     }
@@ -167,29 +140,6 @@ impl Rdt {
     /// How the sensor is asked.
     pub fn settings(&self) -> &RdtSettings {
         &self.settings
-    }
-
-    /// Makes a request with the next sample that is asked for. After a new zero the next sample is [`Quality::RESTARTED`], as
-    /// an earlier tare is none any more; what was on its way still has the old zero.
-    ///
-    /// # Errors
-    /// [`RdtRequestError`].
-    pub fn ask(&mut self, request: RdtRequest) -> Result<(), RdtRequestError> {
-        use RdtRequest::{ClearBias, Filter, Period, ResetLatch, StartBuffered};
-        let profile = self.settings.profile;
-        let theirs = match request {
-            ClearBias | Filter(_) | Period(_) => profile != RdtProfile::OnRobot,
-            StartBuffered { .. } | ResetLatch => profile == RdtProfile::OnRobot,
-            _ => false,
-        };
-        if theirs {
-            return Err(RdtRequestError::Profile { request, profile });
-        }
-        if let Some(waiting) = self.asked {
-            return Err(RdtRequestError::Busy { request, waiting });
-        }
-        self.asked = Some(request);
-        Ok(())
     }
 
     /// What to ask one after the other, the start at the end.
@@ -343,12 +293,6 @@ impl Protocol for Rdt {
     }
 
     fn request(&mut self, now: f64) -> Option<Request> {
-        if let Some(asked) = self.asked.take() {
-            if matches!(asked, RdtRequest::Bias | RdtRequest::ClearBias) {
-                self.flags |= Quality::RESTARTED;
-            }
-            return Some(asked.into());
-        }
         match &mut self.stream {
             // that nobody asked for samples is no silence of the device
             Stream::Running { quiet: quiet @ None } => {

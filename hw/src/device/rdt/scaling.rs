@@ -1,8 +1,7 @@
 //! What a count is in N and N m.
 
 use crate::calibrate::{CalibrationDataError, Scale};
-use crate::sample::Number;
-use crate::sample::{Dimension, Unit};
+use crate::sample::{Dimension, Number, Unit};
 use std::io::{Error, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
@@ -21,7 +20,7 @@ use std::time::{Duration, Instant};
 /// let factors = scaling.factors();
 /// assert_eq!((factors[0], factors[5]), (1e-3, 1e-4)); // N and N m a count
 /// assert_eq!(scaling.to_bytes(), bytes);
-/// # Ok::<(), rod_hw::device::rdt::RdtScalingError>(())
+/// # Ok::<(), rod_hw::device::rdt::RdtError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RdtScaling {
@@ -41,7 +40,7 @@ pub struct RdtScaling {
 /// Why the scaling is not known.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum RdtScalingError {
+pub enum RdtError {
     /// No connection.
     #[error(
         "no TCP connection to `{host}` ({cause}), expected host:port like `192.168.1.1:49151`; is the device on, its address \
@@ -110,11 +109,11 @@ impl RdtScaling {
     /// In units of these names.
     ///
     /// # Errors
-    /// [`RdtScalingError`] where counts are not more than 0.
-    pub fn new(force: (Unit, f64), torque: (Unit, f64)) -> Result<Self, RdtScalingError> {
+    /// [`RdtError`] where counts are not more than 0.
+    pub fn new(force: (Unit, f64), torque: (Unit, f64)) -> Result<Self, RdtError> {
         for (dimension, counts) in [(Dimension::Force, force.1), (Dimension::Torque, torque.1)] {
             if !(counts > 0.0 && counts.is_finite()) {
-                return Err(RdtScalingError::Counts { dimension, counts });
+                return Err(RdtError::Counts { dimension, counts });
             }
         }
         let ((force_unit, counts_per_force), (torque_unit, counts_per_torque)) = (force, torque);
@@ -124,22 +123,22 @@ impl RdtScaling {
     /// That of the answer to the request for calibration info over TCP (command 1), 24 bytes.
     ///
     /// # Errors
-    /// [`RdtScalingError`].
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, RdtScalingError> {
+    /// [`RdtError`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, RdtError> {
         let be = |at: usize, count: usize| {
             bytes.iter().skip(at).take(count).fold(0_u32, |word, byte| word << 8 | u32::from(*byte))
         };
         let (header, length) = (be(0, 2) as u16, bytes.len());
         if (header, length) != (0x1234, ANSWER) {
-            return Err(RdtScalingError::Header { header, length });
+            return Err(RdtError::Header { header, length });
         }
         let unit = |at: usize, dimension, names: [&str; 6]| {
             let code = be(at, 1) as u8;
             if code == 0 {
-                return Err(RdtScalingError::NoUnit { dimension });
+                return Err(RdtError::NoUnit { dimension });
             }
             let name = names.get(usize::from(code) - 1);
-            name.and_then(|name| Unit::find(name)).ok_or(RdtScalingError::UnitCode { dimension, code })
+            name.and_then(|name| Unit::find(name)).ok_or(RdtError::UnitCode { dimension, code })
         };
         let force = (unit(2, Dimension::Force, FORCE)?, f64::from(be(4, 4)));
         let torque = (unit(3, Dimension::Torque, TORQUE)?, f64::from(be(8, 4)));
@@ -190,18 +189,18 @@ impl RdtScaling {
 /// ```no_run
 /// use std::time::Duration;
 /// let scaling = rod_hw::device::rdt::read_scaling("192.168.1.1:49151", Duration::from_secs(2))?;
-/// # Ok::<(), rod_hw::device::rdt::RdtScalingError>(())
+/// # Ok::<(), rod_hw::device::rdt::RdtError>(())
 /// ```
 ///
 /// # Errors
-/// [`RdtScalingError`].
-pub fn read_scaling(host: &str, wait: Duration) -> Result<RdtScaling, RdtScalingError> {
+/// [`RdtError`].
+pub fn read_scaling(host: &str, wait: Duration) -> Result<RdtScaling, RdtError> {
     let since = Instant::now();
     let left = || match wait.saturating_sub(since.elapsed()) {
         Duration::ZERO => Err(Error::from(ErrorKind::TimedOut)),
         left => Ok(left),
     };
-    let failed = |cause| RdtScalingError::Connect { host: host.into(), cause };
+    let failed = |cause| RdtError::Connect { host: host.into(), cause };
     let mut stream = Err(ErrorKind::AddrNotAvailable.into());
     for address in host.to_socket_addrs().map_err(failed)? {
         stream = left().and_then(|left| TcpStream::connect_timeout(&address, left));
@@ -227,7 +226,7 @@ pub fn read_scaling(host: &str, wait: Duration) -> Result<RdtScaling, RdtScaling
         }
         Ok(())
     };
-    read().map_err(|cause| RdtScalingError::Answer { host: host.into(), found, cause })?;
+    read().map_err(|cause| RdtError::Answer { host: host.into(), found, cause })?;
     RdtScaling::from_bytes(&bytes)
 }
 
@@ -307,7 +306,7 @@ mod tests {
         // nobody listens any more
         let error = read_scaling(&host, wait).unwrap_err().to_string();
         assert!(error.starts_with(&format!("no TCP connection to `{host}` (")), "{error}");
-        assert!(matches!(read_scaling("nonsense", wait), Err(RdtScalingError::Connect { .. })));
+        assert!(matches!(read_scaling("nonsense", wait), Err(RdtError::Connect { .. })));
     }
 
     proptest::proptest! {

@@ -89,9 +89,9 @@ fn refuses() {
         message([[1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 1.0]]),
         "an entry of the rotation matrix is NaN, expected a finite number"
     );
-    assert_eq!(Frame::<f64>::from_axes([Axis::X, Axis::MinusY, Axis::Z]), Err(FrameError::LeftHanded));
+    assert_eq!(Frame::<f64>::from_axes([Axis::X, Axis::MinusY, Axis::Z]), Err(GeometryError::LeftHanded));
     assert!(Frame::<f64>::from_axes([Axis::X, Axis::X, Axis::Z]).is_err());
     assert!(Frame::planar(f64::INFINITY).is_err());
     assert!(Frame::same().with_origin([0.0, f64::NAN, 0.0]).is_err());
-    assert_eq!("X".parse::<Axis>(), Err(FrameError::NoAxis));
+    assert_eq!("X".parse::<Axis>(), Err(GeometryError::NoAxis));
 }

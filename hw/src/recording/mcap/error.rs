@@ -50,43 +50,15 @@ pub enum McapError {
         /// When it was logged, ns since 1970.
         log_time: u64,
         /// What is wrong with it.
-        what: MessageFault,
+        what: McapFault,
     },
     /// The file could not be read to its end; what came before is complete.
     #[error(transparent)]
     Fault(#[from] McapFault),
 }
 
-/// What is wrong with a message.
+/// Why a file could not be read to its end (everything before is complete), or what is wrong with a message.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MessageFault {
-    /// Its first two bytes.
-    #[error("the message begins with {0:#06x}, expected 0x0000 (CDR, big endian) or 0x0001 (CDR, little endian)")]
-    Encapsulation(u16),
-    /// It ends too early.
-    #[error("the message ends at byte {end}, within a value from byte {at} on")]
-    End {
-        /// How many bytes it has.
-        end: usize,
-        /// Where the value begins.
-        at: usize,
-    },
-    /// It is too long.
-    #[error("the message has {found} bytes, expected {expected}; is its type another version?")]
-    Length {
-        /// How many bytes it has.
-        found: usize,
-        /// How many it should have.
-        expected: usize,
-    },
-    /// A value that is no number.
-    #[error("a value of {0}, expected finite numbers")]
-    NotFinite(f64),
-}
-
-/// Why a file could not be read to its end. Everything before is complete.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum McapFault {
     /// It breaks off.
@@ -125,6 +97,28 @@ pub enum McapFault {
         /// What is wrong.
         what: String,
     },
+    /// Its first two bytes.
+    #[error("the message begins with {0:#06x}, expected 0x0000 (CDR, big endian) or 0x0001 (CDR, little endian)")]
+    Encapsulation(u16),
+    /// It ends too early.
+    #[error("the message ends at byte {end}, within a value from byte {at} on")]
+    End {
+        /// How many bytes it has.
+        end: usize,
+        /// Where the value begins.
+        at: usize,
+    },
+    /// It is too long.
+    #[error("the message has {found} bytes, expected {expected}; is its type another version?")]
+    Length {
+        /// How many bytes it has.
+        found: usize,
+        /// How many it should have.
+        expected: usize,
+    },
+    /// A value that is no number.
+    #[error("a value of {0}, expected finite numbers")]
+    NotFinite(f64),
 }
 
 /// A topic of a file.

@@ -13,10 +13,9 @@ mod error;
 mod message;
 mod records;
 
-pub use error::{McapError, McapFault, McapTopic, MessageFault};
+pub use error::{McapError, McapFault, McapTopic};
 
-use crate::sample::WrenchSample;
-use crate::sample::{Channels, RawSample};
+use crate::sample::{Channels, RawSample, WrenchSample};
 use message::NAME;
 use records::{Event, MAGIC, Records};
 use std::borrow::Cow;

@@ -5,8 +5,7 @@ use super::heading::Column;
 use super::listed;
 use super::role::{Role, si};
 use super::table::Table;
-use crate::sample::Channels;
-use crate::sample::{Dimension, Unit, UnitError};
+use crate::sample::{Channels, Dimension, Unit, UnitError};
 use std::fmt::Write;
 
 /// Which column means what. Without a word, columns are found by the names of roles; what is said here goes before.

@@ -3,8 +3,7 @@
 use super::fault::{RowProblem, shown};
 use super::role::Role;
 use super::table::{Cell, Row, Table};
-use crate::sample::Channels;
-use crate::sample::Quality;
+use crate::sample::{Channels, Quality};
 
 /// Where a column is, and what one of its unit is in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,11 +5,7 @@ use super::fault::RowProblem;
 use super::recorder::Contents;
 use super::role::Role;
 use super::table::Row;
-use crate::sample::Quality;
-use crate::sample::RawSample;
-use crate::sample::Wrench;
-use crate::sample::WrenchSample;
-use crate::sample::{OutOfPlane, ReactionSample};
+use crate::sample::{OutOfPlane, Quality, RawSample, ReactionSample, Wrench, WrenchSample};
 use rod_core::{Pose, Reactions, Sample};
 
 /// A sample that tables are read into and recorders write: [`RawSample`], [`WrenchSample`], [`ReactionSample`].

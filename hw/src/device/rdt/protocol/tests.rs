@@ -135,20 +135,6 @@ fn a_clock_that_went_on_vouches_for_the_zero() {
 }
 
 #[test]
-fn requests_in_between() {
-    let mut bench = Bench::new(net_ft());
-    bench.put(1, 1);
-    let rdt = &mut bench.0;
-    let refused = rdt.ask(RdtRequest::ClearBias).unwrap_err().to_string();
-    assert_eq!(refused, "ClearBias is no request to NetFt; see RdtRequest for whose it is");
-    rdt.ask(RdtRequest::Bias).unwrap();
-    assert!(matches!(rdt.ask(RdtRequest::ResetLatch), Err(RdtRequestError::Busy { .. })));
-    assert_eq!(rdt.request(0.01).as_deref(), Some(&RdtRequest::Bias.to_bytes()[..]));
-    assert_eq!(rdt.request(0.02), None);
-    assert_eq!(bench.all(&[(2, 2), (3, 3)]), [(2, Quality::RESTARTED), (3, GOOD)]);
-}
-
-#[test]
 fn several_records_a_datagram() {
     let settings = RdtSettings { buffered: true, ..net_ft() };
     let mut rdt = Rdt::new(settings);
