@@ -173,6 +173,3 @@ impl<const N: usize, T: Number> Calibration<T> for GaugeMatrix<N, T> {
         super::finished(raw, self.rows.map(|row| row.iter().zip(&loads).fold(zero, |sum, (&a, &v)| sum + a * v)))
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -333,6 +333,3 @@ impl Paced {
         (time, host - time, false)
     }
 }
-
-#[cfg(test)]
-mod tests;

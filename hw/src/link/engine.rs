@@ -257,6 +257,3 @@ impl<T: Transport, P: Protocol, C: Clock> Iterator for Link<T, P, C> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

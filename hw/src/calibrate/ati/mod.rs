@@ -214,6 +214,3 @@ impl Slopes {
         Ok(Some(Self { bias, gain, thermistor: value }))
     }
 }
-
-#[cfg(test)]
-mod tests;

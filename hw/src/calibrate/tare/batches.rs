@@ -164,3 +164,45 @@ fn noise(batches: &[Batch], i: usize) -> f64 {
     let quartile = differences.get(3 * count / 4).copied().unwrap_or(0.0);
     quartile / (QUARTILE * core::f64::consts::SQRT_2)
 }
+
+#[cfg(test)]
+#[allow(clippy::print_stdout, reason = "shares of windows are there to be read")]
+mod tests {
+    use super::*;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// Noise of standard deviation 1 whose neighbours are correlated by `rho`.
+    fn coloured(rho: f64, seed: u64) -> impl Iterator<Item = f64> {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut normal = move || -> f64 { StandardNormal.sample(&mut generator) };
+        let mut state = normal();
+        std::iter::from_fn(move || {
+            let now = state;
+            state = rho * state + (1.0 - rho * rho).sqrt() * normal();
+            Some(now)
+        })
+    }
+
+    /// How far the stretch that differs most does so in noise alone.
+    #[test]
+    fn changes_of_noise() {
+        for (rho, count) in [(0.0, 512), (0.0, 992), (0.46, 512), (0.46, 1000), (0.9, 4000)] {
+            let deviations = |seed| {
+                let mut batches = Batches::new();
+                (0_u32..)
+                    .zip(coloured(rho, seed).take(count))
+                    .for_each(|(i, y)| batches.push(1e-3 * f64::from(i), [0.0, y, 0.0, 0.0, 0.0, 0.0]));
+                let (batches, complete) = batches.settled();
+                Course::of(&batches[..complete], 1).change.deviations
+            };
+            let mut found: Vec<f64> = (0..5000).map(deviations).collect();
+            found.sort_by(f64::total_cmp);
+            let [median, percent, mille] = [2500, 4950, 4995].map(|i| found[i]);
+            println!("AR(1) of {rho}, {count} samples: median {median:.2}, 99 % {percent:.2}, 99.9 % {mille:.2}");
+            let beyond = found.iter().filter(|deviations| **deviations > 6.0).count();
+            assert!(beyond <= 15, "{beyond} of 5000");
+        }
+    }
+}

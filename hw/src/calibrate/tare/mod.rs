@@ -60,6 +60,3 @@ impl<T: Number> Tare<T> {
         tared
     }
 }
-
-#[cfg(test)]
-mod tests;

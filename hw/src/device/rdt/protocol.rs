@@ -328,6 +328,3 @@ impl Protocol for Rdt {
         self.counters
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,6 +1,8 @@
-use super::*;
-use crate::sample::Wrench;
+//! Gauge matrix.
+
 use proptest::prelude::*;
+use rod_hw::*;
+use std::array::from_fn;
 
 const EYE: [[f64; 6]; 6] = {
     let mut rows = [[0.0; 6]; 6];

@@ -1,6 +1,7 @@
-use super::*;
-use crate::sample::Channels;
+//! Timekeeper.
+
 use proptest::prelude::*;
+use rod_hw::*;
 
 fn stamped(host: f64) -> RawSample {
     RawSample::new(host, Channels::default())
@@ -26,15 +27,15 @@ fn the_hosts_time_never_runs_back() {
 #[test]
 fn before_many_samples_the_line_is_that_of_least_squares() {
     let host = [0.0, 1.1, 1.9, 3.2, 3.9, 5.1, 5.8];
-    let mut counted = Counted::new(None);
-    let found = host.map(|host| counted.time(host, None, false).0)[6];
+    let mut counted = Timekeeper::counted(None);
+    let found = host.map(|host| counted.time(&RawSample::new(host, Channels::default())).unwrap())[6];
     let n = host.len() as f64;
     let (mean_x, mean_y) = (0.5 * (n - 1.0), host.iter().sum::<f64>() / n);
     let (sxy, sxx) = host.iter().zip(0..).fold((0.0, 0.0), |(sxy, sxx), (y, i)| {
         let x = f64::from(i) - mean_x;
         (sxy + x * (y - mean_y), sxx + x * x)
     });
-    assert!((counted.period.unwrap() - sxy / sxx).abs() < 1e-14);
+    assert!((counted.period().unwrap() - sxy / sxx).abs() < 1e-14);
     assert!((found - (mean_y + sxy / sxx * (n - 1.0 - mean_x))).abs() < 1e-14);
 }
 

@@ -1,9 +1,10 @@
-use super::*;
-use crate::calibrate::{Calibration, CalibrationError};
-use crate::sample::{RawSample, Unit};
+//! Ati.
+
+use rod_hw::*;
+use std::path::Path;
 
 /// Of no real sensor; written by the script beside it, which knows another way to `UserAxis`.
-const TURNED: &str = include_str!("../../../tests/data/turned.cal");
+const TURNED: &str = include_str!("../../data/turned.cal");
 
 fn parse(change: impl Fn(&str) -> String) -> Result<AtiFile, String> {
     AtiFile::parse(&change(TURNED)).map_err(|error| error.to_string())

@@ -1,11 +1,10 @@
-#![allow(clippy::print_stdout, reason = "shares of windows are there to be read")]
+//! Tare.
 
-use super::*;
-use crate::sample::{Component, Wrench};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
+use rod_hw::*;
 
 /// Noise of standard deviation 1 whose neighbours are correlated by `rho`.
 fn coloured(rho: f64, seed: u64) -> impl Iterator<Item = f64> {
@@ -74,25 +73,6 @@ fn noise_is_no_load() {
         let share = (0..2000).filter(|&seed| refused(seed)).count();
         println!("AR(1) of {rho}: {share} of 2000 windows of noise refused");
         assert!(share <= 20, "{rho}: {share}");
-    }
-}
-
-/// How far the stretch that differs most does so in noise alone.
-#[test]
-fn changes_of_noise() {
-    for (rho, count) in [(0.0, 512), (0.0, 992), (0.46, 512), (0.46, 1000), (0.9, 4000)] {
-        let deviations = |seed| {
-            let mut batches = batches::Batches::new();
-            samples(coloured(rho, seed).take(count)).for_each(|s| batches.push(s.t, s.wrench.components()));
-            let (batches, complete) = batches.settled();
-            batches::Course::of(&batches[..complete], 1).change.deviations
-        };
-        let mut found: Vec<f64> = (0..5000).map(deviations).collect();
-        found.sort_by(f64::total_cmp);
-        let [median, percent, mille] = [2500, 4950, 4995].map(|i| found[i]);
-        println!("AR(1) of {rho}, {count} samples: median {median:.2}, 99 % {percent:.2}, 99.9 % {mille:.2}");
-        let beyond = found.iter().filter(|deviations| **deviations > 6.0).count();
-        assert!(beyond <= 15, "{beyond} of 5000");
     }
 }
 

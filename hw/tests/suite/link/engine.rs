@@ -1,9 +1,10 @@
-use super::*;
-use crate::link::Request;
-use crate::sample::Channels;
-use std::cell::Cell;
+//! Engine.
+
+use rod_hw::*;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
+use std::time::Duration;
 
 /// Time that passes only where somebody waits.
 #[derive(Clone, Default)]
@@ -28,7 +29,7 @@ use Event::{Broken, Bytes, Quiet};
 
 struct Script {
     clock: Manual,
-    events: VecDeque<Event>,
+    events: Rc<RefCell<VecDeque<Event>>>,
     /// Whether the next tries to reconnect work; once there are none, they do.
     reconnects: VecDeque<bool>,
     tried: Rc<Cell<Vec<f64>>>,
@@ -42,7 +43,8 @@ impl Transport for Script {
         Ok(())
     }
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error> {
-        match self.events.pop_front() {
+        let event = self.events.borrow_mut().pop_front();
+        match event {
             Some(Bytes(bytes)) => {
                 buffer[..bytes.len()].copy_from_slice(bytes);
                 self.clock.wait(1e-3);
@@ -103,18 +105,20 @@ struct Bench {
     clock: Manual,
     tried: Rc<Cell<Vec<f64>>>,
     sent: Rc<Cell<usize>>,
+    events: Rc<RefCell<VecDeque<Event>>>,
 }
 
 fn bench(settings: LinkSettings, events: impl IntoIterator<Item = Event>, reconnects: &[bool]) -> Bench {
     let (clock, tried, sent) = (Manual::default(), Rc::default(), Rc::default());
+    let events = Rc::new(RefCell::new(events.into_iter().collect()));
     let script = Script {
         clock: clock.clone(),
-        events: events.into_iter().collect(),
+        events: Rc::clone(&events),
         reconnects: reconnects.iter().copied().collect(),
         tried: Rc::clone(&tried),
         sent: Rc::clone(&sent),
     };
-    Bench { link: Link::new(script, Letters::default(), clock.clone(), settings), clock, tried, sent }
+    Bench { link: Link::new(script, Letters::default(), clock.clone(), settings), clock, tried, sent, events }
 }
 
 impl Bench {
@@ -145,7 +149,7 @@ fn answers_at_its_deadline_and_may_be_asked_again() {
         let text = error.to_string();
         assert!(text.starts_with("no sample within 0.120 s (0 samples); is the device on"), "{text}");
     }
-    bench.link.transport.events.push_back(Bytes(&[7]));
+    bench.events.borrow_mut().push_back(Bytes(&[7]));
     assert_eq!(bench.sample(), (7.0, Quality::empty()));
 }
 
@@ -227,7 +231,7 @@ fn ends_where_it_is_not_to_be_made_anew() {
     assert_eq!((bench.sample().0, bench.sample().0), (1.0, 2.0));
     assert_eq!(bench.link.next(), Some(Err(LinkError::Broken("cable"))));
     assert_eq!((bench.link.next(), bench.link.next()), (None, None));
-    assert_eq!(bench.tried.take(), []);
+    assert!(bench.tried.take().is_empty());
 }
 
 #[test]
