@@ -52,7 +52,7 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
                     for sample in samples.take(left) {
                         left -= 1;
                         if let Ok(sample) = sample {
-                            assert_eq!(sample.channels.len(), names.len());
+                            assert_eq!(sample.values().len(), names.len());
                         }
                     }
                 }

@@ -1,4 +1,4 @@
-//! Accuracy.
+//! Bounds and standard deviations of a sensor.
 
 use proptest::prelude::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Ati.
+//! Calibration files of ATI.
 
 use rod_hw::*;
 use std::path::Path;

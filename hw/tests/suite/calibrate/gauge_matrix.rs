@@ -1,4 +1,4 @@
-//! Gauge matrix.
+//! Gauges to a wrench by a matrix.
 
 use proptest::prelude::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Rated load.
+//! Rated loads.
 
 use rod_hw::*;
 

@@ -1,4 +1,4 @@
-//! Scale.
+//! Factors of components.
 
 use proptest::prelude::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Sensor check.
+//! Whether a sensor suits a rod.
 
 use rod_core::Rod;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Tare.
+//! Windows without load and the zeros of them.
 
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;

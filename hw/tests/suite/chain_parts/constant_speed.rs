@@ -1,4 +1,4 @@
-//! Constant speed.
+//! A stage at constant speed.
 
 use rod_core::Pose;
 use rod_hw::*;

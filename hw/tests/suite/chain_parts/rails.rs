@@ -1,4 +1,4 @@
-//! Rails.
+//! Raw values at the ends of their range.
 
 use rod_hw::*;
 

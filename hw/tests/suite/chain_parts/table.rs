@@ -1,4 +1,4 @@
-//! Table.
+//! A stage by a table of poses.
 
 use proptest::prelude::*;
 use rod_core::Pose;

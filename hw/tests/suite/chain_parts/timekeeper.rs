@@ -1,4 +1,4 @@
-//! Timekeeper.
+//! When samples were taken.
 
 use proptest::prelude::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Engine.
+//! What a silent device means to the engine of framed sensors.
 
 use rod_hw::device::framed::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Gsv.
+//! Frames and set-up of a GSV.
 
 use rod_hw::device::framed::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! Profile.
+//! Status words of RDT sensors.
 
 use rod_hw::device::rdt::RdtProfile::{Axia, NetFt, OnRobot};
 use rod_hw::*;

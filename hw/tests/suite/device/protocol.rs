@@ -1,4 +1,4 @@
-//! Protocol.
+//! The stream of an RDT sensor, record by record.
 
 use proptest::prelude::*;
 use rod_hw::device::rdt::*;

@@ -1,4 +1,4 @@
-//! Record.
+//! Records of RDT.
 
 use proptest::prelude::*;
 use rod_hw::device::rdt::*;

@@ -1,4 +1,4 @@
-//! Request.
+//! Requests of RDT.
 
 use rod_hw::device::rdt::*;
 use std::num::NonZeroU8;

@@ -1,4 +1,4 @@
-//! Scaling.
+//! The scaling of an RDT sensor, over TCP.
 
 use rod_hw::device::rdt::*;
 use std::io::{Read, Write};

@@ -1,4 +1,4 @@
-//! Lever arm.
+//! Lever arms from loads.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;

@@ -1,4 +1,4 @@
-//! Engine.
+//! Deadlines, reconnections and faults of a link.
 
 use rod_hw::*;
 use std::cell::{Cell, RefCell};

@@ -1,4 +1,4 @@
-//! Read write.
+//! Streams as transports.
 
 use rod_hw::*;
 use std::io::{self, ErrorKind, Read, Write};

@@ -1,4 +1,4 @@
-//! Sequence.
+//! Counters that wrap and begin anew.
 
 use proptest::prelude::*;
 use rod_hw::*;

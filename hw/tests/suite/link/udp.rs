@@ -1,4 +1,4 @@
-//! Udp.
+//! Datagrams to and from a device.
 
 use rod_hw::*;
 use std::net::{SocketAddr, UdpSocket};
