@@ -1,4 +1,4 @@
-//! Three strain gauge bridges, each at an HX711, read by the driver of that chip from crates.io.
+//! Three strain gauge bridges, each at an HX711, read by the published driver of that chip.
 
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{InputPin, OutputPin};
