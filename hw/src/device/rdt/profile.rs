@@ -5,7 +5,7 @@ use crate::sample::Quality;
 /// Which family a sensor is of: the same records, another status word.
 ///
 /// ```
-/// use rod_hw::{Quality, rdt::RdtProfile};
+/// use rod_hw::{Quality, device::rdt::RdtProfile};
 /// let bit_30 = 0xC000_0000;
 /// assert_eq!(RdtProfile::Axia.quality(bit_30), Quality::SATURATED);
 /// assert_eq!(RdtProfile::NetFt.quality(bit_30), Quality::DEVICE_ERROR);

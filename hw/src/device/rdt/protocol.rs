@@ -60,7 +60,7 @@ impl RdtSettings {
 /// All records of a datagram have the same time of arrival.
 ///
 /// ```
-/// use rod_hw::{Protocol, rdt::{Rdt, RdtProfile, RdtRecord, RdtSettings}};
+/// use rod_hw::{Protocol, device::rdt::{Rdt, RdtProfile, RdtRecord, RdtSettings}};
 /// let mut rdt = Rdt::new(RdtSettings { clock_rate: Some(7000.0), ..RdtSettings::new(RdtProfile::NetFt) });
 /// assert_eq!(rdt.request(0.0).as_deref(), Some(&[0x12, 0x34, 0, 2, 0, 0, 0, 0][..]));
 /// let mut take = |packet, sample, now| {

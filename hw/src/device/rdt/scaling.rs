@@ -162,7 +162,8 @@ impl RdtScaling {
     /// From the counts of the records to a wrench.
     ///
     /// ```
-    /// use rod_hw::{Calibration, Channels, RawSample, WrenchSample, rdt::FakeRdtSettings};
+    /// use rod_fake_sensor::FakeRdtSettings;
+    /// use rod_hw::{Calibration, Channels, RawSample, WrenchSample};
     /// let scaling = FakeRdtSettings::default().scaling; // of a sensor: read_scaling
     /// let raw = RawSample::new(0.0, Channels::from([250_000.0, 0.0, 0.0, 0.0, 0.0, -1000.0]));
     /// let sample: WrenchSample = scaling.calibration()?.wrench(&raw)?;
