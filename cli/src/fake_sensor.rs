@@ -1,14 +1,14 @@
 //! A sensor that is none, playing what it would feel along a scene.
 
 use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
+use rod_fake_sensor::{FakeBota, FakeDevice, FakeGsv8, FakeRdt, FakeRdtSettings, FakeSensor, Pace, open_pty};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
-use vibrissa::hw::fake::{self, FakeBota, FakeDevice, FakeGsv8, FakeSensor, Pace};
-use vibrissa::hw::framed::GsvValues;
-use vibrissa::hw::rdt::{FakeRdt, FakeRdtSettings, RdtRecord, RdtScaling};
-use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit, open_pty};
+use vibrissa::hw::device::framed::GsvValues;
+use vibrissa::hw::device::rdt::{RdtRecord, RdtScaling};
+use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit};
 use vibrissa::{Reactions, Stop};
 
 /// Samples that are made in advance.
@@ -215,7 +215,7 @@ fn play_pty<D: FakeDevice>(
     let mut sensor = FakeSensor::new(device, samples.into_iter()).with_pace(Pace::Rate(pace));
     loop {
         let end = sensor.serve(&mut pty, |_| !stopped()).map_err(failed)?;
-        if end != fake::End::Closed {
+        if end != rod_fake_sensor::End::Closed {
             // what the other side has not read yet would be gone with the pseudo-terminal
             thread::sleep(Duration::from_millis(500));
             return Ok(sensor.served().frames);

@@ -4,7 +4,7 @@
 
 mod common;
 #[allow(dead_code, reason = "a part of it is used here")]
-#[path = "../../hw/tests/tdms/writer.rs"]
+#[path = "../../hw/tdms/tests/suite/writer.rs"]
 mod writer;
 
 use common::{SCENE, complaint, vibrissa};
@@ -184,7 +184,7 @@ fn refuses(file: &Path, setup: &str, parts: &[&str]) {
 
 #[test]
 fn what_of_a_recording_is_meant_must_be_said() {
-    let tdms = data("tdms/vectors/waveforms.tdms");
+    let tdms = data("../tdms/tests/vectors/waveforms.tdms");
     let choose =
         "waveforms.tdms: expected group = .. in the table [recording] of a setup (--setup FILE), of those there are: ";
     refuses(&tdms, "", &[choose, "`Measured`"]);
@@ -206,13 +206,13 @@ fn what_of_a_recording_is_meant_must_be_said() {
     // as many columns as nothing is for
     refuses(&tdms, &(of("'Fx'") + scale), &["0 samples before the end", "expected 2"]);
 
-    let mcap = data("mcap/vectors/wrench.mcap");
+    let mcap = data("vectors/wrench.mcap");
     refuses(&mcap, "", &["wrench.mcap: expected topic = ..", "`/ft_sensor/wrench` of geometry_msgs/msg/WrenchStamped"]);
     refuses(&mcap, "[recording]\ntopic = '/ft'", &["file:wrench.mcap: no topic `/ft`; there are"]);
     refuses(&mcap, "[recording]\ntopic = '/ft_sensor/wrench'", &["2 samples before the end, expected at least 100"]);
     let calibrated = format!("{scale}[recording]\ntopic = '/ft_sensor/wrench'");
     refuses(&mcap, &calibrated, &["wrench.mcap: its wrenches are in N and N m already"]);
-    refuses(&data("mcap/vectors/zstd.mcap"), "", &["zstd.mcap: expected topic", "none (the chunk at byte", "zstd"]);
+    refuses(&data("vectors/zstd.mcap"), "", &["zstd.mcap: expected topic", "none (the chunk at byte", "zstd"]);
 
     let directory = tempfile::tempdir().unwrap();
     let table = |text: &str| {

@@ -1,7 +1,7 @@
 """Has programs that others wrote read our fake sensors, over pseudo-terminals.
 
     pip install gsv86lib optoforce pyserial
-    cargo build -p rod-hw --features serial --example fake_serial
+    cargo build -p rod-fake-sensor --features pty --example fake_serial
     python3 hw/peers/framed_serial.py target/debug/examples/fake_serial
 """
 

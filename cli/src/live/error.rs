@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnError, RowProblem, TableError};
-use vibrissa::hw::{StageError, StageTableError, TareError};
+use vibrissa::hw::{StageError, TareError};
 
 /// Why there is no live scan, or none any more.
 #[derive(Debug, thiserror::Error)]
@@ -103,7 +103,7 @@ pub enum LiveError {
         /// Which file.
         file: PathBuf,
         /// Why.
-        source: StageTableError,
+        source: StageError,
     },
     /// The sensor cannot be tared.
     #[error(

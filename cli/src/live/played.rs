@@ -6,9 +6,9 @@ use crate::{Error, Reading, RecordingSetup, RecordingTime, SensorCalibration, Se
 use std::error::Error as StdError;
 use std::fmt::Display;
 use std::path::Path;
-use vibrissa::hw::mcap::{McapError, McapFile};
+use vibrissa::hw::recording::mcap::{McapError, McapFile};
+use vibrissa::hw::recording::tdms::{self, TdmsError, TdmsFile, TdmsTime};
 use vibrissa::hw::recording::{ColumnError, ColumnMap, Recorded, Role, RowFault, Table};
-use vibrissa::hw::tdms::{TdmsError, TdmsFile, TdmsTime};
 use vibrissa::hw::{LinkCounters, RawSample, ReactionSample, Scale, WrenchSample};
 
 /// A recording, played back as fast as it is asked for.
@@ -24,7 +24,7 @@ type Samples = (Vec<Result<Fed, Miss>>, Option<SensorCalibration>);
 pub(super) fn open(file: &Path, setup: &Setup, how: &Reading) -> Result<Sensor, Error> {
     let is = |end: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(end));
     let (samples, calibration) = if is("tdms") {
-        tdms(file, setup)
+        labview(file, setup)
     } else if is("mcap") {
         mcap(file, setup)
     } else {
@@ -71,7 +71,7 @@ fn of_file<E: Display>(file: &Path) -> impl Fn(E) -> Miss {
 }
 
 /// Raw values of the channels of a group.
-fn tdms(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
+fn labview(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
     let opened = TdmsFile::read(file).map_err(failed::<TdmsError>(file))?;
     let RecordingSetup { columns, group, time, .. } = &setup.recording;
     let group = group.as_ref().and_then(|name| opened.group(name)).ok_or_else(|| {
@@ -86,7 +86,7 @@ fn tdms(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
         RecordingTime::Rate(rate) => TdmsTime::Rate(*rate),
     };
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let samples = opened.samples(group.name(), &names, time).map_err(failed::<TdmsError>(file))?;
+    let samples = tdms::samples(&opened, group.name(), &names, time).map_err(failed::<TdmsError>(file))?;
     let calibration = told(file, setup)?;
     Ok((samples.map(|sample| sample.map(Fed::Raw).map_err(of_file(file))).collect(), Some(calibration)))
 }
@@ -95,7 +95,8 @@ fn tdms(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
 fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
     let opened = McapFile::read(file).map_err(failed::<McapError>(file))?;
     let topic = setup.recording.topic.as_ref().ok_or_else(|| {
-        let named = |topic: &vibrissa::hw::mcap::McapTopic| format!("`{}` of {}", topic.name, topic.type_name);
+        let named =
+            |topic: &vibrissa::hw::recording::mcap::McapTopic| format!("`{}` of {}", topic.name, topic.type_name);
         choose(file, "topic", opened.topics().iter().map(named), opened.fault())
     })?;
     if setup.calibration.is_some() {

@@ -5,7 +5,7 @@ use super::{LiveError, SensorAddress, played};
 use crate::{Error, Reading, SensorCalibration, Setup};
 use std::error::Error as StdError;
 use std::time::Duration;
-use vibrissa::hw::rdt::{Rdt, RdtSettings, read_scaling};
+use vibrissa::hw::device::rdt::{Rdt, RdtSettings, read_scaling};
 use vibrissa::hw::{
     Clock, HostClock, Link, LinkCounters, LinkError, LinkSettings, Protocol, Scale, SerialPort, SerialProfile, Spawned,
     Transport, Udp, spawn,

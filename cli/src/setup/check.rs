@@ -9,10 +9,10 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
-use vibrissa::hw::rdt::RdtProfile;
+use vibrissa::hw::device::rdt::RdtProfile;
 use vibrissa::hw::{
-    Accuracy, Axis, CalibrationDataError, Component, Dimension, Frame, FrameError, Mounting, RatedLoad, Scale, Sense,
-    Unit, Wrench, WrenchUnits,
+    Accuracy, Axis, CalibrationDataError, Component, Dimension, Frame, GeometryError, Mounting, RatedLoad, Scale,
+    Sense, Unit, Wrench, WrenchUnits,
 };
 
 /// The setup of a document; files that it names are in the directory.
@@ -98,14 +98,14 @@ pub(super) fn units(table: &SensorTable) -> Result<Option<[Unit; 2]>, Fault> {
 
 fn seat(table: &MountingTable, place: Range<usize>) -> Result<Mounting, Fault> {
     let MountingTable { angle, axes, lever, lever_tolerance, sense, turns_from, .. } = table;
-    let at = |span: Range<usize>| move |error: FrameError| Fault::new(span, error.to_string());
+    let at = |span: Range<usize>| move |error: GeometryError| Fault::new(span, error.to_string());
     let frame = match (angle, axes) {
         (Some(_), Some(axes)) => {
             return Err(Fault::new(axes.span(), "given beside angle, expected one of the two"));
         }
         (Some(angle), None) => Frame::planar(angle.get_ref().to_radians()).map_err(at(angle.span()))?,
         (None, Some(names)) => {
-            let axes: Result<Vec<Axis>, FrameError> = names.get_ref().iter().map(|name| name.parse()).collect();
+            let axes: Result<Vec<Axis>, GeometryError> = names.get_ref().iter().map(|name| name.parse()).collect();
             let axes: [Axis; 3] = axes.map_err(at(names.span()))?.try_into().map_err(|axes: Vec<Axis>| {
                 let found = axes.len();
                 Fault::new(

@@ -18,7 +18,7 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
-use vibrissa::hw::rdt::RdtProfile;
+use vibrissa::hw::device::rdt::RdtProfile;
 use vibrissa::hw::{Accuracy, Frame, Mounting, RatedLoad, Wrench};
 
 /// How a sensor is set up.

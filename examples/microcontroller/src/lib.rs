@@ -1,9 +1,11 @@
-//! What the programs share: a sensor, and what it once said.
+//! What the programs share: a sensor, and what it once said; and how the counts come from its converters, which an emulator lacks.
 #![no_std]
 
+mod bridges;
 mod scan;
 mod sensor;
 
+pub use bridges::Bridges;
 pub use scan::{Recorded, SCAN, rod};
 pub use sensor::Sensor;
 

@@ -1,4 +1,4 @@
-//! A sensor of two forces and a moment: three bridges with some crosstalk, and converters of 24 bits.
+//! A sensor of two forces and a moment: three bridges with some crosstalk, and converters of 24 bits ([`Bridges`](crate::Bridges)).
 
 use nalgebra::Matrix3;
 use rod_core::{Pose, Reactions};

@@ -1,8 +1,8 @@
 //! A Bota SensONE or Rokubi: any stream.
 #![no_main]
 
-use rod_hw::fake::FakeBota;
-use rod_hw::framed::{Bota, BotaFilter};
+use rod_fake_sensor::FakeBota;
+use rod_hw::device::framed::{Bota, BotaFilter};
 use rod_hw_fuzz::{Choices, check};
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {

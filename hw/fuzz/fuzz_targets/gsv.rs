@@ -1,8 +1,8 @@
 //! A GSV-8 or GSV-6: any stream.
 #![no_main]
 
-use rod_hw::fake::FakeGsv8;
-use rod_hw::framed::{Gsv, GsvValues};
+use rod_fake_sensor::FakeGsv8;
+use rod_hw::device::framed::{Gsv, GsvValues};
 use rod_hw_fuzz::{Choices, check};
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {

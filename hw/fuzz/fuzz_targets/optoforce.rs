@@ -1,8 +1,8 @@
 //! An OptoForce sensor: any stream.
 #![no_main]
 
-use rod_hw::fake::FakeOptoForce;
-use rod_hw::framed::{OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup};
+use rod_fake_sensor::FakeOptoForce;
+use rod_hw::device::framed::{OptoForce, OptoForceFilter, OptoForceRate, OptoForceSetup};
 use rod_hw_fuzz::{Choices, check};
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {

@@ -3,7 +3,7 @@
 
 use allocation_counter::measure;
 use rod_hw::Protocol;
-use rod_hw::rdt::{OnRobotFilter, Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings};
+use rod_hw::device::rdt::{OnRobotFilter, Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings};
 use rod_hw_fuzz::Choices;
 
 /// Records of a datagram at most.
@@ -65,15 +65,7 @@ fn run(settings: RdtSettings, mut choices: Choices<'_>) {
         now += choices.wait();
         match choices.byte() % 8 {
             0 => drop(rdt.request(now)),
-            1 => drop(rdt.ask(choices.one([
-                RdtRequest::Bias,
-                RdtRequest::ClearBias,
-                RdtRequest::ResetLatch,
-                RdtRequest::StartBuffered { count: 1 },
-                RdtRequest::Start { count: 1 },
-                RdtRequest::Stop,
-            ]))),
-            2 => rdt.reset(),
+            1 => rdt.reset(),
             _ => {
                 let Datagram(bytes, length) = datagram(&mut choices, &mut last);
                 let mut bytes = &bytes[..length];

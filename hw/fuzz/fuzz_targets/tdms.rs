@@ -1,7 +1,7 @@
 //! TDMS files: any bytes.
 #![no_main]
 
-use rod_hw::tdms::{TdmsFile, TdmsTime};
+use tdms_file::{TdmsFile, TdmsTime};
 use rod_hw_fuzz::bounded;
 
 /// Values that are read at most; the others are read the same way.
@@ -47,12 +47,12 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
         let names: Vec<&str> = group.channels().map(|channel| channel.name()).take(16).collect();
         let own = names.first().copied().unwrap_or_default();
         for time in [TdmsTime::Waveform, TdmsTime::Rate(1000.0), TdmsTime::Channel(own)] {
-            match file.samples(group.name(), &names, time) {
+            match file.rows(group.name(), &names, time) {
                 Ok(samples) => {
                     for sample in samples.take(left) {
                         left -= 1;
                         if let Ok(sample) = sample {
-                            assert_eq!(sample.channels.len(), names.len());
+                            assert_eq!(sample.values().len(), names.len());
                         }
                     }
                 }

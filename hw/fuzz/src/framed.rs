@@ -2,8 +2,8 @@
 
 use crate::{Choices, is_same};
 use allocation_counter::measure;
-use rod_hw::fake::FakeDevice;
-use rod_hw::framed::{Content, Counter, Framed, Framing, Head, LONGEST_FRAME, Profile, SetupStep};
+use rod_fake_sensor::FakeDevice;
+use rod_hw::device::framed::{Content, Counter, Framed, Framing, Head, LONGEST_FRAME, Profile, SetupStep};
 use rod_hw::{FrameFault, Protocol, Quality, RawSample, Request};
 use std::cell::Cell;
 
@@ -24,9 +24,6 @@ impl<P: Profile> Framing for Watched<P> {
     fn head(&self, bytes: &[u8]) -> Head {
         self.profile.head(bytes)
     }
-    fn overlap(&self) -> usize {
-        self.profile.overlap()
-    }
     fn check(&self, frame: &[u8]) -> Result<(), FrameFault> {
         self.profile.check(frame)
     }
@@ -35,7 +32,7 @@ impl<P: Profile> Framing for Watched<P> {
 impl<P: Profile> Profile for Watched<P> {
     fn content(&self, frame: &[u8]) -> Content {
         self.frames.set(self.frames.get() + 1);
-        self.bytes.set(self.bytes.get() + (frame.len() - self.overlap()) as u64);
+        self.bytes.set(self.bytes.get() + frame.len() as u64);
         self.profile.content(frame)
     }
     fn setup(&self, step: usize) -> Option<SetupStep> {
@@ -170,22 +167,4 @@ fn stream(device: &mut dyn FakeDevice, mut choices: Choices<'_>) -> Vec<u8> {
         }
     }
     stream
-}
-
-/// Strain gauges at an Arduino.
-pub struct Arduino(pub usize);
-
-impl FakeDevice for Arduino {
-    fn hear(&mut self, _: &[u8], _: &mut Vec<u8>) {}
-    fn measure(&mut self, values: &[f64], _: Quality, frame: &mut Vec<u8>) {
-        (0..self.0).for_each(|i| frame.extend((values.get(i).copied().unwrap_or_default() as f32).to_le_bytes()));
-        frame.extend([0x0d, 0x0a, 0x00, 0x00, 0xfd, 0x44]);
-    }
-    fn restart(&mut self) {}
-    fn is_sending(&self) -> bool {
-        true
-    }
-    fn rate(&self) -> f64 {
-        88.0
-    }
 }

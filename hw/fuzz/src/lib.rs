@@ -5,7 +5,7 @@ mod framed;
 mod memory;
 
 pub use choices::Choices;
-pub use framed::{Arduino, check};
+pub use framed::check;
 pub use memory::bounded;
 
 use rod_hw::RawSample;

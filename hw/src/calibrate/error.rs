@@ -1,0 +1,113 @@
+//! Why the data of a sensor are no calibration.
+
+use crate::sample::{Component, UnitError};
+
+/// Why the data of a sensor are no calibration.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CalibrationDataError {
+    /// A unit is not known, or measures something else.
+    #[error("{field}: {error}")]
+    Unit {
+        /// Which unit.
+        field: &'static str,
+        /// What is wrong with it.
+        error: UnitError,
+    },
+    /// A number is out of its range.
+    #[error("{field} is {value}, expected {expected}")]
+    Number {
+        /// Which one.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A number of one component is out of its range.
+    #[error("{field} of {component} is {value}, expected {expected}")]
+    OfComponent {
+        /// Which number.
+        field: &'static str,
+        /// Of which component.
+        component: Component,
+        /// Its value.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// There is no scale.
+    #[error(
+        "counts per unit of {component} are {value}, expected a positive, finite number; ask the device or look at its \
+         certificate, there is no value that fits all"
+    )]
+    CountsPerUnit {
+        /// Which one.
+        component: Component,
+        /// Its value.
+        value: f64,
+    },
+    /// An element of the matrix is no number.
+    #[error("the element of {component} and gauge {gauge} is {value}, expected a finite number")]
+    Element {
+        /// Its row.
+        component: Component,
+        /// Its column, from 1.
+        gauge: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A row of zeros.
+    #[error("the row of {component} is zero throughout; leave out the components that the sensor does not measure")]
+    NoGauge {
+        /// Which row.
+        component: Component,
+    },
+    /// A row is a combination of the others.
+    #[error(
+        "the row of {component} is a combination of the other rows: only {independent:.1e} of it is not, expected at least \
+         {limit:.0e}; is a row repeated, or rounded too far? Leave out the components that the sensor cannot tell apart"
+    )]
+    Dependent {
+        /// Which row.
+        component: Component,
+        /// What part of it the other rows do not give.
+        independent: f64,
+        /// The smallest part that is accepted.
+        limit: f64,
+    },
+    /// Fewer gauges than components.
+    #[error("{gauges} gauges for {components} components, expected as many at least")]
+    Gauges {
+        /// How many gauges there are.
+        gauges: usize,
+        /// How many components.
+        components: usize,
+    },
+    /// A component is there twice.
+    #[error("{component} is given twice, expected once at most")]
+    Twice {
+        /// Which one.
+        component: Component,
+    },
+    /// Nothing is measured.
+    #[error("no component is given, expected one at least")]
+    Nothing,
+    /// A channel that the sample does not have, or one that is used twice.
+    #[error("channel {channel} is asked for, expected different channels from 1 to {count}")]
+    Channel {
+        /// Which one, from 1.
+        channel: usize,
+        /// How many a sample has.
+        count: usize,
+    },
+    /// More channels than a sample can have.
+    #[error("{count} channels, expected at most {most}", most = crate::sample::Channels::MOST)]
+    Channels {
+        /// How many.
+        count: usize,
+    },
+    /// A calibration that compensates for temperature has a bias of no known temperature.
+    #[error("the bias is of no known temperature, which this calibration compensates for; give it with the bias")]
+    BiasTemperature,
+}

@@ -1,0 +1,175 @@
+//! Gauges to a wrench, by a matrix.
+
+use super::rank::weakest;
+use super::temperature::Compensation;
+use super::wrench_units::{WrenchUnits, finite};
+use super::{Calibration, CalibrationDataError, CalibrationError};
+use crate::sample::{Channels, Component, Number, RawSample, WrenchSample};
+use core::array::from_fn;
+
+/// Less than this part of a row that is not in the other rows is what rounding to the five digits of calibration files
+/// leaves of a combination of them.
+const INDEPENDENT: f64 = 1e-4;
+
+/// `N` gauges (at most 16) to the components of a wrench: a row each, in force and torque per raw unit.
+///
+/// ```
+/// use rod_hw::{Calibration, Channels, Component, GaugeMatrix, RawSample, WrenchSample, WrenchUnits};
+/// // a sensor of three forces and one of a moment on an amplifier with four channels, +-10 V for +-2 N and +-50 mN m
+/// let rows = [
+///     (Component::Fx, [0.2, 0.0, 0.0, 0.0]),
+///     (Component::Fy, [0.0, 0.2, 0.0, 0.0]),
+///     (Component::Fz, [0.0, 0.0, 0.2, 0.0]),
+///     (Component::Tz, [0.0, 0.0, 0.0, 5.0]),
+/// ];
+/// let matrix = GaugeMatrix::<4>::new(&rows, WrenchUnits::parse("N", "mN m")?)?.with_bias([0.5, 0.0, 0.0, 0.0])?;
+/// let raw = RawSample::new(0.0, Channels::from([1.5, 0.0, 0.0, -2.0]));
+/// let sample: WrenchSample = matrix.wrench(&raw)?;
+/// assert_eq!((sample.wrench.force[0], sample.wrench.torque[2]), (0.2, -0.01));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaugeMatrix<const N: usize, T = f64> {
+    /// N and N m per raw unit.
+    rows: [[T; N]; 6],
+    measured: [bool; 6],
+    /// What the gauges read without load.
+    bias: [f64; N],
+    compensation: Option<Compensation<N>>,
+    /// Where the gauges are in a sample, and how many channels it has.
+    channels: [usize; N],
+    count: usize,
+}
+
+impl<const N: usize, T: Number> GaugeMatrix<N, T> {
+    /// The rows of the components that the sensor measures, in these units per raw unit. The others are zero.
+    ///
+    /// # Errors
+    /// [`CalibrationDataError`] where an element is not finite, a row is zero or a combination of the others (but for 1e-4
+    /// of it), or a component is there twice.
+    pub fn new(rows: &[(Component, [f64; N])], units: WrenchUnits) -> Result<Self, CalibrationDataError> {
+        const { assert!(N >= 1 && N <= Channels::MOST, "1 to 16 gauges") };
+        let (mut si, mut measured) = ([[0.0; N]; 6], [false; 6]);
+        for &(component, row) in rows {
+            for (gauge, &value) in row.iter().enumerate() {
+                if !T::from_f64(value * units.factor(component)).to_f64().is_finite() {
+                    return Err(CalibrationDataError::Element { component, gauge: gauge + 1, value });
+                }
+            }
+            if core::mem::replace(&mut measured[component.index()], true) {
+                return Err(CalibrationDataError::Twice { component });
+            }
+            si[component.index()] = row.map(|value| value * units.factor(component));
+            if si[component.index()] == [0.0; N] {
+                return Err(CalibrationDataError::NoGauge { component });
+            }
+        }
+        if rows.len() > N {
+            return Err(CalibrationDataError::Gauges { gauges: N, components: rows.len() });
+        }
+        let (component, independent) = weakest(&si, measured).ok_or(CalibrationDataError::Nothing)?;
+        if independent.is_nan() || independent < INDEPENDENT {
+            return Err(CalibrationDataError::Dependent { component, independent, limit: INDEPENDENT });
+        }
+        Ok(Self {
+            rows: si.map(|row| row.map(T::from_f64)),
+            measured,
+            bias: [0.0; N],
+            compensation: None,
+            channels: from_fn(|i| i),
+            count: N,
+        })
+    }
+
+    /// The rows of Fx, Fy, Fz, Tx, Ty, Tz, in these units per raw unit.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of_six(rows: [[f64; N]; 6], units: WrenchUnits) -> Result<Self, CalibrationDataError> {
+        Self::new(&Component::ALL.map(|component| (component, rows[component.index()])), units)
+    }
+
+    /// The same with what the gauges read without load, raw.
+    ///
+    /// # Errors
+    /// [`CalibrationDataError`] where one is not finite, or the calibration compensates for temperature: the bias changes with
+    /// it, too.
+    pub fn with_bias(self, bias: [f64; N]) -> Result<Self, CalibrationDataError> {
+        Self { bias, ..self }.settled()
+    }
+
+    /// The same, compensated for temperature: without a bias, which is left to the tare.
+    ///
+    /// # Errors
+    /// [`CalibrationDataError`] where there is a bias, or the thermometer is no channel of the
+    /// sample: tell the channels first.
+    pub fn with_compensation(self, compensation: Compensation<N>) -> Result<Self, CalibrationDataError> {
+        Self { compensation: Some(compensation), ..self }.settled()
+    }
+
+    /// The same with the gauges at other channels, from 0, of samples with `count` channels.
+    ///
+    /// ```
+    /// use rod_hw::{Calibration, Channels, Component, GaugeMatrix, RawSample, WrenchUnits};
+    /// let matrix = GaugeMatrix::<1>::new(&[(Component::Tz, [2.0])], WrenchUnits::SI)?.with_channels([5], 8)?;
+    /// let raw = RawSample::new(0.0, Channels::from([9.0, 9.0, 9.0, 9.0, 9.0, 0.5, 9.0, 9.0]));
+    /// assert_eq!(matrix.wrench(&raw)?.wrench.torque, [0.0, 0.0, 1.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`CalibrationDataError`] where a channel is not of the sample or is used twice.
+    pub fn with_channels(self, channels: [usize; N], count: usize) -> Result<Self, CalibrationDataError> {
+        if count > Channels::MOST {
+            return Err(CalibrationDataError::Channels { count });
+        }
+        let mut used = [false; Channels::MOST];
+        for channel in channels {
+            let free = used.get_mut(channel).filter(|used| channel < count && !**used);
+            *free.ok_or(CalibrationDataError::Channel { channel: channel.saturating_add(1), count })? = true;
+        }
+        Self { channels, count, ..self }.settled()
+    }
+
+    /// Whether there is a row for a component.
+    pub fn measures(&self, component: Component) -> bool {
+        self.measured[component.index()]
+    }
+
+    /// N and N m per raw unit, a row for each component.
+    pub fn rows(&self) -> &[[T; N]; 6] {
+        &self.rows
+    }
+
+    /// With all parts checked beside each other.
+    fn settled(self) -> Result<Self, CalibrationDataError> {
+        finite("a bias", &self.bias)?;
+        if let Some(compensation) = &self.compensation {
+            let channel = compensation.channel();
+            if channel >= self.count || self.channels.contains(&channel) {
+                return Err(CalibrationDataError::Channel { channel: channel.saturating_add(1), count: self.count });
+            }
+            if self.bias != [0.0; N] {
+                return Err(CalibrationDataError::BiasTemperature);
+            }
+        }
+        Ok(self)
+    }
+}
+
+impl<const N: usize, T: Number> Calibration<T> for GaugeMatrix<N, T> {
+    fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
+        super::expect_channels(raw, self.count)?;
+        let mut gauges = [0.0; N];
+        for (gauge, &channel) in gauges.iter_mut().zip(&self.channels) {
+            *gauge = super::finite_channel(raw, channel)?;
+        }
+        if let Some(compensation) = &self.compensation {
+            gauges = compensation.at_reference(gauges, compensation.temperature(raw)?)?;
+        }
+        // the bias may be much larger than what the load adds to it: it goes before the rounding to T
+        let loads: [T; N] = from_fn(|i| T::from_f64(gauges[i] - self.bias[i]));
+        let zero = T::from_f64(0.0);
+        super::finished(raw, self.rows.map(|row| row.iter().zip(&loads).fold(zero, |sum, (&a, &v)| sum + a * v)))
+    }
+}

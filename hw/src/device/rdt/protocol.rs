@@ -1,0 +1,330 @@
+//! The stream of a sensor.
+
+use super::profile::RdtProfile;
+use super::record::RdtRecord;
+use super::request::RdtRequest;
+use crate::device::onrobot_filter::OnRobotFilter;
+use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence};
+use crate::sample::{Channels, Quality, RawSample};
+use core::mem::take;
+use core::num::NonZeroU8;
+
+/// Distance of the requests to start, s: datagrams get lost, these too.
+const RETRY: f64 = 0.1;
+
+/// A packet overtaken by more others than this is not a late one but of a device that counts anew.
+const OVERTAKEN: i64 = 256;
+
+/// The second record after a restart is less than so many samples behind the first.
+const NEXT: u32 = 1000;
+
+/// How a sensor is asked, and what is known of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RdtSettings {
+    /// Its family.
+    pub profile: RdtProfile,
+    /// Rate of its own clock, Hz, if it is to tell the time of the samples: that of `ft_sequence`, 7000 for most Net F/T (its
+    /// `netftapi2.xml` calls it `runrate`), which may be more than the rate of the records.
+    pub clock_rate: Option<f64>,
+    /// Whether to ask for several records a datagram.
+    pub buffered: bool,
+    /// So long without a datagram, s, and it is asked to start again, as after its power was off. More than twice the distance
+    /// of its records.
+    pub silence: f64,
+    /// Filter to set, OnRobot only: it forgets it without power.
+    pub filter: Option<OnRobotFilter>,
+    /// Distance of the records to set, ms, OnRobot only: it forgets it without power.
+    pub period: Option<NonZeroU8>,
+}
+
+impl RdtSettings {
+    /// One record a datagram, started again after 1 s, time by the host.
+    pub fn new(profile: RdtProfile) -> Self {
+        Self { profile, clock_rate: None, buffered: false, silence: 1.0, filter: None, period: None }
+    }
+}
+
+/// The stream of an RDT sensor (ATI Net F/T and Axia, OnRobot): starts it, again every 0.1 s until data comes and after a
+/// silence, decodes its records, and keeps account of what is missing.
+///
+/// A sample has the counts of Fx, Fy, Fz, Tx, Ty, Tz as its channels, `ft_sequence` as its number, which goes up by more than 1
+/// where the records are fewer than the samples of the sensor's clock, and the status word as sent.
+/// Two counters tell more than one: each start makes `rdt_sequence` begin at 1 again, `ft_sequence` goes on. So
+/// - a record of the same sample as the one before is a repetition, whatever the number of its packet;
+/// - an earlier packet with a later sample is the answer to one more start, and nothing is lost;
+/// - an earlier sample is late, or the device started anew: two in a row that follow each other, not among the last 256
+///   packets, are a restart. The first of them is left out;
+/// - after a silence, or where the connection is made anew, the first sample is [`Quality::RESTARTED`], unless the clock of the
+///   device went on with that of the host (`clock_rate`): without power it has lost its zero.
+///
+/// All records of a datagram have the same time of arrival.
+///
+/// ```
+/// use rod_hw::{Protocol, device::rdt::{Rdt, RdtProfile, RdtRecord, RdtSettings}};
+/// let mut rdt = Rdt::new(RdtSettings { clock_rate: Some(7000.0), ..RdtSettings::new(RdtProfile::NetFt) });
+/// assert_eq!(rdt.request(0.0).as_deref(), Some(&[0x12, 0x34, 0, 2, 0, 0, 0, 0][..]));
+/// let mut take = |packet, sample, now| {
+///     let bytes = RdtRecord { packet, sample, status: 0, counts: [100, -200, 300, 10, -20, 30] }.to_bytes();
+///     rdt.decode(&mut &bytes[..], now)
+/// };
+/// let first = take(1, 700, 0.05).ok_or("nothing")??;
+/// assert_eq!((first.channels[1], first.sequence, first.device_time), (-200.0, Some(700), Some(0.1)));
+/// let second = take(4, 703, 0.06).ok_or("nothing")??;
+/// assert_eq!(second.quality.to_string(), "gap before");
+/// assert_eq!(rdt.counters().lost, 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Rdt {
+    settings: RdtSettings,
+    stream: Stream,
+    packets: Sequence,
+    samples: Sequence,
+    /// How far the sample goes from packet to packet.
+    stride: Option<i64>,
+    /// A record that the device may have started anew with.
+    candidate: Option<RdtRecord>,
+    /// For the next sample.
+    flags: Quality,
+    /// Sample number and device time that the times are counted from.
+    origin: (u64, f64),
+    /// Time by the host and by the device of the last sample.
+    last: Option<(f64, f64)>,
+    counters: LinkCounters,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Stream {
+    /// To be asked for: which request is next, and when the last start was sent.
+    Waiting { next: usize, started: Option<f64> },
+    /// Records come; since when there are none although asked for.
+    Running { quiet: Option<f64> },
+}
+
+/// What the numbers of a record say.
+enum Verdict {
+    /// To be handed on; so many are missing before it, and whether the device began anew.
+    Take {
+        lost: i64,
+        restarted: bool,
+    },
+    Repeated,
+    Late,
+}
+
+impl Rdt {
+    /// A stream that is not started yet.
+    pub fn new(settings: RdtSettings) -> Self {
+        Self {
+            settings,
+            stream: Stream::Waiting { next: 0, started: None },
+            packets: Sequence::new(32, 1),
+            samples: Sequence::new(Self::sample_bits(settings.profile), 1),
+            stride: None,
+            candidate: None,
+            flags: Quality::empty(),
+            origin: (0, 0.0),
+            last: None,
+            counters: LinkCounters::default(),
+        }
+    }
+
+    /// OptoForce's manual speaks of a counter of 16 bits in a field of 32: its low half is right in either case.
+    const fn sample_bits(profile: RdtProfile) -> u32 {
+        match profile {
+            RdtProfile::NetFt | RdtProfile::Axia => 32,
+            RdtProfile::OnRobot => 16,
+        }
+    }
+
+    /// How the sensor is asked.
+    pub fn settings(&self) -> &RdtSettings {
+        &self.settings
+    }
+
+    /// What to ask one after the other, the start at the end.
+    fn start(&self) -> [Option<RdtRequest>; 3] {
+        let RdtSettings { profile, buffered, filter, period, .. } = self.settings;
+        let on_robot = profile == RdtProfile::OnRobot;
+        [
+            filter.filter(|_| on_robot).map(RdtRequest::Filter),
+            period.filter(|_| on_robot).map(RdtRequest::Period),
+            Some(if buffered { RdtRequest::StartBuffered { count: 0 } } else { RdtRequest::Start { count: 0 } }),
+        ]
+    }
+
+    /// Whether the clock of the device went on with that of the host since the last sample, within 1 % and 50 ms: then its
+    /// power was on all the time.
+    fn clock_went_on(&self, ahead: i64, now: f64) -> bool {
+        let Some((rate, (then, _))) = self.settings.clock_rate.zip(self.last) else { return false };
+        let elapsed = now - then;
+        // a counter that may have wrapped proves nothing
+        let wraps = (1_u64 << (Self::sample_bits(self.settings.profile) - 1)) as f64 / rate;
+        ahead > 0 && elapsed < wraps && (ahead as f64 / rate - elapsed).abs() < 0.05 + 0.01 * elapsed
+    }
+
+    /// What the numbers of a record say.
+    fn judge(&mut self, record: &RdtRecord, now: f64) -> Verdict {
+        let candidate = self.candidate.take();
+        let waiting = matches!(self.stream, Stream::Waiting { .. });
+        self.stream = Stream::Running { quiet: None };
+        let (Some(packet), Some(sample)) = (self.packets.ahead(record.packet), self.samples.ahead(record.sample))
+        else {
+            return Verdict::Take { lost: 0, restarted: false };
+        };
+        if waiting {
+            self.flags |= Quality::GAP_BEFORE;
+            if !self.clock_went_on(sample, now) {
+                self.flags |= Quality::RESTARTED;
+            }
+            self.counters.gaps += 1;
+            self.packets.advance(record.packet);
+            return match sample {
+                0 => Verdict::Repeated,
+                ahead => Verdict::Take { lost: 0, restarted: ahead < 0 },
+            };
+        }
+        match (packet, sample) {
+            (1.., 1..) => {
+                if packet == 1 {
+                    self.stride = Some(sample);
+                }
+                Verdict::Take { lost: packet - 1, restarted: false }
+            }
+            (1.., 0) => {
+                self.miss(packet - 1);
+                self.packets.advance(record.packet);
+                Verdict::Repeated
+            }
+            (0, 0) => Verdict::Repeated,
+            // one more start was answered
+            (_, 1..) => {
+                if self.stride.is_none_or(|stride| sample > stride) {
+                    self.flags |= Quality::GAP_BEFORE;
+                    self.counters.gaps += 1;
+                }
+                Verdict::Take { lost: 0, restarted: false }
+            }
+            (..=-1, 0) => Verdict::Late,
+            _ => {
+                let follows = |first: RdtRecord| {
+                    record.packet == first.packet.wrapping_add(1)
+                        && record.sample.wrapping_sub(first.sample).wrapping_sub(1) < NEXT
+                };
+                if !(-OVERTAKEN..=0).contains(&packet) && candidate.is_some_and(follows) {
+                    Verdict::Take { lost: if packet > 0 { packet - 1 } else { 1 }, restarted: true }
+                } else {
+                    self.candidate = Some(*record);
+                    Verdict::Late
+                }
+            }
+        }
+    }
+
+    /// So many samples are missing.
+    fn miss(&mut self, lost: i64) {
+        if let Ok(lost @ 1..) = u64::try_from(lost) {
+            self.counters.lost += lost;
+            self.counters.gaps += 1;
+            self.flags |= Quality::GAP_BEFORE;
+        }
+    }
+
+    /// The sample of a record, if it is to be handed on.
+    fn sample(&mut self, mut record: RdtRecord, now: f64) -> Option<RawSample> {
+        record.sample &= u32::MAX >> (32 - Self::sample_bits(self.settings.profile));
+        match self.judge(&record, now) {
+            Verdict::Take { lost, restarted } => {
+                self.miss(lost);
+                if restarted {
+                    self.counters.restarts += 1;
+                    self.flags |= Quality::RESTARTED | Quality::GAP_BEFORE;
+                }
+                self.packets.advance(record.packet);
+                self.samples.advance(record.sample);
+                if let Some((then, time)) = self.last.filter(|_| restarted) {
+                    self.origin = (self.samples.unwrapped(), time + (now - then));
+                }
+            }
+            Verdict::Repeated => {
+                self.counters.repeated += 1;
+                return None;
+            }
+            Verdict::Late => {
+                self.counters.reordered += 1;
+                return None;
+            }
+        }
+        let sequence = self.samples.unwrapped();
+        let (from, origin) = self.origin;
+        let rate = self.settings.clock_rate.filter(|rate| *rate > 0.0);
+        let device_time = rate.map(|rate| origin + sequence.saturating_sub(from) as f64 / rate);
+        self.last = Some((now, device_time.unwrap_or(now)));
+        let quality = take(&mut self.flags) | self.settings.profile.quality(record.status);
+        self.counters.samples += 1;
+        self.counters.device_errors += u64::from(quality.intersects(Quality::SATURATED | Quality::DEVICE_ERROR));
+        Some(RawSample {
+            sequence: Some(sequence),
+            device_time,
+            status: record.status,
+            quality,
+            ..RawSample::new(now, Channels::from(record.counts.map(f64::from)))
+        })
+    }
+}
+
+impl Protocol for Rdt {
+    fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
+        while !bytes.is_empty() {
+            let found = bytes.len();
+            let whole =
+                if self.settings.buffered { found.is_multiple_of(RdtRecord::BYTES) } else { found == RdtRecord::BYTES };
+            let Some((record, rest)) = bytes.split_first_chunk().filter(|_| whole) else {
+                *bytes = &[];
+                self.counters.malformed += 1;
+                return Some(Err(FrameFault::Length { found, expected: RdtRecord::BYTES }));
+            };
+            *bytes = rest;
+            if let Some(sample) = self.sample(RdtRecord::from_bytes(record), now) {
+                return Some(Ok(sample));
+            }
+        }
+        None
+    }
+
+    fn request(&mut self, now: f64) -> Option<Request> {
+        match &mut self.stream {
+            // that nobody asked for samples is no silence of the device
+            Stream::Running { quiet: quiet @ None } => {
+                *quiet = Some(now);
+                return None;
+            }
+            Stream::Running { quiet: Some(since) } if now - *since < self.settings.silence => return None,
+            Stream::Running { .. } => self.stream = Stream::Waiting { next: 0, started: None },
+            Stream::Waiting { started: Some(at), .. } if now - *at < RETRY => return None,
+            Stream::Waiting { .. } => {}
+        }
+        let requests = self.start();
+        let Stream::Waiting { next, started } = &mut self.stream else { return None };
+        let (place, request) = requests.iter().enumerate().skip(*next).find_map(|(i, r)| r.map(|r| (i, r)))?;
+        if place + 1 == requests.len() {
+            (*next, *started) = (0, Some(now));
+        } else {
+            (*next, *started) = (place + 1, None);
+        }
+        Some(request.into())
+    }
+
+    fn farewell(&self) -> Option<Request> {
+        Some(RdtRequest::Stop.into())
+    }
+
+    fn reset(&mut self) {
+        self.stream = Stream::Waiting { next: 0, started: None };
+        self.candidate = None;
+    }
+
+    fn counters(&self) -> LinkCounters {
+        self.counters
+    }
+}

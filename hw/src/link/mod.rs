@@ -1,0 +1,37 @@
+//! From bytes to raw samples: protocols, transports, and the links that join them.
+
+mod clock;
+mod counters;
+mod engine;
+mod protocol;
+#[cfg(feature = "std")]
+mod read_write;
+mod sequence;
+#[cfg(feature = "serial")]
+mod serial_port;
+#[cfg(feature = "std")]
+mod spawn;
+mod transport;
+#[cfg(feature = "std")]
+mod transport_error;
+#[cfg(feature = "rdt")]
+mod udp;
+
+pub use clock::Clock;
+#[cfg(feature = "std")]
+pub use clock::HostClock;
+pub use counters::LinkCounters;
+pub use engine::{Link, LinkError, LinkSettings, Reconnect};
+pub use protocol::{FrameFault, Protocol, Request};
+#[cfg(feature = "std")]
+pub use read_write::ReadWrite;
+pub use sequence::{Sequence, SequenceStep};
+#[cfg(feature = "serial")]
+pub use serial_port::SerialPort;
+#[cfg(feature = "std")]
+pub use spawn::{Spawned, spawn};
+pub use transport::Transport;
+#[cfg(feature = "std")]
+pub use transport_error::TransportError;
+#[cfg(feature = "rdt")]
+pub use udp::Udp;

@@ -1,0 +1,6 @@
+//! Parts of the chain.
+
+mod constant_speed;
+mod rails;
+mod table;
+mod timekeeper;

@@ -1,0 +1,3 @@
+//! Axes and lever arms.
+
+mod lever_arm;

@@ -1,0 +1,6 @@
+//! Tables of text.
+
+mod lvm;
+mod memory;
+mod samples;
+mod tables;

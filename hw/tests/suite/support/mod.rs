@@ -1,0 +1,5 @@
+//! What tests share.
+
+mod simulated;
+
+pub use simulated::{Counts, SimulatedSensor};
