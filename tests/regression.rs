@@ -3,7 +3,8 @@
 
 use std::f64::consts::PI;
 use vibrissa::{
-    CircularArc, ClampPath, Composite, Contour, EventKind, Line, Motion, Outcome, Parabola, Pose, Rod, Sweep,
+    CircularArc, ClampPath, Composite, Contour, EventKind, Line, Motion, Outcome, Parabola, Pose, Rod, StopReason,
+    Sweep,
 };
 
 const UP: f64 = std::f64::consts::FRAC_PI_2;
@@ -135,4 +136,20 @@ fn a_rod_that_goes_in_beside_a_notch_is_inside() {
         assert!(shape.sample(400).all(|at| contour.gap(at.x, at.y) > -1e-9), "{state:?}");
     }
     assert!(!outcome.states.is_empty() && !outcome.states[0].contacts.is_empty());
+}
+
+/// A free rod square to a straight open contour, that came around the end of it, went through the contour and was called free.
+#[test]
+fn a_rod_does_not_go_through_an_open_line() {
+    let rod = Rod::new(0.1, 6.32e-4).unwrap();
+    for (from, to) in [([-0.01, 0.0], [0.03, 0.0]), ([0.03, 0.0], [-0.01, 0.0]), ([-0.2, 0.0], [0.03, 0.0])] {
+        let line = Composite::single(Line::new(from, to).unwrap()).unwrap();
+        let ahead = |x: f64| Pose { x, y: -0.05, phi: UP };
+        for step in [1e-2, 1e-3, 0.77e-3] {
+            let path = ClampPath::new(ahead(0.05), ahead(-0.09)).unwrap();
+            let outcome = Sweep::new(&rod, &line, path, step).unwrap().run();
+            assert_eq!(outcome.stop.map(|stop| stop.reason), Some(StopReason::EndOfContour), "{from:?} {step}");
+            assert!(outcome.states.iter().all(|state| state.pose.x > 0.03 - 1e-12), "{from:?} {step}");
+        }
+    }
 }

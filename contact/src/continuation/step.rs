@@ -235,7 +235,10 @@ impl<'a> Stepper<'a> {
         if tangent.cosine(&from.tangent) < LEAST_COSINE {
             return Err(Refused::TooLong(Obstacle::Turns));
         }
-        let scan = self.scan(&next);
+        let mut scan = self.scan(&next);
+        if next.count() == 0 {
+            scan.keep_sides(&from.scan);
+        }
         let unexplained = if scan.crossings.is_empty() { Obstacle::NotLocated } else { Obstacle::Touch };
         let ends_if_short = |reason| {
             if length < SHORT { Refused::Ended(reason) } else { Refused::TooLong(unexplained) }

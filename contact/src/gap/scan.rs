@@ -45,6 +45,16 @@ impl Scan {
         self.sides.iter().any(|side| side.abs() < BY_END)
     }
 
+    /// Keeps the side on which an end of an open contour was `before`, where the rod is now on that end: which side it is on then
+    /// is rounding.
+    pub fn keep_sides(&mut self, before: &Self) {
+        for (now, was) in self.sides.iter_mut().zip(&before.sides) {
+            if now.abs() <= ON_ROD && !was.is_nan() {
+                *now = ON_ROD.copysign(*was);
+            }
+        }
+    }
+
     /// Whether the rod, from where it was, has swept over an end of an open contour.
     pub fn has_swept_over_an_end(&self, before: &Self) -> bool {
         // an end that the rod lies on is on either side by rounding; a far one has been gone around

@@ -376,8 +376,10 @@ impl<'a> Search<'a> {
         }
         let [g0, g1] = feet.map(|foot| foot.foot.gap);
         let bound = 0.5 * (g0.abs() + g1.abs() - part.length);
+        // A rod straight through the run has its ends on either side, as far away as it is long.
+        let through = (g0 < 0.0) != (g1 < 0.0) && feet.iter().all(|foot| foot.end.is_none()) && bound <= GATE;
         let shortest = SHORTEST.max(COARSE * least);
-        if bound > least || part.length < shortest {
+        if (bound > least && !through) || part.length < shortest {
             self.note(i, bound, true);
             return None;
         }
