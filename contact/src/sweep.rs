@@ -255,17 +255,15 @@ impl<'a> Sweep<'a> {
         // a free rod has no fold to get over
         let kicks = TOUCH_KICK.into_iter().filter(|_| last.count() == 0).chain(KICK);
         for kick in kicks {
-            match self.land(&last, tau, kick) {
-                Some(landed) if landed.tau() == tau => {
-                    // one that does not hold further on would only lead back
-                    let landed = self.stepper.point(landed);
-                    if self.stepper.goes_on(&landed) {
-                        return Ok(self.jumped(last, landed));
-                    }
+            let Landed { here, ahead } = self.land(&last, tau, kick);
+            if let Some(landed) = here {
+                // one that does not hold further on would only lead back
+                let landed = self.stepper.point(landed);
+                if self.stepper.goes_on(&landed) {
+                    return Ok(self.jumped(last, landed));
                 }
-                Some(landed) => beyond = beyond.or(Some(landed)),
-                None => {}
             }
+            beyond = beyond.or(ahead);
         }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
         // rest in the descent, but could be free, will be.
@@ -313,24 +311,24 @@ impl<'a> Sweep<'a> {
 
     /// Where the rod lands from `last`, whose clamp is at `tau`: found `kick` beyond, and brought back to `tau` if it
     /// can be.
-    fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Option<Configuration> {
+    fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Landed {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let clamp = corrector.setup.path.at(tau + kick);
         let mut chain = Chain::of(&corrector.setup, last, clamp);
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(BENDS[0]);
-        let beyond = rest(&mut chain, corrector, scanner, tau + kick, |_| true);
+        let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_| true);
         let elsewhere = |found: &Configuration| !same(found, last);
-        let back = beyond.as_ref().and_then(|beyond| {
-            let mut back = beyond.clone();
+        let back = ahead.as_ref().and_then(|ahead| {
+            let mut back = ahead.clone();
             back.set_tau(tau);
             settle(corrector, scanner, back).filter(elsewhere)
         });
-        let back = back.or_else(|| {
+        let here = back.or_else(|| {
             chain.clamp = corrector.setup.path.at(tau);
             rest(&mut chain, corrector, scanner, tau, elsewhere)
         });
-        back.or(beyond)
+        Landed { here, ahead }
     }
 
     /// The first point: free, or brought into contact along the path, or else by another way.
@@ -414,6 +412,12 @@ impl<'a> Sweep<'a> {
         let unit = if path.turns_only() { 1.0 } else { length };
         Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: tau * unit, reason }
     }
+}
+
+/// Where a rod lands: at the pose where its equilibrium ended, and a little further along the path.
+struct Landed {
+    here: Option<Configuration>,
+    ahead: Option<Configuration>,
 }
 
 /// The first acceptable equilibrium of those where the chain comes to rest, with its clamp at `tau`.
