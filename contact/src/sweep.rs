@@ -1,7 +1,7 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
 use crate::contact_set::Configuration;
-use crate::contact_set::edit::{beside_corner, beyond_corner};
+use crate::contact_set::edit::{beside_corner, beyond_corner, off_corner};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::continuation::inflection::is_at_inflection;
@@ -17,6 +17,7 @@ use crate::snap::settle::settle;
 use crate::state::State;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
+use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
@@ -277,16 +278,24 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
-    /// which needs no descent to find.
+    /// The tip, come to a convex corner, slips over it and rests on the piece beyond, or a corner slips off the tip, which rests
+    /// on a piece beside it: where the turn is small a short jump, which needs no descent to find.
     fn slip(&mut self, last: &Configuration) -> Option<Configuration> {
+        let world = &self.setup().world;
+        let beyond = beyond_corner(last.clone(), world);
+        let guesses = beyond.into_iter().chain(off_corner(last, world)).collect::<SmallVec<[_; 3]>>();
+        guesses.into_iter().find_map(|guess| self.slipped(last, guess))
+    }
+
+    /// The equilibrium by `guess`, if it is a slip away from `last`.
+    fn slipped(&mut self, last: &Configuration, guess: Configuration) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let here = last.contacts.last()?.stretch;
-        let from = corrector.setup.world.support(here, last.t(last.count() - 1));
-        let guess = beyond_corner(last.clone(), &corrector.setup.world)?;
         let landed = settle(corrector, scanner, guess)?;
         let tip = landed.count().checked_sub(1).filter(|_| landed.ends_at_tip() && landed.count() == last.count())?;
-        let to = corrector.setup.world.support(landed.contacts[tip].stretch, landed.t(tip));
+        let world = &corrector.setup.world;
+        let from = world.support(here, last.t(last.count() - 1));
+        let to = world.support(landed.contacts[tip].stretch, landed.t(tip));
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
         let slips = landed.contacts[tip].stretch != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);

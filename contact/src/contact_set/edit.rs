@@ -46,10 +46,16 @@ pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>)
 
 /// The last contact, new on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.
 pub(crate) fn beside_corner(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
-    let is_new = |j: usize| !configuration.is_tip(j) && configuration.force(j).abs() < FORCE_TOLERANCE;
-    let at_tip = |j: usize| (configuration.s(j) - 1.0).abs() < AT_TIP;
+    let last = configuration.count().checked_sub(1);
+    let is_new = last.is_some_and(|last| configuration.force(last).abs() < FORCE_TOLERANCE);
+    if is_new { off_corner(configuration, world) } else { SmallVec::new() }
+}
+
+/// The last contact, on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.
+pub(crate) fn off_corner(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
+    let at_tip = |j: usize| !configuration.is_tip(j) && (configuration.s(j) - 1.0).abs() < AT_TIP;
     let on_corner = |j: usize| world.is_corner(configuration.contacts[j].stretch);
-    let last = configuration.count().checked_sub(1).filter(|j| is_new(*j) && at_tip(*j) && on_corner(*j));
+    let last = configuration.count().checked_sub(1).filter(|j| at_tip(*j) && on_corner(*j));
     let Some(last) = last else { return SmallVec::new() };
     let corner = configuration.contacts[last].stretch;
     let pieces = [false, true].into_iter().filter_map(|after| Some((world.neighbour(corner, after)?, after)));
