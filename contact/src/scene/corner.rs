@@ -1,11 +1,15 @@
 //! A convex corner under the rod: which side of it the rod passes on.
 
 use crate::scene::world::World;
-use rod_core::Section;
-use std::f64::consts::PI;
+use rod_contours::{Part, Range};
+use rod_core::{Section, Support};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Rounding of an angle between the rod and one of the two pieces that meet in a corner, rad.
 const PARALLEL: f64 = 1e-9;
+
+/// Halvings of a part: to a millionth of it.
+const HALVINGS: usize = 20;
 
 /// A vertex, and the angles with which a rod can lie on it.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +40,30 @@ impl Corner {
         let middle = 0.5 * (range.from + range.to);
         let at = world.support(stretch, middle);
         Self { x: at.x, y: at.y, alpha: at.alpha, half: 0.5 * range.length(), middle }
+    }
+
+    /// The point where a part of a piece, which bends outwards more sharply than `sharpest` (1 / L) there, has the direction `phi`
+    /// or its opposite, as a corner of the directions of the whole part. None where there is no such point.
+    pub fn of_bend(world: &World<'_>, part: Part, phi: f64, sharpest: f64) -> Option<Self> {
+        let Range { from, to } = world.own_range_of(part);
+        let [first, last] = [from, to].map(|t| world.support(part.stretch, t).alpha);
+        let (alpha, half) = (0.5 * (first + last), 0.5 * (last - first));
+        let lean = (phi - alpha) - PI * ((phi - alpha) / PI).round();
+        if !(half > PARALLEL && half < FRAC_PI_2 && lean.abs() <= half) {
+            return None;
+        }
+        let (mut low, mut high) = (from, to);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if world.support(part.stretch, middle).alpha < alpha + lean {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let middle = 0.5 * (low + high);
+        let Support { x, y, speed, turning, .. } = world.support(part.stretch, middle);
+        (turning > sharpest * speed).then_some(Self { x, y, alpha, half, middle })
     }
 
     /// How a rod runs by whose point nearest to the vertex is `at`; none where it could not lie on the vertex in that

@@ -161,6 +161,12 @@ impl<'a> World<'a> {
         Range { from: range.from / unit, to: range.to / unit }
     }
 
+    /// Range of a part in its stretch's own parameter.
+    pub fn own_range_of(&self, Part { stretch, range }: Part) -> Range {
+        let unit = self.unit(self.at(stretch));
+        Range { from: range.from / unit, to: range.to / unit }
+    }
+
     /// The upper or lower end of a stretch's range.
     pub fn border(&self, stretch: usize, upper: bool) -> f64 {
         let range = self.range(stretch);

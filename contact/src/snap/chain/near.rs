@@ -9,6 +9,9 @@ use rod_core::Section;
 /// Most stretches that a link is kept from entering in one step: of fine teeth the nearest ones.
 const MOST_A_LINK: usize = 6;
 
+/// Curvature (1 / L) of the contour beyond which a link may lie on it between its nodes: its radius is two links.
+const SHARPEST: f64 = 0.5 * LINKS as f64;
+
 /// A point of the chain near the contour: a node, or the point of a link that is next to a corner.
 pub(super) struct Near {
     /// Arc length, in links.
@@ -27,15 +30,18 @@ pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reac
     for (link, &[x, y]) in nodes[1..].iter().enumerate() {
         let first = near.len();
         world.parts_near(Bounds::EMPTY.with(x, y).grown(REACH), |part| {
-            near.extend(match world.kind(part.stretch) {
+            let [from_x, from_y] = nodes[link];
+            let start = Section { x: from_x, y: from_y, phi: angles[link], kappa: 0.0 };
+            let corner = match world.kind(part.stretch) {
                 // what holds the tip in a notch are the two pieces that end there
                 StretchKind::Notch { .. } => None,
-                StretchKind::Corner { .. } => {
-                    let [x, y] = nodes[link];
-                    at_corner(world, part.stretch, link, &Section { x, y, phi: angles[link], kappa: 0.0 }, reach)
+                StretchKind::Corner { .. } => Some(Corner::new(world, part.stretch)),
+                StretchKind::Piece(_) => {
+                    near.extend(at_piece(world, part, (link + 1, x, y), reach));
+                    Corner::of_bend(world, part, start.phi, SHARPEST)
                 }
-                StretchKind::Piece(_) => at_piece(world, part, (link + 1, x, y), reach),
-            });
+            };
+            near.extend(corner.and_then(|corner| at_corner(world, &corner, part.stretch, link, &start, reach)));
         });
         if near.len() - first > MOST_A_LINK {
             near[first..].sort_by(|a, b| a.gap.total_cmp(&b.gap));
@@ -61,9 +67,15 @@ fn at_piece(world: &World<'_>, part: Part, (node, x, y): (usize, f64, f64), reac
     (foot.interior && outside).then(|| at(foot.gap))
 }
 
-/// A link (its number, and where it starts) next to a corner that it may come to lie on.
-fn at_corner(world: &World<'_>, stretch: usize, link: usize, start: &Section, reach: f64) -> Option<Near> {
-    let corner = Corner::new(world, stretch);
+/// A link (its number, and where it starts) next to a corner of a stretch that it may come to lie on.
+fn at_corner(
+    world: &World<'_>,
+    corner: &Corner,
+    stretch: usize,
+    link: usize,
+    start: &Section,
+    reach: f64,
+) -> Option<Near> {
     let (sin, cos) = start.phi.sin_cos();
     let way = (corner.x - start.x) * cos + (corner.y - start.y) * sin;
     if !(0.0..LINK).contains(&way) {
