@@ -1,10 +1,8 @@
 //! The hot path works without the heap: segments, walks, and solves that have been made once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
+use crate::common::Scene;
 use allocation_counter::measure;
-use common::Scene;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::hint::black_box;

@@ -11,9 +11,7 @@
     reason = "a test may, and its tables are there to be read"
 )]
 
-mod common;
-
-use common::{Scene, UP};
+use crate::common::{Scene, UP};
 use std::f64::consts::{PI, TAU};
 use vibrissa::{
     CircularArc, ClampPath, Composite, Contour, Frame, Outcome, Parabola, Pose, Rod, Spline, SplineEnd, State, Sweep,

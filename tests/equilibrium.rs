@@ -1,11 +1,9 @@
 //! Random rods, objects and ways of the clamp: whatever is reported is an equilibrium.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::Scene;
-use common::bumps::Bumps;
-use common::judge::{judge, judge_certified_gap};
+use crate::common::Scene;
+use crate::common::bumps::Bumps;
+use crate::common::judge::{judge, judge_certified_gap};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use std::cell::RefCell;

@@ -1,7 +1,7 @@
 //! How near to each cliff of the problem the solver still works, how exact it is there, and what it says beyond.
 //!
 //! docs/stability.md holds the table; this prints it:
-//! `cargo test --test hard_cases -- --nocapture --test-threads 1`
+//! `cargo test --test suite hard_cases -- --nocapture --test-threads 1`
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -10,12 +10,10 @@
     reason = "a test may, and its tables are there to be read"
 )]
 
-mod hard;
-
-use hard::exact::{Problem, Shape};
-use hard::made::{By, left, lying, right, with_tip};
-use hard::measure::{Measure, of_state};
-use hard::table::{check, powers, show, summary, towards};
+use crate::hard::exact::{Problem, Shape};
+use crate::hard::made::{By, left, lying, right, with_tip};
+use crate::hard::measure::{Measure, of_state};
+use crate::hard::table::{check, powers, show, summary, towards};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use vibrissa::{
     CircularArc, ClampPath, Composite, Contact, ContactError, ContactKind, Contour, ContourError, EventKind, Line,
@@ -269,11 +267,9 @@ fn corners_close_together() {
     let mut rows = Vec::new();
     for d in powers(-1, -12) {
         let outcome = run(d);
-        if d < 0.9e-9 {
-            assert_eq!(outcome.stop.map(|stop| stop.reason), Some(StopReason::NoLanding), "{d:e}");
-        } else {
-            assert_eq!((outcome.stop, outcome.states.len()), (None, 76), "{d:e}");
-        }
+        // over an edge that is too short to be told from a corner the rod snaps, and is found again 2e-3 further along the path
+        let states = if d < 0.9e-9 { 75 } else { 76 };
+        assert_eq!((outcome.stop, outcome.states.len()), (None, states), "{d:e}");
         let touching = outcome.states.iter().filter(|state| !state.contacts.is_empty());
         rows.extend(touching.map(|state| (d, of_state(state, SolveStatus::Converged, on_polygon))));
     }
@@ -384,7 +380,7 @@ fn what_the_default_tolerance_leaves() {
             lying(&[right(0.6, 2.0, By::Bend(5.0)), left(0.9, 2.0, By::Bend(5.0))]),
         ] {
             off(start)(&mut u);
-            let measure = hard::measure::solved(&problem, &mut u, 1e-13);
+            let measure = crate::hard::measure::solved(&problem, &mut u, 1e-13);
             rows.push((start, measure));
         }
     }

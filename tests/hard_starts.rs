@@ -1,11 +1,9 @@
 //! Starts in contact, notches, extreme steps and shapes, and ways that lead nowhere.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::bumps::Bumps;
-use common::judge::judge;
-use common::{OBJECTS, Scene, UP, difference};
+use crate::common::bumps::Bumps;
+use crate::common::judge::judge;
+use crate::common::{OBJECTS, Scene, UP, difference};
 use std::f64::consts::PI;
 use vibrissa::{ContactKind, EventKind, Outcome, Phase, Pose, StopReason};
 

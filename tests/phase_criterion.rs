@@ -1,9 +1,7 @@
 //! K = m0z^2 - 2 E I (f0y sin phi0 + f0x cos phi0) tells from the reactions alone whether the last contact is tangential.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{OBJECTS, Scene};
+use crate::common::{OBJECTS, Scene};
 use std::collections::BTreeMap;
 use vibrissa::{Pose, State};
 
@@ -69,7 +67,7 @@ fn it_vanishes_exactly_where_the_last_contact_is_tangential() {
 #[test]
 fn so_it_does_with_three_tangential_contacts() {
     // three bumps on an arch, pressed from below by a rod that points along them
-    let bumps = common::bumps::Bumps::new(&[(0.0, 0.0, 5.0), (0.3, -0.05, 5.0), (0.6, -0.13, 5.0)]).unwrap();
+    let bumps = crate::common::bumps::Bumps::new(&[(0.0, 0.0, 5.0), (0.3, -0.05, 5.0), (0.6, -0.13, 5.0)]).unwrap();
     let (from, to) = (Pose { x: -0.15, y: -0.6, phi: 0.2 }, Pose { x: -0.15, y: 0.02, phi: 0.2 });
     let scene = Scene { length: 1.0, stiffness: 1.0, bumps, from, to, step: 0.001 };
     let outcome = scene.run_through();

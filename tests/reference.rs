@@ -1,11 +1,9 @@
 //! The scans of the paper against data of an independent solver (backward shooting, Taylor series of order 26).
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::bumps::Bump;
-use common::golden::golden;
-use common::{OBJECTS, Scene, close};
+use crate::common::bumps::Bump;
+use crate::common::golden::golden;
+use crate::common::{OBJECTS, Scene, close};
 use serde_json::Value;
 use vibrissa::{
     Contact, ContactKind, Elastica, Event, EventKind, Hold, Load, MultiPoint, NewtonOptions, NewtonWorkspace, Outcome,

@@ -2,10 +2,8 @@
 //! of what the condition of a problem leaves to a solver in double precision.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-
-use common::Scene;
-use common::exact::Exact;
+use crate::common::Scene;
+use crate::common::exact::Exact;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;

@@ -1,10 +1,8 @@
 //! What a change of units, a mirror, or another way to the same pose must and must not change.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::bumps::Bumps;
-use common::{OBJECTS, Scene, UP, difference};
+use crate::common::bumps::Bumps;
+use crate::common::{OBJECTS, Scene, UP, difference};
 use std::f64::consts::PI;
 use vibrissa::{Event, Outcome, Pose, State};
 

@@ -1,9 +1,7 @@
 //! The filter that takes samples as they come, against the whole recording at once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-
-use common::noise::Noise;
+use crate::common::noise::Noise;
 use rod_reconstruct::kink::{KinkFilter, KinkOptions, find_kinks};
 use rod_reconstruct::noise_estimate::ChannelNoise;
 

@@ -1,9 +1,7 @@
 //! Kinks and jumps of curves that are known.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-
-use common::noise::Noise;
+use crate::common::noise::Noise;
 use rod_reconstruct::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use rod_reconstruct::noise_estimate::{ChannelNoise, estimate};
 

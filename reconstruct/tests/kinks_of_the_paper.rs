@@ -1,10 +1,8 @@
 //! Kinks of the paper's nine scans in noise.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-
-use common::nine_scans::{Clean, nine, scan, shows};
-use common::noise::Noise;
+use crate::common::nine_scans::{Clean, nine, scan, shows};
+use crate::common::noise::Noise;
 use rod_reconstruct::kink::{Kink, KinkFilter, KinkOptions, find_kinks};
 use rod_reconstruct::noise_estimate::estimate;
 use std::time::Instant;
@@ -163,7 +161,7 @@ fn coarse_scans_show_most() {
     assert!(tally.alarms <= 9);
 }
 
-/// `cargo test --release -p rod-reconstruct --test kinks_of_the_paper -- --ignored --nocapture`
+/// `cargo test --release -p rod-reconstruct --test suite kinks_of_the_paper -- --ignored --nocapture`
 #[test]
 #[ignore = "prints a table, minutes"]
 fn table() {

@@ -1,9 +1,7 @@
 //! The estimate of the noise against noise of known make.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-
-use common::noise::Noise;
+use crate::common::noise::Noise;
 use rod_reconstruct::noise_estimate::estimate;
 
 /// A curve with a kink and a jump, about as curved as reactions are.

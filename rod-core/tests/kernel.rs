@@ -5,9 +5,7 @@
     reason = "a test may, and the errors are there to be read: --nocapture"
 )]
 
-mod reference;
-
-use reference::{Random, errors, exact, largest};
+use crate::reference::{Random, errors, exact, largest};
 use rod_core::{Section, advance, advance_with_sensitivities, walk};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -1,0 +1,13 @@
+//! The tests of the inversion: one program, because each of its own links the whole library again.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+mod clean;
+mod common;
+mod kink_filter;
+mod kinks;
+mod kinks_of_the_paper;
+mod noise;
+mod noise_estimate;
+mod plausibility;
+mod properties;
+mod single_precision;

@@ -1,0 +1,18 @@
+//! The tests of the whole: one program, because each of its own links the whole library again.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+mod allocation;
+mod common;
+mod convergence;
+mod equilibrium;
+mod flat;
+mod hard;
+mod hard_cases;
+mod hard_starts;
+mod inflection;
+mod phase_criterion;
+mod reference;
+mod reference_set;
+mod regression;
+mod size;
+mod symmetry;
