@@ -153,3 +153,30 @@ fn a_rod_does_not_go_through_an_open_line() {
         }
     }
 }
+
+/// A thin wedge that a rod met far from the clamp was told to have run into the clamp.
+#[test]
+fn a_clamp_far_from_a_wedge_is_not_inside() {
+    let wedge = [[0.0, 0.420_288_684_659_922_2], [0.720_549_068_729_648_6, 0.057_515_395_007_962_32]];
+    let wedge = [wedge[0], wedge[1], [0.720_549_073_226_546_8, 0.057_515_403_939_810_19]];
+    let wedge = Composite::polygon(&wedge).unwrap();
+    let pose = |x: f64| Pose { x, y: 0.0, phi: 1.667_145_716_212_202 };
+    let path = ClampPath::new(pose(-0.540_620_331_625_100_9), pose(0.3)).unwrap();
+    let outcome = Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &wedge, path, 0.02).unwrap().run();
+    assert_ne!(outcome.stop.map(|stop| stop.reason), Some(StopReason::ClampInside));
+}
+
+/// A rod that came upon the end of a line head-on touched it and let go of it without end, and a free rod "touched" and stayed free.
+#[test]
+fn the_end_of_a_line_met_head_on_is_the_end_of_a_contour() {
+    let line = Composite::single(Line::new([0.0, 0.0], [0.1301, 0.0]).unwrap()).unwrap();
+    for x in [1.615e-7, 0.0, -1e-9, 1e-12] {
+        let path = ClampPath::new(Pose { x, y: -1.3, phi: UP }, Pose { x, y: -0.4, phi: UP }).unwrap();
+        let outcome = Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &line, path, 0.02).unwrap().run();
+        let reason = outcome.stop.map(|stop| stop.reason);
+        assert!(!matches!(reason, Some(StopReason::Chatter | StopReason::ClampInside)), "{x:e}: {reason:?}");
+        let idle =
+            outcome.events.iter().filter(|event| event.from() == event.to() && event.kind == EventKind::FirstContact);
+        assert_eq!(idle.count(), 0, "{x:e}");
+    }
+}

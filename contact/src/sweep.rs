@@ -1,7 +1,7 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
-use crate::contact_set::Configuration;
 use crate::contact_set::edit::{beside_corner, beyond_corner, off_corner};
+use crate::contact_set::{Configuration, Held};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::continuation::inflection::is_at_inflection;
@@ -68,6 +68,8 @@ const MOST_STEPS_TAKEN: u64 = 2_000_000;
 
 /// More transitions than this at one pose are no physics.
 const MOST_AT_ONE_POSE: usize = 12;
+/// Distance (L) from the end of an open contour within which contacts that come and go are those of its end.
+const AT_OPEN_END: f64 = 1e-3;
 /// How far beyond a fold the descent starts, so that the chain, whose own fold is not quite there, sees it too. Lengthened
 /// where that was not enough.
 const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
@@ -215,7 +217,7 @@ impl<'a> Sweep<'a> {
         match step {
             Step::Moved(next) => Ok(next),
             Step::Changed(transition) => {
-                self.count_crowd(transition.after.tau())?;
+                self.count_crowd(&transition.after)?;
                 let Transition { kind, before, after, .. } = *transition;
                 // a corner at the very tip is none
                 let beside = beside_corner(&after, &self.setup().world);
@@ -234,15 +236,26 @@ impl<'a> Sweep<'a> {
                 }
             }
             Step::Ended(last) => {
-                self.count_crowd(last.tau())?;
+                self.count_crowd(&last)?;
                 self.snap(*last).map(Box::new)
             }
         }
     }
 
-    fn count_crowd(&mut self, tau: f64) -> Result<(), StopReason> {
+    fn count_crowd(&mut self, reached: &Configuration) -> Result<(), StopReason> {
+        let tau = reached.tau();
         self.crowd = if (tau - self.crowd.0).abs() < 1e-9 { (tau, self.crowd.1 + 1) } else { (tau, 0) };
-        if self.crowd.1 > MOST_AT_ONE_POSE { Err(StopReason::Chatter) } else { Ok(()) }
+        if self.crowd.1 <= MOST_AT_ONE_POSE {
+            return Ok(());
+        }
+        // an open contour that is met head-on at its end has no side to rest on
+        let world = &self.setup().world;
+        let at_end = |(held, j): (&Held, usize)| {
+            let at = world.support(held.stretch, reached.t(j));
+            world.open_ends().iter().any(|(x, y)| (at.x - x).hypot(at.y - y) < AT_OPEN_END)
+        };
+        let by_an_end = reached.contacts.iter().zip(0..).any(at_end);
+        Err(if by_an_end { StopReason::EndOfContour } else { StopReason::Chatter })
     }
 
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
@@ -257,6 +270,9 @@ impl<'a> Sweep<'a> {
         let kicks = TOUCH_KICK.into_iter().filter(|_| last.count() == 0).chain(KICK);
         for kick in kicks {
             let Landed { here, ahead } = self.land(&last, tau, kick);
+            // a free rod that touches something and stays free has gone past it
+            let elsewhere = |landed: &Configuration| last.count() + landed.count() > 0;
+            let (here, ahead) = (here.filter(elsewhere), ahead.filter(elsewhere));
             if let Some(landed) = here {
                 // one that does not hold further on would only lead back
                 let landed = self.stepper.point(landed);
@@ -268,12 +284,13 @@ impl<'a> Sweep<'a> {
         }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
         // rest in the descent, but could be free, will be.
-        match beyond.or_else(|| self.free(tau)) {
+        match beyond.or_else(|| self.free(tau).filter(|_| last.count() > 0)) {
             Some(landed) => {
                 let landed = self.stepper.point(landed);
                 Ok(self.jumped(last, landed))
             }
             None if is_at_inflection(&self.setup().world, &last) => Err(StopReason::LineContact),
+            None if self.is_by_an_end(&last) => Err(StopReason::EndOfContour),
             None => Err(StopReason::NoLanding),
         }
     }
@@ -300,6 +317,11 @@ impl<'a> Sweep<'a> {
         let way = (to.x - from.x).hypot(to.y - from.y);
         let slips = landed.contacts[tip].stretch != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
         slips.then_some(landed)
+    }
+
+    /// Whether the rod is next to an end of an open contour.
+    fn is_by_an_end(&mut self, configuration: &Configuration) -> bool {
+        self.stepper.scan(configuration).is_by_an_end()
     }
 
     fn jumped(&mut self, last: Configuration, landed: Point) -> Point {
@@ -352,7 +374,8 @@ impl<'a> Sweep<'a> {
         let ways = std::iter::once(own).chain(own.others_to_its_start());
         let brought = ways.into_iter().find_map(|way| self.brought_by(way));
         let start = brought.or_else(|| self.let_go()).ok_or(StopReason::NoStart)?;
-        Ok(self.stepper.point(start))
+        let start = self.stepper.point(start);
+        if start.scan.is_outside() { Ok(start) } else { Err(StopReason::NoStart) }
     }
 
     /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,

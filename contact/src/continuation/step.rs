@@ -304,8 +304,19 @@ impl<'a> Stepper<'a> {
             }
             Some(_) => Err(StopReason::LineContact),
             // Mostly the fold is just ahead, and known better than the loss of stability is.
-            None => Ok(self.fold_ahead(from).map(Box::new).map_or_else(here, Step::Ended)),
+            None => {
+                let fold = self.fold_ahead(from).filter(|fold| self.is_clean(fold));
+                Ok(fold.map(Box::new).map_or_else(here, Step::Ended))
+            }
         }
+    }
+
+    /// Whether no condition of the contact set is broken.
+    fn is_clean(&mut self, configuration: &Configuration) -> bool {
+        let scan = self.scanner.scan_transition(&self.corrector.setup, configuration);
+        let mut clean = scan.is_outside();
+        breaks(&self.corrector, configuration, &scan, |_| clean = false);
+        clean
     }
 
     /// The last two contacts run together, if they are about to.
@@ -446,7 +457,13 @@ impl<'a> Stepper<'a> {
         let reached = match &first {
             None => return Ok(None),
             Some((_, Step::Changed(transition))) => &transition.after,
-            Some((_, Step::Ended(fold))) => fold,
+            Some((_, Step::Ended(fold))) => {
+                return if self.is_clean(fold) {
+                    Ok(first.map(|(_, step)| step))
+                } else {
+                    Err(NoTransition::NotLocated)
+                };
+            }
             Some((_, Step::Moved(point))) => &point.configuration,
         };
         if ordered_or_new(reached) && self.scanner.scan_transition(&self.corrector.setup, reached).is_outside() {

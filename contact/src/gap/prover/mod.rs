@@ -15,7 +15,7 @@ use super::separator::{Line, Lines};
 use super::touch::Rod;
 use super::{Crossing, GAP_TOLERANCE};
 use crate::contact_set::Configuration;
-use crate::gap::shape::Shape;
+use crate::gap::shape::{Node, Shape};
 use crate::scene::world::{RunFoot, World};
 use smallvec::SmallVec;
 
@@ -183,7 +183,9 @@ impl<'a> Search<'a> {
             let knot = Knot::on(&segments[segments.len() - 1], s);
             return self.world.run_foot(run, knot.at.x, knot.at.y).foot.gap.abs();
         }
-        self.shape.nodes.iter().map(|node| self.world.gap(node.at.x, node.at.y)).fold(f64::INFINITY, f64::min)
+        // behind an open contour a rod that came around its end is outside all the same
+        let gap = |node: &Node| self.world.gap(node.at.x, node.at.y).abs();
+        self.shape.nodes.iter().map(gap).fold(f64::INFINITY, f64::min)
     }
 
     fn all(&mut self) {
@@ -347,6 +349,11 @@ impl<'a> Search<'a> {
                 self.known.closest = Some((self.run, knot.s));
             }
         }
+        // a shape that has no closest point proves nothing
+        if !feet.iter().all(|foot| foot.foot.gap.is_finite()) {
+            self.proof.lower = f64::NEG_INFINITY;
+            return None;
+        }
         let least = self.least();
         let mut found = None;
         for (foot, knot) in feet.iter().zip([&part.from, &part.to]) {
@@ -404,7 +411,6 @@ impl<'a> Search<'a> {
         self.refuted.push(run);
         let Some(configuration) = self.configuration else { return };
         let crossing = Rod { world: self.world, shape: self.shape }.touch(run, knot);
-        self.proof.clamp_inside |= crossing.s <= 0.0;
         self.proof.seen = self.proof.seen.min(crossing.foot.gap);
         if !(crossing.tip && configuration.ends_at_tip()) {
             self.proof.crossings.push(crossing);
