@@ -89,3 +89,53 @@ pub(crate) fn merged(world: &World<'_>, configuration: &Configuration) -> Config
     into_notch(world, &mut merged, stretch, alpha, force);
     merged
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_contours::{Composite, StretchKind};
+
+    /// A right-angled notch at the origin, open downwards: the solid is above.
+    fn notch() -> Composite {
+        Composite::polyline(&[[-1.0, -1.0], [0.0, 0.0], [1.0, -1.0]]).unwrap()
+    }
+
+    fn rests(world: &World<'_>, phi: f64) -> (Configuration, usize) {
+        let notch = world.find(0, StretchKind::Notch { before: 0 }).unwrap();
+        let mut resting = Configuration::free(0.0);
+        let t = 0.5 * (world.range(notch).from + world.range(notch).to);
+        resting.insert(0, Held { stretch: notch, hold: Hold::Tip }, [t, 2.0, phi]);
+        (resting, notch)
+    }
+
+    #[test]
+    fn a_rod_lies_down_on_the_wall_that_it_leans_to() {
+        let contour = notch();
+        let world = World::new(contour.as_ref(), 1.0);
+        let upright = rests(&world, 0.5 * PI).0;
+        assert_eq!(wall_run_into(&world, &upright, 1e-13), None);
+        let [before, after] = world.walls(rests(&world, 0.0).1).map(Option::unwrap);
+        for (phi, wall) in [(0.24 * PI, before), (0.76 * PI, after)] {
+            let (leaning, _) = rests(&world, phi);
+            let (found, angle) = wall_run_into(&world, &leaning, 1e-13).unwrap();
+            assert_eq!(found, wall, "{phi}");
+            let lying = lying_angle(&world, &leaning, found, angle);
+            assert!((lying - phi).abs() < 0.02 * PI, "{lying}");
+        }
+    }
+
+    #[test]
+    fn the_force_in_a_notch_parts_and_merges_again() {
+        let contour = notch();
+        let world = World::new(contour.as_ref(), 1.0);
+        let (resting, notch) = rests(&world, 0.25 * PI);
+        let [wall, _] = world.walls(notch).map(Option::unwrap);
+        let two = parted(&world, &resting, wall);
+        assert!(two.count() == 2 && straddles(&world, &two) && two.ends_at_tip());
+        let root_2 = 2.0_f64.sqrt();
+        assert!((two.force(0) - root_2).abs() < 1e-14 && (two.force(1) - root_2).abs() < 1e-14);
+        let one = merged(&world, &two);
+        assert!(one.count() == 1 && one.contacts[0].stretch == notch);
+        assert!((one.force(0) - 2.0).abs() < 1e-14 && (one.t(0) - resting.t(0)).abs() < 1e-14);
+    }
+}

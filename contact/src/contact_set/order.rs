@@ -10,3 +10,26 @@ pub(crate) fn ordered(world: &World<'_>, configuration: &Configuration) -> bool 
     let n = configuration.count() - usize::from(straddles(world, configuration));
     (0..n).all(|j| configuration.s(j) > if j == 0 { 0.0 } else { configuration.s(j - 1) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact_set::Held;
+    use rod_contours::{Composite, Parabola};
+    use rod_core::Hold;
+
+    #[test]
+    fn contacts_follow_each_other_from_the_clamp_on() {
+        let contour = Composite::single(Parabola::new([0.0, 0.0], 1.0).unwrap()).unwrap();
+        let world = World::new(contour.as_ref(), 1.0);
+        let at = |places: &[f64]| {
+            let mut set = Configuration::free(0.0);
+            for (j, s) in places.iter().enumerate() {
+                set.insert(j, Held { stretch: 0, hold: Hold::Tangent { offset: 0.0 } }, [0.0, 1.0, *s]);
+            }
+            ordered(&world, &set)
+        };
+        assert!(at(&[]) && at(&[0.3]) && at(&[0.3, 0.7]));
+        assert!(!at(&[0.7, 0.3]) && !at(&[0.3, 0.3]) && !at(&[-0.1]));
+    }
+}

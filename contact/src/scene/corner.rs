@@ -88,3 +88,55 @@ impl Corner {
         -behind <= way && way <= ahead && world.gap(x, y) < 1e-12 - 0.5 * along * self.half.cos()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_contours::{CircularArc, Composite};
+
+    /// A square with its lower corner, a right angle, at the origin.
+    fn square() -> Composite {
+        Composite::polygon(&[[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]]).unwrap()
+    }
+
+    fn corner(world: &World<'_>) -> Corner {
+        let corners = (0..8).filter(|stretch| world.is_corner(*stretch)).map(|stretch| Corner::new(world, stretch));
+        corners.min_by(|a, b| a.y.total_cmp(&b.y)).unwrap()
+    }
+
+    fn level(y: f64, phi: f64) -> Section {
+        Section { x: 0.0, y, phi, kappa: 0.0 }
+    }
+
+    #[test]
+    fn a_rod_passes_below_a_corner_or_through_it() {
+        let square = square();
+        let world = World::new(square.as_ref(), 1.0);
+        let corner = corner(&world);
+        assert_eq!((corner.x, corner.y), (0.0, 0.0));
+        for phi in [0.0, PI] {
+            let below = corner.passing(&level(-0.1, phi)).unwrap();
+            assert!((below.gap - 0.1).abs() < 1e-15, "{below:?}");
+            let through = corner.passing(&level(0.1, phi)).unwrap();
+            assert!((through.gap + 0.1).abs() < 1e-15);
+            assert!(corner.is_cut(&world, &level(0.1, phi), &through, (1.0, 1.0)));
+        }
+        // steeper than the edges, a rod cannot lie on it
+        assert!(corner.passing(&level(-0.1, 0.3 * PI)).is_none());
+    }
+
+    #[test]
+    fn a_sharp_bend_is_a_corner_where_it_is_parallel() {
+        let radius = 1e-3;
+        let arc = CircularArc::new([0.0, radius], radius, -0.75 * PI, -0.25 * PI).unwrap();
+        let contour = Composite::single(arc).unwrap();
+        let world = World::new(contour.as_ref(), 1.0);
+        let part = contour.parts().next().unwrap();
+        let bend = Corner::of_bend(&world, part, 0.1, 32.0).unwrap();
+        assert!(
+            (bend.x - radius * 0.1_f64.sin()).abs() < 1e-8 && (bend.y - radius * (1.0 - 0.1_f64.cos())).abs() < 1e-8
+        );
+        assert!(Corner::of_bend(&world, part, 0.1, 2e3).is_none(), "too gentle");
+        assert!(Corner::of_bend(&world, part, 1.0, 32.0).is_none(), "no such direction");
+    }
+}
