@@ -151,7 +151,7 @@ pub fn equilibrium(
     let (first, second) =
         if off(&by_forces) < off(&by_chords) { (by_forces, by_chords) } else { (by_chords, by_forces) };
     let mut solve = |mut configuration: Configuration| {
-        let report = corrector.from_guess(&mut configuration, 0.0);
+        let report = corrector.solve_from_guess(&mut configuration, 0.0);
         (configuration, report)
     };
     let (mut configuration, mut report) = solve(first);

@@ -175,7 +175,7 @@ impl<'a> Corrector<'a> {
     }
 
     /// Solves at the pose `tau` from a guess.
-    pub fn from_guess(&mut self, configuration: &mut Configuration, tau: f64) -> SolveReport {
+    pub fn solve_from_guess(&mut self, configuration: &mut Configuration, tau: f64) -> SolveReport {
         self.solve(configuration, Condition::Fixed { unknown: Unknown::Path, value: tau }, COLD)
     }
 

@@ -23,7 +23,7 @@ pub(crate) fn settle(
     let mut configuration = guess;
     let tau = configuration.tau();
     for _ in 0..MOST_REPAIRS {
-        let report = (configuration.count() > 0).then(|| corrector.from_guess(&mut configuration, tau));
+        let report = (configuration.count() > 0).then(|| corrector.solve_from_guess(&mut configuration, tau));
         if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&corrector.setup.world, &configuration) {
             return None;
         }
