@@ -10,6 +10,12 @@ pub const LARGEST_ANGLE: f64 = 100.0;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContactError {
+    /// A name that is none of a phase.
+    #[error("no phase is called {name:?}, expected free, A, B, BA, BB, ...")]
+    Phase {
+        /// The name.
+        name: String,
+    },
     /// A quantity that must be finite is not.
     #[error("{what} is {value}, expected a finite number")]
     NotFinite {
