@@ -1,4 +1,4 @@
-//! The objects of Merker et al. (2021), two parabolas each, in lengths of the rod, and the sweeps past them.
+//! The objects of Merker et al. (2020), two parabolas each, in lengths of the rod, and the sweeps past them.
 #![allow(dead_code, reason = "each bench takes what it needs")]
 
 use std::f64::consts::FRAC_PI_2;

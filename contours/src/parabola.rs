@@ -1,4 +1,4 @@
-//! The parabola, the object of Merker et al. 2021.
+//! The parabola, the object of Merker et al. 2020.
 
 use crate::closest::gap;
 use crate::trust::{Seal, Trust};

@@ -185,7 +185,7 @@ impl Reconstruction {
 /// go along one path of the clamp; those that are no numbers, repeat a pose or turn back are left out, with the reason.
 ///
 /// Kinks and jumps cut the scan into parts; in each, local cubics give reactions and their rates with covariance; the
-/// criteria from them (phase criterion, length, tangent: see [`Evidence`]) and the phase diagram of Merker et al. (2021,
+/// criteria from them (phase criterion, length, tangent: see [`Evidence`]) and the phase diagram of Merker et al. (2020,
 /// fig. 8b) give the labels; single contacts follow in closed form, several by the envelope of the scan.
 ///
 /// Accuracy: of noise-free samples single contact points are exact to 1e-11 of the rod's length. In noise, each comes with

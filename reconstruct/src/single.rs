@@ -1,4 +1,4 @@
-//! One contact from one sample: the rod, followed from its clamp to where it is straight (Will 2014; Merker et al. 2021,
+//! One contact from one sample: the rod, followed from its clamp to where it is straight (Will 2014; Merker et al. 2020,
 //! section 3), in closed form and with exact derivatives.
 
 use crate::known::{Clamp, spread};
@@ -51,7 +51,7 @@ impl<T: Number> NoContact<T> {
 /// from the `covariance` of (f0x, f0y, m0z), in N^2, N^2 m, N^2 m^2; zero where that is not known.
 ///
 /// A = f0y, B = -f0x, kappa(0) = -m0z; the contact is where the curvature vanishes first, alpha = atan2(B, A) (Merker et
-/// al. 2021, eq. 10 and 18); but at the tip where the criterion K < 0 excludes a tangential contact and the curvature
+/// al. 2020, eq. 10 and 18); but at the tip where the criterion K < 0 excludes a tangential contact and the curvature
 /// vanishes at the tip once more, as it does of a rod that buckles in a notch. Exact but for rounding: of reactions exact
 /// to rounding the point is too, 1e-13 of the rod's length unless the force almost vanishes. No allocation.
 ///

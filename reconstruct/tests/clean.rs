@@ -1,4 +1,4 @@
-//! The nine scans of Merker et al. (2021), recorded without noise at 500 Hz and 1 mm/s: which phase, which point.
+//! The nine scans of Merker et al. (2020), recorded without noise at 500 Hz and 1 mm/s: which phase, which point.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use rod_contact::{ClampPath, EventKind, Item, State, Sweep};

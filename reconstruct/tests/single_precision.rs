@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 #[derive(Clone, Copy)]
 struct Felt(Pose, Reactions);
 
-/// Vertices of the two parabolas of each object of Merker et al. (2021).
+/// Vertices of the two parabolas of each object of Merker et al. (2020).
 const OBJECTS: [[[f64; 2]; 2]; 3] = [[[0.0, 0.0], [0.3, 0.0]], [[0.0, 0.0], [0.3, 0.1]], [[0.0, 0.1], [0.3, 0.0]]];
 
 /// All samples of the nine scans that have a single contact.
@@ -113,7 +113,7 @@ impl Errors {
     fn of(name: &str, all: &[Felt]) -> Self {
         let rod = Rod::new(1.0, 1.0).unwrap();
         let half = 0.5 * f64::from(f32::EPSILON);
-        // 2.5 mN and 0.06 mN m of the wire of Merker et al. (2021)
+        // 2.5 mN and 0.06 mN m of the wire of Merker et al. (2020)
         let noise = Matrix3::from_diagonal(&Vector3::new(1.57e-3, 1.57e-3, 9e-5));
         let (mut point, mut rounding, mut covariance, mut otherwise) = (Vec::new(), Vec::new(), Vec::new(), 0);
         for felt in all {

@@ -12,7 +12,7 @@
 //! Conventions: s from the clamp (0) to the tip; phi the slope angle, kappa = phi'; x' = cos phi, y' = sin phi. A
 //! support with tangent angle alpha, its solid to the left, pushes with the force f (sin alpha, -cos alpha), f >= 0.
 //! With A = sum f cos alpha and B = sum f sin alpha over the supports ahead, kappa' = A cos phi + B sin phi. The clamp
-//! feels f0x = -B, f0y = A, m0z = -E I kappa(0). (Merker et al. 2021, with the signs of their eq. 10 and Appendix A.)
+//! feels f0x = -B, f0y = A, m0z = -E I kappa(0). (Merker et al. 2020, with the signs of their eq. 10 and Appendix A.)
 //!
 //! This crate knows no contours: supports are whatever implements [`Supports`].
 //!

@@ -11,7 +11,7 @@
 //! the position and angle of the support, the force (A, B) as the sum over all supports ahead, and the curvature by
 //! moment balance, kappa_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
 //! kappa(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3
-//! equations a support (Merker et al. 2021, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
+//! equations a support (Merker et al. 2020, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
 //! unknowns: no error grows from one to the next.
 
 use crate::elastica::Elastica;

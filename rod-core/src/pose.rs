@@ -29,7 +29,7 @@ pub struct Reactions<T = f64> {
 impl<T: Scalar> Reactions<T> {
     /// The phase criterion K = m0z^2 - 2 E I (f0y sin phi0 + f0x cos phi0), N^2 m^2: zero exactly when the last contact is
     /// tangential (phases B, BB, ...), because each tangential contact adds f sin(phi - alpha) = 0 to the first integral of
-    /// the elastica. Merker et al. (2021), eq. 20, is the case phi0 = pi / 2. `phi0` is the clamp angle (radians),
+    /// the elastica. Merker et al. (2020), eq. 20, is the case phi0 = pi / 2. `phi0` is the clamp angle (radians),
     /// `bending_stiffness` in N m^2.
     ///
     /// ```

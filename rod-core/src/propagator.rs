@@ -20,7 +20,7 @@ pub struct Cut {
 }
 
 /// Carries a [`Cut`] along a rod under a constant force: x' = cos phi, y' = sin phi, m' = A cos phi + B sin phi
-/// (Merker et al. 2021, eq. 10, times E I), phi' = the curvature that the rod answers (s, m) with.
+/// (Merker et al. 2020, eq. 10, times E I), phi' = the curvature that the rod answers (s, m) with.
 ///
 /// # For users
 /// Take [`ClosedForm`] for a uniform rod, [`Ode`](crate::Ode) for any other and to check the first;

@@ -9,7 +9,7 @@ use core::f64::consts::PI;
 ///
 /// ```
 /// use rod_core::Rod;
-/// // the spring steel wire of Merker et al. (2021): 100 mm long, 0.5 mm thick
+/// // the spring steel wire of Merker et al. (2020): 100 mm long, 0.5 mm thick
 /// let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9)?;
 /// assert!((rod.bending_stiffness() - 6.32e-4).abs() < 1e-6); // N m^2
 /// assert!(Rod::new(-0.1, 1e-3).is_err());

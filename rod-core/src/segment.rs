@@ -1,6 +1,6 @@
 //! One segment between two contacts, exactly: the elastica under a constant force.
 //!
-//! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2021, eq. 10), a pendulum arc.
+//! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2020, eq. 10), a pendulum arc.
 //! It is evaluated by the addition theorem of its flow, without any case distinction.
 
 use crate::agm::agm;

@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 
 /// What one dimensionless unit is in SI: multiply to come out, divide to go in. Lengths are in L, forces in E I / L^2,
-/// moments in E I / L (Merker et al. 2021, eq. 1).
+/// moments in E I / L (Merker et al. 2020, eq. 1).
 ///
 /// ```
 /// let units = rod_core::Rod::new(0.1, 2e-3)?.units();

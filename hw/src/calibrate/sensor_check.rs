@@ -9,7 +9,7 @@ use rod_core::Units;
 const HIDDEN: f64 = 1.0;
 /// Small peaks of a scan are some units: this part of one is a percent of them.
 const DOMINATES: f64 = 0.05;
-/// Peaks over the nine scans of Merker et al. (2021), as `vibrissa paper` has them: 1.49 N and 43 mN m on a rod of
+/// Peaks over the nine scans of Merker et al. (2020), as `vibrissa paper` has them: 1.49 N and 43 mN m on a rod of
 /// E I / L^2 = 63.2 mN and E I / L = 6.32 mN m, 23.6 and 6.9 of them.
 const PEAK: Wrench = Wrench { force: [24.0; 3], torque: [7.0; 3] };
 /// The components in the plane of the rod.

@@ -4,7 +4,7 @@
 /// reference r: 1 where they are equal, 0 where x is no better than the mean of r, without a lower bound.
 ///
 /// This is what `goodnessOfFit(x, xref, 'NMSE')` of Matlab returned up to R2019b, hence the one of Merker et al.
-/// (2021), fig. 5, who used R2019a. From R2020a on that function returns the error alone, |x - r|^2 / |r - mean(r)|^2,
+/// (2020), fig. 5, who used R2019a. From R2020a on that function returns the error alone, |x - r|^2 / |r - mean(r)|^2,
 /// so that there 0 is a perfect fit: one minus ours.
 ///
 /// None without samples, with lists of different lengths, with numbers that are not finite, with a constant reference,

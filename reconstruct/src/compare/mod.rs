@@ -1,6 +1,6 @@
 //! How near a result is to the truth: reactions, contours, phases, kinks.
 //!
-//! - [`goodness_of_fit`]: two signals, by the normalised mean square error (Merker et al. 2021, fig. 5).
+//! - [`goodness_of_fit`]: two signals, by the normalised mean square error (Merker et al. 2020, fig. 5).
 //! - [`signed_distance`], [`Deviation`]: points against the true contour.
 //! - [`Confusion`]: the phases found against the true ones.
 //! - [`KinkScore`]: the kinks found against the true ones.

@@ -5,7 +5,7 @@
 //! parameters and no corner. From the finest scale to the coarsest, what stands out is taken, and no later window
 //! reaches across it; a free-knot fit then places it between the samples.
 //!
-//! Measured on the nine scans of Merker et al. (2021), 85,001 samples each, 20 noise draws a scan, wire of 100 mm and
+//! Measured on the nine scans of Merker et al. (2020), 85,001 samples each, 20 noise draws a scan, wire of 100 mm and
 //! 6.32e-4 N m^2, noise estimated from the data, a transition (all but A -> B) found within 1 mm
 //! (`cargo test --release -p rod-reconstruct --test suite kinks_of_the_paper -- --ignored --nocapture`):
 //!

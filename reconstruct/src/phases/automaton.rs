@@ -1,4 +1,4 @@
-//! Which phase may follow which (Merker et al. 2021, fig. 8b), and the likeliest way through the diagram.
+//! Which phase may follow which (Merker et al. 2020, fig. 8b), and the likeliest way through the diagram.
 
 use crate::label::Label;
 

@@ -71,7 +71,7 @@ impl Quantity {
 pub enum Basis {
     /// The size of the reactions.
     Force,
-    /// The phase criterion K (Merker et al. 2021, eq. 20).
+    /// The phase criterion K (Merker et al. 2020, eq. 20).
     Criterion,
     /// The arc length to where the moment vanishes.
     Length,
@@ -99,7 +99,7 @@ pub struct Evidence {
     /// The reactions f0x, f0y, m0z: all 0 where the rod is free.
     pub force: [Quantity; 3],
     /// Phase criterion K = m0z^2 - 2 (f0y sin phi0 + f0x cos phi0): 0 where the last contact is tangential (Merker et al.
-    /// 2021, eq. 20), negative where it is at the tip.
+    /// 2020, eq. 20), negative where it is at the tip.
     pub criterion: Quantity,
     /// Length criterion: arc length to where the moment vanishes, less 1: 0 where the tip alone is in contact.
     pub length: Quantity,

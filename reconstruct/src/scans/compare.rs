@@ -8,7 +8,7 @@ const PLACES: f64 = 400.0;
 
 /// When contours disagree, and along which direction that is told.
 ///
-/// Merker et al. (2021), section 3 and fig. 9: points found as if every sample had one contact agree between scans at
+/// Merker et al. (2020), section 3 and fig. 9: points found as if every sample had one contact agree between scans at
 /// different distances, but not in the concave parts of an object. So the comparison of [naive](crate::Assembly::naive)
 /// contours finds concave parts without any identification of phases; that of flagged points shows how far these are to
 /// be trusted.

@@ -16,7 +16,7 @@ fn rod() -> Rod {
     Rod::from_diameter(0.1, 0.5e-3, 206e9).unwrap()
 }
 
-/// Object O1 of Merker et al. (2021).
+/// Object O1 of Merker et al. (2020).
 fn object() -> Composite {
     let parabola = |x: f64| Box::new(Parabola::new([x, 0.0], 50.0).unwrap()) as Box<dyn Contour>;
     Composite::joined(vec![parabola(0.0), parabola(0.03)]).unwrap()

@@ -1,4 +1,4 @@
-//! The nine scans of Merker et al. (2021) in units of the rod: L = EI = 1.
+//! The nine scans of Merker et al. (2020) in units of the rod: L = EI = 1.
 
 use rod_contact::{ClampPath, EventKind, Item, Sweep};
 use rod_contours::{Composite, Parabola};

@@ -64,7 +64,7 @@ def transition(name, about, phases, pose, motion, tau, condition, supports, held
     return name, about, "transition", inputs, {"tau": tau, "contacts": [start for _, start in held]}
 
 
-# Objects of Merker et al. (2021), in lengths of the rod.
+# Objects of Merker et al. (2020), in lengths of the rod.
 O1 = [parabola(0, 0, 5), parabola(0.3, 0, 5)]
 O2 = [parabola(0, 0, 5), parabola(0.3, 0.1, 5)]
 LEFT = (-1, 0, 0)

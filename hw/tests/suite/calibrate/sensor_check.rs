@@ -3,7 +3,7 @@
 use rod_core::Rod;
 use rod_hw::*;
 
-/// The wire of Merker et al. (2021).
+/// The wire of Merker et al. (2020).
 fn check(force: f64, torque: f64) -> SensorCheck {
     let rod = Rod::new(0.1, 6.32e-4).unwrap();
     let rated = RatedLoad::in_units([force, force, force, torque, torque, torque], WrenchUnits::SI).unwrap();
