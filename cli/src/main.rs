@@ -53,6 +53,7 @@ fn read_setup(file: &Path) -> Result<Setup, SceneError> {
 
 fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     let scene = read_scene(file)?;
+    scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let caught = signals::ask();
     let staged = Staged::new(&out)?;
@@ -93,6 +94,7 @@ fn contour(
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
     let scene = read_scene(&scene)?;
+    scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
@@ -171,6 +173,7 @@ fn live(
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
     let scene = read_scene(&scene)?;
+    scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
     let name = scene.name.clone();
@@ -200,10 +203,13 @@ fn paper(out: &Path) -> Result<ExitCode, Error> {
     say(&paper.report());
     say(&format!("written to {}\n", out.display()));
     if !complete {
-        let all = Paper::SCANS;
-        warn(&format!(
-            "warning: paper: interrupted with {done} of {all} scans done; these are written, and paper.json says that they are not all\n"
-        ));
+        let written = if paper.is_complete() {
+            "interrupted while the figures of all scans were drawn; the scans are written without these figures"
+                .to_owned()
+        } else {
+            format!("interrupted with {done} of {} scans done; these are written", Paper::SCANS)
+        };
+        warn(&format!("warning: paper: {written}, and paper.json says that the results are incomplete\n"));
         return Ok(caught.status());
     }
     let finished = verdict(paper.scans.iter().map(|scan| &scan.scan));

@@ -80,8 +80,8 @@ struct PaperRecord<'a> {
     /// Whether all scans and the figures of all scans are there.
     complete: bool,
     scans: Vec<PaperScanRecord<'a>>,
-    /// Scenes of the scans that were not done.
-    missing: Vec<&'static str>,
+    /// Names of the scans that were not done.
+    missing: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -164,10 +164,11 @@ impl Paper {
 
     fn record(&self, complete: bool) -> PaperRecord<'_> {
         let is_missing = |entry: &&Entry| self.find(entry.0, entry.1).is_none();
+        let name = |entry: &Entry| format!("{}_q{}", entry.0, entry.1);
         PaperRecord {
             complete,
             scans: self.scans.iter().map(PaperScanRecord::from).collect(),
-            missing: SCANS.iter().filter(is_missing).map(|entry| entry.3).collect(),
+            missing: SCANS.iter().filter(is_missing).map(name).collect(),
         }
     }
 }

@@ -9,7 +9,7 @@ impl Scan {
     pub fn report(&self) -> String {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
         let incomplete = if self.is_complete() { "" } else { "incomplete, " };
-        let phases = self.cycle().titled();
+        let phases = if self.is_empty() { "no phase".to_owned() } else { self.cycle().titled() };
         let mut text = format!("{}: {incomplete}{phases}; {states} states, {events} events\n", self.scene.name);
         if let (Some(limit), Some(most)) = (self.scene.rod.yield_stress(), self.largest_stress())
             && most > limit

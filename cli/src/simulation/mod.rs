@@ -16,7 +16,7 @@ use vibrissa::{NoiseModel, Pose, Reactions, Stop};
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
 const WITHOUT_SIGMAS: usize = 7;
 
-/// What the comment is called that ends a recording which was interrupted.
+/// What the comment is called that ends a recording which was interrupted, or whose sweep stopped early.
 pub(crate) const INCOMPLETE: &str = "incomplete";
 
 /// A recording to be made, SI units.
@@ -98,7 +98,7 @@ impl Simulation {
     ///
     /// The memory it takes does not grow with the number of samples.
     ///
-    /// Interrupted, it ends the file with the comment `# incomplete: ` and where that was; [`Recording`](crate::Recording)
+    /// Interrupted, or where the sweep stops early, it ends the file with the comment `# incomplete: ` and where that was; [`Recording`](crate::Recording)
     /// reads it. Before the first sample it writes no file.
     ///
     /// # Errors
@@ -136,7 +136,11 @@ impl Simulation {
             }
             table.flush()?;
             drop(table);
-            recorded.interrupted.map_or(Ok(()), |at| writeln!(out, "# {INCOMPLETE}: {at}"))
+            match (&recorded.interrupted, &recorded.stop) {
+                (Some(at), _) => writeln!(out, "# {INCOMPLETE}: {at}"),
+                (None, Some(stop)) => writeln!(out, "# {INCOMPLETE}: {stop}"),
+                (None, None) => Ok(()),
+            }
         })?;
         if recorded.interrupted.is_some() && recorded.samples == 0 {
             return Ok(recorded);
