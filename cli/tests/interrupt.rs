@@ -104,7 +104,10 @@ fn an_interrupted_sweep_writes_what_it_has_and_says_so() {
         assert!(String::from_utf8(output.stdout).unwrap().starts_with("scene: incomplete, "));
 
         let out = directory.path().join("new/out");
-        assert_eq!(names(&out), ["events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]);
+        assert_eq!(
+            names(&out),
+            ["contacts.csv", "events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]
+        );
         let states = fs::read_to_string(out.join("states.jsonl")).unwrap();
         let count = states.lines().count();
         assert!((1..800_001).contains(&count), "{count}");
@@ -136,7 +139,7 @@ fn a_second_signal_leaves_no_stage_either() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     let left = if out.exists() { names(&out) } else { Vec::new() };
-    assert!(left.is_empty() || left.len() == 5 && stage(&out).is_none(), "{left:?}");
+    assert!(left.is_empty() || left.len() == 6 && stage(&out).is_none(), "{left:?}");
 }
 
 #[test]

@@ -6,6 +6,7 @@
 
 mod check;
 mod document;
+mod files;
 mod object;
 mod rod;
 mod shape;
@@ -15,7 +16,7 @@ pub use rod::read_rod;
 
 use crate::SceneError;
 use crate::toml_file::{self, Source};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::DeTable;
 use vibrissa::{ClampPath, Composite, ContactError, Rod, StopReason, Sweep};
@@ -35,6 +36,8 @@ pub struct Scene {
     pub step: f64,
     /// What may be a mistake in the file: angles that look like radians where degrees belong, or the other way round.
     pub warnings: Vec<String>,
+    /// The file of the scene, and those that it names.
+    pub files: Vec<PathBuf>,
     source: Source,
 }
 

@@ -37,6 +37,7 @@ pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -
         tare: window(tare)?,
         half_window: half_window.map(|half| positive("half_window", half, "m")).transpose()?,
         warnings: Vec::new(),
+        files: Vec::new(),
     })
 }
 

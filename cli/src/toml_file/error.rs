@@ -111,6 +111,10 @@ impl Source {
         Self { file: file.to_path_buf(), text: text.to_owned() }
     }
 
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
     /// An error at the value of a field, given its path as in `sweep.from`.
     pub fn error(&self, field: &str, message: &str) -> SceneError {
         let table = DeTable::parse(&self.text).ok();
