@@ -78,9 +78,29 @@ fn a_sweep_writes_states_events_and_a_figure() {
 
     let figure = fs::read_to_string(out.join("sweep.svg")).unwrap();
     assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
-    for text in ["x in mm", "y in mm", "f0x in N", "f0y in N", "m0z in N mm", "phase A", "phase B", "free"] {
+    for text in ["x in mm", "y in mm", ">0x</tspan>", "> in N mm</tspan>", "phase A", "phase B", "free"] {
         assert!(figure.contains(text), "{text}");
     }
+}
+
+/// Lines have fractions of pixels, the page is 180 mm wide, and a closed contour around the rod is seen as a whole.
+#[test]
+fn a_figure_is_fine_and_whole() {
+    let directory = tempfile::tempdir().unwrap();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let output =
+        vibrissa(directory.path(), &["sweep", scenes.join("ring_gear.toml").to_str().unwrap(), "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+    let figure = fs::read_to_string(directory.path().join("out/sweep.svg")).unwrap();
+    assert!(figure.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"180mm\""));
+    let ring = figure.lines().find(|line| line.contains("stroke=\"#000000\" stroke-width=\"5\"") && line.len() > 1000);
+    let points = ring.unwrap().split('"').nth(1).unwrap().to_owned();
+    let points: Vec<(f64, f64)> = points
+        .split(' ')
+        .map(|point| point.split_once(',').map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap())).unwrap())
+        .collect();
+    assert!(points.iter().any(|(x, _)| x.fract() != 0.0) && points.first() == points.last());
+    assert!(points.iter().all(|(x, y)| *x > 0.0 && *y > 0.0 && *x < 860.0 && *y < 1150.0), "{points:?}");
 }
 
 #[test]
