@@ -10,7 +10,6 @@ mod init;
 mod interrupt;
 mod interval;
 mod live;
-mod naive;
 mod noise_file;
 mod output;
 mod paper;
@@ -18,7 +17,6 @@ mod profile;
 mod reconstructed;
 mod recording;
 mod report;
-mod resolved;
 #[cfg(test)]
 mod sample;
 mod scan;

@@ -4,7 +4,7 @@ use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write
 use super::cloud::{self, Dot};
 use super::palette::{FAINT, INK, MUTED};
 use super::plane::Window;
-use crate::naive::Naive;
+use crate::paper::naive::Naive;
 
 /// Width of a scan, height of the title and key, and of the lines above each scan, pixels.
 const WIDTH: u32 = PAGE / 3;

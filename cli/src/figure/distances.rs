@@ -5,7 +5,7 @@ use super::cloud::{self, Dot};
 use super::element::Element;
 use super::palette::{INK, MUTED, OTHERS, RGBColor};
 use super::plane::Window;
-use crate::naive::{Naive, NaivePoint, STEP};
+use crate::paper::naive::{Naive, NaivePoint, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
 use vibrissa::{Comparison, ContourEstimate};
 

@@ -3,7 +3,7 @@
 use super::canvas::{Area, BODY, FigureError, HPos, TITLE, svg, write};
 use super::element::Element;
 use super::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
-use crate::naive::{Naive, STEP};
+use crate::paper::naive::{Naive, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
 use vibrissa::compare::goodness_of_fit;
 use vibrissa::{NoiseModel, Reactions};

@@ -5,7 +5,7 @@ use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write
 use super::cloud::{self, Dot};
 use super::palette::{self, FAINT, INK, MUTED};
 use super::plane::Window;
-use crate::resolved::Resolved;
+use crate::paper::resolved::Resolved;
 
 /// Width of a scan, height of the title and key, of a row's title, and of the lines above each scan, pixels.
 const WIDTH: u32 = PAGE / 3;

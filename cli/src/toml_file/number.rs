@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn a_comma_becomes_a_point() {
-        let hint = |text: &str| decimal_comma(text, text.find(',').unwrap()).map(|(span, hint)| (span, hint));
+        let hint = |text: &str| decimal_comma(text, text.find(',').unwrap());
         let (span, message) = hint("[rod]\nlength = 0,5  # m\n").unwrap();
         assert_eq!((span, message.as_str()), (15..18, "the value is `0,5`, expected a decimal point: `0.5`"));
         assert_eq!(hint("a = -1,5e-3").unwrap().0, 4..11);
