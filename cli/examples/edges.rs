@@ -25,7 +25,8 @@ type Line = Vec<(f64, f64)>;
 fn main() -> Result<(), Box<dyn Error>> {
     let out = std::env::args().nth(1).ok_or("expected the name of the figure")?;
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/saw.toml");
-    let scene = Scene { step: 5e-6, ..Scene::read(&file)? };
+    let mut scene = Scene::read(&file)?;
+    scene.step = 5e-6;
     let start = scene.path.at(0.0);
     let scan = Scan::run(scene)?;
     let samples: Vec<Sample> =

@@ -1,21 +1,21 @@
 //! The command line.
 
+use crate::guide;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
 use vibrissa_cli::{FakeProtocol, Reading, SensorAddress, StageSpec};
 
-/// A thin elastic rod swept along an object: contact phases, transitions and clamp reactions.
+/// Simulates a flexible whisker that is dragged past an object, and reconstructs the object from the forces and the moment at
+/// the base of the whisker.
 #[derive(Debug, Parser)]
-#[command(
-    version,
-    after_help = "Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording that does not \
-                  fit its rod or its units, a sensor that does not suit the rod or fell silent, 130 interrupted with Ctrl-C (143 with \
-                  SIGTERM). Interrupted, sweep, simulate and paper write what they have and mark it as incomplete, reconstruct \
-                  and contour write nothing; live and fake-sensor end as usual. A second time ends any of them at once."
-)]
+#[command(name = "vibrissa", version, after_help = guide::STATUS)]
 pub struct Arguments {
+    /// Print no report on standard output, only warnings and errors on standard error
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
@@ -39,7 +39,15 @@ ends, the sensor is silent for 3 s, or with Ctrl-C.";
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Sweep the rod of a scene file: states.jsonl, states.csv, events.jsonl, sweep.svg and sweep.json
+    /// Write a scene with comments, to begin with
+    #[command(after_help = guide::INIT)]
+    Init {
+        /// The new file
+        #[arg(default_value = "scene.toml")]
+        file: PathBuf,
+    },
+    /// Sweep the rod of a scene along its path: shapes, contacts and reactions of the clamp as tables and a figure
+    #[command(after_help = guide::SWEEP)]
     Sweep {
         /// The scene, a TOML file
         scene: PathBuf,
@@ -48,10 +56,12 @@ pub enum Command {
         out: Option<PathBuf>,
     },
     /// Write the contours of a scene as points (CSV), and a drawing of them beside it (SVG)
+    #[command(after_help = guide::CONTOUR)]
     Contour {
         /// The scene, a TOML file
         scene: PathBuf,
-        /// The CSV file; the drawing has the same name with .svg [default: out/<name of the scene>/contour.csv]
+        /// The CSV file, or - for standard output; the drawing has the same name with .svg, none for - [default: out/<name of the
+        /// scene>/contour.csv]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
         /// Largest distance of a chord between two points from the contour, m [default: 1e-6 of the rod's length]
@@ -61,10 +71,14 @@ pub enum Command {
         #[arg(long, value_name = "N")]
         object: Option<usize>,
     },
+    /// List the shapes that objects are made of, with fields and units
+    #[command(after_help = guide::SHAPES)]
+    Shapes,
     /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
+    #[command(after_help = guide::SIMULATE)]
     Simulate(Simulate),
     /// Turn a recording of clamp reactions back into contact points, phases and the contour
-    #[command(long_about = RECONSTRUCT)]
+    #[command(long_about = RECONSTRUCT, after_help = guide::RECONSTRUCT)]
     Reconstruct {
         /// The recording: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
         /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z; other units in the names, as `f0x [mN]`
@@ -82,7 +96,7 @@ pub enum Command {
         written: Written,
     },
     /// Listen to a sensor: contact points, phases and flags as they come
-    #[command(long_about = LIVE)]
+    #[command(long_about = LIVE, after_help = guide::LIVE)]
     Live {
         /// Where it is: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
         /// or file:RECORDING (CSV, TSV, LVM, TDMS, MCAP)
@@ -108,12 +122,26 @@ pub enum Command {
         written: Written,
     },
     /// Play what a sensor would send along a scene, for tests without one
+    #[command(after_help = guide::FAKE_SENSOR)]
     FakeSensor(FakeSensor),
-    /// Run the nine scans of Merker et al. (2021) and compare their phases with the paper's
+    /// Run the nine scans of Merker et al. (2020) and compare their phases with the paper's
+    #[command(after_help = guide::PAPER)]
     Paper {
         /// Directory of the results
         #[arg(long, value_name = "DIR", default_value = "out")]
         out: PathBuf,
+    },
+    /// Print the completions of a shell
+    #[command(after_help = guide::COMPLETIONS)]
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Print the manual page of vibrissa, or of one of its commands
+    #[command(after_help = guide::MAN)]
+    Man {
+        /// The command
+        command: Option<String>,
     },
 }
 
@@ -193,7 +221,7 @@ pub struct Simulate {
     /// Write the standard deviations of white and AR(1) noise and the quantum, too: sigma_f0x,sigma_f0y,sigma_m0z
     #[arg(long)]
     pub sigmas: bool,
-    /// The CSV file [default: out/<name of the scene>/recording.csv]
+    /// The CSV file, or - for standard output [default: out/<name of the scene>/recording.csv]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 }

@@ -6,10 +6,10 @@ mod cycle;
 mod error;
 mod fake_sensor;
 mod figure;
+mod init;
 mod interrupt;
 mod interval;
 mod live;
-mod naive;
 mod noise_file;
 mod output;
 mod paper;
@@ -17,12 +17,12 @@ mod profile;
 mod reconstructed;
 mod recording;
 mod report;
-mod resolved;
 #[cfg(test)]
 mod sample;
 mod scan;
 mod scene;
 mod setup;
+mod shapes;
 mod simulation;
 mod table;
 mod toml_file;
@@ -31,6 +31,7 @@ pub use cycle::Cycle;
 pub use error::Error;
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;
+pub use init::{FIRST_SCENE, write_first_scene};
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::Interval;
 pub use live::{
@@ -38,7 +39,7 @@ pub use live::{
     SensorAddress, StageSpec, StageSpecError,
 };
 pub use noise_file::read_noise;
-pub use output::{OutputError, Staged, abandon, write_profiles};
+pub use output::{OutputError, Staged, abandon, check_output, write_profile_table, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub(crate) use reconstructed::naive_touch;
@@ -47,5 +48,6 @@ pub use recording::{Reading, Recording, RecordingError, Row, RowFault, RowProble
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
+pub use shapes::shapes_list;
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
 pub use toml_file::{Invalid, SceneError};

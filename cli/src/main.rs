@@ -1,25 +1,40 @@
 //! The command `vibrissa`.
 
 mod arguments;
+mod guide;
 mod signals;
 
 use arguments::{Arguments, Command, FakeSensor, Simulate};
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::{NoiseModel, Stop};
 use vibrissa_cli::{
-    Error, FakeScan, Interrupted, LiveScan, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene, SceneError,
-    Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, read_noise, read_rod, write_profiles,
+    Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene,
+    SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output, read_noise,
+    read_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
 const UNFINISHED: u8 = 2;
 
+/// Name of the command.
+const NAME: &str = "vibrissa";
+
+/// Whether reports are left out.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let Arguments { quiet, command } = Arguments::parse();
+    QUIET.store(quiet, Ordering::Relaxed);
+    let result = match command {
+        Command::Init { file } => init(&file),
+        Command::Shapes => print(shapes_list().as_bytes()),
+        Command::Completions { shell } => completions(shell),
+        Command::Man { command } => man(command.as_deref()),
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
@@ -32,10 +47,56 @@ fn main() -> ExitCode {
         Command::FakeSensor(arguments) => fake_sensor(arguments),
         Command::Paper { out } => paper(&out),
     };
-    result.unwrap_or_else(|error| {
-        complain(error);
-        ExitCode::FAILURE
+    result.unwrap_or_else(|error| match error {
+        // who reads has seen enough, as in `| head`
+        Error::Output(OutputError::Standard(source)) if is_broken_pipe(&source) => ExitCode::SUCCESS,
+        error => {
+            complain(error);
+            ExitCode::FAILURE
+        }
     })
+}
+
+/// Whether the reader of standard output has gone away, also where the table's writer says so.
+fn is_broken_pipe(error: &io::Error) -> bool {
+    let table = error.get_ref().and_then(|inner| inner.downcast_ref::<csv::Error>()).map(csv::Error::kind);
+    match table {
+        Some(csv::ErrorKind::Io(inner)) => inner.kind() == ErrorKind::BrokenPipe,
+        _ => error.kind() == ErrorKind::BrokenPipe,
+    }
+}
+
+fn init(file: &Path) -> Result<ExitCode, Error> {
+    write_first_scene(file)?;
+    let file = file.display();
+    say(&format!("written to {file}; next: vibrissa sweep {file}\n"));
+    Ok(ExitCode::SUCCESS)
+}
+
+fn completions(shell: clap_complete::Shell) -> Result<ExitCode, Error> {
+    let mut text = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), NAME, &mut text);
+    print(&text)
+}
+
+/// Prints a manual page: of the whole, or of one command.
+fn man(command: Option<&str>) -> Result<ExitCode, Error> {
+    let mut whole = Arguments::command();
+    whole.build();
+    let page = match command {
+        None => whole,
+        Some(name) => match whole.find_subcommand(name) {
+            Some(command) => command.clone().display_name(format!("{NAME}-{name}")),
+            None => {
+                let names: Vec<&str> = whole.get_subcommands().map(clap::Command::get_name).collect();
+                warn(&format!("error: {name} is no command, expected one of {}\n", names.join(", ")));
+                return Ok(ExitCode::from(UNFINISHED));
+            }
+        },
+    };
+    let mut text = Vec::new();
+    clap_mangen::Man::new(page).render(&mut text).map_err(OutputError::Standard)?;
+    print(&text)
 }
 
 /// Reads a scene, and tells of what may be a mistake in it.
@@ -53,9 +114,10 @@ fn read_setup(file: &Path) -> Result<Setup, SceneError> {
 
 fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     let scene = read_scene(file)?;
+    scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let caught = signals::ask();
-    let staged = Staged::new(&out)?;
+    let staged = Staged::new(&out)?.keeping(scene.files.clone());
     let scan = Scan::run_until(scene, &caught.interrupt)?;
     if let Some(at) = scan.interrupted.filter(|_| scan.outcome.states.is_empty()) {
         return Ok(interrupted(&scan.scene.name, &at, None, &caught));
@@ -80,29 +142,47 @@ fn contour(
     let scene = read_scene(file)?;
     let profiles = scene.profiles(tolerance, object)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
-    let drawing = write_profiles(&scene.name, &profiles, &out)?;
+    let tell: fn(&str) = if is_standard(&out) { tell_beside } else { say };
+    let written = if is_standard(&out) {
+        write_profile_table(&profiles, &mut io::stdout().lock()).map_err(OutputError::Standard)?;
+        "standard output".to_owned()
+    } else {
+        let drawing = write_profiles(&scene.name, &profiles, &out, scene.files)?;
+        format!("{} and {}", out.display(), drawing.display())
+    };
     for profile in &profiles {
         let length = profile.points.last().map_or(0.0, |point| point.arc_length);
         let (object, count) = (profile.object, profile.points.len());
-        say(&format!("{}: object {object}: {count} points along {:.6} mm\n", scene.name, 1e3 * length));
+        tell(&format!("{}: object {object}: {count} points along {:.6} mm\n", scene.name, 1e3 * length));
     }
-    say(&format!("written to {} and {}\n", out.display(), drawing.display()));
+    tell(&format!("written to {written}\n"));
     Ok(ExitCode::SUCCESS)
 }
 
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
     let scene = read_scene(&scene)?;
-    let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
+    scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
+    let standard = is_standard(&out);
+    if !standard {
+        check_output(&out, &noise.iter().cloned().collect::<Vec<_>>())?;
+    }
+    let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
     let caught = signals::ask();
-    let Simulated { samples, lost, stop, interrupted: at } = simulation.write(&out, &caught.interrupt)?;
+    let tell: fn(&str) = if standard { tell_beside } else { say };
+    let Simulated { samples, lost, stop, interrupted: at } = if standard {
+        simulation.write_to(&mut BufWriter::new(io::stdout().lock()), &caught.interrupt)?
+    } else {
+        simulation.write(&out, &caught.interrupt)?
+    };
     let name = &simulation.scene.name;
     if let Some(at) = at.filter(|_| samples == 0) {
         return Ok(interrupted(name, &at, None, &caught));
     }
-    say(&format!("{name}: {samples} samples, {lost} lost in dropouts\nwritten to {}\n", out.display()));
+    let place = if standard { "standard output".to_owned() } else { out.display().to_string() };
+    tell(&format!("{name}: {samples} samples, {lost} lost in dropouts\nwritten to {place}\n"));
     Ok(match (at, stop) {
         (Some(at), _) => interrupted(name, &at, Some("the last line of the file"), &caught),
         (None, Some(stop)) => stopped(name, &stop),
@@ -118,6 +198,7 @@ fn reconstruct(
     out: Option<PathBuf>,
 ) -> Result<ExitCode, Error> {
     signals::end();
+    let mut inputs = vec![file.to_path_buf(), rod.to_path_buf()];
     let rod = read_rod(rod)?;
     let truth = truth.map(|scene| read_scene(&scene)).transpose()?;
     let recording = Recording::read(file, &rod, how)?;
@@ -126,10 +207,12 @@ fn reconstruct(
     }
     let mut found = Reconstructed::new(recording, rod)?;
     if let Some(scene) = truth {
+        scene.check_start()?;
+        inputs.extend(scene.files.iter().cloned());
         found.compare(scene)?;
     }
     let out = out.unwrap_or_else(|| Path::new("out").join(&found.name));
-    let staged = Staged::new(&out)?;
+    let staged = Staged::new(&out)?.keeping(inputs);
     found.write(&staged)?;
     staged.publish()?;
     say(&found.summary());
@@ -153,13 +236,22 @@ fn live(
     out: &Path,
 ) -> Result<ExitCode, Error> {
     let setup = setup.map_or_else(|| Ok(Setup::default()), read_setup)?;
+    let mut inputs = vec![rod.to_path_buf()];
+    inputs.extend(setup.files.iter().cloned());
+    inputs.extend(path.map(Path::to_path_buf));
+    if let Some(StageSpec::Table(file)) = &stage {
+        inputs.push(file.clone());
+    }
+    if let SensorAddress::File(file) = address {
+        inputs.push(file.clone());
+    }
     let path = match (path, &stage) {
         (Some(scene), _) => Some(read_scene(scene)?.path),
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
         (None, Some(StageSpec::Constant(_))) => read_scene(rod).ok().map(|scene| scene.path),
         (None, _) => None,
     };
-    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, reading };
+    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, reading, inputs };
     let sensor = Sensor::open(address, &scan.setup, &scan.reading)?;
     let interrupt = signals::ask().interrupt;
     let report = scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
@@ -171,6 +263,7 @@ fn live(
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
     let scene = read_scene(&scene)?;
+    scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
     let name = scene.name.clone();
@@ -200,10 +293,13 @@ fn paper(out: &Path) -> Result<ExitCode, Error> {
     say(&paper.report());
     say(&format!("written to {}\n", out.display()));
     if !complete {
-        let all = Paper::SCANS;
-        warn(&format!(
-            "warning: paper: interrupted with {done} of {all} scans done; these are written, and paper.json says that they are not all\n"
-        ));
+        let written = if paper.is_complete() {
+            "interrupted while the figures of all scans were drawn; the scans are written without these figures"
+                .to_owned()
+        } else {
+            format!("interrupted with {done} of {} scans done; these are written", Paper::SCANS)
+        };
+        warn(&format!("warning: paper: {written}, and paper.json says that the results are incomplete\n"));
         return Ok(caught.status());
     }
     let finished = verdict(paper.scans.iter().map(|scan| &scan.scan));
@@ -246,9 +342,29 @@ fn complain(error: Error) {
     }
 }
 
+/// Whether a table goes to standard output.
+fn is_standard(out: &Path) -> bool {
+    out == Path::new("-")
+}
+
 /// To standard output; a reader that has gone away is no reason to fail, for the files are written.
 fn say(text: &str) {
-    let _ = io::stdout().write_all(text.as_bytes());
+    if !QUIET.load(Ordering::Relaxed) {
+        let _ = io::stdout().write_all(text.as_bytes());
+    }
+}
+
+/// To standard error, while a table takes standard output.
+fn tell_beside(text: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        warn(text);
+    }
+}
+
+/// What was asked for, to standard output.
+fn print(text: &[u8]) -> Result<ExitCode, Error> {
+    io::stdout().write_all(text).map_err(OutputError::Standard)?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn warn(text: &str) {

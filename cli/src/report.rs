@@ -1,15 +1,14 @@
 //! What a command says when it is done.
 
-use crate::paper::{DISTANCES, OBJECTS};
+use crate::Scan;
 use crate::table::Table;
-use crate::{Paper, Scan};
 
 impl Scan {
     /// A line on the phases, one on each thing a user should know, and the table of events.
     pub fn report(&self) -> String {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
         let incomplete = if self.is_complete() { "" } else { "incomplete, " };
-        let phases = self.cycle().titled();
+        let phases = if self.is_empty() { "no phase".to_owned() } else { self.cycle().titled() };
         let mut text = format!("{}: {incomplete}{phases}; {states} states, {events} events\n", self.scene.name);
         if let (Some(limit), Some(most)) = (self.scene.rod.yield_stress(), self.largest_stress())
             && most > limit
@@ -44,50 +43,6 @@ impl Scan {
                 format!("{:.6}", reactions.f0y),
                 format!("{:.6}", 1e3 * reactions.m0z),
             ]);
-        }
-        table.to_string()
-    }
-}
-
-impl Paper {
-    /// The cycles beside the paper's, and the events of every scan.
-    pub fn report(&self) -> String {
-        let (done, all) = (self.scans.len(), Self::SCANS);
-        let incomplete =
-            if self.is_complete() { String::new() } else { format!("incomplete: {done} of {all} scans\n") };
-        format!("{incomplete}phase cycles (the paper's beside them)\n{}\n{}", self.cycle_table(), self.event_tables())
-    }
-
-    fn cycle_table(&self) -> Table {
-        let header: Vec<String> = DISTANCES.iter().map(|distance| format!("q = {distance} mm")).collect();
-        let mut table = Table::new(std::iter::once("object").chain(header.iter().map(String::as_str)));
-        for object in OBJECTS {
-            let cells = DISTANCES.iter().map(|&distance| {
-                self.find(object, distance).map_or_else(String::new, |scan| {
-                    let cycle = scan.scan.cycle();
-                    let verdict = if scan.matches() { "match" } else { "MISMATCH" };
-                    format!("{cycle} = {} ({}: {verdict})", cycle.name().unwrap_or("?"), scan.expected)
-                })
-            });
-            table.row(std::iter::once(object.to_owned()).chain(cells));
-        }
-        table
-    }
-
-    fn event_tables(&self) -> String {
-        let mut table = Table::new(["scan", "event", "from", "to", "x0 mm", "x0/L"]);
-        for scan in self.scans.iter().map(|scan| &scan.scan) {
-            for event in &scan.outcome.events {
-                let x0 = event.pose().x;
-                table.row([
-                    scan.scene.name.clone(),
-                    event.kind.to_string(),
-                    event.from().to_string(),
-                    event.to().to_string(),
-                    format!("{:.10}", 1e3 * x0),
-                    format!("{:.12}", x0 / scan.scene.rod.length()),
-                ]);
-            }
         }
         table.to_string()
     }

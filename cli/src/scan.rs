@@ -61,6 +61,11 @@ impl Scan {
         self.outcome.stop.is_none() && self.interrupted.is_none()
     }
 
+    /// Whether the sweep ended before its first state.
+    pub fn is_empty(&self) -> bool {
+        self.outcome.states.is_empty() && self.outcome.events.is_empty()
+    }
+
     /// The phases in order.
     pub fn cycle(&self) -> Cycle {
         Cycle::of(&self.outcome)

@@ -33,7 +33,7 @@ fn a_sweep_writes_states_events_and_a_figure() {
     let out = directory.path().join("out/scene");
     let mut names: Vec<_> = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]);
+    assert_eq!(names, ["contacts.csv", "events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]);
 
     let states = lines(&out.join("states.jsonl"));
     assert_eq!(states.len(), 41);
@@ -78,9 +78,29 @@ fn a_sweep_writes_states_events_and_a_figure() {
 
     let figure = fs::read_to_string(out.join("sweep.svg")).unwrap();
     assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
-    for text in ["x in mm", "y in mm", "f0x in N", "f0y in N", "m0z in N mm", "phase A", "phase B", "free"] {
+    for text in ["x in mm", "y in mm", ">0x</tspan>", "> in N mm</tspan>", "phase A", "phase B", "free"] {
         assert!(figure.contains(text), "{text}");
     }
+}
+
+/// Lines have fractions of pixels, the page is 180 mm wide, and a closed contour around the rod is seen as a whole.
+#[test]
+fn a_figure_is_fine_and_whole() {
+    let directory = tempfile::tempdir().unwrap();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let output =
+        vibrissa(directory.path(), &["sweep", scenes.join("ring_gear.toml").to_str().unwrap(), "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+    let figure = fs::read_to_string(directory.path().join("out/sweep.svg")).unwrap();
+    assert!(figure.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"180mm\""));
+    let ring = figure.lines().find(|line| line.contains("stroke=\"#000000\" stroke-width=\"5\"") && line.len() > 1000);
+    let points = ring.unwrap().split('"').nth(1).unwrap().to_owned();
+    let points: Vec<(f64, f64)> = points
+        .split(' ')
+        .map(|point| point.split_once(',').map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap())).unwrap())
+        .collect();
+    assert!(points.iter().any(|(x, _)| x.fract() != 0.0) && points.first() == points.last());
+    assert!(points.iter().all(|(x, y)| *x > 0.0 && *y > 0.0 && *x < 860.0 && *y < 1150.0), "{points:?}");
 }
 
 #[test]
@@ -88,17 +108,47 @@ fn the_table_holds_the_same_numbers_to_the_last_bit() {
     let directory = swept(SCENE);
     let out = directory.path().join("out/scene");
     let mut table = csv::Reader::from_path(out.join("states.csv")).unwrap();
-    let header = "x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress,min_gap_bound,gap_proven";
+    let header =
+        "state,x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress,min_gap_bound,gap_proven";
     assert_eq!(table.headers().unwrap().iter().collect::<Vec<_>>().join(","), header);
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
     let states = lines(&out.join("states.jsonl"));
     assert_eq!(rows.len(), states.len());
-    for (row, state) in rows.iter().zip(&states) {
-        for (cell, column) in row.iter().zip(header.split(',')) {
+    for (index, (row, state)) in rows.iter().zip(&states).enumerate() {
+        assert_eq!(row[0].parse::<usize>().unwrap(), index + 1, "the number of the line in states.jsonl");
+        for (cell, column) in row.iter().zip(header.split(',')).skip(1) {
             match &state[column] {
                 Value::Number(number) => assert_eq!(cell.parse::<f64>().unwrap(), number.as_f64().unwrap(), "{column}"),
                 Value::String(text) => assert_eq!(cell, text),
                 other => assert_eq!(cell, other.to_string()),
+            }
+        }
+    }
+}
+
+#[test]
+fn the_table_of_contacts_has_a_row_for_each() {
+    let directory = swept(&edited("to = [0.03, -0.04]", "to = [-0.09, -0.04]"));
+    let out = directory.path().join("out/scene");
+    let mut table = csv::Reader::from_path(out.join("contacts.csv")).unwrap();
+    let header = "state,x0,y0,phi0,phase,contact,object,piece,kind,s,x,y,alpha,force";
+    assert_eq!(table.headers().unwrap().iter().collect::<Vec<_>>().join(","), header);
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let states = lines(&out.join("states.jsonl"));
+    let contacts = |state: &Value| state["contacts"].as_array().unwrap().clone();
+    let all: Vec<(usize, usize, Value)> = (1..)
+        .zip(&states)
+        .flat_map(|(state, record)| (1..).zip(contacts(record)).map(move |(contact, record)| (state, contact, record)))
+        .collect();
+    assert!(rows.len() == all.len() && all.iter().any(|(_, contact, _)| *contact == 2), "{}", rows.len());
+    for (row, (state, contact, record)) in rows.iter().zip(&all) {
+        assert_eq!((row[0].parse::<usize>().unwrap(), row[5].parse::<usize>().unwrap()), (*state, *contact));
+        for (cell, column) in
+            row.iter().zip(header.split(',')).filter(|(_, column)| !["state", "contact"].contains(column))
+        {
+            match record.get(column).unwrap_or(&states[state - 1][column]) {
+                Value::String(text) => assert_eq!(cell, text),
+                number => assert_eq!(cell.parse::<f64>().unwrap(), number.as_f64().unwrap(), "{column}"),
             }
         }
     }
@@ -110,7 +160,7 @@ fn a_rod_without_thickness_has_no_stress() {
     let states = lines(&directory.path().join("out/scene/states.jsonl"));
     assert!(states.iter().all(|state| state["max_stress"].is_null()));
     let table = fs::read_to_string(directory.path().join("out/scene/states.csv")).unwrap();
-    assert!(table.lines().skip(1).all(|line| line.split(',').nth(11) == Some("")));
+    assert!(table.lines().skip(1).all(|line| line.split(',').nth(12) == Some("")));
 }
 
 #[test]
@@ -171,7 +221,7 @@ fn a_failure_leaves_the_earlier_results_alone() {
     let output = vibrissa(directory.path(), &["sweep", "scene.toml"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(fs::read(&file).unwrap(), good);
-    assert_eq!(fs::read_dir(directory.path().join("out/scene")).unwrap().count(), 5, "no stage is left behind");
+    assert_eq!(fs::read_dir(directory.path().join("out/scene")).unwrap().count(), 6, "no stage is left behind");
 }
 
 #[test]

@@ -104,7 +104,10 @@ fn an_interrupted_sweep_writes_what_it_has_and_says_so() {
         assert!(String::from_utf8(output.stdout).unwrap().starts_with("scene: incomplete, "));
 
         let out = directory.path().join("new/out");
-        assert_eq!(names(&out), ["events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]);
+        assert_eq!(
+            names(&out),
+            ["contacts.csv", "events.jsonl", "states.csv", "states.jsonl", "sweep.json", "sweep.svg"]
+        );
         let states = fs::read_to_string(out.join("states.jsonl")).unwrap();
         let count = states.lines().count();
         assert!((1..800_001).contains(&count), "{count}");
@@ -136,7 +139,7 @@ fn a_second_signal_leaves_no_stage_either() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     let left = if out.exists() { names(&out) } else { Vec::new() };
-    assert!(left.is_empty() || left.len() == 5 && stage(&out).is_none(), "{left:?}");
+    assert!(left.is_empty() || left.len() == 6 && stage(&out).is_none(), "{left:?}");
 }
 
 #[test]
@@ -146,6 +149,12 @@ fn a_sweep_interrupted_at_once_has_no_states() {
     let scan = Scan::run_until(Scene::parse("scene.toml".as_ref(), SCENE).unwrap(), &interrupt).unwrap();
     assert!(scan.outcome.states.is_empty() && scan.outcome.events.is_empty() && !scan.is_complete());
     assert_eq!(scan.interrupted.unwrap().pose, None);
+    assert!(scan.report().starts_with("scene: incomplete, no phase; 0 states"), "{}", scan.report());
+    let directory = tempfile::tempdir().unwrap();
+    let staged = Staged::new(directory.path()).unwrap();
+    scan.write(&staged, Path::new("")).unwrap();
+    staged.publish().unwrap();
+    assert_eq!(json(&directory.path().join("sweep.json"))["phases"], Value::Null);
 }
 
 #[test]
@@ -233,6 +242,8 @@ fn an_interrupted_paper_keeps_the_scans_that_are_done() {
     let mut expected: Vec<&str> = done.iter().map(|scan| scan["name"].as_str().unwrap()).collect();
     expected.push("paper.json");
     assert_eq!(names(directory.path()), expected, "no figure of all scans");
+    let names: Vec<&str> = missing.iter().map(|name| name.as_str().unwrap()).collect();
+    assert!(names.iter().all(|name| name.starts_with('O') && !name.ends_with(".toml")), "as in scans: {names:?}");
     for scan in done {
         let summary = directory.path().join(scan["name"].as_str().unwrap()).join("sweep.json");
         assert_eq!((&json(&summary)["complete"], &scan["matches"]), (&true.into(), &true.into()));

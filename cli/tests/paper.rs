@@ -51,15 +51,16 @@ fn the_nine_scans_give_the_phases_of_the_paper() {
     for object in ["O1, q = 40 mm", "O2, q = 40 mm", "O3, q = 40 mm", "true contour", "x in mm", "y in mm"] {
         assert!(points.iter().any(|text| text == object), "{object} is not in {points:?}");
     }
-    let errors: Vec<f64> = points.iter().filter_map(|text| number_between(text, "contact, ", " mm with two")).collect();
+    let errors: Vec<f64> = points.iter().filter_map(|text| number_between(text, "≤ ", " mm with two")).collect();
     assert!(errors.len() == 3 && errors.iter().all(|error| (4.0..7.0).contains(error)), "{errors:?}");
-    let clean = points.iter().filter_map(|text| number_between(text, "largest error ", " mm with one"));
+    let clean = points.iter().filter_map(|text| number_between(text, "error ≤ ", " mm with one"));
     assert!(clean.filter(|error| *error < 1e-9).count() == 3, "{points:?}");
 
     let notches = texts(&out.join("notches.svg"));
-    let errors: Vec<f64> = notches.iter().filter_map(|text| number_between(text, "largest error ", " mm,")).collect();
-    assert!(errors.len() == 3 && errors.iter().all(|error| *error < 1e-4), "{notches:?}");
-    let shares = notches.iter().filter_map(|text| number_between(text, " mm, ", " % of the samples"));
+    let errors: Vec<f64> = notches.iter().filter_map(|text| number_between(text, "largest error ", " mm")).collect();
+    assert!(errors.len() == 6 && errors[..3].iter().all(|error| *error > 4.0), "{notches:?}");
+    assert!(errors[3..].iter().all(|error| *error < 1e-4), "{notches:?}");
+    let shares = notches.iter().filter_map(|text| number_between(text, "", " % of the samples"));
     assert!(shares.filter(|share| *share >= 99.0).count() == 3, "{notches:?}");
 
     let diagram = texts(&out.join("phase_diagram.svg"));
@@ -81,8 +82,11 @@ fn the_nine_scans_give_the_phases_of_the_paper() {
 /// The texts of a drawing, in order.
 fn texts(file: &Path) -> Vec<String> {
     let drawing = fs::read_to_string(file).unwrap();
-    let texts = drawing.split("<text").skip(1).map(|text| text.split_once('>').unwrap().1.split_once('<').unwrap().0);
-    texts.map(|text| text.trim().to_owned()).collect()
+    let texts =
+        drawing.split("<text").skip(1).map(|text| text.split_once('>').unwrap().1.split_once("</text>").unwrap().0);
+    // without the tags of lowered letters
+    let plain = |text: &str| text.split('<').map(|part| part.rsplit('>').next().unwrap()).collect::<String>();
+    texts.map(|text| plain(text).trim().to_owned()).collect()
 }
 
 /// The number between two parts of a text.

@@ -71,6 +71,9 @@ fn distance(scene: &Scene, contact: &Value) -> Option<f64> {
 fn a_clean_recording_gives_the_contour_back() {
     let directory = recorded(&["--rate", "100"]);
     let output = reconstruct(directory.path(), &["--truth", "O1_q40.toml"]);
+    let said = String::from_utf8(output.stdout.clone()).unwrap();
+    let kinks = "of 6 changes of contact that cause one, 6 were found within 1 mm";
+    assert!(said.contains(kinks) && said.contains("belong to a change of contact and 0 to none"), "{said}");
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     assert!(output.stderr.is_empty(), "{}", complaint(&output));
     let said = String::from_utf8(output.stdout).unwrap();

@@ -31,7 +31,8 @@ const LEAST_FORCE: f64 = 6e-5;
 
 fn swept(name: &str, step: f64) -> Vec<State> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name).with_extension("toml");
-    let scene = Scene { step, ..Scene::read(&file).unwrap() };
+    let mut scene = Scene::read(&file).unwrap();
+    scene.step = step;
     let scan = Scan::run(scene).unwrap();
     assert_eq!(scan.outcome.stop, None, "{name}");
     scan.outcome.states

@@ -63,6 +63,24 @@ fn a_number_that_toml_does_not_take() {
 }
 
 #[test]
+fn a_decimal_comma_and_a_quoted_number() {
+    says(&edited("0.1", "0,1  # m"), &["scene.toml:2:10: the value is `0,1`, expected a decimal point: `0.1`"]);
+    says(&edited("[0.07, -0.04]", "[0,07, -0,04]"), &["scene.toml:17:9: ", "`0,07`", "`0.07`"]);
+    says(
+        &edited("[0.07, -0.04]", "[1,5, -2,5]"),
+        &["sweep.from: found a list of 4, expected two numbers", "decimals have a point"],
+    );
+    says(&edited("0.1", "\"0.1\""), &["scene.toml:2:10: rod.length: ", "write it without quotes: 0.1"]);
+    says(&edited("0.1", "\"0,1\""), &["scene.toml:2:10: rod.length: ", "write it without quotes: 0.1"]);
+}
+
+#[test]
+fn a_clamp_inside_an_object_in_the_first_pose() {
+    let inside = edited("from = [0.07, -0.04]", "from = [0.0, 0.05]");
+    says(&inside, &["scene.toml:17:8: sweep.from: the clamp is inside an object in the first pose"]);
+}
+
+#[test]
 fn a_length_that_is_none() {
     says(
         &edited("0.1", "-0.1"),

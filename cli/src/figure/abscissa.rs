@@ -33,9 +33,9 @@ impl Abscissa {
     pub fn label(self, path: &ClampPath) -> String {
         let grows = self.value(path.at(path.length())) > self.value(path.at(0.0));
         let name = match self {
-            Self::X => "clamp position x0 in mm",
-            Self::Y => "clamp position y0 in mm",
-            Self::Angle => "clamp angle φ0 in degrees",
+            Self::X => "clamp position x_{0} in mm",
+            Self::Y => "clamp position y_{0} in mm",
+            Self::Angle => "clamp angle φ_{0} in degrees",
         };
         if grows { format!("{name} (scan →)") } else { format!("{name} (← scan)") }
     }

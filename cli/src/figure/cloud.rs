@@ -1,12 +1,12 @@
 //! Clouds of points in the plane, the true contour behind them, and what they mean.
 
-use super::canvas::{Area, BODY, Chart, FigureError, stroke, width, write};
+use super::canvas::{Area, BODY, FigureError, HPos, stroke, width, write};
+use super::chart::Chart;
+use super::element::{Element, ShapeStyle};
 use super::line::thinned;
 use super::outline;
-use super::palette::INK;
+use super::palette::{INK, RGBColor};
 use super::plane::Window;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use vibrissa::{Bounds, Composite};
 
 /// Radius of a dot, width of the ring of an open one, least distance of two neighbours, pixels.
@@ -33,13 +33,13 @@ impl Dot {
 
 /// Draws points (mm) in order, without those that would hide behind the one before.
 pub(super) fn dots(
-    chart: &mut Chart<'_, '_>,
+    chart: &Chart<'_>,
     window: &Window,
     points: impl IntoIterator<Item = (f64, f64)>,
     dot: Dot,
 ) -> Result<(), FigureError> {
     let points = apart(points, APART * window.scale).into_iter();
-    chart.draw_series(points.map(|point| Circle::new(point, RADIUS, dot.style())))?;
+    chart.draw_series(points.map(|point| Element::circle(point, RADIUS, dot.style())))?;
     Ok(())
 }
 
@@ -55,12 +55,12 @@ fn apart(points: impl IntoIterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, 
 }
 
 /// Draws the contours of objects (m), dashed.
-pub(super) fn contours(chart: &mut Chart<'_, '_>, window: &Window, objects: &[Composite]) -> Result<(), FigureError> {
+pub(super) fn contours(chart: &Chart<'_>, window: &Window, objects: &[Composite]) -> Result<(), FigureError> {
     let Window { x, y, scale } = window;
     let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     for part in objects.iter().flat_map(|object| outline::visible(object, bounds)) {
         let line = thinned(part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)), (*scale, *scale));
-        chart.draw_series(DashedLineSeries::new(line, DASH.0, DASH.1, INK.stroke_width(2)))?;
+        chart.draw_series([Element::dashed(line, (DASH.0, DASH.1), INK.stroke_width(2))])?;
     }
     Ok(())
 }
@@ -73,7 +73,7 @@ pub(super) fn key(
     dashed: Option<&str>,
 ) -> Result<(), FigureError> {
     for (dot, name) in entries {
-        area.draw(&Circle::new((x + 14, y), RADIUS + 2, dot.style()))?;
+        area.draw(&Element::circle((x + 14, y), RADIUS + 2, dot.style()))?;
         write(area, name, (x + SAMPLE, y), HPos::Left, BODY, INK)?;
         x += 2 * SAMPLE + width(name, BODY);
     }

@@ -1,21 +1,19 @@
 //! Contact points from reactions as if there were never more than one contact (Merker et al. 2021, fig. 6).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, span, svg, write};
+use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
-use super::palette::{INK, MUTED};
+use super::palette::{FAINT, INK, MUTED};
 use super::plane::Window;
-use crate::naive::Naive;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
+use crate::paper::naive::Naive;
 
 /// Width of a scan, height of the title and key, and of the lines above each scan, pixels.
-const WIDTH: u32 = 800;
+const WIDTH: u32 = PAGE / 3;
 const HEAD: u32 = 116;
-const NAME: u32 = 90;
+const NAME: u32 = 122;
 
-/// Points of one contact and of two: the paper's colours, as near as they are told apart by everybody.
-const ONE: Dot = Dot { colour: RGBColor(230, 159, 0), filled: true };
-const TWO: Dot = Dot { colour: RGBColor(0, 158, 115), filled: true };
+/// Points of one contact and of two.
+const ONE: Dot = Dot { colour: FAINT, filled: true };
+const TWO: Dot = Dot { colour: MUTED, filled: false };
 
 /// Draws the points of several scans side by side, all to one scale.
 pub(crate) fn contact_points(scans: &[&Naive<'_>]) -> Result<String, FigureError> {
@@ -45,19 +43,20 @@ fn panel(area: &Area<'_>, window: &Window, scan: &Naive<'_>) -> Result<(), Figur
     let (name, plot) = area.split_vertically(NAME);
     let title = format!("{}, q = {} mm", scan.scan.object, scan.scan.distance);
     write(&name, &title, (24, 28), HPos::Left, TITLE, INK)?;
-    write(&name, &errors(scan), (24, 68), HPos::Left, BODY, MUTED)?;
-    let mut chart = window.chart(&plot, (8, 6))?;
+    for (line, y) in errors(scan).iter().zip([68, 100]) {
+        write(&name, line, (24, y), HPos::Left, BODY, MUTED)?;
+    }
+    let chart = window.chart(&plot, (8, 6))?;
     for (several, dot) in [(false, ONE), (true, TWO)] {
         let points = scan.points.iter().filter(|point| point.several == several);
-        cloud::dots(&mut chart, window, points.map(|point| (1e3 * point.x, 1e3 * point.y)), dot)?;
+        cloud::dots(&chart, window, points.map(|point| (1e3 * point.x, 1e3 * point.y)), dot)?;
     }
-    cloud::contours(&mut chart, window, &scan.scan.scan.scene.objects)
+    cloud::contours(&chart, window, &scan.scan.scan.scene.objects)
 }
 
-/// How far the points are from the contour at most.
-fn errors(scan: &Naive<'_>) -> String {
-    let one = scan.largest_error(false).map(|error| format!("{:.0e} mm with one contact", 1e3 * error));
-    let two = scan.largest_error(true).map(|error| format!("{:.2} mm with two", 1e3 * error));
-    let both: Vec<String> = one.into_iter().chain(two).collect();
-    format!("largest error {}", both.join(", "))
+/// How far the points are from the contour at most, with one contact and with two.
+fn errors(scan: &Naive<'_>) -> Vec<String> {
+    let one = scan.largest_error(false).map(|error| format!("error ≤ {:.0e} mm with one contact,", 1e3 * error));
+    let two = scan.largest_error(true).map(|error| format!("≤ {:.2} mm with two contacts", 1e3 * error));
+    one.into_iter().chain(two).collect()
 }

@@ -1,10 +1,11 @@
 //! A contour, drawn with the side on which the solid is.
 
-use super::canvas::{Chart, FigureError};
+use super::canvas::FigureError;
+use super::chart::Chart;
+use super::element::Element;
 use super::line::thinned;
 use super::palette::{INK, MUTED};
 use super::plane::Window;
-use plotters::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 /// Width of the line, pixels.
@@ -15,15 +16,15 @@ const STROKE: f64 = 20.0;
 
 /// Draws a part of a contour (mm), and those strokes into the solid that end in the window.
 pub(super) fn draw(
-    chart: &mut Chart<'_, '_>,
+    chart: &Chart<'_>,
     window: &Window,
     part: impl IntoIterator<Item = (f64, f64)>,
 ) -> Result<(), FigureError> {
     let line = thinned(part, (window.scale, window.scale));
     let seen = |stroke: &[(f64, f64); 2]| window.x.contains(&stroke[1].0) && window.y.contains(&stroke[1].1);
     let strokes = hatching(&line, window.scale).into_iter().filter(seen);
-    chart.draw_series(strokes.map(|stroke| PathElement::new(stroke, MUTED.stroke_width(2))))?;
-    chart.draw_series([PathElement::new(line, INK.stroke_width(WIDTH))])?;
+    chart.draw_series(strokes.map(|stroke| Element::line(stroke, MUTED.stroke_width(2))))?;
+    chart.draw_series([Element::line(line, INK.stroke_width(WIDTH))])?;
     Ok(())
 }
 

@@ -1,13 +1,12 @@
 //! The phase criterion along several scans (Merker et al. 2021, fig. 7).
 
-use super::canvas::{FigureError, TITLE, svg, write};
+use super::canvas::{FigureError, HPos, PAGE, TITLE, svg, write};
 use super::palette::INK;
 use super::trace::{self, Along, Trace};
 use crate::Scan;
-use plotters::style::text_anchor::HPos;
 use vibrissa::State;
 
-const WIDTH: u32 = 1400;
+const WIDTH: u32 = PAGE;
 const PLOT: u32 = 300;
 const HEAD: u32 = 110;
 /// Height of a scan's name above its plot.
@@ -20,7 +19,7 @@ pub(crate) fn criterion(scans: &[&Scan]) -> Result<String, FigureError> {
     let height = HEAD + (0..scans.len()).map(rows).sum::<u32>();
     svg((WIDTH, height), |root| {
         let (head, mut rest) = root.split_vertically(HEAD);
-        let line = "Phase criterion K = m0z² − 2 EI (f0y sin φ0 + f0x cos φ0):";
+        let line = "Phase criterion K = m_{0z}² − 2 EI (f_{0y} sin φ_{0} + f_{0x} cos φ_{0}):";
         write(&head, line, (24, 36), HPos::Left, TITLE, INK)?;
         let line = "zero where the last contact is tangential (B, BB), not where the tip is in contact (A, BA)";
         write(&head, line, (24, 80), HPos::Left, TITLE, INK)?;

@@ -1,16 +1,15 @@
 //! The phases of the nine scans by object and distance (Merker et al. 2021, fig. 8a).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, stroke, svg, tick, width, write};
+use super::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, tick, width, write};
+use super::element::Element;
 use super::labels::Labels;
 use super::palette::{FAINT, INK, MUTED, colour, ink_on};
 use crate::cycle::CYCLES;
 use crate::paper::{DISTANCES, OBJECTS, Paper, PaperScan};
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use vibrissa::{EventKind, Phase};
 
 /// Size of a cell, room left of and above the cells, room below for axis and key, pixels.
-const CELL: (i32, i32) = (600, 210);
+const CELL: (i32, i32) = (472, 190);
 const LEFT: i32 = 90;
 const HEAD: i32 = 130;
 const FOOT: i32 = 200;
@@ -37,7 +36,10 @@ pub(crate) fn cycles(paper: &Paper) -> Result<String, FigureError> {
             write(root, object, (LEFT / 2, y + CELL.1 / 2), HPos::Center, TITLE, INK)?;
             for (column, distance) in (0..).zip(DISTANCES) {
                 let corner = (LEFT + column * CELL.0, y);
-                root.draw(&Rectangle::new([corner, (corner.0 + CELL.0, corner.1 + CELL.1)], FAINT.stroke_width(2)))?;
+                root.draw(&Element::rectangle(
+                    [corner, (corner.0 + CELL.0, corner.1 + CELL.1)],
+                    FAINT.stroke_width(2),
+                ))?;
                 if let Some(scan) = paper.find(object, distance) {
                     cell(root, corner, scan)?;
                 }
@@ -71,7 +73,7 @@ fn cell(root: &Area<'_>, (x, y): (i32, i32), scan: &PaperScan) -> Result<(), Fig
             continue;
         }
         let colour = colour(interval.phase);
-        root.draw(&Rectangle::new([(left, top), (right, bottom)], colour.filled()))?;
+        root.draw(&Element::rectangle([(left, top), (right, bottom)], colour.filled()))?;
         stroke(root, vec![(left, top), (left, bottom)], INK.stroke_width(1))?;
         let name = interval.phase.to_string();
         let (middle, inside) = ((left + right) / 2, width(&name, BODY) + 4 <= right - left);
@@ -89,8 +91,8 @@ fn cell(root: &Area<'_>, (x, y): (i32, i32), scan: &PaperScan) -> Result<(), Fig
 
 /// A black triangle below the place of a snap.
 fn snap(root: &Area<'_>, (x, y): (i32, i32)) -> Result<(), FigureError> {
-    let triangle = Polygon::new(vec![(x, y + 6), (x - 11, y + 28), (x + 11, y + 28)], INK.filled());
-    Ok(root.draw(&triangle)?)
+    let triangle = Element::polygon(vec![(x, y + 6), (x - 11, y + 28), (x + 11, y + 28)], INK.filled());
+    root.draw(&triangle)
 }
 
 fn axis(root: &Area<'_>, x: i32, y: i32) -> Result<(), FigureError> {
@@ -99,7 +101,7 @@ fn axis(root: &Area<'_>, x: i32, y: i32) -> Result<(), FigureError> {
         stroke(root, vec![(at, y), (at, y + 10)], INK)?;
         write(root, &tick(&f64::from(place)), (at, y + 28), HPos::Center, BODY, INK)?;
     }
-    write(root, "x0 in mm", (x + CELL.0 / 2, y + 66), HPos::Center, BODY, INK)
+    write(root, "x_{0} in mm", (x + CELL.0 / 2, y + 66), HPos::Center, BODY, INK)
 }
 
 /// What the names and the triangle mean.

@@ -1,23 +1,22 @@
 //! The contact points of one object from several distances (Merker et al. 2021, fig. 9).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, span, svg, tick, write};
+use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, tick, write};
 use super::cloud::{self, Dot};
-use super::palette::{INK, MUTED};
+use super::element::Element;
+use super::palette::{INK, MUTED, OTHERS, RGBColor};
 use super::plane::Window;
-use crate::naive::{Naive, NaivePoint, STEP};
+use crate::paper::naive::{Naive, NaivePoint, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use vibrissa::{Comparison, ContourEstimate};
 
 /// Width of an object, height of the title and keys, of a row's title, and of an object's name, pixels.
-const WIDTH: u32 = 800;
+const WIDTH: u32 = PAGE / 3;
 const HEAD: u32 = 150;
 const ROW: u32 = 56;
-const NAME: u32 = 44;
+const NAME: u32 = 80;
 
-/// Colours of the distances: green, orange and blue as in the paper.
-const COLOURS: [RGBColor; 3] = [RGBColor(0, 158, 115), RGBColor(230, 159, 0), RGBColor(0, 114, 178)];
+/// Colours of the distances.
+const COLOURS: [RGBColor; 3] = OTHERS;
 
 /// What contours may be apart, m, through points so far from each other.
 const LEAST: f64 = STEP;
@@ -47,7 +46,7 @@ const ROWS: [Row; 2] = [
     Row {
         letters: ['a', 'b', 'c'],
         title: "As each scan has them: height above its clamp",
-        axis: "y − y0 in mm",
+        axis: "y − y_{0} in mm",
         height: |point| point.above,
         truth: false,
     },
@@ -108,28 +107,28 @@ fn window(scans: &[Naive<'_>], height: Height) -> Window {
 fn panel(area: &Area<'_>, window: &Window, row: &Row, name: &str, scans: &[&Naive<'_>]) -> Result<(), FigureError> {
     let (head, plot) = area.split_vertically(NAME);
     write(&head, name, (24, 26), HPos::Left, BODY, INK)?;
-    let mut chart = window.chart_called(&plot, (8, 6), ("x in mm", row.axis))?;
+    let chart = window.chart_called(&plot, (8, 6), ("x in mm", row.axis))?;
     if row.truth {
         let contours: Vec<ContourEstimate> = scans.iter().map(|scan| scan.contour()).collect();
         let concave = Comparison { least: LEAST, ..Comparison::default() }.disagreements(&contours);
         let shades = concave.iter().map(|found| {
-            Rectangle::new([(1e3 * found.from, window.y.start), (1e3 * found.to, window.y.end)], SHADE.filled())
+            Element::rectangle([(1e3 * found.from, window.y.start), (1e3 * found.to, window.y.end)], SHADE.filled())
         });
         chart.draw_series(shades)?;
         let told = concave.iter().map(|found| {
             format!("{} to {} mm, {:.1} mm apart", tick(&round(found.from)), tick(&round(found.to)), 1e3 * found.gap)
         });
         let told = told.collect::<Vec<_>>().join("; ");
-        write(&head, &format!("concave: {told}"), (190, 26), HPos::Left, BODY, MUTED)?;
+        write(&head, &format!("concave: {told}"), (24, 60), HPos::Left, BODY, MUTED)?;
     }
     for (filled, scan) in [true, false].into_iter().flat_map(|filled| scans.iter().map(move |scan| (filled, scan))) {
         let Some(place) = DISTANCES.iter().position(|distance| *distance == scan.scan.distance) else { continue };
         let points = scan.points.iter().filter(|point| point.several != filled);
         let points = points.map(|point| (1e3 * point.x, 1e3 * (row.height)(point)));
-        cloud::dots(&mut chart, window, points, Dot { colour: COLOURS[place], filled })?;
+        cloud::dots(&chart, window, points, Dot { colour: COLOURS[place], filled })?;
     }
     match scans.first().filter(|_| row.truth) {
-        Some(scan) => cloud::contours(&mut chart, window, &scan.scan.scan.scene.objects),
+        Some(scan) => cloud::contours(&chart, window, &scan.scan.scan.scene.objects),
         None => Ok(()),
     }
 }

@@ -1,15 +1,15 @@
 //! The contour and the shapes of the rod along a scan.
 
-use super::canvas::{Area, BODY, Chart, FigureError, span, width, write};
+use super::canvas::{Area, BODY, FigureError, HPos, span, width, write};
+use super::chart::Chart;
 use super::contour;
+use super::element::Element;
 use super::labels::Labels;
 use super::line::thinned;
 use super::outline;
-use super::palette::{INK, colour};
+use super::palette::{INK, TRANSITION, WHITE, colour};
 use super::plane::Window;
 use crate::{Interval, Scan};
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use std::f64::consts::{FRAC_PI_2, PI};
 use vibrissa::{Bounds, EventKind, Phase, Rod, RodError, State};
 
@@ -18,12 +18,31 @@ const MOST: usize = 60;
 /// Points on a shape.
 const POINTS: usize = 200;
 /// Room beside and above the shapes, for the names of phases, pixels.
-const ROOM: (f64, f64) = (50.0, 90.0);
+const ROOM: (f64, f64) = (50.0, 84.0);
 
 /// From this cosine between the rod at its clamp and the path on, the clamp moves along the rod.
 const LENGTHWISE: f64 = 0.8;
 
 type Curve = Vec<(f64, f64)>;
+
+/// Height (pixels) at which the shapes fill an area of this width.
+pub(super) fn height(scan: &Scan, width: u32) -> Result<f64, FigureError> {
+    let every = scan.outcome.states.len().div_ceil(MOST).max(1);
+    let mut seen = clamps(scan);
+    for state in scan.outcome.states.iter().step_by(every) {
+        seen.extend(curve(state, &scan.scene.rod)?);
+    }
+    let seen = with_closed_objects(scan, seen);
+    let [x, y] = [span(seen.iter().map(|point| point.0), 0.0), span(seen.iter().map(|point| point.1), 0.0)];
+    let (beside, below) = Window::TRIMMINGS;
+    let plot = f64::from(width.saturating_sub(beside)) - 2.0 * ROOM.0;
+    Ok(plot * (y.end - y.start) / (x.end - x.start) + 2.0 * ROOM.1 + f64::from(below))
+}
+
+/// Where the clamp starts and ends, mm.
+fn clamps(scan: &Scan) -> Curve {
+    [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way)).map(|pose| (1e3 * pose.x, 1e3 * pose.y)).to_vec()
+}
 
 /// Draws the left half of a sweep's figure into a part of `root`.
 pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
@@ -36,23 +55,44 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     let (before, after) = transitions(&intervals);
     let curves = |states: Vec<&State>| states.into_iter().map(|state| curve(state, rod)).collect::<Result<Vec<_>, _>>();
     let (transitions, landings) = (curves(before)?, curves(after)?);
-    let clamps = [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way));
     let seen = shapes.iter().map(|(curve, _)| curve).chain(&transitions).flatten().copied();
-    let seen: Curve = seen.chain(clamps.map(|pose| (1e3 * pose.x, 1e3 * pose.y))).collect();
+    let seen: Curve = seen.chain(clamps(scan)).collect();
+    let seen = with_closed_objects(scan, seen);
     let window = window(area, &seen);
-    let mut chart = window.chart(area, (12, 12))?;
+    let chart = window.chart(area, (12, 12))?;
     let line = |curve: Curve| thinned(curve, (window.scale, window.scale));
-    chart.draw_series(shapes.into_iter().map(|(curve, style)| PathElement::new(line(curve), style)))?;
-    chart.draw_series(transitions.into_iter().map(|curve| PathElement::new(line(curve), INK.stroke_width(3))))?;
+    chart.draw_series(shapes.into_iter().map(|(curve, style)| Element::line(line(curve), style)))?;
+    chart.draw_series(transitions.into_iter().map(|curve| Element::line(line(curve), TRANSITION.stroke_width(3))))?;
     for curve in landings {
-        chart.draw_series(DashedLineSeries::new(line(curve), 14, 10, INK.stroke_width(3)))?;
+        chart.draw_series([Element::dashed(line(curve), (14, 10), TRANSITION.stroke_width(3))])?;
     }
     let Window { x, y, .. } = &window;
     let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, bounds)) {
-        contour::draw(&mut chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
+        contour::draw(&chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
     }
     name_phases(root, &chart, scan, &intervals)
+}
+
+/// The points (mm), and those of closed objects that are not much larger than what they span.
+fn with_closed_objects(scan: &Scan, mut seen: Curve) -> Curve {
+    let [x, y] = [span(seen.iter().map(|point| point.0), 0.0), span(seen.iter().map(|point| point.1), 0.0)];
+    let more = (x.end - x.start).max(y.end - y.start);
+    let around = |range: &std::ops::Range<f64>| (1e-3 * (range.start - more), 1e-3 * (range.end + more));
+    let ((left, right), (bottom, top)) = (around(&x), around(&y));
+    let window = Bounds { min: [left, bottom], max: [right, top] };
+    for object in scan.scene.objects.iter().filter(|object| object.is_closed()) {
+        let parts = outline::visible(object, window);
+        let frames = parts.iter().flatten();
+        let near = 1e-5 * more;
+        // a part that leaves the window is seen in pieces
+        if parts.len() == 1
+            && parts[0].first().zip(parts[0].last()).is_some_and(|(a, b)| (a.x - b.x).hypot(a.y - b.y) < near)
+        {
+            seen.extend(frames.map(|frame| (1e3 * frame.x, 1e3 * frame.y)));
+        }
+    }
+    seen
 }
 
 /// The states before all transitions, and those after snaps. A slip within a phase is none, here as along the
@@ -99,12 +139,7 @@ fn place(scan: &Scan, interval: &Interval<'_>, middle: &State) -> Result<((f64, 
 }
 
 /// Writes each phase where it was.
-fn name_phases(
-    root: &Area<'_>,
-    chart: &Chart<'_, '_>,
-    scan: &Scan,
-    intervals: &[Interval<'_>],
-) -> Result<(), FigureError> {
+fn name_phases(root: &Area<'_>, chart: &Chart<'_>, scan: &Scan, intervals: &[Interval<'_>]) -> Result<(), FigureError> {
     let mut labels = Labels::default();
     for interval in intervals.iter().filter(|interval| interval.phase != Phase::FREE) {
         let Some(middle) = interval.middle() else { continue };
@@ -118,7 +153,7 @@ fn name_phases(
         if let Some(place) = labels.place(places, size) {
             // Shapes may pass behind it.
             let corners = [-1, 1].map(|side| (place.0 + side * size.0 / 2, place.1 + side * size.1 / 2));
-            root.draw(&Rectangle::new(corners, WHITE.mix(0.8).filled()))?;
+            root.draw(&Element::rectangle(corners, WHITE.filled().mix(0.8)))?;
             write(root, &name, place, HPos::Center, BODY, INK)?;
         }
     }

@@ -1,11 +1,10 @@
 //! How well the clean reactions fit noisy ones, over the nine scans (Merker et al. 2021, fig. 5).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, svg, write};
-use super::palette::{FAINT, INK, MUTED};
-use crate::naive::{Naive, STEP};
+use super::canvas::{Area, BODY, FigureError, HPos, TITLE, svg, write};
+use super::element::Element;
+use super::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
+use crate::paper::naive::{Naive, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use vibrissa::compare::goodness_of_fit;
 use vibrissa::{NoiseModel, Reactions};
 
@@ -15,23 +14,23 @@ const NOISE: Reactions = Reactions { f0x: 2.5e-3, f0y: 2.5e-3, m0z: 6e-5 };
 const SEED: u64 = 2021;
 
 /// Size of a cell, room left of the cells of a quantity, between two of them, above and below, pixels.
-const CELL: (i32, i32) = (200, 190);
-const LEFT: i32 = 80;
-const APART: i32 = 40;
+const CELL: (i32, i32) = (137, 190);
+const LEFT: i32 = 60;
+const APART: i32 = 30;
 const HEAD: i32 = 250;
 const FOOT: i32 = 150;
 /// Radius of the largest circle, pixels.
-const RADIUS: f64 = 70.0;
+const RADIUS: f64 = 60.0;
 /// Area of the smallest circle beside the largest, as in the paper.
 const LEAST: f64 = 0.1;
 
-/// A reaction: its name, its colour in the paper's fig. 4, its value.
+/// A reaction: its name, its colour, its value.
 type Quantity = (&'static str, RGBColor, fn(&Reactions) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    ("f0x", RGBColor(0, 158, 115), |reactions| reactions.f0x),
-    ("f0y", RGBColor(0, 114, 178), |reactions| reactions.f0y),
-    ("m0z", RGBColor(230, 159, 0), |reactions| reactions.m0z),
+    ("f_{0x}", OTHERS[0], |reactions| reactions.f0x),
+    ("f_{0y}", OTHERS[1], |reactions| reactions.f0y),
+    ("m_{0z}", OTHERS[2], |reactions| reactions.m0z),
 ];
 
 /// Draws a circle for each reaction, object and distance, with the goodness of fit as its area.
@@ -46,10 +45,10 @@ pub(crate) fn goodness(scans: &[Naive<'_>]) -> Result<String, FigureError> {
         heading(root)?;
         for (index, (name, colour, _)) in QUANTITIES.into_iter().enumerate() {
             let left = 24 + index as i32 * (block + APART) + LEFT;
-            write(root, name, (left + columns * CELL.0 / 2, HEAD - 66), HPos::Center, TITLE, INK)?;
+            write(root, &format!("{name}, q ="), (left + columns * CELL.0 / 2, HEAD - 66), HPos::Center, TITLE, INK)?;
             for (column, distance) in (0..).zip(DISTANCES) {
                 let at = (left + column * CELL.0 + CELL.0 / 2, HEAD - 24);
-                write(root, &format!("q = {distance} mm"), at, HPos::Center, BODY, INK)?;
+                write(root, &format!("{distance} mm"), at, HPos::Center, BODY, INK)?;
             }
             for (row, object) in (0..).zip(OBJECTS) {
                 let top = HEAD + row * CELL.1;
@@ -107,10 +106,10 @@ fn cell(
     range: (f64, f64),
     colour: RGBColor,
 ) -> Result<(), FigureError> {
-    root.draw(&Rectangle::new([(x, y), (x + CELL.0, y + CELL.1)], FAINT.stroke_width(2)))?;
+    root.draw(&Element::rectangle([(x, y), (x + CELL.0, y + CELL.1)], FAINT.stroke_width(2)))?;
     let Some(fit) = fit else { return Ok(()) };
     let radius = RADIUS * area(fit, range).sqrt();
-    root.draw(&Circle::new((x + CELL.0 / 2, y + 78), radius.round() as i32, colour.filled()))?;
+    root.draw(&Element::circle((x + CELL.0 / 2, y + 78), radius.round() as i32, colour.filled()))?;
     write(root, &format!("{fit:.5}"), (x + CELL.0 / 2, y + CELL.1 - 22), HPos::Center, BODY, INK)
 }
 

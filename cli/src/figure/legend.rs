@@ -1,11 +1,10 @@
 //! What the lines of a sweep mean.
 
-use super::canvas::{Area, BODY, FigureError, stroke, width, write};
+use super::canvas::{Area, BODY, FigureError, HPos, stroke, width, write};
 use super::contour;
-use super::palette::{INK, colour};
+use super::element::ShapeStyle;
+use super::palette::{INK, TRANSITION, colour};
 use crate::Interval;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use vibrissa::{EventKind, Phase};
 
 /// Height of a row, pixels.
@@ -68,10 +67,10 @@ impl Legend {
             entries.push(entry(name, colour(first).stroke_width(5)));
         }
         if intervals.len() > 1 {
-            entries.push(entry("at a transition".into(), INK.stroke_width(3)));
+            entries.push(entry("at a transition".into(), TRANSITION.stroke_width(3)));
         }
         if intervals.iter().any(|interval| interval.end == Some(EventKind::Snap)) {
-            entries.push(Entry { dashed: true, ..entry("after a snap".into(), INK.stroke_width(3)) });
+            entries.push(Entry { dashed: true, ..entry("after a snap".into(), TRANSITION.stroke_width(3)) });
         }
         let (mut x, mut row) = (0, 0);
         for entry in &mut entries {
@@ -109,12 +108,12 @@ mod tests {
         let names = ["A", "B", "BA", "BB", "BBA", "BBB", "BBBA", "BBBB"];
         let events = names.windows(2).map(|pair| event(1.0, pair[0], pair[1], EventKind::Snap)).collect();
         let outcome = outcome(&[(0.0, "A")], events);
-        let legend = Legend::of(&intervals(&path(), &outcome), 1000);
+        let legend = Legend::of(&intervals(&path(), &outcome), 1200);
         let names: Vec<&str> = legend.entries.iter().map(|entry| entry.name.as_str()).collect();
         let phases = ["phase A", "phase B", "phase BA", "phase BB", "phases BBA, BBBA", "phases BBB, BBBB"];
         assert_eq!(names[1..7], phases);
         assert_eq!(names[7..], ["at a transition", "after a snap"]);
-        assert!(legend.entries.iter().all(|entry| entry.place.0 + entry.width() <= 1000));
+        assert!(legend.entries.iter().all(|entry| entry.place.0 + entry.width() <= 1200));
         assert_eq!((legend.rows, legend.entries.last().map(|entry| entry.place.1)), (2, Some(1)));
     }
 }

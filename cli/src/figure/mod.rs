@@ -1,9 +1,11 @@
-//! Figures, as SVG.
+//! Figures, as SVG: 180 mm wide at most, with letters of 8 pt.
 //!
 //! Colours are those of Okabe and Ito, told apart by colour-blind readers; every phase is labelled too.
+//! A phase has the same colour in all figures, and nothing else has it.
 
 mod abscissa;
 mod canvas;
+mod chart;
 mod cloud;
 mod contact_points;
 mod contour;
@@ -11,6 +13,7 @@ mod criterion;
 mod cycles;
 mod distances;
 mod elasticae;
+mod element;
 mod goodness;
 mod labels;
 mod legend;
@@ -23,6 +26,7 @@ mod profile;
 mod reactions;
 mod reconstruction;
 mod sweep;
+mod text;
 mod trace;
 mod transitions;
 

@@ -1,24 +1,22 @@
 //! Both contacts of a rod held by two, beside what a reconstruction for one contact makes of them: the gap that Merker et
 //! al. (2021) leave, closed as far as the rod touches.
 
-use super::canvas::{Area, BODY, FigureError, TITLE, span, svg, write};
+use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
-use super::palette::{INK, MUTED};
+use super::palette::{self, FAINT, INK, MUTED};
 use super::plane::Window;
-use crate::resolved::Resolved;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
+use crate::paper::resolved::Resolved;
 
 /// Width of a scan, height of the title and key, of a row's title, and of the lines above each scan, pixels.
-const WIDTH: u32 = 800;
+const WIDTH: u32 = PAGE / 3;
 const HEAD: u32 = 116;
 const ROW: u32 = 56;
-const NAME: u32 = 84;
+const NAME: u32 = 112;
 
-const SINGLE: Dot = Dot { colour: RGBColor(230, 159, 0), filled: true };
-const NAIVE: Dot = Dot { colour: RGBColor(0, 158, 115), filled: true };
-const FIRST: Dot = Dot { colour: RGBColor(0, 114, 178), filled: true };
-const SECOND: Dot = Dot { colour: RGBColor(204, 121, 167), filled: true };
+const SINGLE: Dot = Dot { colour: FAINT, filled: true };
+const NAIVE: Dot = Dot { colour: MUTED, filled: false };
+const FIRST: Dot = Dot { colour: palette::FIRST, filled: true };
+const SECOND: Dot = Dot { colour: palette::SECOND, filled: true };
 
 /// Draws the notches of several scans side by side: above as the paper has them, below with both contacts.
 pub(crate) fn notches(scans: &[Resolved<'_>]) -> Result<String, FigureError> {
@@ -57,18 +55,20 @@ fn row(area: &Area<'_>, window: &Window, title: &str, scans: &[Resolved<'_>], bo
         let name = format!("{}, q = {} mm", scan.scan.object, scan.scan.distance);
         write(&head, &name, (24, 24), HPos::Left, BODY, INK)?;
         let error = if both {
-            format!("largest error {:.0e} mm, {:.0} % of the samples", 1e3 * scan.error, 100.0 * scan.share)
+            let share = format!("{:.0} % of the samples", 100.0 * scan.share);
+            write(&head, &share, (24, 92), HPos::Left, BODY, MUTED)?;
+            format!("largest error {:.0e} mm", 1e3 * scan.error)
         } else {
             format!("largest error {:.2} mm", 1e3 * scan.naive_error)
         };
         write(&head, &error, (24, 60), HPos::Left, BODY, MUTED)?;
-        let mut chart = window.chart(&plot, (8, 6))?;
-        cloud::contours(&mut chart, window, &scan.scan.scan.scene.objects)?;
+        let chart = window.chart(&plot, (8, 6))?;
+        cloud::contours(&chart, window, &scan.scan.scan.scene.objects)?;
         let shown = if both { vec![(&scan.first, FIRST), (&scan.second, SECOND)] } else { vec![(&scan.naive, NAIVE)] };
         for (points, dot) in std::iter::once((&scan.single, SINGLE)).chain(shown) {
             let seen = points.iter().map(|(x, y)| (1e3 * x, 1e3 * y));
             let seen = seen.filter(|(x, y)| window.x.contains(x) && window.y.contains(y));
-            cloud::dots(&mut chart, window, seen, dot)?;
+            cloud::dots(&chart, window, seen, dot)?;
         }
         rest = others;
     }

@@ -1,11 +1,23 @@
-//! Colours by phase: those of Okabe and Ito (2008), near the ones of Merker et al. (2021), fig. 4.
+//! Colours: phases have those of Okabe and Ito (2008), near the ones of Merker et al. (2021), fig. 4, everything else has others.
 
-use plotters::style::RGBColor;
 use vibrissa::{Label, Phase};
 
+/// Red, green and blue, to 255.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct RGBColor(pub u8, pub u8, pub u8);
+
+pub(super) const WHITE: RGBColor = RGBColor(255, 255, 255);
 pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
 pub(super) const MUTED: RGBColor = RGBColor(90, 90, 90);
 pub(super) const FAINT: RGBColor = RGBColor(205, 205, 205);
+
+/// Shapes and poses at a transition: not the black of the contour.
+pub(super) const TRANSITION: RGBColor = RGBColor(51, 34, 136);
+/// The first and the second of two contacts.
+pub(super) const FIRST: RGBColor = RGBColor(136, 34, 85);
+pub(super) const SECOND: RGBColor = RGBColor(153, 153, 51);
+/// Things that are none of these.
+pub(super) const OTHERS: [RGBColor; 3] = [RGBColor(51, 34, 136), RGBColor(153, 153, 51), RGBColor(136, 34, 85)];
 
 /// The colour of a phase. Phases of more than three contacts share colours; their labels tell them apart.
 pub(super) fn colour(phase: Phase) -> RGBColor {

@@ -1,13 +1,13 @@
 //! A part of the plane with axes in mm, a millimetre as long on both.
 
-use super::canvas::{Area, Chart, FigureError, axes};
-use plotters::prelude::*;
+use super::canvas::{Area, FigureError};
+use super::chart::{Chart, Room};
 use std::ops::Range;
 
 /// Room for the numbers and names of the axes, and around, pixels.
-const LEFT: u32 = 120;
-const BELOW: u32 = 80;
-const MARGIN: u32 = 16;
+const LEFT: u32 = 96;
+const BELOW: u32 = 62;
+const MARGIN: u32 = 12;
 
 /// What is seen.
 pub(super) struct Window {
@@ -33,23 +33,20 @@ impl Window {
     }
 
     /// Its axes, which fill `area`, with about so many numbers on x and y.
-    pub fn chart<'a, 'b>(&self, area: &Area<'b>, numbers: (usize, usize)) -> Result<Chart<'a, 'b>, FigureError> {
+    pub fn chart<'a>(&self, area: &Area<'a>, numbers: (usize, usize)) -> Result<Chart<'a>, FigureError> {
         self.chart_called(area, numbers, ("x in mm", "y in mm"))
     }
 
     /// The same with other names for x and y.
-    pub fn chart_called<'a, 'b>(
+    pub fn chart_called<'a>(
         &self,
-        area: &Area<'b>,
+        area: &Area<'a>,
         numbers: (usize, usize),
         names: (&str, &str),
-    ) -> Result<Chart<'a, 'b>, FigureError> {
-        let mut chart = ChartBuilder::on(area)
-            .margin(MARGIN)
-            .set_label_area_size(LabelAreaPosition::Left, LEFT)
-            .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
-            .build_cartesian_2d(self.x.clone(), self.y.clone())?;
-        axes(&mut chart, numbers, names)?;
+    ) -> Result<Chart<'a>, FigureError> {
+        let room = Room { left: LEFT + MARGIN, right: MARGIN, top: MARGIN, bottom: BELOW + MARGIN };
+        let chart = Chart::new(area, room, self.x.clone(), self.y.clone());
+        chart.axes(numbers, names)?;
         Ok(chart)
     }
 }

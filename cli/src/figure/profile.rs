@@ -1,12 +1,11 @@
 //! The contours of a scene.
 
-use super::canvas::{FigureError, TITLE, span, svg, write};
+use super::canvas::{FigureError, HPos, TITLE, span, svg, write};
 use super::contour;
-use super::palette::INK;
+use super::element::Element;
+use super::palette::{INK, WHITE};
 use super::plane::Window;
 use crate::Profile;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use std::ops::Range;
 
 /// Width of the picture and bounds of its height, pixels.
@@ -30,12 +29,12 @@ pub(crate) fn profile(name: &str, profiles: &[Profile]) -> Result<String, Figure
     svg((WIDTH, height as u32), |root| {
         let (head, body) = root.split_vertically(HEAD);
         write(&head, name, (24, 36), HPos::Left, TITLE, INK)?;
-        let mut chart = window.chart(&body, (12, 10))?;
+        let chart = window.chart(&body, (12, 10))?;
         for profile in profiles {
-            contour::draw(&mut chart, &window, profile.points.iter().map(|point| (1e3 * point.x, 1e3 * point.y)))?;
+            contour::draw(&chart, &window, profile.points.iter().map(|point| (1e3 * point.x, 1e3 * point.y)))?;
             let marks = marks(&profile.joints, MARKS * window.scale);
-            chart.draw_series(marks.iter().map(|mark| Circle::new(*mark, MARK, WHITE.filled())))?;
-            chart.draw_series(marks.iter().map(|mark| Circle::new(*mark, MARK, INK.stroke_width(3))))?;
+            chart.draw_series(marks.iter().map(|mark| Element::circle(*mark, MARK, WHITE.filled())))?;
+            chart.draw_series(marks.iter().map(|mark| Element::circle(*mark, MARK, INK.stroke_width(3))))?;
         }
         Ok(())
     })

@@ -1,15 +1,14 @@
 //! The reactions of a recording, the phase criterion and how sure the labels are.
 
 use super::abscissa::Abscissa;
-use super::canvas::{BODY, FigureError, TITLE, span, svg, write};
+use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::palette::{INK, MUTED, label_colour};
 use super::trace::{self, Along, Part, Trace};
 use crate::Reconstructed;
-use plotters::style::text_anchor::HPos;
 use std::ops::Range;
 use vibrissa::{ClampPath, Pose, Reading, Sample};
 
-const WIDTH: u32 = 1800;
+const WIDTH: u32 = PAGE;
 /// Height of a plot, and of the title.
 const PLOT: u32 = 240;
 const HEAD: u32 = 110;
@@ -23,9 +22,9 @@ type Quantity<'a> = &'a dyn Fn(&Sample, &Reading) -> f64;
 pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
     let stiffness = found.rod.bending_stiffness();
     let quantities: [(&str, Quantity<'_>); 5] = [
-        ("f0x in N", &|sample, _| sample.reactions.f0x),
-        ("f0y in N", &|sample, _| sample.reactions.f0y),
-        ("m0z in N mm", &|sample, _| 1e3 * sample.reactions.m0z),
+        ("f_{0x} in N", &|sample, _| sample.reactions.f0x),
+        ("f_{0y} in N", &|sample, _| sample.reactions.f0y),
+        ("m_{0z} in N mm", &|sample, _| 1e3 * sample.reactions.m0z),
         ("K in (N mm)²", &|sample, _| 1e6 * sample.reactions.phase_criterion(sample.pose.phi, stiffness)),
         ("margin", &|_, reading| reading.margin),
     ];

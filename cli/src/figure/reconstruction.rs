@@ -1,23 +1,21 @@
 //! The contact points of a recording, beside what they would be if there were never more than one contact.
 
-use super::canvas::{BODY, FigureError, TITLE, span, svg, write};
+use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
-use super::palette::{FAINT, INK, MUTED, label_colour};
+use super::palette::{self, FAINT, INK, MUTED, label_colour};
 use super::plane::Window;
 use crate::{Comparison, Reconstructed, naive_touch};
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use vibrissa::compare::Deviation;
 use vibrissa::{Label, Touch};
 
 /// Width; least and largest height of the plot; height of the title and the key, pixels.
-const WIDTH: u32 = 1800;
-const HEIGHT: (f64, f64) = (400.0, 1500.0);
-const HEAD: u32 = 150;
+const WIDTH: u32 = PAGE;
+const HEIGHT: (f64, f64) = (300.0, 1200.0);
+const HEAD: u32 = 184;
 
 /// First and second contacts of several: rings.
-const FIRST: Dot = Dot { colour: RGBColor(213, 94, 0), filled: false };
-const SECOND: Dot = Dot { colour: RGBColor(204, 121, 167), filled: false };
+const FIRST: Dot = Dot { colour: palette::FIRST, filled: false };
+const SECOND: Dot = Dot { colour: palette::SECOND, filled: false };
 const NAIVE: Dot = Dot { colour: FAINT, filled: true };
 
 /// Draws the contact points in the plane, and the true contour where it is known.
@@ -43,7 +41,9 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
         let (head, area) = root.split_vertically(HEAD);
         write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
         let errors = found.comparison.as_ref().map_or_else(String::new, errors);
-        write(&head, &errors, (24, 76), HPos::Left, BODY, MUTED)?;
+        for (line, y) in errors.lines().zip([76, 110]) {
+            write(&head, line, (24, y), HPos::Left, BODY, MUTED)?;
+        }
         let tip = Dot { colour: label_colour(Label::A), filled: true };
         let tangential = Dot { colour: label_colour(Label::B), filled: true };
         let entries = [
@@ -53,17 +53,17 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
             (SECOND, "second of several"),
             (NAIVE, "several taken for one"),
         ];
-        cloud::key(&head, (24, 120), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
-        let mut chart = window.chart(&area, (12, 8))?;
+        cloud::key(&head, (24, 154), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
+        let chart = window.chart(&area, (12, 8))?;
         let seen = naive.into_iter().filter(|point| window.x.contains(&point.0) && window.y.contains(&point.1));
-        cloud::dots(&mut chart, &window, seen, NAIVE)?;
+        cloud::dots(&chart, &window, seen, NAIVE)?;
         for (label, dot) in [(Label::A, tip), (Label::B, tangential)] {
-            cloud::dots(&mut chart, &window, single(label), dot)?;
+            cloud::dots(&chart, &window, single(label), dot)?;
         }
-        cloud::dots(&mut chart, &window, first(), FIRST)?;
-        cloud::dots(&mut chart, &window, second(), SECOND)?;
+        cloud::dots(&chart, &window, first(), FIRST)?;
+        cloud::dots(&chart, &window, second(), SECOND)?;
         match &found.comparison {
-            Some(comparison) => cloud::contours(&mut chart, &window, &comparison.scene.objects),
+            Some(comparison) => cloud::contours(&chart, &window, &comparison.scene.objects),
             None => Ok(()),
         }
     })
@@ -81,5 +81,5 @@ fn errors(comparison: &Comparison) -> String {
         deviation.map(|d| format!("{name} {:.1e} ({:.1e})", 1e3 * d.median, 1e3 * d.largest))
     };
     let texts: Vec<String> = kinds.into_iter().filter_map(text).collect();
-    format!("distance from the contour in mm, median (largest): {}", texts.join(", "))
+    format!("distance from the contour in mm, median (largest):\n{}", texts.join(", "))
 }

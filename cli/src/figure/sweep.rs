@@ -1,26 +1,29 @@
 //! The figure of a sweep: shapes on the left, reactions on the right (Merker et al. 2021, fig. 4).
 
-use super::canvas::{Area, FigureError, TITLE, svg, width, write};
+use super::canvas::{Area, FigureError, HPos, PAGE, TITLE, svg, width, write};
 use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
 use super::trace::{self, Along, Trace};
 use crate::Scan;
-use plotters::style::text_anchor::HPos;
+use std::ops::Range;
 use vibrissa::State;
 
-const SIZE: (u32, u32) = (2000, 1080);
+const WIDTH: u32 = PAGE;
+/// Least and largest height.
+const HEIGHT: Range<f64> = 780.0..1150.0;
 /// Rows of pixels for the title, between the legend and the plots, and room at the left and right edge.
 const HEAD: u32 = 71;
 const GAP: u32 = 15;
 const EDGE: i32 = 24;
 /// Columns of pixels for the shapes.
-const LEFT: u32 = 1080;
+const LEFT: u32 = 860;
 
 /// Draws a sweep.
 pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
-    let legend = Legend::of(&scan.intervals(), SIZE.0 as i32 - 2 * EDGE);
-    svg(SIZE, |root| {
+    let legend = Legend::of(&scan.intervals(), WIDTH as i32 - 2 * EDGE);
+    let height = f64::from(HEAD + legend.height() + GAP) + elasticae::height(scan, LEFT)?;
+    svg((WIDTH, height.clamp(HEIGHT.start, HEIGHT.end) as u32), |root| {
         let (head, body) = root.split_vertically(HEAD + legend.height() + GAP);
         let (left, right) = body.split_horizontally(LEFT);
         write(&head, &title(scan), (EDGE, 36), HPos::Left, TITLE, INK)?;
@@ -38,7 +41,7 @@ fn title(scan: &Scan) -> String {
         (None, None) => "",
     };
     let start = format!("{}: phases ", scan.scene.name);
-    let fits = |title: &String| width(title, TITLE) <= SIZE.0 as i32 - 2 * EDGE;
+    let fits = |title: &String| width(title, TITLE) <= WIDTH as i32 - 2 * EDGE;
     let whole = format!("{start}{}{stop}", scan.cycle().titled());
     if fits(&whole) {
         return whole;
@@ -54,9 +57,9 @@ type Quantity = fn(&State) -> f64;
 /// The three reactions above each other.
 fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
     let quantities: [(&str, Quantity); 3] = [
-        ("f0x in N", |state| state.reactions.f0x),
-        ("f0y in N", |state| state.reactions.f0y),
-        ("m0z in N mm", |state| 1e3 * state.reactions.m0z),
+        ("f_{0x} in N", |state| state.reactions.f0x),
+        ("f_{0y} in N", |state| state.reactions.f0y),
+        ("m_{0z} in N mm", |state| 1e3 * state.reactions.m0z),
     ];
     let along = Along::of(scan);
     let height = (area.dim_in_pixel().1 - trace::trimmings(true, true)) / 3;
@@ -84,6 +87,6 @@ mod tests {
         let events = names.windows(2).map(|pair| event(1.0, pair[0], pair[1], EventKind::Touch)).collect();
         let title = title(&Scan { scene, outcome: outcome(&[(0.0, "A")], events), interrupted: None });
         assert!(title.starts_with("O1_q40: phases A B BA BB A") && title.ends_with(" …"), "{title}");
-        assert!((1500..SIZE.0 as i32).contains(&width(&title, TITLE)), "{}", width(&title, TITLE));
+        assert!((1350..WIDTH as i32).contains(&width(&title, TITLE)), "{}", width(&title, TITLE));
     }
 }

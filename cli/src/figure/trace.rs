@@ -1,18 +1,18 @@
 //! One quantity along a scan, with its phases.
 
 use super::abscissa::Abscissa;
-use super::canvas::{Area, BODY, Chart, FigureError, axes, span, width, write};
+use super::canvas::{Area, BODY, FigureError, HPos, span, width, write};
+use super::chart::{Chart, Room};
+use super::element::Element;
 use super::labels::Labels;
-use super::palette::{FAINT, INK, colour};
+use super::palette::{FAINT, INK, RGBColor, TRANSITION, colour};
 use crate::Scan;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use std::ops::Range;
 use vibrissa::State;
 
 /// Room on the left for the numbers and the name of the axis, and below for those of the abscissa, pixels.
 const LEFT: u32 = 130;
-const BELOW: u32 = 80;
+const BELOW: u32 = 70;
 /// Room above for two rows of phases, pixels.
 pub(super) const ABOVE: u32 = 70;
 
@@ -82,21 +82,20 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Resul
     let Along { across, foot, phases, marks } = trace.along;
     let values = trace.parts.iter().flat_map(|part| part.points.iter().map(|point| point.1));
     let up = span(values.chain([0.0]), 0.08);
-    let mut chart = ChartBuilder::on(area)
-        .margin_top(if trace.phases { ABOVE } else { 8 })
-        .margin_bottom(8)
-        .margin_left(10)
-        .margin_right(30)
-        .set_label_area_size(LabelAreaPosition::Left, LEFT)
-        .set_label_area_size(LabelAreaPosition::Bottom, if trace.foot { BELOW } else { 0 })
-        .build_cartesian_2d(across.clone(), up.clone())?;
-    axes(&mut chart, (12, 5), (if trace.foot { foot } else { "" }, trace.name))?;
-    chart.draw_series([PathElement::new(vec![(across.start, 0.0), (across.end, 0.0)], FAINT)])?;
+    let room = Room {
+        left: LEFT,
+        right: 30,
+        top: if trace.phases { ABOVE } else { 8 },
+        bottom: 8 + if trace.foot { BELOW } else { 0 },
+    };
+    let chart = Chart::new(area, room, across.clone(), up.clone());
+    chart.axes((12, 5), (if trace.foot { foot } else { "" }, trace.name))?;
+    chart.draw_series([Element::line(vec![(across.start, 0.0), (across.end, 0.0)], FAINT)])?;
     for part in &trace.parts {
-        chart.draw_series(LineSeries::new(part.points.iter().copied(), part.colour.stroke_width(4)))?;
+        chart.draw_series([Element::line(part.points.iter().copied(), part.colour.stroke_width(4))])?;
     }
     for &place in marks {
-        chart.draw_series([PathElement::new(vec![(place, up.start), (place, up.end)], INK.stroke_width(1))])?;
+        chart.draw_series([Element::line(vec![(place, up.start), (place, up.end)], TRANSITION.stroke_width(1))])?;
     }
     if trace.phases { name_phases(root, &chart, phases, up.end) } else { Ok(()) }
 }
@@ -104,7 +103,7 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Resul
 /// Writes the phases above the chart, over their parts; where those are short, in a second row.
 fn name_phases(
     root: &Area<'_>,
-    chart: &Chart<'_, '_>,
+    chart: &Chart<'_>,
     phases: &[(Range<f64>, String)],
     top: f64,
 ) -> Result<(), FigureError> {

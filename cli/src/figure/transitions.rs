@@ -1,10 +1,9 @@
 //! The transitions between phases that were observed, as a diagram (Merker et al. 2021, fig. 8b).
 
-use super::canvas::{Area, BODY, FigureError, TITLE, stroke, svg, width, write};
-use super::palette::{INK, colour, ink_on};
+use super::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, width, write};
+use super::element::Element;
+use super::palette::{INK, WHITE, colour, ink_on};
 use crate::Scan;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 use std::collections::BTreeMap;
 use vibrissa::{EventKind, Label, Phase};
 
@@ -60,8 +59,8 @@ pub(crate) fn transitions<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> Resu
         }
         for (label, phase, (x, y)) in PLACES {
             let corners = [(x - BOX.0, y - BOX.1), (x + BOX.0, y + BOX.1)].map(pixel);
-            root.draw(&Rectangle::new(corners, colour(phase).filled()))?;
-            root.draw(&Rectangle::new(corners, INK.stroke_width(3)))?;
+            root.draw(&Element::rectangle(corners, colour(phase).filled()))?;
+            root.draw(&Element::rectangle(corners, INK.stroke_width(3)))?;
             write(root, &label.to_string(), pixel((x, y)), HPos::Center, TITLE + 6, ink_on(colour(phase)))?;
         }
         Ok(())
@@ -84,7 +83,7 @@ fn between(root: &Area<'_>, counts: &BTreeMap<Kind, usize>, here: Label, there: 
         let text = number.to_string();
         let half = ((width(&text, BODY) + 8) / 2, BODY as i32 / 2 + 1);
         let corners = [(middle.0 - half.0, middle.1 - half.1), (middle.0 + half.0, middle.1 + half.1)];
-        root.draw(&Rectangle::new(corners, WHITE.filled()))?;
+        root.draw(&Element::rectangle(corners, WHITE.filled()))?;
         write(root, &text, middle, HPos::Center, BODY, INK)?;
     }
     Ok(())
@@ -118,7 +117,7 @@ fn arrow(root: &Area<'_>, tail: (f64, f64), head: (f64, f64), jumps: bool) -> Re
         stroke(root, vec![at(POINT.0 + length - done, 0.0), at(POINT.0 + length - end, 0.0)], INK.stroke_width(3))?;
         done = end + DASH.1;
     }
-    Ok(root.draw(&Polygon::new(vec![at(0.0, 0.0), at(POINT.0, POINT.1), at(POINT.0, -POINT.1)], INK.filled()))?)
+    root.draw(&Element::polygon(vec![at(0.0, 0.0), at(POINT.0, POINT.1), at(POINT.0, -POINT.1)], INK.filled()))
 }
 
 fn pixel((x, y): (f64, f64)) -> (i32, i32) {

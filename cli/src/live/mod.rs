@@ -30,7 +30,7 @@ pub use stage::{StageSpec, StageSpecError};
 pub use summary::{End, LiveReport};
 
 use crate::{Error, Reading, Setup};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use vibrissa::{ClampPath, Rod};
 
 /// A scan to be made with a sensor.
@@ -46,6 +46,8 @@ pub struct LiveScan {
     pub path: Option<ClampPath>,
     /// How the table of a stage is written.
     pub reading: Reading,
+    /// Files that are read, which are not to be overwritten.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl LiveScan {
@@ -65,6 +67,7 @@ impl LiveScan {
         tell: &mut dyn FnMut(&str),
         stopped: &dyn Fn() -> bool,
     ) -> Result<LiveReport, Error> {
+        record::check(out, &self.inputs)?;
         session::run(self, sensor, out, tell, stopped)
     }
 }

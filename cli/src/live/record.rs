@@ -2,6 +2,7 @@
 
 use super::Answer;
 use crate::OutputError;
+use crate::output::check_output;
 use crate::reconstructed::PointRecord;
 use serde::Serialize;
 use std::fs::{self, File};
@@ -23,6 +24,8 @@ pub(super) struct Record {
 
 const RECORDING: &str = "recording.csv";
 const POINTS: &str = "points.jsonl";
+const SUMMARY: &str = "summary.json";
+const FILES: [&str; 3] = [RECORDING, POINTS, SUMMARY];
 
 /// A line of points.jsonl.
 #[derive(Serialize)]
@@ -90,7 +93,6 @@ impl Record {
         if let Some(recorder) = self.recorder.take() {
             recorder.finish(Some(counters)).map_err(self.failed(RECORDING))?;
         }
-        const SUMMARY: &str = "summary.json";
         let mut out = BufWriter::new(create(&self.directory, SUMMARY)?);
         serde_json::to_writer_pretty(&mut out, summary)
             .map_err(io::Error::from)
@@ -105,7 +107,13 @@ impl Record {
     }
 }
 
+/// Whether the files of a live scan may be written to a directory.
+pub(super) fn check(directory: &Path, inputs: &[PathBuf]) -> Result<(), OutputError> {
+    FILES.iter().try_for_each(|name| check_output(&directory.join(name), inputs))
+}
+
 fn create(directory: &Path, name: &str) -> Result<File, OutputError> {
     let file = directory.join(name);
+    check_output(&file, &[])?;
     File::create(&file).map_err(|source| OutputError::File { file, source })
 }

@@ -195,7 +195,7 @@ impl LiveReport {
             delay: self.delay,
             latency: LatencyRecord {
                 median: self.latency.quantile(0.5),
-                share_999: self.latency.quantile(0.999),
+                p999: self.latency.quantile(0.999),
                 largest: self.latency.largest(),
             },
             jitter: self.jitter,
@@ -239,8 +239,8 @@ struct NoiseRecord {
 #[derive(Serialize)]
 struct LatencyRecord {
     median: Option<f64>,
-    #[serde(rename = "99.9 %")]
-    share_999: Option<f64>,
+    /// The delay that 99.9 % of the samples do not exceed.
+    p999: Option<f64>,
     largest: f64,
 }
 

@@ -1,23 +1,25 @@
 //! The files of a sweep, and of contours.
 
+mod guard;
 mod profile;
 mod records;
 mod staged;
 mod stages;
 mod sweep;
 
-pub use profile::write_profiles;
+pub use guard::check_output;
+pub use profile::{write_profile_table, write_profiles};
 pub use staged::{OutputError, Staged};
 pub use stages::abandon;
 
 use crate::{Error, Scan, figure};
-use records::{CSV_COLUMNS, EventRecord, StateRecord, csv_row};
+use records::{CONTACT_COLUMNS, EventRecord, STATE_COLUMNS, StateRecord, contact_rows, state_row};
 use std::io::{self, Write};
 use std::path::Path;
 use sweep::SweepRecord;
 
 impl Scan {
-    /// Writes states.jsonl, states.csv, events.jsonl, sweep.svg and sweep.json into `folder` of the staged directory.
+    /// Writes states.jsonl, states.csv, contacts.csv, events.jsonl, sweep.svg and sweep.json into `folder` of the staged directory.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
@@ -25,6 +27,7 @@ impl Scan {
         let figure = figure::sweep(self)?;
         staged.write(&folder.join("states.jsonl"), |file| self.write_states(file))?;
         staged.write(&folder.join("states.csv"), |file| self.write_table(file))?;
+        staged.write(&folder.join("contacts.csv"), |file| self.write_contacts(file))?;
         staged.write(&folder.join("events.jsonl"), |file| self.write_events(file))?;
         staged.write(&folder.join("sweep.svg"), |file| file.write_all(figure.as_bytes()))?;
         staged.write(&folder.join("sweep.json"), |file| pretty_json(file, &SweepRecord::from(self)))?;
@@ -52,7 +55,15 @@ impl Scan {
     /// # Errors
     /// Those of `out`.
     pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
-        write_csv(out, &CSV_COLUMNS, self.outcome.states.iter().map(csv_row))
+        write_csv(out, &STATE_COLUMNS, self.outcome.states.iter().enumerate().map(state_row))
+    }
+
+    /// The contacts of all states, one a row, as CSV.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_contacts(&self, out: &mut dyn Write) -> io::Result<()> {
+        write_csv(out, &CONTACT_COLUMNS, self.outcome.states.iter().enumerate().flat_map(contact_rows))
     }
 }
 

@@ -9,24 +9,28 @@ use std::path::{Path, PathBuf};
 const COLUMNS: [&str; 6] = ["x", "y", "tangent_angle", "curvature", "arc_length", "object"];
 
 /// Writes the points of contours to the CSV file `out`, and a drawing of them beside it, with the extension svg, whose
-/// name is returned. Neither appears before both are complete.
+/// name is returned. Neither appears before both are complete, and neither replaces one of the `inputs`.
 ///
 /// # Errors
 /// [`Error::Output`], [`Error::Figure`].
-pub fn write_profiles(name: &str, profiles: &[Profile], out: &Path) -> Result<PathBuf, Error> {
+pub fn write_profiles(name: &str, profiles: &[Profile], out: &Path, inputs: Vec<PathBuf>) -> Result<PathBuf, Error> {
     if out.file_name().is_none_or(|file| Path::new(file).extension().is_some_and(|is| is == "svg")) {
         return Err(OutputError::Name { file: out.to_path_buf() }.into());
     }
     let figure = figure::profile(name, profiles)?;
     let (staged, file) = Staged::of_file(out)?;
-    staged.write(file, |out| write_table(profiles, out))?;
+    let staged = staged.keeping(inputs);
+    staged.write(file, |out| write_profile_table(profiles, out))?;
     staged.write(&file.with_extension("svg"), |out| out.write_all(figure.as_bytes()))?;
     staged.publish()?;
     Ok(out.with_extension("svg"))
 }
 
-/// One point a row, SI units and radians.
-fn write_table(profiles: &[Profile], out: &mut dyn Write) -> io::Result<()> {
+/// Writes the points of contours as CSV, one point a row, SI units and radians.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_profile_table(profiles: &[Profile], out: &mut dyn Write) -> io::Result<()> {
     let rows = profiles.iter().flat_map(|profile| {
         profile.points.iter().map(|point| {
             let crate::ProfilePoint { x, y, tangent_angle, curvature, arc_length } = *point;

@@ -103,7 +103,8 @@ impl From<&Event> for EventRecord {
 }
 
 /// The columns of states.csv.
-pub(super) const CSV_COLUMNS: [&str; 14] = [
+pub(super) const STATE_COLUMNS: [&str; 15] = [
+    "state",
     "x0",
     "y0",
     "phi0",
@@ -120,10 +121,25 @@ pub(super) const CSV_COLUMNS: [&str; 14] = [
     "gap_proven",
 ];
 
-/// A row of states.csv.
-pub(super) fn csv_row(state: &State) -> impl Serialize {
+/// A row of states.csv: the state of this number, from 1.
+pub(super) fn state_row((index, state): (usize, &State)) -> impl Serialize {
     let r = StateRecord::from(state);
+    let place = (index + 1, r.x0, r.y0, r.phi0, r.phase);
     let forces = (r.f0x, r.f0y, r.m0z);
     let checks = (r.residual, r.min_gap, r.stable);
-    ((r.x0, r.y0, r.phi0, r.phase), forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven))
+    (place, forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven))
+}
+
+/// The columns of contacts.csv.
+pub(super) const CONTACT_COLUMNS: [&str; 14] =
+    ["state", "x0", "y0", "phi0", "phase", "contact", "object", "piece", "kind", "s", "x", "y", "alpha", "force"];
+
+/// The rows of contacts.csv for a state: one for each contact, from the clamp to the tip, the pose and the phase repeated.
+pub(super) fn contact_rows((index, state): (usize, &State)) -> impl Iterator<Item = impl Serialize> {
+    state.contacts.iter().enumerate().map(move |(number, contact)| {
+        let ContactRecord { object, piece, kind, s, x, y, alpha, force } = contact.into();
+        let vibrissa::Pose { x: x0, y: y0, phi: phi0 } = state.pose;
+        let place = (index + 1, x0, y0, phi0, state.phase().to_string());
+        (place, (number + 1, object, piece, kind), (s, x, y, alpha, force))
+    })
 }

@@ -1,5 +1,6 @@
 //! A directory of results that appears as a whole or not at all.
 
+use super::guard::check_output;
 use super::stages::{self, Registration};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -30,6 +31,29 @@ pub enum OutputError {
         /// The path.
         file: PathBuf,
     },
+    /// There is a file of this name, which is kept.
+    #[error("{} exists and is kept; name another file", file.display())]
+    Exists {
+        /// Which file.
+        file: PathBuf,
+    },
+    /// An output would replace something that is no plain file.
+    #[error("{} is {what} and is not replaced; name another file or directory with --out", file.display())]
+    Special {
+        /// Its name.
+        file: PathBuf,
+        /// What it is.
+        what: &'static str,
+    },
+    /// An output would replace an input.
+    #[error("{} is read by this command and would be overwritten; name another file or directory with --out", file.display())]
+    Input {
+        /// Which file.
+        file: PathBuf,
+    },
+    /// Standard output does not take the table.
+    #[error("cannot write to standard output: {0}")]
+    Standard(#[source] io::Error),
     /// A file cannot be written.
     #[error("cannot write {}: {source}", file.display())]
     File {
@@ -45,6 +69,8 @@ pub enum OutputError {
 #[derive(Debug)]
 pub struct Staged {
     target: PathBuf,
+    /// Files that must not be replaced.
+    inputs: Vec<PathBuf>,
     stage: TempDir,
     // after the stage, in which order they are dropped
     _registration: Registration,
@@ -66,7 +92,13 @@ impl Staged {
         };
         let stage = stage().map_err(|source| OutputError::Directory { directory: target.to_path_buf(), source })?;
         let _registration = stages.open(stage.path(), made);
-        Ok(Self { target: target.to_path_buf(), stage, _registration })
+        Ok(Self { target: target.to_path_buf(), inputs: Vec::new(), stage, _registration })
+    }
+
+    /// The same, but it replaces none of these files.
+    #[must_use]
+    pub fn keeping(self, inputs: Vec<PathBuf>) -> Self {
+        Self { inputs, ..self }
     }
 
     /// Files for the directory of the file `out`, and the name of that one there.
@@ -79,6 +111,7 @@ impl Staged {
         if out.is_dir() {
             return Err(no_file());
         }
+        check_output(out, &[])?;
         // The directory of a bare name is the empty path, which cannot be made.
         let directory = out.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(".".as_ref());
         Ok((Self::new(directory)?, name))
@@ -87,12 +120,13 @@ impl Staged {
     /// Writes one file; `name` may lead through folders.
     ///
     /// # Errors
-    /// [`OutputError::File`].
+    /// [`OutputError::File`], [`OutputError::Special`], [`OutputError::Input`].
     pub fn write(
         &self,
         name: &Path,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), OutputError> {
+        check_output(&self.target.join(name), &self.inputs)?;
         let file = self.stage.path().join(name);
         let create = || {
             let _held = stages::lock();

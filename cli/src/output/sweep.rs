@@ -12,7 +12,8 @@ pub(super) struct SweepRecord<'a> {
     stop: Option<StopRecord>,
     states: usize,
     events: usize,
-    phases: String,
+    /// None without a single state.
+    phases: Option<String>,
 }
 
 /// Where and why a sweep ended before its path; SI units.
@@ -44,7 +45,7 @@ impl<'a> From<&'a Scan> for SweepRecord<'a> {
             stop: interrupted.or_else(stopped),
             states: scan.outcome.states.len(),
             events: scan.outcome.events.len(),
-            phases: scan.cycle().to_string(),
+            phases: (!scan.is_empty()).then(|| scan.cycle().to_string()),
         }
     }
 }

@@ -93,14 +93,15 @@ impl Comparison {
             table.row([name.to_owned(), count.to_string()].into_iter().chain(mm));
         }
         text.push_str(&table.to_string());
-        let share = |share: Option<f64>| share.map_or_else(|| "-".into(), |share| format!("{:.1} %", 100.0 * share));
+        let real = self.kinks_of_events.matches.len();
         writeln!(
             text,
-            "kinks within 1 mm: recall {} of {}, precision {} of {}",
-            share(kinks.recall()),
+            "kinks of the reactions: of {} changes of contact that cause one, {} were found within 1 mm of the clamp's way; \
+             of {} kinks found, {real} belong to a change of contact and {} to none",
             kinks.truth,
-            share(self.kinks_of_events.precision()),
-            kinks.found
+            kinks.matches.len(),
+            kinks.found,
+            kinks.found - real.min(kinks.found)
         )?;
         let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
         let mut table = Table::new(["transition", "kind", "x0 mm", "y0 mm", "phi0 deg", unit]);

@@ -1,8 +1,8 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, RodTable, SweepTable};
-use super::{Scene, object};
-use crate::toml_file::Fault;
+use super::{Scene, files, object};
+use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -12,13 +12,14 @@ use vibrissa::{ClampPath, ContactError, LARGEST_ANGLE, Pose, Rod, RodError};
 pub(crate) const MOST_STATES: f64 = 1e6;
 
 /// Files that the objects name are looked for in `directory`.
-pub(super) fn scene(name: String, document: Document, directory: &Path) -> Result<Scene, Fault> {
+pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<Scene, Fault> {
+    let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
     let Document { tables, contour, objects } = document;
     let rod = rod(&tables.rod)?;
     let objects = object::all(&tables, &contour, &objects, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
-    Ok(Scene { name, rod, objects, path, step, warnings: Vec::new() })
+    Ok(Scene { name, rod, objects, path, step, warnings: Vec::new(), files, source })
 }
 
 pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {

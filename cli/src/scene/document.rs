@@ -1,7 +1,7 @@
 //! The scene file as written: names, types and spans, no physics.
 
 use super::shape::Piece;
-use crate::toml_file::Fault;
+use crate::toml_file::{Fault, comma_in_list};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::path::PathBuf;
@@ -76,8 +76,9 @@ impl TryFrom<Vec<f64>> for Point {
 
     fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
         let found = numbers.len();
-        let xy =
-            numbers.try_into().map_err(|_| format!("found a list of {found}, expected two numbers: [x, y] in m"))?;
+        let xy = numbers.try_into().map_err(|_| {
+            format!("found a list of {found}, expected two numbers: [x, y] in m{}", comma_in_list(found))
+        })?;
         Ok(Self(xy))
     }
 }

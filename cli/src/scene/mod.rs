@@ -6,6 +6,7 @@
 
 mod check;
 mod document;
+mod files;
 mod object;
 mod rod;
 mod shape;
@@ -14,11 +15,11 @@ pub(crate) use check::MOST_STATES;
 pub use rod::read_rod;
 
 use crate::SceneError;
-use crate::toml_file;
-use std::path::Path;
+use crate::toml_file::{self, Source};
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::DeTable;
-use vibrissa::{ClampPath, Composite, ContactError, Rod, Sweep};
+use vibrissa::{ClampPath, Composite, ContactError, Rod, StopReason, Sweep};
 
 /// A rod swept along a contour.
 #[derive(Debug)]
@@ -35,6 +36,9 @@ pub struct Scene {
     pub step: f64,
     /// What may be a mistake in the file: angles that look like radians where degrees belong, or the other way round.
     pub warnings: Vec<String>,
+    /// The file of the scene, and those that it names.
+    pub files: Vec<PathBuf>,
+    source: Source,
 }
 
 impl Scene {
@@ -73,9 +77,26 @@ impl Scene {
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let directory = file.parent().unwrap_or(file);
-        let read = |table: Spanned<DeTable<'_>>| check::scene(stem(file), document::document(table)?, directory);
+        let source = Source::new(file, text);
+        let read =
+            |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
         let (scene, warnings) = toml_file::parse_angles(file, text, read)?;
         Ok(Self { warnings, ..scene })
+    }
+
+    /// Whether the clamp is outside of all objects in its first pose.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `sweep.from` where it is inside.
+    pub fn check_start(&self) -> Result<(), SceneError> {
+        let first = self.sweep().ok().and_then(|mut sweep| sweep.next());
+        match first {
+            Some(Err(stop)) if stop.reason == StopReason::ClampInside => Err(self.source.error(
+                "sweep.from",
+                "the clamp is inside an object in the first pose, expected a position outside of all objects",
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// The sweep this scene asks for.

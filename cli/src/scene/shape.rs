@@ -71,6 +71,16 @@ impl Piece {
         })
     }
 
+    /// The file that it names.
+    pub fn file(&self) -> Option<&Path> {
+        match &self.shape {
+            Shape::Polygon(fields) => fields.file.as_deref(),
+            Shape::Spline(fields) => fields.file.as_deref(),
+            Shape::Svg(fields) => fields.file.as_deref(),
+            _ => None,
+        }
+    }
+
     /// Whether it is a polygon, whose pieces are edges.
     pub fn has_edges(&self) -> bool {
         matches!(self.shape, Shape::Polygon(_))

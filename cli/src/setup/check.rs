@@ -37,6 +37,7 @@ pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -
         tare: window(tare)?,
         half_window: half_window.map(|half| positive("half_window", half, "m")).transpose()?,
         warnings: Vec::new(),
+        files: Vec::new(),
     })
 }
 
@@ -237,7 +238,8 @@ mod tests {
 
     #[test]
     fn nothing_is_the_default_and_everything_is_taken() {
-        assert_eq!(format!("{:?}", parse("").unwrap()), format!("{:?}", Setup::default()));
+        let nothing = Setup { files: vec!["s.toml".into()], ..Setup::default() };
+        assert_eq!(format!("{:?}", parse("").unwrap()), format!("{nothing:?}"));
         let text = "
             [sensor]\nprofile = 'axia'\nrate = 7e3\nforce_unit = 'N'\ntorque_unit = 'N mm'
             counts_per_force_unit = 1e6\ncounts_per_torque_unit = 1e3\nchannels = ['', 'Fx', 'Fy', 'Tz']

@@ -15,7 +15,7 @@ pub use recording::{RecordingSetup, RecordingTime};
 use crate::{SceneError, toml_file};
 use document::Document;
 use serde::Deserialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 use vibrissa::hw::device::rdt::RdtProfile;
@@ -46,6 +46,8 @@ pub struct Setup {
     pub recording: RecordingSetup,
     /// What may be a mistake in the file: angles that look like radians where degrees belong.
     pub warnings: Vec<String>,
+    /// The file of the setup, and the calibration file that it names.
+    pub files: Vec<PathBuf>,
 }
 
 /// The window without contact that a scan begins with.
@@ -72,6 +74,7 @@ impl Default for Setup {
             half_window: None,
             recording: RecordingSetup::default(),
             warnings: Vec::new(),
+            files: Vec::new(),
         }
     }
 }
@@ -107,9 +110,12 @@ impl Setup {
         let read = |table: Spanned<DeTable<'_>>| {
             let tree = table.get_ref().clone();
             let directory = file.parent().unwrap_or(file);
-            check::setup(&Document::deserialize(Deserializer::from(table))?, &tree, directory)
+            let document = Document::deserialize(Deserializer::from(table))?;
+            let calibration = document.sensor.calibration.as_ref().map(|name| directory.join(name.get_ref()));
+            Ok((check::setup(&document, &tree, directory)?, calibration))
         };
-        let (setup, warnings) = toml_file::parse_angles(file, text, read)?;
-        Ok(Self { warnings, ..setup })
+        let ((setup, calibration), warnings) = toml_file::parse_angles(file, text, read)?;
+        let files = std::iter::once(file.to_path_buf()).chain(calibration).collect();
+        Ok(Self { warnings, files, ..setup })
     }
 }

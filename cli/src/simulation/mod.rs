@@ -8,7 +8,8 @@ pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
 use crate::scene::MOST_STATES;
-use crate::{Error, Interrupt, Interrupted, Scene, Staged};
+use crate::{Error, Interrupt, Interrupted, OutputError, Scene, Staged};
+use std::io::{self, Write};
 use std::path::Path;
 use vibrissa::{NoiseModel, Pose, Reactions, Stop};
 
@@ -16,7 +17,7 @@ use vibrissa::{NoiseModel, Pose, Reactions, Stop};
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
 const WITHOUT_SIGMAS: usize = 7;
 
-/// What the comment is called that ends a recording which was interrupted.
+/// What the comment is called that ends a recording which was interrupted, or whose sweep stopped early.
 pub(crate) const INCOMPLETE: &str = "incomplete";
 
 /// A recording to be made, SI units.
@@ -37,7 +38,7 @@ pub struct Simulation {
 }
 
 /// What was recorded.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Simulated {
     /// How many samples were written.
     pub samples: usize,
@@ -98,51 +99,39 @@ impl Simulation {
     ///
     /// The memory it takes does not grow with the number of samples.
     ///
-    /// Interrupted, it ends the file with the comment `# incomplete: ` and where that was; [`Recording`](crate::Recording)
-    /// reads it. Before the first sample it writes no file.
+    /// Interrupted, or where the sweep stops early, it ends the file with the comment `# incomplete: ` and where that was; [`Recording`](crate::Recording)
+    /// reads it. Before the first sample it writes no file. It replaces none of the files of the scene.
     ///
     /// # Errors
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Output`]. A sweep that stops early is none: what there is, is
     /// written.
     pub fn write(&self, out: &Path, interrupt: &Interrupt) -> Result<Simulated, Error> {
-        let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
-        let mut ticks = self.ticks()?;
+        let samples = self.samples()?;
         let (staged, name) = Staged::of_file(out)?;
-        let mut recorded = Simulated { samples: 0, lost: 0, stop: None, interrupted: None };
-        let mut last = None;
+        let staged = staged.keeping(self.scene.files.clone());
+        let mut recorded = Simulated::default();
         staged.write(name, |out| {
-            let columns = if sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
-            let mut table = csv_writer(out);
-            table.write_record(&COLUMNS[..columns])?;
-            loop {
-                if interrupt.is_raised() {
-                    recorded.interrupted = Some(Interrupted { pose: last });
-                    break;
-                }
-                match ticks.next() {
-                    Some(Ok(Tick { number, pose, reactions })) => {
-                        last = Some(pose);
-                        let Some(reactions) = reactions else {
-                            recorded.lost += 1;
-                            continue;
-                        };
-                        let row = self.row(number, pose, reactions, sigma.unwrap_or_default());
-                        table.serialize(&row[..columns])?;
-                        recorded.samples += 1;
-                    }
-                    Some(Err(stop)) => recorded.stop = Some(stop),
-                    None => break,
-                }
-            }
-            table.flush()?;
-            drop(table);
-            recorded.interrupted.map_or(Ok(()), |at| writeln!(out, "# {INCOMPLETE}: {at}"))
+            recorded = samples.record(out, interrupt)?;
+            Ok(())
         })?;
         if recorded.interrupted.is_some() && recorded.samples == 0 {
             return Ok(recorded);
         }
         staged.publish()?;
         Ok(recorded)
+    }
+
+    /// The same to standard output or another stream.
+    ///
+    /// # Errors
+    /// [`Error::Simulation`], [`Error::Noise`], [`OutputError::Standard`].
+    pub fn write_to(&self, out: &mut dyn Write, interrupt: &Interrupt) -> Result<Simulated, Error> {
+        Ok(self.samples()?.record(out, interrupt).map_err(OutputError::Standard)?)
+    }
+
+    fn samples(&self) -> Result<Samples<'_>, Error> {
+        let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
+        Ok(Samples { simulation: self, sigma, ticks: self.ticks()? })
     }
 
     fn row(&self, number: usize, pose: Pose, reactions: Reactions, sigma: Reactions) -> [f64; COLUMNS.len()] {
@@ -178,5 +167,50 @@ impl Simulation {
             Some((channel, _)) => Err(SimulationError::NoSigma { channel }),
             None => Ok(sigma),
         }
+    }
+}
+
+/// The samples of a recording that is being written.
+struct Samples<'a> {
+    simulation: &'a Simulation,
+    sigma: Option<Reactions>,
+    ticks: Ticks<'a>,
+}
+
+impl Samples<'_> {
+    fn record(mut self, out: &mut dyn Write, interrupt: &Interrupt) -> io::Result<Simulated> {
+        let mut recorded = Simulated::default();
+        let mut last = None;
+        let columns = if self.sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
+        let mut table = csv_writer(out);
+        table.write_record(&COLUMNS[..columns])?;
+        loop {
+            if interrupt.is_raised() {
+                recorded.interrupted = Some(Interrupted { pose: last });
+                break;
+            }
+            match self.ticks.next() {
+                Some(Ok(Tick { number, pose, reactions })) => {
+                    last = Some(pose);
+                    let Some(reactions) = reactions else {
+                        recorded.lost += 1;
+                        continue;
+                    };
+                    let row = self.simulation.row(number, pose, reactions, self.sigma.unwrap_or_default());
+                    table.serialize(&row[..columns])?;
+                    recorded.samples += 1;
+                }
+                Some(Err(stop)) => recorded.stop = Some(stop),
+                None => break,
+            }
+        }
+        table.flush()?;
+        drop(table);
+        match (&recorded.interrupted, &recorded.stop) {
+            (Some(at), _) => writeln!(out, "# {INCOMPLETE}: {at}")?,
+            (None, Some(stop)) => writeln!(out, "# {INCOMPLETE}: {stop}")?,
+            (None, None) => {}
+        }
+        Ok(recorded)
     }
 }

@@ -1,5 +1,6 @@
 //! What can be wrong with a TOML file, and where in it.
 
+use super::number;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -66,9 +67,13 @@ impl Fault {
         Self { span, message: message.into() }
     }
 
-    /// What is wrong with a text that is no TOML. Most often a number has a unit behind it: then the message shows both.
+    /// What is wrong with a text that is no TOML. Most often a number has a decimal comma, or a unit behind it: then the
+    /// message shows it.
     pub fn of_syntax(error: toml::de::Error, text: &str) -> Self {
         let fault = Self::from(error);
+        if let Some((span, hint)) = number::decimal_comma(text, fault.span.start) {
+            return Self::new(span, hint);
+        }
         let written = text.get(fault.span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default().trim();
         if !fault.message.starts_with("string values must be quoted") {
             return fault;
@@ -94,9 +99,38 @@ impl Fault {
     }
 }
 
+/// A text with the name of its file, to report faults that show only when the text is used.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    file: PathBuf,
+    text: String,
+}
+
+impl Source {
+    pub fn new(file: &Path, text: &str) -> Self {
+        Self { file: file.to_path_buf(), text: text.to_owned() }
+    }
+
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// An error at the value of a field, given its path as in `sweep.from`.
+    pub fn error(&self, field: &str, message: &str) -> SceneError {
+        let table = DeTable::parse(&self.text).ok();
+        let table = table.as_ref().map(Spanned::get_ref);
+        let span = table.and_then(|table| place_of(table, field)).unwrap_or(0..0);
+        Fault::new(span, message).in_text(&self.file, &self.text, table)
+    }
+}
+
 impl From<toml::de::Error> for Fault {
     fn from(error: toml::de::Error) -> Self {
         let message = error.message().trim().replace('\n', ", ").replace("expected f64", "expected a number");
+        let message = match number::quoted(&message) {
+            Some(hint) => format!("{message}; {hint}"),
+            None => message,
+        };
         let message = message.replace("number overflowed", "number overflowed, expected at most 1.7e308 either way");
         // An error without a place concerns the file as a whole.
         Self::new(error.span().unwrap_or(0..0), message)

@@ -2,9 +2,11 @@
 
 mod angle;
 mod error;
+mod number;
 
-pub(crate) use error::{Fault, place_of};
+pub(crate) use error::{Fault, Source, place_of};
 pub use error::{Invalid, SceneError};
+pub(crate) use number::comma_in_list;
 
 use std::path::Path;
 use toml::Spanned;

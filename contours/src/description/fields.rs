@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::listing::{FieldInfo, FieldUnit, Written, fields, has_default};
 use super::{Pieces, ShapeError, pairs};
 use crate::file::{self, FileError};
 use crate::{CircularArc, Contour, ContourError, EllipticArc, Line, Parabola, Spline, SplineEnd, polygon};
@@ -16,21 +17,21 @@ fn one(shape: impl Contour + 'static) -> Pieces {
     vec![Box::new(shape)]
 }
 
-/// `y = vertex.y + coefficient (x - vertex.x)^2`, travelled to +x: the solid is above.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct ParabolaFields {
-    /// The vertex, lengths.
-    #[serde(deserialize_with = "pairs::one")]
-    pub vertex: [f64; 2],
-    /// The coefficient of the square, one over a length.
-    pub coefficient: f64,
-    /// Where it starts, x, a length; minus infinity unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from_x: Option<f64>,
-    /// Where it ends, x, a length; infinity unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to_x: Option<f64>,
+fields! {
+    /// `y = vertex.y + coefficient (x - vertex.x)^2`, travelled to +x: the solid is above.
+    ParabolaFields {
+        /// The vertex.
+        #[serde(deserialize_with = "pairs::one")]
+        vertex: [f64; 2] => Length,
+        /// The coefficient of the square.
+        coefficient: f64 => PerLength,
+        /// Where it starts, x; minus infinity unless given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from_x: Option<f64> => Length,
+        /// Where it ends, x; infinity unless given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        to_x: Option<f64> => Length,
+    }
 }
 
 impl ParabolaFields {
@@ -52,16 +53,16 @@ impl ParabolaFields {
     }
 }
 
-/// A straight line; the solid is on the left of the way.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct LineFields {
-    /// The first point, lengths.
-    #[serde(deserialize_with = "pairs::one")]
-    pub from: [f64; 2],
-    /// The last point, lengths.
-    #[serde(deserialize_with = "pairs::one")]
-    pub to: [f64; 2],
+fields! {
+    /// A straight line; the solid is on the left of the way.
+    LineFields {
+        /// The first point.
+        #[serde(deserialize_with = "pairs::one")]
+        from: [f64; 2] => Length,
+        /// The last point.
+        #[serde(deserialize_with = "pairs::one")]
+        to: [f64; 2] => Length,
+    }
 }
 
 impl LineFields {
@@ -71,19 +72,19 @@ impl LineFields {
     }
 }
 
-/// Straight edges from point to point; the solid is on the left, inside if the points run counterclockwise.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct PolygonFields {
-    /// The points, lengths; or else `file`.
-    #[serde(default, deserialize_with = "pairs::list", skip_serializing_if = "Option::is_none")]
-    pub points: Option<Vec<[f64; 2]>>,
-    /// A CSV file of points.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// Whether an edge leads from the last point to the first, which may be given again as the last one; true unless given.
-    #[serde(default = "yes", skip_serializing_if = "is_yes")]
-    pub closed: bool,
+fields! {
+    /// Straight edges from point to point; the solid is on the left, inside if the points run counterclockwise.
+    PolygonFields {
+        /// The points; or else `file`.
+        #[serde(default, deserialize_with = "pairs::list", skip_serializing_if = "Option::is_none")]
+        points: Option<Vec<[f64; 2]>> => Length,
+        /// A CSV file of points.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        file: Option<PathBuf> => None,
+        /// Whether an edge leads from the last point to the first, which may be given again as the last one; true unless given.
+        #[serde(default = "yes", skip_serializing_if = "is_yes")]
+        closed: bool => None,
+    }
 }
 
 fn yes() -> bool {
@@ -101,19 +102,19 @@ impl PolygonFields {
     }
 }
 
-/// An arc of a circle. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct ArcFields {
-    /// The centre, lengths.
-    #[serde(deserialize_with = "pairs::one")]
-    pub center: [f64; 2],
-    /// The radius, a length.
-    pub radius: f64,
-    /// Polar angle where it starts, degrees.
-    pub from_angle: f64,
-    /// Polar angle where it ends, degrees.
-    pub to_angle: f64,
+fields! {
+    /// An arc of a circle. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
+    ArcFields {
+        /// The centre.
+        #[serde(deserialize_with = "pairs::one")]
+        center: [f64; 2] => Length,
+        /// The radius.
+        radius: f64 => Length,
+        /// Polar angle where it starts.
+        from_angle: f64 => Degrees,
+        /// Polar angle where it ends.
+        to_angle: f64 => Degrees,
+    }
 }
 
 impl ArcFields {
@@ -131,23 +132,23 @@ impl ArcFields {
     }
 }
 
-/// An arc of an ellipse. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct EllipseFields {
-    /// The centre, lengths.
-    #[serde(deserialize_with = "pairs::one")]
-    pub center: [f64; 2],
-    /// The radii along its own axes, lengths.
-    #[serde(deserialize_with = "pairs::one")]
-    pub radii: [f64; 2],
-    /// The angle of its first axis, degrees; 0 unless given.
-    #[serde(default)]
-    pub rotation: f64,
-    /// Eccentric angle where it starts, degrees: the polar angle on the circle of which it is the picture.
-    pub from_angle: f64,
-    /// Eccentric angle where it ends, degrees.
-    pub to_angle: f64,
+fields! {
+    /// An arc of an ellipse. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
+    EllipseFields {
+        /// The centre.
+        #[serde(deserialize_with = "pairs::one")]
+        center: [f64; 2] => Length,
+        /// The radii along its own axes.
+        #[serde(deserialize_with = "pairs::one")]
+        radii: [f64; 2] => Length,
+        /// The angle of its first axis; 0 unless given.
+        #[serde(default)]
+        rotation: f64 => Degrees,
+        /// Eccentric angle where it starts: the polar angle on the circle of which it is the picture.
+        from_angle: f64 => Degrees,
+        /// Eccentric angle where it ends.
+        to_angle: f64 => Degrees,
+    }
 }
 
 impl EllipseFields {
@@ -185,28 +186,28 @@ fn arc(
     }
 }
 
-/// A smooth curve through points, or near them; the solid is on the left of the way.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct SplineFields {
-    /// The points, lengths; or else `file`.
-    #[serde(default, deserialize_with = "pairs::list", skip_serializing_if = "Option::is_none")]
-    pub points: Option<Vec<[f64; 2]>>,
-    /// A CSV file of points.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// What holds at the ends; natural unless given.
-    #[serde(default)]
-    pub end: SplineEndField,
-    /// Tangent angle at the start of a clamped one, degrees; estimated unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from_angle: Option<f64>,
-    /// Tangent angle at the end of a clamped one, degrees; estimated unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to_angle: Option<f64>,
-    /// Standard deviation of the noise in each coordinate, a length: then the curve passes near the points.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub smoothing: Option<f64>,
+fields! {
+    /// A smooth curve through points, or near them; the solid is on the left of the way.
+    SplineFields {
+        /// The points; or else `file`.
+        #[serde(default, deserialize_with = "pairs::list", skip_serializing_if = "Option::is_none")]
+        points: Option<Vec<[f64; 2]>> => Length,
+        /// A CSV file of points.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        file: Option<PathBuf> => None,
+        /// What holds at the ends; natural unless given.
+        #[serde(default)]
+        end: SplineEndField => None,
+        /// Tangent angle at the start of a clamped one; estimated unless given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from_angle: Option<f64> => Degrees,
+        /// Tangent angle at the end of a clamped one; estimated unless given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        to_angle: Option<f64> => Degrees,
+        /// Standard deviation of the noise in each coordinate: then the curve passes near the points.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        smoothing: Option<f64> => Length,
+    }
 }
 
 /// What holds at the ends of a spline.
@@ -256,21 +257,21 @@ impl SplineFields {
     }
 }
 
-/// A path of an SVG drawing, upright: lines, Bezier curves, and arcs as such. Closed, it is made to run counterclockwise.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct SvgFields {
-    /// The drawing; or else `path`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// The data of the path, as in its attribute `d`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub path: Option<String>,
-    /// Which path of the drawing, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub id: Option<String>,
-    /// Length of one unit of the drawing.
-    pub scale: f64,
+fields! {
+    /// A path of an SVG drawing, upright: lines, Bezier curves, and arcs as such. Closed, it is made to run counterclockwise.
+    SvgFields {
+        /// The drawing; or else `path`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        file: Option<PathBuf> => None,
+        /// The data of the path, as in its attribute `d`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        path: Option<String> => None,
+        /// Which path of the drawing, where it has several.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        id: Option<String> => None,
+        /// Length of one unit of the drawing.
+        scale: f64 => Length,
+    }
 }
 
 impl SvgFields {

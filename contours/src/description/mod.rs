@@ -1,16 +1,19 @@
 //! Shapes as data: the fields that scene files and JSON write, angles in DEGREES.
 //!
 //! A [`Shape`] is one piece of a contour, or several in a row (a polygon gives its edges, an SVG path its segments).
-//! This is the single list of shapes that have a name, and of their fields.
+//! Lengths have the unit of the file. This is the single list of shapes that have a name, and of their fields.
 
 mod error;
 mod fields;
+mod listing;
 mod pairs;
 
 pub use error::{ShapeError, ShapeFault};
 pub use fields::{
     ArcFields, EllipseFields, LineFields, ParabolaFields, PolygonFields, SplineEndField, SplineFields, SvgFields,
 };
+
+pub use listing::{FieldInfo, FieldUnit, ShapeInfo};
 
 use std::path::Path;
 
@@ -24,7 +27,7 @@ pub type Pieces = Vec<Box<dyn Contour>>;
 
 /// One row a shape: the enum, the names, and what depends on the name are all made from these.
 macro_rules! shapes {
-    ($($(#[$doc:meta])* $name:literal $variant:ident $fields:ident;)*) => {
+    ($($(#[doc = $doc:literal])* $name:literal $variant:ident $fields:ident;)*) => {
         /// A shape by its name and fields.
         ///
         /// ```
@@ -40,12 +43,16 @@ macro_rules! shapes {
         #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
         #[serde(tag = "shape")]
         pub enum Shape {
-            $($(#[$doc])* #[serde(rename = $name)] $variant($fields),)*
+            $($(#[doc = $doc])* #[serde(rename = $name)] $variant($fields),)*
         }
 
         impl Shape {
             /// The names of all shapes.
             pub const NAMES: &'static [&'static str] = &[$($name),*];
+
+            /// All shapes with their fields, in order.
+            pub const ALL: &'static [ShapeInfo] =
+                &[$(ShapeInfo { name: $name, meaning: concat!($($doc),*), fields: $fields::FIELDS }),*];
 
             /// The shape of this name with fields that are still to be read, for formats that keep the name elsewhere.
             ///

@@ -1,10 +1,17 @@
-//! The nine scans of Merker et al. (2021): three objects at three distances.
+//! The nine scans of Merker et al. (2020): three objects at three distances.
+//!
+//! `naive` turns a scan back as if there were one contact, `resolved` with both contacts, and `report` is the tables of all
+//! scans.
 
-use crate::naive::Naive;
+pub(crate) mod naive;
+mod report;
+pub(crate) mod resolved;
+
 use crate::output::pretty_json;
-use crate::resolved::Resolved;
 use crate::{Error, Interrupt, Scan, Scene, Staged, figure};
+use naive::Naive;
 use rayon::prelude::*;
+use resolved::Resolved;
 use serde::Serialize;
 use std::path::Path;
 
@@ -23,7 +30,7 @@ macro_rules! scene {
             $distance,
             $cycle,
             concat!("scenes/", $object, "_q", $distance, ".toml"),
-            include_str!(concat!("../../scenes/", $object, "_q", $distance, ".toml")),
+            include_str!(concat!("../../../scenes/", $object, "_q", $distance, ".toml")),
         )
     };
 }
@@ -80,8 +87,8 @@ struct PaperRecord<'a> {
     /// Whether all scans and the figures of all scans are there.
     complete: bool,
     scans: Vec<PaperScanRecord<'a>>,
-    /// Scenes of the scans that were not done.
-    missing: Vec<&'static str>,
+    /// Names of the scans that were not done.
+    missing: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -164,10 +171,11 @@ impl Paper {
 
     fn record(&self, complete: bool) -> PaperRecord<'_> {
         let is_missing = |entry: &&Entry| self.find(entry.0, entry.1).is_none();
+        let name = |entry: &Entry| format!("{}_q{}", entry.0, entry.1);
         PaperRecord {
             complete,
             scans: self.scans.iter().map(PaperScanRecord::from).collect(),
-            missing: SCANS.iter().filter(is_missing).map(|entry| entry.3).collect(),
+            missing: SCANS.iter().filter(is_missing).map(name).collect(),
         }
     }
 }

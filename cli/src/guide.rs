@@ -1,0 +1,87 @@
+//! What the help says: examples, and what to do next.
+
+pub const STATUS: &str = "\
+First steps:
+  vibrissa init                  write a scene with comments, scene.toml
+  vibrissa sweep scene.toml      sweep the rod, results and a figure into out/scene
+Then open out/scene/sweep.svg in a browser, change the scene and sweep again. `vibrissa help COMMAND` explains a command.
+
+Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording \
+that does not fit its rod or its units, a sensor that does not suit the rod or fell silent, wrong options, 130 interrupted with Ctrl-C (143 \
+with SIGTERM). Interrupted, sweep, simulate and paper write what they have and mark it as incomplete, reconstruct and contour \
+write nothing; live and fake-sensor end as usual. A second time ends any of them at once.
+
+No command replaces a link, a device or one of its own inputs.";
+
+pub const INIT: &str = "\
+Example:
+  vibrissa init bump.toml
+
+Next: `vibrissa sweep bump.toml`. A file that exists is never overwritten.";
+
+pub const SWEEP: &str = "\
+Example:
+  vibrissa sweep scene.toml --out results
+
+Files: states.jsonl and states.csv (one line a pose), contacts.csv (one line a contact), events.jsonl (transitions), sweep.json
+(whether it is complete), sweep.svg.
+Next: open sweep.svg in a browser. `vibrissa simulate` gives the recording of a sensor along the same scene.";
+
+pub const CONTOUR: &str = "\
+Examples:
+  vibrissa contour scene.toml
+  vibrissa contour scene.toml --object 1 --out - > object.csv
+
+Next: open contour.svg, see whether the outline is what you mean, then `vibrissa sweep` the scene.";
+
+pub const SHAPES: &str = "\
+Example:
+  vibrissa shapes
+
+Next: put a shape into an [[object.piece]] of a scene, and look at it with `vibrissa contour`.";
+
+pub const SIMULATE: &str = "\
+Examples:
+  vibrissa simulate scene.toml --out recording.csv
+  vibrissa simulate scene.toml --noise noise.toml --seed 1 --out - > recording.csv
+
+Next: `vibrissa reconstruct recording.csv --rod scene.toml --truth scene.toml`.";
+
+pub const RECONSTRUCT: &str = "\
+Example:
+  vibrissa reconstruct recording.csv --rod rod.toml
+
+Next: open contour.svg and phases.svg of the results in a browser; docs/output-files.md explains every field of the others.";
+
+pub const LIVE: &str = "\
+Example, without a sensor, in two terminals:
+  vibrissa fake-sensor scene.toml --protocol rdt --speed 0.01
+  vibrissa live --sensor rdt://127.0.0.1 --rod scene.toml --stage constant:0.01
+
+Next: `vibrissa reconstruct out/live/recording.csv --rod scene.toml` resolves two contacts, which needs the whole scan.";
+
+pub const FAKE_SENSOR: &str = "\
+Example:
+  vibrissa fake-sensor scene.toml --protocol rdt --speed 0.01
+
+Next: the command prints its address; `vibrissa live --sensor ADDRESS` in another terminal.";
+
+pub const PAPER: &str = "\
+Example:
+  vibrissa paper --out paper
+
+Next: open phase_cycles.svg and notches.svg of the results in a browser.";
+
+pub const COMPLETIONS: &str = "\
+Examples:
+  vibrissa completions bash > ~/.local/share/bash-completion/completions/vibrissa
+  vibrissa completions zsh > ~/.zfunc/_vibrissa
+
+Next: start a new shell.";
+
+pub const MAN: &str = "\
+Examples:
+  vibrissa man > vibrissa.1
+  vibrissa man sweep > vibrissa-sweep.1
+
+Next: `man ./vibrissa.1`.";

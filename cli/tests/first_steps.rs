@@ -1,0 +1,98 @@
+//! What leads a newcomer on: the help, a scene to begin with, the list of shapes.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{SCENE, complaint, vibrissa};
+use std::fs;
+use std::path::Path;
+
+fn said(arguments: &[&str]) -> String {
+    let output = vibrissa(Path::new("."), arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", complaint(&output));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn without_a_command_the_first_steps_are_told() {
+    let output = vibrissa(Path::new("."), &[]);
+    let help = complaint(&output);
+    assert_eq!(output.status.code(), Some(2));
+    for part in ["Simulates a flexible whisker", "vibrissa init", "vibrissa sweep scene.toml", "sweep.svg", "shapes"] {
+        assert!(help.contains(part), "{part} is not in {help}");
+    }
+}
+
+#[test]
+fn every_command_has_an_example_and_a_next_step() {
+    let whole = said(&["--help"]);
+    let commands = whole.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
+    let names: Vec<&str> = commands.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.len() >= 11, "{names:?}");
+    for name in names.into_iter().filter(|name| *name != "help") {
+        let help = said(&[name, "--help"]);
+        assert!(help.contains("Example") && help.contains(&format!("\n  vibrissa {name}")), "{name}: {help}");
+        assert!(help.contains("\nNext: "), "{name}: {help}");
+    }
+}
+
+#[test]
+fn the_first_scene_is_swept_as_it_is_and_never_written_over_a_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| vibrissa(directory.path(), arguments);
+    assert_eq!(run(&["init"]).status.code(), Some(0));
+    let output = run(&["sweep", "scene.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+    let report = String::from_utf8(output.stdout).unwrap();
+    assert!(report.starts_with("scene: A B A; ") && output.stderr.is_empty(), "{report}");
+
+    fs::write(directory.path().join("mine.toml"), "mine").unwrap();
+    let output = run(&["init", "mine.toml"]);
+    assert_eq!((output.status.code(), complaint(&output).contains("mine.toml exists and is kept")), (Some(1), true));
+    assert_eq!(fs::read_to_string(directory.path().join("mine.toml")).unwrap(), "mine");
+    assert!(complaint(&run(&["init", "nowhere/scene.toml"])).contains("cannot write nowhere/scene.toml"));
+}
+
+/// The list is made from the shapes; the page about scene files must name the same fields.
+#[test]
+fn the_list_of_shapes_is_that_of_the_page() {
+    let list = said(&["shapes"]);
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scene-files.md")).unwrap();
+    for shape in list.split("\n\n") {
+        let (name, fields) = shape.split_once("\n").unwrap();
+        let name = name.split('"').nth(1).unwrap();
+        let row = page.lines().find(|line| line.starts_with(&format!("| `\"{name}\"` |"))).unwrap();
+        for field in fields.lines().skip(1).filter_map(|line| line.split_whitespace().next()) {
+            assert!(row.contains(&format!("`{field}`")), "{name}: {field} is not in {row}");
+        }
+    }
+    assert!(list.contains("radius") && list.contains("degrees") && list.contains("1/m"), "{list}");
+}
+
+#[test]
+fn quiet_commands_say_nothing_but_warnings() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
+    fs::write(directory.path().join("radians.toml"), SCENE.replace("angle = 90.0", "angle = 1.5708")).unwrap();
+    for command in ["sweep", "contour", "simulate"] {
+        let output = vibrissa(directory.path(), &[command, "scene.toml", "--quiet"]);
+        assert!(output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(), "{command}");
+    }
+    assert!(directory.path().join("out/scene/sweep.svg").exists());
+    let output = vibrissa(directory.path(), &["-q", "contour", "radians.toml"]);
+    assert!(complaint(&output).contains("is 90 degrees meant?") && output.stdout.is_empty());
+}
+
+#[test]
+fn completions_and_manual_pages() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let text = said(&["completions", shell]);
+        assert!(text.contains("reconstruct") && text.contains("fake-sensor"), "{shell}");
+    }
+    let page = said(&["man"]);
+    assert!(page.contains(".TH vibrissa 1") && page.contains("vibrissa init"), "{page}");
+    let page = said(&["man", "sweep"]);
+    assert!(page.contains(".TH vibrissa-sweep 1") && page.contains("vibrissa sweep"), "{page}");
+    let output = vibrissa(Path::new("."), &["man", "sweeep"]);
+    assert!(output.status.code() == Some(2) && complaint(&output).contains("expected one of init, sweep"));
+}
