@@ -3,7 +3,7 @@
 use std::fmt;
 use vibrissa::{Outcome, Phase};
 
-/// The cycles of Merker et al. (2021), fig. 8a: name and phases.
+/// The cycles of Merker et al. (2020), fig. 8a: name and phases.
 pub(crate) const CYCLES: [(&str, &str); 3] = [("C1", "A B BB B A"), ("C2", "A B BB BA B A"), ("C3", "A B A BA B A")];
 
 /// The phases of a scan in order, from first contact to snap-off.
@@ -26,7 +26,7 @@ impl Cycle {
         Self(phases)
     }
 
-    /// C1, C2 or C3 of Merker et al. (2021), fig. 8a; none for another cycle.
+    /// C1, C2 or C3 of Merker et al. (2020), fig. 8a; none for another cycle.
     pub fn name(&self) -> Option<&'static str> {
         let phases = self.to_string();
         CYCLES.iter().find(|(_, cycle)| *cycle == phases).map(|(name, _)| *name)

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use study::{Clean, LEVELS, Level, NOISES, Noise, Outcome, Recordings, Score};
 
-/// Records the nine scans of Merker et al. (2021) with sensors of three noise levels, white and AR(1), and prints how well
+/// Records the nine scans of Merker et al. (2020) with sensors of three noise levels, white and AR(1), and prints how well
 /// they are reconstructed.
 #[derive(Parser)]
 struct Arguments {

@@ -1,4 +1,4 @@
-//! Contact points from reactions as if there were never more than one contact (Merker et al. 2021, fig. 6).
+//! Contact points from reactions as if there were never more than one contact (Merker et al. 2020, fig. 6).
 
 use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};

@@ -1,4 +1,4 @@
-//! The phase criterion along several scans (Merker et al. 2021, fig. 7).
+//! The phase criterion along several scans (Merker et al. 2020, fig. 7).
 
 use super::canvas::{FigureError, HPos, PAGE, TITLE, svg, write};
 use super::palette::INK;

@@ -1,4 +1,4 @@
-//! The phases of the nine scans by object and distance (Merker et al. 2021, fig. 8a).
+//! The phases of the nine scans by object and distance (Merker et al. 2020, fig. 8a).
 
 use super::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, tick, width, write};
 use super::element::Element;

@@ -1,4 +1,4 @@
-//! The contact points of one object from several distances (Merker et al. 2021, fig. 9).
+//! The contact points of one object from several distances (Merker et al. 2020, fig. 9).
 
 use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, tick, write};
 use super::cloud::{self, Dot};

@@ -1,4 +1,4 @@
-//! How well the clean reactions fit noisy ones, over the nine scans (Merker et al. 2021, fig. 5).
+//! How well the clean reactions fit noisy ones, over the nine scans (Merker et al. 2020, fig. 5).
 
 use super::canvas::{Area, BODY, FigureError, HPos, TITLE, svg, write};
 use super::element::Element;

@@ -1,5 +1,5 @@
 //! Both contacts of a rod held by two, beside what a reconstruction for one contact makes of them: the gap that Merker et
-//! al. (2021) leave, closed as far as the rod touches.
+//! al. (2020) leave, closed as far as the rod touches.
 
 use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};

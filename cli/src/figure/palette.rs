@@ -1,4 +1,4 @@
-//! Colours: phases have those of Okabe and Ito (2008), near the ones of Merker et al. (2021), fig. 4, everything else has others.
+//! Colours: phases have those of Okabe and Ito (2008), near the ones of Merker et al. (2020), fig. 4, everything else has others.
 
 use vibrissa::{Label, Phase};
 

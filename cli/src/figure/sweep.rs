@@ -1,4 +1,4 @@
-//! The figure of a sweep: shapes on the left, reactions on the right (Merker et al. 2021, fig. 4).
+//! The figure of a sweep: shapes on the left, reactions on the right (Merker et al. 2020, fig. 4).
 
 use super::canvas::{Area, FigureError, HPos, PAGE, TITLE, svg, width, write};
 use super::elasticae;

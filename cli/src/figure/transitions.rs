@@ -1,4 +1,4 @@
-//! The transitions between phases that were observed, as a diagram (Merker et al. 2021, fig. 8b).
+//! The transitions between phases that were observed, as a diagram (Merker et al. 2020, fig. 8b).
 
 use super::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, width, write};
 use super::element::Element;

@@ -1,4 +1,4 @@
-//! A scan turned back into contact points as if there were never more than one contact (Merker et al. 2021, fig. 6).
+//! A scan turned back into contact points as if there were never more than one contact (Merker et al. 2020, fig. 6).
 
 use crate::reconstructed::naive_touch;
 use crate::{Error, PaperScan, Scan};

@@ -12,7 +12,7 @@ pub struct Transition {
     pub at: f64,
     /// From which phase to which, as `A -> BA`.
     pub name: String,
-    /// Whether it shows in the reactions: A -> B hardly does (Merker et al. 2021, section 3), the border of a piece not at
+    /// Whether it shows in the reactions: A -> B hardly does (Merker et al. 2020, section 3), the border of a piece not at
     /// all.
     pub shows: bool,
 }

@@ -1,4 +1,4 @@
-//! The nine scans of Merker et al. (2021), recorded by sensors of several noise levels, reconstructed and judged.
+//! The nine scans of Merker et al. (2020), recorded by sensors of several noise levels, reconstructed and judged.
 
 mod clean;
 mod files;
