@@ -17,7 +17,6 @@ use crate::snap::settle::settle;
 use crate::state::State;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
-use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
@@ -284,24 +283,34 @@ impl<'a> Sweep<'a> {
         }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
         // rest in the descent, but could be free, will be.
-        match beyond.or_else(|| self.free(tau).filter(|_| last.count() > 0)) {
-            Some(landed) => {
-                let landed = self.stepper.point(landed);
-                Ok(self.jumped(last, landed))
-            }
-            None if is_at_inflection(&self.setup().world, &last) => Err(StopReason::LineContact),
-            None if self.is_by_an_end(&last) => Err(StopReason::EndOfContour),
-            None => Err(StopReason::NoLanding),
+        if let Some(landed) = beyond.or_else(|| self.free(tau).filter(|_| last.count() > 0)) {
+            let landed = self.stepper.point(landed);
+            return Ok(self.jumped(last, landed));
         }
+        if let Some(landed) = self.slip_off(&last) {
+            let landed = self.stepper.point(landed);
+            return Ok(self.landed(EventKind::Slip, last, landed));
+        }
+        Err(if is_at_inflection(&self.setup().world, &last) {
+            StopReason::LineContact
+        } else if self.is_by_an_end(&last) {
+            StopReason::EndOfContour
+        } else {
+            StopReason::NoLanding
+        })
     }
 
-    /// The tip, come to a convex corner, slips over it and rests on the piece beyond, or a corner slips off the tip, which rests
-    /// on a piece beside it: where the turn is small a short jump, which needs no descent to find.
+    /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
+    /// which needs no descent to find.
     fn slip(&mut self, last: &Configuration) -> Option<Configuration> {
-        let world = &self.setup().world;
-        let beyond = beyond_corner(last.clone(), world);
-        let guesses = beyond.into_iter().chain(off_corner(last, world)).collect::<SmallVec<[_; 3]>>();
-        guesses.into_iter().find_map(|guess| self.slipped(last, guess))
+        let guess = beyond_corner(last.clone(), &self.setup().world)?;
+        self.slipped(last, guess)
+    }
+
+    /// A corner slips off the tip, which rests on a piece beside it: where the descent, whose links are longer than such a slip,
+    /// comes to no rest.
+    fn slip_off(&mut self, last: &Configuration) -> Option<Configuration> {
+        off_corner(last, &self.setup().world).into_iter().find_map(|guess| self.slipped(last, guess))
     }
 
     /// The equilibrium by `guess`, if it is a slip away from `last`.
