@@ -204,10 +204,8 @@ impl Composite {
     /// Change of a stretch's own parameter per length of the contour, about its middle and rounded to a power of two; none for
     /// a joint, whose parameter is an angle.
     pub fn own_pace(&self, stretch: usize) -> Option<f64> {
-        match self.at(stretch) {
-            At::Piece(piece) => Some(piece.pace),
-            At::Joint(_) => None,
-        }
+        let (piece, joint) = self.place(self.known(stretch));
+        (!joint).then(|| self.pieces[piece].pace)
     }
 
     /// [`closest_on`](Self::closest_on) for a part of the stretch, by the stretch's own parameter.

@@ -45,6 +45,9 @@ impl Corner {
     /// The point where a part of a piece, which bends outwards more sharply than `sharpest` (1 / L) there, has the direction `phi`
     /// or its opposite, as a corner of the directions of the whole part. None where there is no such point.
     pub fn of_bend(world: &World<'_>, part: Part, phi: f64, sharpest: f64) -> Option<Self> {
+        if world.largest_curvature(part) <= sharpest {
+            return None;
+        }
         let Range { from, to } = world.own_range_of(part);
         let [first, last] = [from, to].map(|t| world.support(part.stretch, t).alpha);
         let (alpha, half) = (0.5 * (first + last), 0.5 * (last - first));

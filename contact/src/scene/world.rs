@@ -167,6 +167,12 @@ impl<'a> World<'a> {
         Range { from: range.from / unit, to: range.to / unit }
     }
 
+    /// Upper bound of the curvature of a part; infinite where its shape knows none.
+    pub fn largest_curvature(&self, Part { stretch, range }: Part) -> f64 {
+        let (object, own) = self.at(stretch);
+        object.own_curvature_in(own, range).1 * self.length
+    }
+
     /// The upper or lower end of a stretch's range.
     pub fn border(&self, stretch: usize, upper: bool) -> f64 {
         let range = self.range(stretch);

@@ -2,8 +2,8 @@
 
 use super::{LINK, LINKS, Nodes, REACH};
 use crate::scene::corner::Corner;
-use crate::scene::world::World;
-use rod_contours::{Bounds, Part, StretchKind};
+use crate::scene::world::{Foot, World};
+use rod_contours::{Bounds, StretchKind};
 use rod_core::Section;
 
 /// Most stretches that a link is kept from entering in one step: of fine teeth the nearest ones.
@@ -37,8 +37,10 @@ pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reac
                 StretchKind::Notch { .. } => None,
                 StretchKind::Corner { .. } => Some(Corner::new(world, part.stretch)),
                 StretchKind::Piece(_) => {
-                    near.extend(at_piece(world, part, (link + 1, x, y), reach));
-                    Corner::of_bend(world, part, start.phi, SHARPEST)
+                    let foot = world.foot_in(part, x, y);
+                    near.extend(at_piece(world, part.stretch, &foot, (link + 1, x, y), reach));
+                    let close = foot.gap.abs() <= LINK + reach;
+                    close.then(|| Corner::of_bend(world, part, start.phi, SHARPEST)).flatten()
                 }
             };
             near.extend(corner.and_then(|corner| at_corner(world, &corner, part.stretch, link, &start, reach)));
@@ -51,19 +53,23 @@ pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reac
     near
 }
 
-/// A node next to a part of a piece.
-fn at_piece(world: &World<'_>, part: Part, (node, x, y): (usize, f64, f64), reach: f64) -> Option<Near> {
-    let stretch = part.stretch;
-    let foot = world.foot_in(part, x, y);
+/// A node whose closest point of a part of a piece is `foot`.
+fn at_piece(
+    world: &World<'_>,
+    stretch: usize,
+    foot: &Foot,
+    (node, x, y): (usize, f64, f64),
+    reach: f64,
+) -> Option<Near> {
     if foot.gap > reach || foot.gap < -REACH {
         return None;
     }
     let at = |gap| Near { s: node as f64, x, y, stretch, gap, alpha: foot.alpha };
-    if world.ends_in_notch(stretch, &foot) {
+    if world.ends_in_notch(stretch, foot) {
         // beyond its end a piece goes on as its tangent
         return Some(at((x - foot.x) * foot.alpha.sin() - (y - foot.y) * foot.alpha.cos()));
     }
-    let outside = foot.gap >= -1e-9 || world.goes_through(stretch, &foot, x, y);
+    let outside = foot.gap >= -1e-9 || world.goes_through(stretch, foot, x, y);
     (foot.interior && outside).then(|| at(foot.gap))
 }
 
