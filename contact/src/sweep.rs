@@ -5,8 +5,7 @@ use crate::contact_set::{Configuration, Held};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::continuation::inflection::is_at_inflection;
-use crate::continuation::step::{FIRST_STEP, Point, SAME_POSE, Step, Stepper};
-use crate::continuation::transition::Transition;
+use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
 use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::gap::scan::{Scan, Scanner};
@@ -215,17 +214,14 @@ impl<'a> Sweep<'a> {
     fn arrive(&mut self, step: Step) -> Result<Box<Point>, StopReason> {
         match step {
             Step::Moved(next) => Ok(next),
-            Step::Changed(transition) => {
-                self.count_crowd(&transition.after)?;
-                let Transition { kind, before, after, .. } = *transition;
+            Step::Changed(change) => {
+                let Change { kind, before, after } = *change;
+                self.count_crowd(&after.configuration)?;
                 // a corner at the very tip is none
-                let beside = beside_corner(&after, &self.setup().world);
+                let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
-                let goes_on = std::iter::once(after).chain(beside).find_map(|after| {
-                    let after = self.stepper.point(after);
-                    self.stepper.goes_on(&after).then_some(after)
-                });
-                match goes_on {
+                let before = self.stepper.look(before);
+                match self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside))) {
                     Some(after) => {
                         let before = self.stepper.point(before);
                         self.announce(kind, &before, &after);
@@ -235,10 +231,21 @@ impl<'a> Sweep<'a> {
                 }
             }
             Step::Ended(last) => {
-                self.count_crowd(&last)?;
+                self.count_crowd(&last.configuration)?;
                 self.snap(*last).map(Box::new)
             }
         }
+    }
+
+    /// The point of a new contact set, if the sweep can go on with it.
+    fn goes_on(&mut self, seen: Seen) -> Option<Point> {
+        let point = self.stepper.point(seen);
+        self.stepper.goes_on(&point).then_some(point)
+    }
+
+    fn goes_on_as(&mut self, configuration: Configuration) -> Option<Point> {
+        let seen = self.stepper.look(configuration);
+        self.goes_on(seen)
     }
 
     fn count_crowd(&mut self, reached: &Configuration) -> Result<(), StopReason> {
@@ -258,83 +265,81 @@ impl<'a> Sweep<'a> {
     }
 
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
-    fn snap(&mut self, last: Configuration) -> Result<Point, StopReason> {
-        let tau = last.tau();
-        if let Some(landed) = self.slip(&last) {
-            let landed = self.stepper.point(landed);
+    fn snap(&mut self, last: Seen) -> Result<Point, StopReason> {
+        let (here, tau) = (&last.configuration, last.configuration.tau());
+        if let Some(landed) = self.slip(here) {
             return Ok(self.landed(EventKind::Slip, last, landed));
         }
         let mut beyond = None;
         // a free rod has no fold to get over
-        let kicks = TOUCH_KICK.into_iter().filter(|_| last.count() == 0).chain(KICK);
+        let kicks = TOUCH_KICK.into_iter().filter(|_| here.count() == 0).chain(KICK);
         for kick in kicks {
-            let Landed { here, ahead } = self.land(&last, tau, kick);
+            let Landed { at_pose, ahead } = self.land(here, tau, kick);
             // a free rod that touches something and stays free has gone past it
-            let elsewhere = |landed: &Configuration| last.count() + landed.count() > 0;
-            let (here, ahead) = (here.filter(elsewhere), ahead.filter(elsewhere));
-            if let Some(landed) = here {
-                // one that does not hold further on would only lead back
-                let landed = self.stepper.point(landed);
-                if self.stepper.goes_on(&landed) {
-                    return Ok(self.jumped(last, landed));
-                }
+            let elsewhere = |landed: &Seen| here.count() + landed.configuration.count() > 0;
+            // one that does not hold further on would only lead back
+            if let Some(landed) = at_pose.filter(elsewhere).and_then(|landed| self.goes_on(landed)) {
+                return Ok(self.jumped(last, landed));
             }
-            beyond = beyond.or(ahead);
+            beyond = beyond.or(ahead.filter(elsewhere));
         }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
         // rest in the descent, but could be free, will be.
-        if let Some(landed) = beyond.or_else(|| self.free(tau).filter(|_| last.count() > 0)) {
+        let landed = beyond.or_else(|| self.free(tau).filter(|_| here.count() > 0).map(|free| self.stepper.look(free)));
+        if let Some(landed) = landed {
             let landed = self.stepper.point(landed);
             return Ok(self.jumped(last, landed));
         }
-        if let Some(landed) = self.slip_off(&last) {
-            let landed = self.stepper.point(landed);
+        if let Some(landed) = self.slip_off(here) {
             return Ok(self.landed(EventKind::Slip, last, landed));
         }
-        Err(if is_at_inflection(&self.setup().world, &last) {
+        Err(if is_at_inflection(&self.setup().world, here) {
             StopReason::LineContact
-        } else if self.is_by_an_end(&last) {
+        } else if last.scan.is_by_an_end() {
             StopReason::EndOfContour
         } else {
             StopReason::NoLanding
         })
     }
 
+    /// A point with everything known of it.
+    fn at_rest(&mut self, configuration: Configuration) -> Point {
+        let seen = self.stepper.look(configuration);
+        self.stepper.point(seen)
+    }
+
     /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
     /// which needs no descent to find.
-    fn slip(&mut self, last: &Configuration) -> Option<Configuration> {
+    fn slip(&mut self, last: &Configuration) -> Option<Point> {
         let guess = beyond_corner(last.clone(), &self.setup().world)?;
         self.slipped(last, guess)
     }
 
     /// A corner slips off the tip, which rests on a piece beside it: where the descent, whose links are longer than such a slip,
     /// comes to no rest.
-    fn slip_off(&mut self, last: &Configuration) -> Option<Configuration> {
+    fn slip_off(&mut self, last: &Configuration) -> Option<Point> {
         off_corner(last, &self.setup().world).into_iter().find_map(|guess| self.slipped(last, guess))
     }
 
     /// The equilibrium by `guess`, if it is a slip away from `last`.
-    fn slipped(&mut self, last: &Configuration, guess: Configuration) -> Option<Configuration> {
+    fn slipped(&mut self, last: &Configuration, guess: Configuration) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let here = last.contacts.last()?.stretch;
         let landed = settle(corrector, scanner, guess)?;
-        let tip = landed.count().checked_sub(1).filter(|_| landed.ends_at_tip() && landed.count() == last.count())?;
-        let world = &corrector.setup.world;
+        let Seen { configuration, .. } = &landed;
+        let n = configuration.count();
+        let tip = n.checked_sub(1).filter(|_| configuration.ends_at_tip() && n == last.count())?;
+        let (world, there) = (&corrector.setup.world, configuration.contacts[tip].stretch);
         let from = world.support(here, last.t(last.count() - 1));
-        let to = world.support(landed.contacts[tip].stretch, landed.t(tip));
+        let to = world.support(there, configuration.t(tip));
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
-        let slips = landed.contacts[tip].stretch != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
-        slips.then_some(landed)
+        let slips = there != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
+        slips.then(|| self.stepper.point(landed))
     }
 
-    /// Whether the rod is next to an end of an open contour.
-    fn is_by_an_end(&mut self, configuration: &Configuration) -> bool {
-        self.stepper.scan(configuration).is_by_an_end()
-    }
-
-    fn jumped(&mut self, last: Configuration, landed: Point) -> Point {
-        let kind = match (last.count(), landed.configuration.count()) {
+    fn jumped(&mut self, last: Seen, landed: Point) -> Point {
+        let kind = match (last.configuration.count(), landed.configuration.count()) {
             (0, _) => EventKind::FirstContact,
             (_, 0) => EventKind::SnapOff,
             _ => EventKind::Snap,
@@ -342,7 +347,7 @@ impl<'a> Sweep<'a> {
         self.landed(kind, last, landed)
     }
 
-    fn landed(&mut self, kind: EventKind, last: Configuration, landed: Point) -> Point {
+    fn landed(&mut self, kind: EventKind, last: Seen, landed: Point) -> Point {
         let before = self.stepper.point(last);
         self.announce(kind, &before, &landed);
         self.stepper.h = FIRST_STEP;
@@ -358,23 +363,23 @@ impl<'a> Sweep<'a> {
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(BENDS[0]);
         let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_| true);
-        let elsewhere = |found: &Configuration| !same(found, last);
+        let elsewhere = |found: &Seen| !same(&found.configuration, last);
         let back = ahead.as_ref().and_then(|ahead| {
-            let mut back = ahead.clone();
+            let mut back = ahead.configuration.clone();
             back.set_tau(tau);
             settle(corrector, scanner, back).filter(elsewhere)
         });
-        let here = back.or_else(|| {
+        let at_pose = back.or_else(|| {
             chain.clamp = corrector.setup.path.at(tau);
             rest(&mut chain, corrector, scanner, tau, elsewhere)
         });
-        Landed { here, ahead }
+        Landed { at_pose, ahead }
     }
 
     /// The first point: free, or brought into contact along the path, or else by another way.
     fn start(&mut self) -> Result<Point, StopReason> {
         if let Some(start) = self.free(0.0) {
-            return Ok(self.stepper.point(start));
+            return Ok(self.at_rest(start));
         }
         if self.scan_straight(0.0).clamp_inside {
             return Err(StopReason::ClampInside);
@@ -382,6 +387,7 @@ impl<'a> Sweep<'a> {
         let own = self.setup().path;
         let ways = std::iter::once(own).chain(own.others_to_its_start());
         let brought = ways.into_iter().find_map(|way| self.brought_by(way));
+        let brought = brought.map(|start| self.stepper.look(start));
         let start = brought.or_else(|| self.let_go()).ok_or(StopReason::NoStart)?;
         let start = self.stepper.point(start);
         if start.scan.is_outside() { Ok(start) } else { Err(StopReason::NoStart) }
@@ -394,7 +400,7 @@ impl<'a> Sweep<'a> {
         let tries = (farthest / BACK.1) as usize;
         let mut silent = Self::from_setup(self.setup().along(way), self.stepper.steps_left, f64::INFINITY, 0);
         let start = (1..=tries).find_map(|k| silent.free(-BACK.1 * k as f64))?;
-        let mut point = Box::new(silent.stepper.point(start));
+        let mut point = Box::new(silent.at_rest(start));
         let brought = loop {
             if point.configuration.tau() >= 0.0 {
                 break Some(point.configuration);
@@ -422,7 +428,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// The straight rod let go in the first pose.
-    fn let_go(&mut self) -> Option<Configuration> {
+    fn let_go(&mut self) -> Option<Seen> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         BENDS.into_iter().find_map(|bend| {
             rest(&mut Chain::straight(corrector.setup.path.at(0.0), bend), corrector, scanner, 0.0, |_| true)
@@ -457,8 +463,8 @@ impl<'a> Sweep<'a> {
 
 /// Where a rod lands: at the pose where its equilibrium ended, and a little further along the path.
 struct Landed {
-    here: Option<Configuration>,
-    ahead: Option<Configuration>,
+    at_pose: Option<Seen>,
+    ahead: Option<Seen>,
 }
 
 /// The first acceptable equilibrium of those where the chain comes to rest, with its clamp at `tau`.
@@ -467,8 +473,8 @@ fn rest(
     corrector: &mut Corrector<'_>,
     scanner: &mut Scanner,
     tau: f64,
-    accept: impl Fn(&Configuration) -> bool,
-) -> Option<Configuration> {
+    accept: impl Fn(&Seen) -> bool,
+) -> Option<Seen> {
     let guesses = chain.settle(&corrector.setup.world, tau);
     guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
 }

@@ -10,6 +10,12 @@ use std::f64::consts::TAU;
 /// Distance (L) from the tip that is rounding.
 const AT_TIP: f64 = 1e-12;
 
+/// The configuration without contact j.
+pub(crate) fn without(mut configuration: Configuration, j: usize) -> Configuration {
+    configuration.remove(j);
+    configuration
+}
+
 /// Contact j moved over the border of its stretch to where `next` begins. The angle of a closed contour jumps by whole
 /// turns where it begins anew.
 pub(crate) fn onto_neighbour(

@@ -73,3 +73,54 @@ fn between(
     let fold = find_root("d tau / d arclength", slope, *first, *last, tolerance).ok()?;
     point(fold.at).map(|(tangent, here)| (here, tangent))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact_set::Held;
+    use crate::path::ClampPath;
+    use crate::scene::setup::Setup;
+    use rod_contours::{Composite, Parabola};
+    use rod_core::{Hold, Pose, Rod};
+    use std::f64::consts::FRAC_PI_2;
+
+    /// An upright rod whose tip is dragged to the left over the ceiling y = 0.9 + x^2 / 2, from x = 0.3 until it slips through.
+    #[test]
+    fn the_path_parameter_is_largest_at_the_fold() {
+        let pose = |x| Pose { x, y: 0.0, phi: FRAC_PI_2 };
+        let ceiling = Composite::single(Parabola::new([0.0, 0.9], 0.5).unwrap()).unwrap();
+        let path = ClampPath::new(pose(0.44), pose(-1.0)).unwrap();
+        let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), ceiling.as_ref(), path);
+        let mut corrector = Corrector::new(setup);
+        let mut here = Configuration::free(0.0);
+        here.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.44, 0.05, FRAC_PI_2 - 0.1]);
+        assert!(corrector.solve_from_guess(&mut here, 0.0).status.is_solved());
+        let mut tangent = corrector.inspect_at_pose(&here).0;
+        let (from, to) = loop {
+            let mut next = tangent.ahead(&here, 0.1);
+            let plane = Condition::Plane { tangent: &tangent, from: &here.z, distance: 0.1 };
+            assert!(corrector.correct(&mut next, plane).status.is_solved() && next.tau() < 1.4);
+            let after = corrector.inspect(&next, plane).0;
+            if after.by_tau() < 0.0 {
+                break (here, next);
+            }
+            (here, tangent) = (next, after);
+        };
+        let fold = locate_fold(&mut corrector, &from, &tangent, &to).unwrap();
+        let along = tangent.along(&fold.z, &from.z);
+        assert!((0.0..0.11).contains(&along), "{along}");
+        let mut tau = |distance: f64| {
+            let mut beside = fold.clone();
+            let plane = Condition::Plane { tangent: &tangent, from: &fold.z, distance };
+            for (z, d) in beside.z.iter_mut().zip(&tangent.direction) {
+                *z += distance * d;
+            }
+            assert!(corrector.correct(&mut beside, plane).status.is_solved());
+            beside.tau()
+        };
+        let lost = [-2e-3, -1e-3, 1e-3, 2e-3].map(|distance| fold.tau() - tau(distance));
+        assert!(lost.iter().all(|lost| *lost > 0.0), "{lost:?}");
+        // a parabola about the fold
+        assert!((lost[0] / lost[1] - 4.0).abs() < 0.05 && (lost[3] / lost[2] - 4.0).abs() < 0.05, "{lost:?}");
+    }
+}

@@ -112,3 +112,44 @@ pub(crate) fn run_together(corrector: &mut Corrector<'_>, from: &Configuration) 
         along: 0.0,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_contours::{Bezier, Composite};
+
+    /// An S, symmetric about the origin, where it has its inflection; `flip` is its mirror image.
+    fn s_bend(flip: f64) -> Composite {
+        let points = [[-1.0, -0.1], [-0.4, 0.3], [0.4, -0.3], [1.0, 0.1]].map(|[x, y]| [x, flip * y]);
+        Composite::single(Bezier::new(points).unwrap()).unwrap()
+    }
+
+    fn lying_at(t: f64) -> Configuration {
+        let mut lying = Configuration::free(0.0);
+        lying.insert(0, Held { stretch: 0, hold: Hold::Tangent { offset: 0.0 } }, [t, 1.0, 0.7]);
+        lying
+    }
+
+    #[test]
+    fn an_inflection_is_found_from_near_by_where_the_hollow_is_on_the_clamps_side() {
+        let (one, other) = (s_bend(1.0), s_bend(-1.0));
+        let worlds = [&one, &other].map(|contour| World::new(contour.as_ref(), 1.0));
+        let found = worlds.each_ref().map(|world| {
+            let range = world.range(0);
+            let middle = 0.5 * (range.from + range.to);
+            let near = lying_at(middle + 0.005);
+            inflection(world, &near, 0).map(|found| (found, middle, is_at_inflection(world, &lying_at(middle))))
+        });
+        let [Some((Inflection { t, rate, .. }, middle, at)), None] = found else { panic!("one of the two") };
+        assert!((t - middle).abs() < 1e-12 && rate > 0.0 && at);
+        assert!(!is_at_inflection(&worlds[0], &lying_at(middle + 0.01)));
+    }
+
+    #[test]
+    fn none_is_found_far_away() {
+        let contour = s_bend(1.0);
+        let world = World::new(contour.as_ref(), 1.0);
+        let range = world.range(0);
+        assert!(inflection(&world, &lying_at(range.from + 0.2 * (range.to - range.from)), 0).is_none());
+    }
+}

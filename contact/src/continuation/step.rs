@@ -8,6 +8,7 @@ use crate::continuation::fold::locate_fold;
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::transition::{Break, NoTransition, Transition, breaks};
 use crate::error::{Obstacle, StopReason};
+use crate::event::EventKind;
 use crate::gap::passing::Passing;
 use crate::gap::scan::{Scan, Scanner};
 use crate::stability::wraps;
@@ -63,15 +64,37 @@ pub(crate) struct Point {
     pub tangent: Tangent,
 }
 
+/// A configuration, and what the scan saw.
+#[derive(Clone, Debug)]
+pub(crate) struct Seen {
+    pub configuration: Configuration,
+    pub scan: Scan,
+}
+
+/// A transition, and what the scan saw of the contact set after it.
+#[derive(Debug)]
+pub(crate) struct Change {
+    pub kind: EventKind,
+    pub before: Configuration,
+    pub after: Seen,
+}
+
 /// What a step came to.
 #[derive(Debug)]
 pub(crate) enum Step {
     /// A new point of the branch.
     Moved(Box<Point>),
     /// A transition before that.
-    Changed(Box<Transition>),
+    Changed(Box<Change>),
     /// The branch ends here, in a fold, or loses its stability.
-    Ended(Box<Configuration>),
+    Ended(Box<Seen>),
+}
+
+impl Point {
+    /// The branch ends here.
+    fn ends(&self) -> Step {
+        Step::Ended(Box::new(Seen { configuration: self.configuration.clone(), scan: self.scan.clone() }))
+    }
 }
 
 impl Step {
@@ -79,8 +102,17 @@ impl Step {
     fn last(&self) -> &Configuration {
         match self {
             Self::Moved(next) => &next.configuration,
-            Self::Changed(transition) => &transition.before,
-            Self::Ended(last) => last,
+            Self::Changed(change) => &change.before,
+            Self::Ended(last) => &last.configuration,
+        }
+    }
+
+    /// What the scan saw at its end: of a transition, with the contact set after it.
+    fn scan(&self) -> &Scan {
+        match self {
+            Self::Moved(next) => &next.scan,
+            Self::Changed(change) => &change.after.scan,
+            Self::Ended(last) => &last.scan,
         }
     }
 
@@ -128,10 +160,15 @@ impl<'a> Stepper<'a> {
         Self { corrector, scanner: Scanner::default(), h: FIRST_STEP, steps_left }
     }
 
-    /// A point with everything known of it.
-    pub fn point(&mut self, configuration: Configuration) -> Point {
-        let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
+    /// A look at a configuration at a transition.
+    pub fn look(&mut self, configuration: Configuration) -> Seen {
         let scan = self.scanner.scan_transition(&self.corrector.setup, &configuration);
+        Seen { configuration, scan }
+    }
+
+    /// A point with everything known of it.
+    pub fn point(&mut self, Seen { configuration, scan }: Seen) -> Point {
+        let (tangent, report) = self.corrector.inspect_at_pose(&configuration);
         let stable = self.is_stable(&configuration, &scan);
         Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
     }
@@ -176,7 +213,7 @@ impl<'a> Stepper<'a> {
         here.set_tau(tau);
         let scan = self.scan(&here);
         let mut holds = scan.is_outside();
-        breaks(&self.corrector, &here, &scan, |_| holds = false);
+        breaks(&self.corrector.setup.world, &here, &scan.crossings, |_| holds = false);
         let stable = holds && self.is_stable(&here, &scan);
         let tangent = from.tangent.clone();
         stable.then(|| Point { configuration: here, scan, quality: Quality::new(&report, true), tangent })
@@ -223,7 +260,7 @@ impl<'a> Stepper<'a> {
         }
         // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
         if touches {
-            return Ok(Step::Ended(Box::new(from.configuration.clone())));
+            return Ok(from.ends());
         }
         Err(StopReason::StepTooSmall(obstacle))
     }
@@ -261,7 +298,8 @@ impl<'a> Stepper<'a> {
             Err(NoTransition::EndOfContour) => return Err(ends_if_short(StopReason::EndOfContour)),
             Err(NoTransition::NotLocated) => return Err(Refused::TooLong(unexplained)),
         };
-        match self.passes(from, &scan, length) {
+        let reached = ended.as_ref().map_or(&scan, Step::scan);
+        match self.passes(from, reached, length) {
             None => {}
             Some(Passing::Rod) if ended.is_some() => return Err(Refused::TooLong(unexplained)),
             Some(Passing::Rod) => return Err(Refused::TooLong(Obstacle::PassesOver)),
@@ -279,7 +317,7 @@ impl<'a> Stepper<'a> {
             };
         }
         if let Some(transition) = self.runs_together(&next, &tangent) {
-            return Ok(Step::Changed(Box::new(transition)));
+            return Ok(self.changed(transition));
         }
         if report.iterations <= 2 {
             self.h = (2.0 * self.h).min(LONGEST_STEP);
@@ -296,27 +334,32 @@ impl<'a> Stepper<'a> {
 
     /// The end of the branch at `from`, from where `next`, just beyond, is not stable.
     fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
-        let here = || Step::Ended(Box::new(from.configuration.clone()));
         match wraps(&self.corrector.setup, next) {
             Some(last) if last + 1 == next.count() => {
-                let parted = parted(&mut self.corrector, &from.configuration).map(Box::new);
-                Ok(parted.map_or_else(here, Step::Changed))
+                let parted = parted(&mut self.corrector, &from.configuration);
+                Ok(parted.map_or_else(|| from.ends(), |transition| self.changed(transition)))
             }
             Some(_) => Err(StopReason::LineContact),
             // Mostly the fold is just ahead, and known better than the loss of stability is.
             None => {
-                let fold = self.fold_ahead(from).filter(|fold| self.is_clean(fold));
-                Ok(fold.map(Box::new).map_or_else(here, Step::Ended))
+                let fold = self.fold_ahead(from).and_then(|fold| self.clean(fold));
+                Ok(fold.map_or_else(|| from.ends(), |fold| Step::Ended(Box::new(fold))))
             }
         }
     }
 
-    /// Whether no condition of the contact set is broken.
-    fn is_clean(&mut self, configuration: &Configuration) -> bool {
-        let scan = self.scanner.scan_transition(&self.corrector.setup, configuration);
-        let mut clean = scan.is_outside();
-        breaks(&self.corrector, configuration, &scan, |_| clean = false);
-        clean
+    /// A transition with a look at the contact set after it.
+    fn changed(&mut self, Transition { kind, before, after, .. }: Transition) -> Step {
+        let after = self.look(after);
+        Step::Changed(Box::new(Change { kind, before, after }))
+    }
+
+    /// The configuration, if no condition of its contact set is broken.
+    fn clean(&mut self, configuration: Configuration) -> Option<Seen> {
+        let seen = self.look(configuration);
+        let mut clean = seen.scan.is_outside();
+        breaks(&self.corrector.setup.world, &seen.configuration, &seen.scan.crossings, |_| clean = false);
+        clean.then_some(seen)
     }
 
     /// The last two contacts run together, if they are about to.
@@ -428,49 +471,39 @@ impl<'a> Stepper<'a> {
         length: f64,
     ) -> Result<Option<Step>, NoTransition> {
         let mut broken: SmallVec<[Break; 4]> = SmallVec::new();
-        breaks(&self.corrector, next, scan, |b| broken.push(b));
+        breaks(&self.corrector.setup.world, next, &scan.crossings, |b| broken.push(b));
         let slack = 1e-9 + 1e-6 * length;
-        let mut first: Option<(f64, Step)> = None;
+        let mut first: Option<Transition> = None;
         // A straight rod comes to lie on a straight edge everywhere at once: what holds it then is the point next to
         // the clamp.
         broken.sort_by(|a, b| a.s().total_cmp(&b.s()));
         for b in broken {
             let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;
-            let along = transition.along;
             let before = if let Break::Touch(_) = b { BEFORE } else { slack };
-            if !(-before..=length + slack).contains(&along) {
+            if !(-before..=length + slack).contains(&transition.along) {
                 return Err(NoTransition::NotLocated);
             }
-            if first.as_ref().is_none_or(|(least, _)| along < *least - AT_ONCE) {
-                first = Some((along, Step::Changed(Box::new(transition))));
+            if first.as_ref().is_none_or(|first| transition.along < first.along - AT_ONCE) {
+                first = Some(transition);
             }
         }
+        // Nothing else may be broken there: a shorter step would have met it first.
         if tangent.by_tau() < 0.0 {
             let fold = locate_fold(&mut self.corrector, &from.configuration, &from.tangent, next)
                 .ok_or(NoTransition::NotLocated)?;
             let along = from.tangent.along(&fold.z, &from.configuration.z);
-            if first.as_ref().is_none_or(|(least, _)| along < *least) {
-                first = Some((along, Step::Ended(Box::new(fold))));
+            if first.as_ref().is_none_or(|first| along < first.along) {
+                let fold = self.clean(fold).ok_or(NoTransition::NotLocated)?;
+                return Ok(Some(Step::Ended(Box::new(fold))));
             }
         }
-        // Nothing else may be broken there: a shorter step would have met it first.
-        let reached = match &first {
-            None => return Ok(None),
-            Some((_, Step::Changed(transition))) => &transition.after,
-            Some((_, Step::Ended(fold))) => {
-                return if self.is_clean(fold) {
-                    Ok(first.map(|(_, step)| step))
-                } else {
-                    Err(NoTransition::NotLocated)
-                };
-            }
-            Some((_, Step::Moved(point))) => &point.configuration,
-        };
-        if ordered_or_new(reached) && self.scanner.scan_transition(&self.corrector.setup, reached).is_outside() {
-            Ok(first.map(|(_, step)| step))
-        } else {
-            Err(NoTransition::NotLocated)
+        let Some(Transition { kind, before, after, .. }) = first else { return Ok(None) };
+        if !ordered_or_new(&after) {
+            return Err(NoTransition::NotLocated);
         }
+        let after = self.look(after);
+        let change = after.scan.is_outside().then(|| Box::new(Change { kind, before, after }));
+        change.map(|change| Some(Step::Changed(change))).ok_or(NoTransition::NotLocated)
     }
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
@@ -492,7 +525,7 @@ impl<'a> Stepper<'a> {
         }
         let scan = self.scan(&probe);
         let mut holds = true;
-        breaks(&self.corrector, &probe, &scan, |_| holds = false);
+        breaks(&self.corrector.setup.world, &probe, &scan.crossings, |_| holds = false);
         holds && self.is_stable(&probe, &scan)
     }
 }

@@ -1,12 +1,24 @@
 //! Transitions: which condition of a contact set is broken, and where on the branch it broke.
+//!
+//! Each condition is one variant of [`Break`] and one row of this table: [`breaks`] watches it, [`Break::vanishing`] gives the
+//! equation that holds where it breaks, and [`Break::change`] the contact sets on both sides.
+//!
+//! | condition | watched | equation at the transition | contact set after it |
+//! |---|---|---|---|
+//! | `Release` | force >= 0 | force = 0 | without the contact |
+//! | `Border` | parameter within the stretch | parameter = border | on the next stretch, or merged in a notch |
+//! | `TipToTangent` | tip above the contour's tangent | s = 1 of a tangential contact | the same, tangential |
+//! | `TangentToTip` | s <= 1 | s = 1 | the same, of the tip |
+//! | `OntoWall` | rod above both walls of a notch | slope angle = the wall's | one contact on each wall |
+//! | `Touch` | no crossing of rod and contour | force of one more contact = 0 | with that contact |
 
-use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour};
+use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour, without};
 use crate::contact_set::notch::{lying_angle, merged, parted, straddles, wall_run_into};
 use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
 use crate::gap::Crossing;
-use crate::gap::scan::Scan;
+use crate::scene::world::World;
 use rod_core::Hold;
 use smallvec::SmallVec;
 
@@ -36,11 +48,11 @@ const BEYOND_END: f64 = 1e-12;
 /// Two contacts this near to each other in a notch have met there.
 const MEETING: f64 = 1e-7;
 
-/// Visits everything that is broken in `configuration`, whose rod `scan` has looked at.
+/// Visits everything that is broken in `configuration`, whose rod goes through the contour at `crossings`.
 pub(crate) fn breaks(
-    corrector: &Corrector<'_>,
+    world: &World<'_>,
     configuration: &Configuration,
-    scan: &Scan,
+    crossings: &[Crossing],
     mut visit: impl FnMut(Break),
 ) {
     let n = configuration.count();
@@ -49,30 +61,30 @@ pub(crate) fn breaks(
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
         }
-        let range = corrector.setup.world.range(configuration.contacts[j].stretch);
+        let range = world.range(configuration.contacts[j].stretch);
         let t = configuration.t(j);
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
         let upwards = t > range.to + slack;
         if upwards || t < range.from - slack {
-            let next = corrector.setup.world.neighbour(configuration.contacts[j].stretch, upwards);
+            let next = world.neighbour(configuration.contacts[j].stretch, upwards);
             // A rod that comes to lie on a straight edge comes upon the corner at its other end at once, and what runs past a
             // notch goes into its other wall.
-            let beyond = next.and_then(|next| corrector.setup.world.neighbour(next, upwards));
-            let past_notch = next.is_some_and(|next| corrector.setup.world.is_notch(next));
+            let beyond = next.and_then(|next| world.neighbour(next, upwards));
+            let past_notch = next.is_some_and(|next| world.is_notch(next));
             entered.extend(next);
-            entered.extend(beyond.filter(|beyond| past_notch || corrector.setup.world.is_corner(*beyond)));
+            entered.extend(beyond.filter(|beyond| past_notch || world.is_corner(*beyond)));
             visit(Break::Border(j, upwards));
         }
     }
     let mut lying_down = None;
     if let Some(last) = n.checked_sub(1) {
         if configuration.is_tip(last) {
-            let angle = tip_angle(corrector, configuration);
+            let angle = tip_angle(world, configuration);
             let stretch = configuration.contacts[last].stretch;
-            if angle.sin() < -LIMIT_TOLERANCE && !corrector.setup.world.is_notch(stretch) {
+            if angle.sin() < -LIMIT_TOLERANCE && !world.is_notch(stretch) {
                 visit(Break::TipToTangent(angle));
                 lying_down = Some(stretch);
-            } else if let Some((wall, angle)) = wall_run_into(&corrector.setup.world, configuration, LIMIT_TOLERANCE) {
+            } else if let Some((wall, angle)) = wall_run_into(world, configuration, LIMIT_TOLERANCE) {
                 visit(Break::OntoWall(wall, angle));
                 lying_down = Some(wall);
             }
@@ -82,20 +94,15 @@ pub(crate) fn breaks(
     }
     // a tip that has gone over goes through the contour just before it, and a contact that has left its stretch lies on
     // the next one: not touches of their own
-    for crossing in scan
-        .crossings
-        .iter()
-        .filter(|crossing| Some(crossing.stretch) != lying_down && !entered.contains(&crossing.stretch))
-    {
-        visit(Break::Touch(*crossing));
-    }
+    let is_new = |crossing: &&Crossing| Some(crossing.stretch) != lying_down && !entered.contains(&crossing.stretch);
+    crossings.iter().filter(is_new).for_each(|crossing| visit(Break::Touch(*crossing)));
 }
 
 /// phi(1) - alpha of a tip contact.
-fn tip_angle(corrector: &Corrector<'_>, configuration: &Configuration) -> f64 {
+fn tip_angle(world: &World<'_>, configuration: &Configuration) -> f64 {
     let last = configuration.count() - 1;
     let stretch = configuration.contacts[last].stretch;
-    configuration.slope(last) - corrector.setup.world.support(stretch, configuration.t(last)).alpha
+    configuration.slope(last) - world.support(stretch, configuration.t(last)).alpha
 }
 
 /// A transition, located.
@@ -133,63 +140,80 @@ impl Break {
         from: &Configuration,
         tangent: &Tangent,
     ) -> Result<Transition, NoTransition> {
+        let (start, unknown, value) = self.vanishing(&corrector.setup.world, broken)?;
+        let at = on(corrector, start, unknown, value)?;
+        let (kind, before, after) = self.change(&corrector.setup.world, broken, at)?;
+        // The tip-to-tangent point is compared as the tip contact it was.
+        let along = tangent.along(&before.z, &from.z);
+        Ok(Transition { kind, before, after, along })
+    }
+
+    /// The equation that holds where the condition breaks: an unknown and its value, and a point near by to start from.
+    fn vanishing(
+        self,
+        world: &World<'_>,
+        broken: &Configuration,
+    ) -> Result<(Configuration, Unknown, f64), NoTransition> {
         let last = broken.count().wrapping_sub(1);
-        let (kind, before, after) = match self {
-            Self::Release(j) => {
-                let before = on(corrector, broken.clone(), Unknown::Force(j), 0.0)?;
-                let mut after = before.clone();
-                after.remove(j);
-                (EventKind::Release, before, after)
-            }
+        Ok(match self {
+            Self::Release(j) => (broken.clone(), Unknown::Force(j), 0.0),
             Self::Border(j, upwards) => {
                 let here = broken.contacts[j].stretch;
-                let border = corrector.setup.world.border(here, upwards);
-                let next = corrector.setup.world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
-                let before = on(corrector, broken.clone(), Unknown::Parameter(j), border)?;
-                if corrector.setup.world.is_notch(next)
-                    && straddles(&corrector.setup.world, &before)
-                    && (1.0 - before.s(before.count() - 2)).abs() < MEETING
-                {
-                    let after = merged(&corrector.setup.world, &before);
-                    (EventKind::Release, before, after)
-                } else {
-                    (EventKind::Piece, before.clone(), onto_neighbour(before, j, upwards, next, &corrector.setup.world))
-                }
+                world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
+                (broken.clone(), Unknown::Parameter(j), world.border(here, upwards))
             }
             Self::OntoWall(wall, angle) => {
-                let phi = lying_angle(&corrector.setup.world, broken, wall, angle);
-                let before = on(corrector, broken.clone(), Unknown::Slope(last), phi)?;
-                let after = parted(&corrector.setup.world, &before, wall);
-                (EventKind::Touch, before, after)
+                (broken.clone(), Unknown::Slope(last), lying_angle(world, broken, wall, angle))
             }
-            Self::TangentToTip => {
-                let before = on(corrector, broken.clone(), Unknown::ArcLength(last), 1.0)?;
-                (EventKind::TangentToTip, before.clone(), as_tip(before, &corrector.setup.world))
-            }
-            Self::TipToTangent(angle) => {
-                let after = on(corrector, as_tangent(broken.clone(), angle), Unknown::ArcLength(last), 1.0)?;
-                (EventKind::TipToTangent, as_tip(after.clone(), &corrector.setup.world), after)
-            }
-            Self::Touch(crossing) if corrector.setup.world.is_notch(crossing.stretch) => {
-                return Err(NoTransition::NotLocated);
-            }
+            Self::TangentToTip => (broken.clone(), Unknown::ArcLength(last), 1.0),
+            Self::TipToTangent(angle) => (as_tangent(broken.clone(), angle), Unknown::ArcLength(last), 1.0),
+            Self::Touch(crossing) if world.is_notch(crossing.stretch) => return Err(NoTransition::NotLocated),
             Self::Touch(crossing) => {
-                let (start, j) = with_contact(broken, &crossing);
-                let after = on(corrector, start, Unknown::Force(j), 0.0)?;
-                let (range, t) = (corrector.setup.world.range(crossing.stretch), after.t(j));
+                let (touching, j) = with_contact(broken, &crossing);
+                (touching, Unknown::Force(j), 0.0)
+            }
+        })
+    }
+
+    /// What happens where the condition breaks, and the contact sets before and after it: `at` is that point, found from
+    /// `broken`.
+    fn change(
+        self,
+        world: &World<'_>,
+        broken: &Configuration,
+        at: Configuration,
+    ) -> Result<(EventKind, Configuration, Configuration), NoTransition> {
+        Ok(match self {
+            Self::Release(j) => (EventKind::Release, at.clone(), without(at, j)),
+            Self::Border(j, upwards) => {
+                let here = at.contacts[j].stretch;
+                let next = world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
+                let meets = |lying: usize| (1.0 - at.s(lying)).abs() < MEETING;
+                if world.is_notch(next) && straddles(world, &at) && meets(at.count() - 2) {
+                    let after = merged(world, &at);
+                    (EventKind::Release, at, after)
+                } else {
+                    (EventKind::Piece, at.clone(), onto_neighbour(at, j, upwards, next, world))
+                }
+            }
+            Self::OntoWall(wall, _) => {
+                let after = parted(world, &at, wall);
+                (EventKind::Touch, at, after)
+            }
+            Self::TangentToTip => (EventKind::TangentToTip, at.clone(), as_tip(at, world)),
+            Self::TipToTangent(_) => (EventKind::TipToTangent, as_tip(at.clone(), world), at),
+            Self::Touch(crossing) => {
+                let j = place(broken, &crossing);
+                let (range, t) = (world.range(crossing.stretch), at.t(j));
                 if (t - range.clamp(t)).abs() > BEYOND_END * (1.0 + t.abs()) {
                     // it has gone so deep that it is a neighbour that it met first
                     return Err(NoTransition::NotLocated);
                 }
-                let mut before = after.clone();
-                before.remove(j);
+                let before = without(at.clone(), j);
                 let kind = if before.count() == 0 { EventKind::FirstContact } else { EventKind::Touch };
-                (kind, before, after)
+                (kind, before, at)
             }
-        };
-        // The tip-to-tangent point is compared as the tip contact it was.
-        let along = tangent.along(&before.z, &from.z);
-        Ok(Transition { kind, before, after, along })
+        })
     }
 }
 
@@ -207,10 +231,118 @@ pub(crate) fn on(
 /// `configuration` with one more contact, without force, where the rod crosses the contour; and its number.
 pub(crate) fn with_contact(configuration: &Configuration, crossing: &Crossing) -> (Configuration, usize) {
     let mut more = configuration.clone();
-    let n = configuration.count();
-    let j = (0..n).find(|&j| configuration.s(j) > crossing.s).unwrap_or(n);
+    let j = place(configuration, crossing);
     let (hold, third) =
         if crossing.tip { (Hold::Tip, crossing.phi) } else { (lying(crossing.phi - crossing.foot.alpha), crossing.s) };
     more.insert(j, Held { stretch: crossing.stretch, hold }, [crossing.foot.t, 0.0, third]);
     (more, j)
+}
+
+/// The number that a contact at the crossing has along the rod.
+fn place(configuration: &Configuration, crossing: &Crossing) -> usize {
+    let n = configuration.count();
+    (0..n).find(|&j| configuration.s(j) > crossing.s).unwrap_or(n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::scan::Scanner;
+    use crate::path::ClampPath;
+    use crate::scene::setup::Setup;
+    use rod_contours::{Composite, Line, Motion, Moved, Parabola};
+    use rod_core::{Pose, Rod};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// Two edges that meet in a convex corner at the origin; the solid is above.
+    fn wedge() -> Composite {
+        Composite::polyline(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]).unwrap()
+    }
+
+    fn names(world: &World<'_>, held: Held, unknowns: [f64; 3], crossings: &[Crossing]) -> Vec<String> {
+        let mut configuration = Configuration::free(0.0);
+        configuration.insert(0, held, unknowns);
+        let mut found = Vec::new();
+        breaks(world, &configuration, crossings, |b| {
+            found.push(format!("{b:?}").split(['(', ' ']).next().unwrap().into())
+        });
+        found
+    }
+
+    #[test]
+    fn each_condition_is_watched() {
+        let wedge = wedge();
+        let world = World::new(wedge.as_ref(), 1.0);
+        let corner = (0..3).find(|stretch| world.is_corner(*stretch)).unwrap();
+        let edge = world.neighbour(corner, true).unwrap();
+        let (from, to) = (world.border(edge, false), world.border(edge, true));
+        let (middle, alpha) = (0.5 * (from + to), world.support(edge, from).alpha);
+        let tip = Held { stretch: edge, hold: Hold::Tip };
+        let side = Held { stretch: edge, hold: Hold::Tangent { offset: 0.0 } };
+        let phi = alpha + 0.5;
+        assert!(names(&world, tip, [middle, 1.0, phi], &[]).is_empty());
+        assert!(names(&world, side, [middle, 1.0, 0.7], &[]).is_empty());
+        assert_eq!(names(&world, tip, [middle, -1e-3, phi], &[]), ["Release"]);
+        assert_eq!(names(&world, tip, [to + 1e-6, 1.0, phi], &[]), ["Border"]);
+        assert_eq!(names(&world, tip, [from - 1e-6, 1.0, phi], &[]), ["Border"]);
+        assert_eq!(names(&world, tip, [middle, 1.0, alpha - 1e-6], &[]), ["TipToTangent"]);
+        assert_eq!(names(&world, tip, [middle, 1.0, alpha + PI + 1e-6], &[]), ["TipToTangent"]);
+        assert_eq!(names(&world, side, [middle, 1.0, 1.0 + 1e-6], &[]), ["TangentToTip"]);
+        let crossing = |stretch| Crossing { stretch, s: 0.5, phi, foot: world.foot(stretch, 0.1, 0.2), tip: false };
+        let before = world.neighbour(corner, false).unwrap();
+        assert_eq!(names(&world, side, [middle, 1.0, 0.7], &[crossing(before)]), ["Touch"]);
+        // the corner that a contact has run onto is no touch of its own
+        assert_eq!(names(&world, side, [from - 1e-6, 1.0, 0.7], &[crossing(corner)]), ["Border"]);
+    }
+
+    /// A straight rod that stands upright, its clamp on the way along y = 0 from x = 1 to the left.
+    fn upright(objects: &Composite) -> Setup<'_> {
+        let pose = |x| Pose { x, y: 0.0, phi: FRAC_PI_2 };
+        let path = ClampPath::new(pose(1.0), pose(-1.0)).unwrap();
+        Setup::new(&Rod::new(1.0, 1.0).unwrap(), objects.as_ref(), path)
+    }
+
+    /// The first break at `tau`, located from the free rod at 0.
+    fn located(objects: &Composite, tau: f64) -> Transition {
+        let mut corrector = Corrector::new(upright(objects));
+        let (from, broken) = (Configuration::free(0.0), Configuration::free(tau));
+        let scan = Scanner::default().scan(&corrector.setup, &broken);
+        let tangent = corrector.inspect_at_pose(&from).0;
+        let mut found = None;
+        breaks(&corrector.setup.world, &broken, &scan.crossings, |b| found = Some(b));
+        found.unwrap().locate(&mut corrector, &broken, &from, &tangent).unwrap()
+    }
+
+    #[test]
+    fn a_tip_touches_where_the_straight_rod_reaches() {
+        // the tip, at (1 - tau, 1), meets y = 0.75 + x^2 at x = 1/2
+        let ceiling = Composite::single(Parabola::new([0.0, 0.75], 1.0).unwrap()).unwrap();
+        let Transition { kind, before, after, along } = located(&ceiling, 0.52);
+        assert_eq!(kind, EventKind::FirstContact);
+        assert_eq!((before.count(), after.count()), (0, 1));
+        assert!(after.ends_at_tip() && after.force(0) == 0.0);
+        assert!((before.tau() - 0.5).abs() < 1e-13 && (after.t(0) - 0.5).abs() < 1e-13 && (along - 0.5).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_side_touches_where_the_straight_rod_is_tangential() {
+        // the solid is left of x = -0.2 - (y - 0.6)^2
+        let wall = Parabola::new([0.0, 0.0], 1.0).unwrap();
+        let motion = Motion::rotation(FRAC_PI_2).then(Motion::translation([-0.2, 0.6]));
+        let wall = Composite::single(Moved::new(wall, motion).unwrap()).unwrap();
+        let Transition { kind, after, .. } = located(&wall, 1.23);
+        assert_eq!(kind, EventKind::FirstContact);
+        assert!(!after.ends_at_tip() && (after.s(0) - 0.6).abs() < 1e-10 && (after.tau() - 1.2).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_end_of_a_contour_is_said() {
+        let line = Composite::single(Line::new([0.0, 1.0], [1.0, 1.0]).unwrap()).unwrap();
+        let mut corrector = Corrector::new(upright(&line));
+        let mut broken = Configuration::free(0.9);
+        broken.insert(0, Held { stretch: 0, hold: Hold::Tip }, [-1e-3, 1.0, FRAC_PI_2]);
+        let tangent = Tangent { direction: SmallVec::from_elem(0.5, 4), weights: SmallVec::from_elem(1.0, 4) };
+        let at_end = Break::Border(0, false).locate(&mut corrector, &broken, &broken, &tangent);
+        assert!(matches!(at_end, Err(NoTransition::EndOfContour)), "{at_end:?}");
+    }
 }

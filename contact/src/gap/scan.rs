@@ -147,3 +147,54 @@ fn pass(segments: &[Segment], nodes: (&Node, &Node), point: (f64, f64), before: 
     }
     at
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::path::ClampPath;
+    use rod_contours::{Composite, Parabola};
+    use rod_core::{Pose, Rod};
+
+    /// A straight rod along y = `y` from x = -0.5 to 0.5.
+    fn level(objects: &Composite, y: f64) -> Scan {
+        let path = ClampPath::standing(Pose { x: -0.5, y, phi: 0.0 });
+        let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), objects.as_ref(), path);
+        Scanner::default().scan(&setup, &Configuration::free(0.0))
+    }
+
+    #[test]
+    fn the_gap_of_a_free_rod_lies_between_its_bounds() {
+        // solid above y = x^2: the vertex is nearest
+        let ceiling = Composite::single(Parabola::new([0.0, 0.0], 1.0).unwrap()).unwrap();
+        for gap in [0.3, 0.01, 1e-6, 1e-11] {
+            let scan = level(&ceiling, -gap);
+            let GapBounds { lower, seen, proven } = scan.gap;
+            assert!(scan.is_outside() && proven);
+            assert!(lower <= gap && gap <= seen * (1.0 + 1e-12), "{gap}: {lower} {seen}");
+            assert!(lower > (1.0 - 1.1e-3) * gap - 2e-11, "{gap}: {lower}");
+        }
+    }
+
+    #[test]
+    fn a_rod_that_goes_through_is_seen_at_the_deepest_place() {
+        let ceiling = Composite::single(Parabola::new([0.0, 0.0], 1.0).unwrap()).unwrap();
+        let scan = level(&ceiling, 0.04);
+        assert!(!scan.is_outside() && scan.gap.lower == f64::NEG_INFINITY && !scan.clamp_inside);
+        let [Crossing { s, foot, tip, .. }] = scan.crossings[..] else { panic!("{:?}", scan.crossings) };
+        assert!(!tip && (s - 0.5).abs() < 1e-8 && (foot.gap + 0.04).abs() < 1e-8 && foot.t.abs() < 1e-8);
+        assert!(level(&ceiling, 0.3).clamp_inside);
+    }
+
+    #[test]
+    fn an_end_that_changes_sides_was_swept_over() {
+        // an arm of the contour ends at (0, 0); the solid is above
+        let arm = Parabola::new([0.0, 0.0], 1.0).unwrap().between(0.0, 1.0).unwrap();
+        let arm = Composite::single(arm).unwrap();
+        let (below, above) = (level(&arm, -0.01), level(&arm, 0.01));
+        assert!(above.has_swept_over_an_end(&below) && !below.has_swept_over_an_end(&level(&arm, -0.02)));
+        assert!(below.is_by_an_end() && !level(&arm, -0.5).is_by_an_end());
+        let mut on = level(&arm, 0.0);
+        on.keep_sides(&below);
+        assert!(!on.has_swept_over_an_end(&below));
+    }
+}
