@@ -1,15 +1,17 @@
 //! From a guess of the contacts to a verified equilibrium at one pose: solve, look what is broken, mend the contact set,
 //! solve again.
 
-use crate::contact_set::Configuration;
 use crate::contact_set::edit::{as_tangent, as_tip, beyond_corner, onto_neighbour, without};
 use crate::contact_set::notch::parted;
 use crate::contact_set::order::ordered;
+use crate::contact_set::{Configuration, Held, Unknown};
 use crate::continuation::branch::Corrector;
 use crate::continuation::step::Seen;
 use crate::continuation::transition::{Break, breaks, with_contact};
 use crate::gap::scan::Scanner;
 use crate::scene::world::World;
+use rod_core::Hold;
+use smallvec::SmallVec;
 
 /// Most repairs of one guess.
 const MOST_REPAIRS: usize = 12;
@@ -19,26 +21,27 @@ const MOST_REPAIRS: usize = 12;
 pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess: Configuration) -> Option<Seen> {
     let mut configuration = guess;
     let tau = configuration.tau();
+    let mut tried: SmallVec<[SmallVec<[Held; 8]>; 4]> = SmallVec::new();
     for _ in 0..MOST_REPAIRS {
+        tried.push(configuration.contacts.clone());
+        let start = configuration.clone();
         let report = (configuration.count() > 0).then(|| corrector.solve_from_guess(&mut configuration, tau));
-        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(&corrector.setup.world, &configuration) {
-            return None;
+        let world = &corrector.setup.world;
+        if report.is_some_and(|r| !r.status.is_solved()) || !ordered(world, &configuration) {
+            configuration = onto_end(start, world)?;
+            continue;
         }
         let scan = scanner.scan(&corrector.setup, &configuration);
-        let mut worst = None;
-        breaks(&corrector.setup.world, &configuration, &scan.crossings, |b| {
-            let weight = badness(&b, &configuration);
-            if worst.is_none_or(|(w, _)| weight > w) {
-                worst = Some((weight, b));
-            }
-        });
-        match worst {
-            Some((_, b)) => configuration = mend(configuration, b, &corrector.setup.world),
-            None => {
-                let stable = scanner.is_stable(&corrector.setup.world, &configuration, &scan);
-                return (scan.is_outside() && stable).then_some(Seen { configuration, scan });
-            }
+        let mut broken: SmallVec<[(f64, Break); 4]> = SmallVec::new();
+        breaks(world, &configuration, &scan.crossings, |b| broken.push((badness(&b, &configuration), b)));
+        if broken.is_empty() {
+            let stable = scanner.is_stable(world, &configuration, &scan);
+            return (scan.is_outside() && stable).then_some(Seen { configuration, scan });
         }
+        // what has led back to a contact set that does not hold is left as it is
+        broken.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut mended = broken.into_iter().map(|(_, b)| mend(configuration.clone(), b, world));
+        configuration = mended.find(|mended| !tried.contains(&mended.contacts))?;
     }
     None
 }
@@ -60,7 +63,7 @@ fn mend(configuration: Configuration, b: Break, world: &World<'_>) -> Configurat
         }
         Break::TipToTangent(angle) => as_tangent(configuration, angle),
         Break::OntoWall(wall, _) => parted(world, &configuration, wall),
-        Break::TangentToTip => as_tip(configuration, world),
+        Break::TangentToTip => back_to_tip(configuration, world),
         Break::Touch(crossing) => with_contact(&configuration, &crossing).0,
     }
 }
@@ -75,14 +78,41 @@ fn slid(configuration: &Configuration, j: usize, upwards: bool, world: &World<'_
     })
 }
 
+/// The last contact, tangential beyond the tip, as a contact of the tip, at the point of its stretch that is nearest to the tip.
+fn back_to_tip(configuration: Configuration, world: &World<'_>) -> Configuration {
+    let last = configuration.count() - 1;
+    let (stretch, beyond) = (configuration.contacts[last].stretch, configuration.s(last) - 1.0);
+    let at = world.support(stretch, configuration.t(last));
+    let mut tip = as_tip(configuration, world);
+    let (sin, cos) = tip.slope(last).sin_cos();
+    let foot = world.foot(stretch, at.x - beyond * cos, at.y - beyond * sin);
+    tip.set(Unknown::Parameter(last), foot.t);
+    tip
+}
+
+/// The last contact, along a straight edge, at the end of that edge on the clamp's side: a rod that is bent too much to lie on
+/// the edge rolls back to there. None where the contour does not bend away there.
+fn onto_end(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
+    let last = configuration.count().checked_sub(1)?;
+    let Held { stretch, hold: Hold::Tangent { offset } } = configuration.contacts[last] else { return None };
+    let at = world.support(stretch, configuration.t(last));
+    let after = offset.cos() < 0.0;
+    let next = world.neighbour(stretch, after).filter(|next| at.turning == 0.0 && !world.is_notch(*next))?;
+    let end = world.support(stretch, world.border(stretch, after));
+    let way = (end.x - at.x).hypot(end.y - at.y);
+    let s = configuration.s(last) - way;
+    configuration = onto_neighbour(configuration, last, after, next, world);
+    configuration.set(Unknown::ArcLength(last), s);
+    (s > 0.0).then_some(configuration)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_set::{Held, Unknown};
     use crate::path::ClampPath;
     use crate::scene::setup::Setup;
     use rod_contours::{Composite, Parabola};
-    use rod_core::{Hold, Pose, Rod};
+    use rod_core::{Pose, Rod};
 
     /// What becomes of a guess for a level rod, its clamp at (-0.5, `y`), below the solid above y = x^2.
     fn settled(y: f64, guess: Configuration) -> Option<Configuration> {
