@@ -17,18 +17,18 @@ pub enum FigureError {
 }
 
 /// Pixels across a page of 180 mm, the width of two columns of most journals.
-pub(super) const PAGE: u32 = 1530;
+pub(crate) const PAGE: u32 = 1530;
 /// Width of that page, mm.
 const PAGE_MM: f64 = 180.0;
 /// Size of letters, pixels: titles, and everything else. 24 pixels are 8 pt where [`PAGE`] pixels are 180 mm.
-pub(super) const TITLE: u32 = 27;
-pub(super) const BODY: u32 = 24;
+pub(crate) const TITLE: u32 = 27;
+pub(crate) const BODY: u32 = 24;
 
-pub(super) use super::text::HPos;
+pub(crate) use super::text::HPos;
 
 /// A rectangle of pixels.
 #[derive(Clone)]
-pub(super) struct Area<'a> {
+pub(crate) struct Area<'a> {
     sheet: &'a RefCell<String>,
     left: u32,
     top: u32,
@@ -37,7 +37,7 @@ pub(super) struct Area<'a> {
 }
 
 /// A white canvas of this size (pixels), painted, as SVG text. Its width in print is in proportion to [`PAGE`].
-pub(super) fn svg(
+pub(crate) fn svg(
     (width, height): (u32, u32),
     paint: impl FnOnce(&Area<'_>) -> Result<(), FigureError>,
 ) -> Result<String, FigureError> {
@@ -95,7 +95,7 @@ impl<'a> Area<'a> {
 }
 
 /// Text at a point, which is its middle in height and what `side` says in width. `_{...}` lowers a part of it.
-pub(super) fn write(
+pub(crate) fn write(
     area: &Area<'_>,
     text: &str,
     at: (i32, i32),
@@ -110,7 +110,7 @@ pub(super) fn write(
 }
 
 /// About how wide a text is, pixels. Nothing here knows the reader's font: common ones are no wider.
-pub(super) fn width(text: &str, size: u32) -> i32 {
+pub(crate) fn width(text: &str, size: u32) -> i32 {
     let em = f64::from(size);
     let letter = |letter: char| match letter {
         ' ' | ',' | '.' | ':' | ';' | '(' | ')' | 'i' | 'l' => 0.34,
@@ -126,7 +126,7 @@ pub(super) fn width(text: &str, size: u32) -> i32 {
 }
 
 /// A straight or broken line in pixels.
-pub(super) fn stroke(
+pub(crate) fn stroke(
     area: &Area<'_>,
     points: Vec<(i32, i32)>,
     style: impl Into<ShapeStyle>,
@@ -135,7 +135,7 @@ pub(super) fn stroke(
 }
 
 /// A number on an axis, as short as it can be.
-pub(super) fn tick(value: &f64) -> String {
+pub(crate) fn tick(value: &f64) -> String {
     // Ticks are multiples of a step like 0.05 with the last bits off, and -0.
     let mut text = String::new();
     let _ = write!(text, "{:.6}", if value.abs() < 1e-9 { 0.0 } else { *value });
@@ -143,7 +143,7 @@ pub(super) fn tick(value: &f64) -> String {
 }
 
 /// The interval from the least to the largest value, widened by a part of its length on both sides.
-pub(super) fn span(values: impl IntoIterator<Item = f64>, margin: f64) -> std::ops::Range<f64> {
+pub(crate) fn span(values: impl IntoIterator<Item = f64>, margin: f64) -> std::ops::Range<f64> {
     let (least, most) = values
         .into_iter()
         .filter(|value| value.is_finite())

@@ -12,7 +12,7 @@ const NUMBER: i32 = 24;
 
 /// Room around a plot, pixels.
 #[derive(Clone, Copy)]
-pub(super) struct Room {
+pub(crate) struct Room {
     pub left: u32,
     pub right: u32,
     pub top: u32,
@@ -20,7 +20,7 @@ pub(super) struct Room {
 }
 
 /// A rectangle with axes.
-pub(super) struct Chart<'a> {
+pub(crate) struct Chart<'a> {
     area: Area<'a>,
     plot: Area<'a>,
     x: Range<f64>,

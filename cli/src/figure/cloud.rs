@@ -20,7 +20,7 @@ const SAMPLE: i32 = 34;
 
 /// How a dot looks.
 #[derive(Clone, Copy)]
-pub(super) struct Dot {
+pub(crate) struct Dot {
     pub colour: RGBColor,
     pub filled: bool,
 }
@@ -32,7 +32,7 @@ impl Dot {
 }
 
 /// Draws points (mm) in order, without those that would hide behind the one before.
-pub(super) fn dots(
+pub(crate) fn dots(
     chart: &Chart<'_>,
     window: &Window,
     points: impl IntoIterator<Item = (f64, f64)>,
@@ -55,7 +55,7 @@ fn apart(points: impl IntoIterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, 
 }
 
 /// Draws the contours of objects (m), dashed.
-pub(super) fn contours(chart: &Chart<'_>, window: &Window, objects: &[Composite]) -> Result<(), FigureError> {
+pub(crate) fn contours(chart: &Chart<'_>, window: &Window, objects: &[Composite]) -> Result<(), FigureError> {
     let Window { x, y, scale } = window;
     let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     for part in objects.iter().flat_map(|object| outline::visible(object, bounds)) {
@@ -66,7 +66,7 @@ pub(super) fn contours(chart: &Chart<'_>, window: &Window, objects: &[Composite]
 }
 
 /// Writes what dots mean, and, with a name for it, the dashed line, in one row from a point on.
-pub(super) fn key(
+pub(crate) fn key(
     area: &Area<'_>,
     (mut x, y): (i32, i32),
     entries: &[(Dot, &str)],

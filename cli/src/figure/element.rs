@@ -4,7 +4,7 @@ use super::palette::RGBColor;
 
 /// How an element looks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ShapeStyle {
+pub(crate) struct ShapeStyle {
     colour: RGBColor,
     opacity: f64,
     /// Width of the line, pixels; none for an area.
@@ -52,7 +52,7 @@ impl ShapeStyle {
 
 /// A thing that is drawn.
 #[derive(Clone, Debug)]
-pub(super) struct Element {
+pub(crate) struct Element {
     points: Vec<(f64, f64)>,
     form: Form,
     style: ShapeStyle,
@@ -121,7 +121,7 @@ impl Element {
 }
 
 /// A coordinate to a hundredth of a pixel.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

@@ -1,11 +1,11 @@
 //! Labels that keep out of each other's way.
 
 /// A box of pixels: left, top, right, bottom.
-pub(super) type Box4 = (i32, i32, i32, i32);
+pub(crate) type Box4 = (i32, i32, i32, i32);
 
 /// Where labels have been put.
 #[derive(Default)]
-pub(super) struct Labels {
+pub(crate) struct Labels {
     taken: Vec<Box4>,
 }
 

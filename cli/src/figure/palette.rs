@@ -4,23 +4,23 @@ use vibrissa::{Label, Phase};
 
 /// Red, green and blue, to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct RGBColor(pub u8, pub u8, pub u8);
+pub(crate) struct RGBColor(pub u8, pub u8, pub u8);
 
-pub(super) const WHITE: RGBColor = RGBColor(255, 255, 255);
-pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
-pub(super) const MUTED: RGBColor = RGBColor(90, 90, 90);
-pub(super) const FAINT: RGBColor = RGBColor(205, 205, 205);
+pub(crate) const WHITE: RGBColor = RGBColor(255, 255, 255);
+pub(crate) const INK: RGBColor = RGBColor(0, 0, 0);
+pub(crate) const MUTED: RGBColor = RGBColor(90, 90, 90);
+pub(crate) const FAINT: RGBColor = RGBColor(205, 205, 205);
 
 /// Shapes and poses at a transition: not the black of the contour.
-pub(super) const TRANSITION: RGBColor = RGBColor(51, 34, 136);
+pub(crate) const TRANSITION: RGBColor = RGBColor(51, 34, 136);
 /// The first and the second of two contacts.
-pub(super) const FIRST: RGBColor = RGBColor(136, 34, 85);
-pub(super) const SECOND: RGBColor = RGBColor(153, 153, 51);
+pub(crate) const FIRST: RGBColor = RGBColor(136, 34, 85);
+pub(crate) const SECOND: RGBColor = RGBColor(153, 153, 51);
 /// Things that are none of these.
-pub(super) const OTHERS: [RGBColor; 3] = [RGBColor(51, 34, 136), RGBColor(153, 153, 51), RGBColor(136, 34, 85)];
+pub(crate) const OTHERS: [RGBColor; 3] = [RGBColor(51, 34, 136), RGBColor(153, 153, 51), RGBColor(136, 34, 85)];
 
 /// The colour of a phase. Phases of more than three contacts share colours; their labels tell them apart.
-pub(super) fn colour(phase: Phase) -> RGBColor {
+pub(crate) fn colour(phase: Phase) -> RGBColor {
     match (phase.contacts, phase.tip) {
         (0, _) => RGBColor(150, 150, 150),
         (1, true) => RGBColor(0, 158, 115),
@@ -33,7 +33,7 @@ pub(super) fn colour(phase: Phase) -> RGBColor {
 }
 
 /// The colour of a label: that of the phases it stands for.
-pub(super) fn label_colour(label: Label) -> RGBColor {
+pub(crate) fn label_colour(label: Label) -> RGBColor {
     let contacts = match label {
         Label::Free => 0,
         Label::A | Label::B => 1,
@@ -43,7 +43,7 @@ pub(super) fn label_colour(label: Label) -> RGBColor {
 }
 
 /// Black or white, whichever is read more easily on a colour (relative luminance, sRGB).
-pub(super) fn ink_on(RGBColor(red, green, blue): RGBColor) -> RGBColor {
+pub(crate) fn ink_on(RGBColor(red, green, blue): RGBColor) -> RGBColor {
     let light = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
     if light > 115.0 { INK } else { RGBColor(255, 255, 255) }
 }

@@ -10,7 +10,7 @@ const BELOW: u32 = 62;
 const MARGIN: u32 = 12;
 
 /// What is seen.
-pub(super) struct Window {
+pub(crate) struct Window {
     /// mm
     pub x: Range<f64>,
     /// mm

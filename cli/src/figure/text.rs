@@ -5,7 +5,7 @@ use super::palette::RGBColor;
 
 /// Where a text stands beside its point.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum HPos {
+pub(crate) enum HPos {
     /// It begins there.
     Left,
     /// Its middle is there.
@@ -20,7 +20,7 @@ const LOW: (f64, f64) = (0.7, 0.22);
 const MIDDLE: f64 = 0.35;
 
 /// A text that stands somewhere.
-pub(super) struct Letters {
+pub(crate) struct Letters {
     /// Pixels of the canvas; the middle in height.
     pub at: (f64, f64),
     pub side: HPos,
@@ -66,7 +66,7 @@ impl Letters {
 }
 
 /// The parts of a text, and whether they are lowered: `f_{0x} in N` has the parts `f`, `0x` (lowered), ` in N`.
-pub(super) fn tspans(text: &str) -> impl Iterator<Item = (&str, bool)> {
+pub(crate) fn tspans(text: &str) -> impl Iterator<Item = (&str, bool)> {
     text.split("_{")
         .enumerate()
         .flat_map(|(index, part)| match part.split_once('}').filter(|_| index > 0) {

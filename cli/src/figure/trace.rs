@@ -14,10 +14,10 @@ use vibrissa::State;
 const LEFT: u32 = 130;
 const BELOW: u32 = 70;
 /// Room above for two rows of phases, pixels.
-pub(super) const ABOVE: u32 = 70;
+pub(crate) const ABOVE: u32 = 70;
 
 /// What the traces of one scan above each other share.
-pub(super) struct Along {
+pub(crate) struct Along {
     /// Range of the abscissa.
     pub across: Range<f64>,
     /// What the abscissa is.
@@ -29,13 +29,13 @@ pub(super) struct Along {
 }
 
 /// A part of a trace: points in the units of the axes.
-pub(super) struct Part {
+pub(crate) struct Part {
     pub points: Vec<(f64, f64)>,
     pub colour: RGBColor,
 }
 
 /// What to draw.
-pub(super) struct Trace<'a> {
+pub(crate) struct Trace<'a> {
     pub along: &'a Along,
     pub parts: Vec<Part>,
     /// The quantity and its unit.
@@ -47,7 +47,7 @@ pub(super) struct Trace<'a> {
 }
 
 /// Height (pixels) that a trace takes beside its plot.
-pub(super) fn trimmings(phases: bool, foot: bool) -> u32 {
+pub(crate) fn trimmings(phases: bool, foot: bool) -> u32 {
     u32::from(phases) * ABOVE + u32::from(foot) * BELOW
 }
 
@@ -67,7 +67,7 @@ impl Along {
 }
 
 /// A quantity along a sweep, coloured by phase.
-pub(super) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
+pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
     let abscissa = Abscissa::of(&scan.scene.path);
     let point = |state: &&State| (abscissa.value(state.pose), quantity(state));
     let intervals = scan.intervals();
@@ -78,7 +78,7 @@ pub(super) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> 
 }
 
 /// Draws a trace into a part of `root`.
-pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Result<(), FigureError> {
+pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Result<(), FigureError> {
     let Along { across, foot, phases, marks } = trace.along;
     let values = trace.parts.iter().flat_map(|part| part.points.iter().map(|point| point.1));
     let up = span(values.chain([0.0]), 0.08);

@@ -1,7 +1,8 @@
 //! A scan turned back into contact points as if there were never more than one contact (Merker et al. 2020, fig. 6).
 
+use super::scans::PaperScan;
 use crate::reconstructed::naive_touch;
-use crate::{Error, PaperScan, Scan};
+use crate::{Error, Scan};
 use vibrissa::compare::signed_distance;
 use vibrissa::{Assembly, ContourEstimate, Label, Measured, Sample, State, Sweep, Touch};
 

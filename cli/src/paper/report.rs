@@ -1,6 +1,6 @@
 //! The tables of the nine scans.
 
-use super::{DISTANCES, OBJECTS, Paper};
+use super::scans::{DISTANCES, OBJECTS, Paper};
 use crate::table::Table;
 
 impl Paper {

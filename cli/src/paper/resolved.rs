@@ -1,7 +1,8 @@
 //! A scan turned back into contact points with what the reactions tell of the contact phases.
 
+use super::scans::PaperScan;
+use crate::Error;
 use crate::reconstructed::naive_touch;
-use crate::{Error, PaperScan};
 use vibrissa::compare::signed_distance;
 use vibrissa::{Composite, Reason, Sample, Settings, StretchKind, Sweep, Touch, reconstruct};
 

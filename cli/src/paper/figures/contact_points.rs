@@ -1,9 +1,9 @@
 //! Contact points from reactions as if there were never more than one contact (Merker et al. 2020, fig. 6).
 
-use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
-use super::cloud::{self, Dot};
-use super::palette::{FAINT, INK, MUTED};
-use super::plane::Window;
+use crate::figure::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
+use crate::figure::cloud::{self, Dot};
+use crate::figure::palette::{FAINT, INK, MUTED};
+use crate::figure::plane::Window;
 use crate::paper::naive::Naive;
 
 /// Width of a scan, height of the title and key, and of the lines above each scan, pixels.

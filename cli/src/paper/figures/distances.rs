@@ -1,12 +1,12 @@
 //! The contact points of one object from several distances (Merker et al. 2020, fig. 9).
 
-use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, tick, write};
-use super::cloud::{self, Dot};
-use super::element::Element;
-use super::palette::{INK, MUTED, OTHERS, RGBColor};
-use super::plane::Window;
+use crate::figure::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, tick, write};
+use crate::figure::cloud::{self, Dot};
+use crate::figure::element::Element;
+use crate::figure::palette::{INK, MUTED, OTHERS, RGBColor};
+use crate::figure::plane::Window;
 use crate::paper::naive::{Naive, NaivePoint, STEP};
-use crate::paper::{DISTANCES, OBJECTS};
+use crate::paper::scans::{DISTANCES, OBJECTS};
 use vibrissa::{Comparison, ContourEstimate};
 
 /// Width of an object, height of the title and keys, of a row's title, and of an object's name, pixels.

@@ -1,10 +1,10 @@
 //! How well the clean reactions fit noisy ones, over the nine scans (Merker et al. 2020, fig. 5).
 
-use super::canvas::{Area, BODY, FigureError, HPos, TITLE, svg, write};
-use super::element::Element;
-use super::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
+use crate::figure::canvas::{Area, BODY, FigureError, HPos, TITLE, svg, write};
+use crate::figure::element::Element;
+use crate::figure::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
 use crate::paper::naive::{Naive, STEP};
-use crate::paper::{DISTANCES, OBJECTS};
+use crate::paper::scans::{DISTANCES, OBJECTS};
 use vibrissa::compare::goodness_of_fit;
 use vibrissa::{NoiseModel, Reactions};
 

@@ -1,10 +1,10 @@
 //! Both contacts of a rod held by two, beside what a reconstruction for one contact makes of them: the gap that Merker et
 //! al. (2020) leave, closed as far as the rod touches.
 
-use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
-use super::cloud::{self, Dot};
-use super::palette::{self, FAINT, INK, MUTED};
-use super::plane::Window;
+use crate::figure::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
+use crate::figure::cloud::{self, Dot};
+use crate::figure::palette::{self, FAINT, INK, MUTED};
+use crate::figure::plane::Window;
 use crate::paper::resolved::Resolved;
 
 /// Width of a scan, height of the title and key, of a row's title, and of the lines above each scan, pixels.

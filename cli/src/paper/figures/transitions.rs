@@ -1,9 +1,9 @@
 //! The transitions between phases that were observed, as a diagram (Merker et al. 2020, fig. 8b).
 
-use super::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, width, write};
-use super::element::Element;
-use super::palette::{INK, WHITE, colour, ink_on};
 use crate::Scan;
+use crate::figure::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, width, write};
+use crate::figure::element::Element;
+use crate::figure::palette::{INK, WHITE, colour, ink_on};
 use std::collections::BTreeMap;
 use vibrissa::{EventKind, Label, Phase};
 
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn transitions_are_counted_by_label_and_by_jump() {
-        let scene = Scene::parse("O1_q40.toml".as_ref(), include_str!("../../../scenes/O1_q40.toml")).unwrap();
+        let scene = Scene::parse("O1_q40.toml".as_ref(), include_str!("../../../../scenes/O1_q40.toml")).unwrap();
         let steps = [
             ("free", "A", EventKind::FirstContact),
             ("A", "A", EventKind::Piece),

@@ -1,11 +1,11 @@
 //! The phases of the nine scans by object and distance (Merker et al. 2020, fig. 8a).
 
-use super::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, tick, width, write};
-use super::element::Element;
-use super::labels::Labels;
-use super::palette::{FAINT, INK, MUTED, colour, ink_on};
 use crate::cycle::CYCLES;
-use crate::paper::{DISTANCES, OBJECTS, Paper, PaperScan};
+use crate::figure::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, tick, width, write};
+use crate::figure::element::Element;
+use crate::figure::labels::Labels;
+use crate::figure::palette::{FAINT, INK, MUTED, colour, ink_on};
+use crate::paper::scans::{DISTANCES, OBJECTS, Paper, PaperScan};
 use vibrissa::{EventKind, Phase};
 
 /// Size of a cell, room left of and above the cells, room below for axis and key, pixels.
