@@ -58,28 +58,32 @@ pub struct Sweep<'a> {
     crowd: (f64, usize),
 }
 
-/// Most steps of a path: poses of a finer one are not told apart.
+/// Largest number of reported states. With more, neighbouring poses differ by less than the rounding of the path parameter.
 const MOST_STEPS: f64 = 1e15;
 
-/// Steps after which a sweep ends, by default.
+/// Default limit of steps along branches, rejected ones included: one to two minutes. A sweep of the paper takes about 50.
 const MOST_STEPS_TAKEN: u64 = 2_000_000;
 
-/// More transitions than this at one pose are no physics.
+/// Largest number of transitions at one pose. A rod that comes to lie on the edges of a comb needs several; more are a contact
+/// that comes and goes by rounding.
 const MOST_AT_ONE_POSE: usize = 12;
-/// Distance (L) from the end of an open contour within which contacts that come and go are those of its end.
+/// Distance (L) from an end of an open contour. Where contacts come and go closer to it, the sweep stops with `EndOfContour`,
+/// farther away with `Chatter`.
 const AT_OPEN_END: f64 = 1e-3;
-/// How far beyond a fold the descent starts, so that the chain, whose own fold is not quite there, sees it too. Lengthened
-/// where that was not enough.
+/// Distances (path parameter) beyond a fold at which the descent starts, tried in order. The chain has its own fold, up to the
+/// square of a link's length away, and must be beyond it. A longer distance may miss an equilibrium that ends soon.
 const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
-/// The same beyond a touch of a free rod that has no isolated solution.
+/// The same beyond the first touch of a free rod along a straight edge, which has no isolated solution.
 const TOUCH_KICK: [f64; 2] = [1e-4, 5e-4];
-/// Bends of the straight rod that is let go into contact, radians: which way it gives is a matter of chance.
+/// Bends (rad over the length) given to a straight rod that is let go into contact, tried in order. Without a bend the chain
+/// does not buckle; its sign decides to which side.
 const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
-/// Farthest and shortest way of a tip that slips over a corner; a longer one is a snap.
+/// Longest and shortest way (L) of a tip that slips over a corner. A longer way is reported as a snap; a shorter one would lead
+/// back at once.
 const FARTHEST_SLIP: f64 = 0.05;
 const SHORTEST_SLIP: f64 = 1e-9;
-/// How far back a free pose is searched from a start in contact, and how densely: rod lengths, or the angle of a path that
-/// only turns.
+/// Range and step of the search for a free pose behind a start in contact, in the path parameter: lengths of the rod, or
+/// radians of a path that only turns.
 const BACK: (f64, f64) = (4.0, 0.05);
 
 impl<'a> Sweep<'a> {

@@ -7,7 +7,7 @@ use rod_core::Hold;
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
-/// Distance (L) from the tip that is rounding.
+/// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
 
 /// The configuration without contact j.

@@ -12,7 +12,7 @@ use rod_core::{Hold, Segment, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
-/// Forces down to minus this (E I / L^2) count as zero: a hundred times what a solve leaves of a force that vanishes.
+/// Pulling force (E I / L^2) that counts as zero: a hundred times the error of a solved force.
 pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 
 /// Where a contact is (a stretch of the contour) and how it holds the rod.

@@ -132,9 +132,9 @@ pub(crate) struct Corrector<'a> {
     workspace: NewtonWorkspace,
 }
 
-/// Most iterations from a point of the same branch: one that needs more has left it.
+/// Limit of Newton iterations from a point of the same branch. A step that needs more has left the branch.
 const WARM: u32 = 12;
-/// Most iterations from a guess.
+/// Limit of Newton iterations from a guess.
 const COLD: u32 = 60;
 
 fn options(max_iterations: u32) -> NewtonOptions {

@@ -6,7 +6,7 @@ use crate::scene::setup::Setup;
 use crate::state::{Certificate, Contact, GapBounds, State};
 use rod_core::{Pose, SolveReport, Supports, Units};
 
-/// Rounding of an arc length.
+/// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
 
 /// What is known of a configuration besides its unknowns.

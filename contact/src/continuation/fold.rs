@@ -5,16 +5,16 @@ use crate::continuation::branch::{Condition, Corrector, Tangent};
 use rod_core::{RodError, find_root};
 use std::cell::RefCell;
 
-/// How near the fold is found, in arclength of the branch: the path parameter, which is stationary there, is then off by
-/// about the square of it.
+/// Tolerance of the fold in arclength of the branch. The path parameter is stationary there, so that its error is about the
+/// square of this.
 const ARCLENGTH: f64 = 1e-13;
-/// The same for the first look, which the second one only has to be around.
+/// The same for the first search, which only gives the second one its tangent and its bracket.
 const FIRST_LOOK: f64 = 1e-6;
 
-/// How far beyond the ends of the step, in steps, the fold may be.
+/// Distances of the bracket from the ends of the step, in steps, tried in order.
 const BEYOND: [f64; 4] = [0.0, 0.1, 1.0, 10.0];
 
-/// Half the arclength within which a fold that has been found is looked for again.
+/// Half the bracket of the second search, in arclength. It must be larger than the error of the first.
 const AROUND: f64 = 1e-5;
 
 /// The fold between `from` and `to`, a point of the branch on the other side of it along `tangent`.

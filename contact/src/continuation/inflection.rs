@@ -15,19 +15,20 @@ use crate::scene::world::World;
 use rod_contours::StretchKind;
 use rod_core::{Hold, find_root};
 
-/// Distance at which two contacts are told apart. Their forces are known to the rounding of its third power.
+/// Distance (L) of two contacts beside an inflection from which they are solved for. Their forces have an error of rounding over
+/// the third power of it.
 const APART: f64 = 0.01;
 
-/// Distances tried where the two contacts do not stay as close as that.
+/// Multiples of that distance, tried in order.
 const FARTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 
-/// How far around the last contact an inflection is looked for.
+/// Arc length (L) to either side of the last contact in which an inflection is searched.
 const NEAR: f64 = 0.02;
 
-/// How far the path goes on, at most, until the two are told apart.
+/// Longest way of the path (L) on which the two contacts come so far apart. A longer one is another transition.
 const LONGEST_WAY: f64 = 0.05;
 
-/// How far from the inflection the one contact is that the two have run into.
+/// Distance (L) from the inflection at which one contact replaces two. On the inflection itself the problem is singular.
 const CONVEX: f64 = 1e-4;
 
 /// An inflection: its parameter, the rate of the contour's curvature along the rod's length, and the change of the

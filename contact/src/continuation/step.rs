@@ -15,43 +15,43 @@ use crate::stability::wraps;
 use rod_core::SolveReport;
 use smallvec::SmallVec;
 
-/// A pose that is beyond a transition by less than this is at the transition, where the state before it is reported: it still
-/// holds there, up to rounding.
+/// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
 pub(crate) const SAME_POSE: f64 = 1e-13;
-/// A step so short that what it ends in is where it ends.
+/// Length of a step (arclength) below which the end of a contour, or the clamp at an object, that the step meets is accepted as
+/// the end of the sweep. A longer step is halved first.
 const SHORT: f64 = 1e-3;
-/// Longest step in arclength of the branch (lengths, angles, relative forces), and in the path parameter of a rod in
-/// contact.
+/// Longest steps of a rod in contact: in arclength of the branch (lengths, angles, relative forces) and in the path parameter.
+/// Longer ones are halved more often and may pass over contacts that come and go.
 const LONGEST_STEP: f64 = 0.3;
 const LONGEST_WAY: f64 = 0.05;
-/// Way (L) of a free rod beyond its gap in one step: a contact that begins and ends within it can be missed.
+/// Way (L) that a step of a free rod may go beyond its gap. A contact that begins and ends within it is missed.
 const FREE_STEP: f64 = 2e-3;
-/// First step on a new branch.
+/// First step on a new branch, in arclength.
 pub(crate) const FIRST_STEP: f64 = 0.02;
-/// A branch that cannot be followed with this step is not followed.
+/// Shortest step (arclength). Where it fails too, the sweep stops with `StepTooSmall`.
 const SHORTEST_STEP: f64 = 1e-9;
-/// Largest angle between the tangents at both ends of a step, as its cosine.
+/// Least cosine of the angle between the tangents at both ends of a step: 26 degrees. Sharper turns may be another branch.
 const LEAST_COSINE: f64 = 0.9;
-/// Largest distance of the corrected from the predicted point, in steps.
+/// Largest distance of the corrected from the predicted point, over the length of the step. A larger one may be another branch.
 const LARGEST_CORRECTION: f64 = 0.3;
-/// Slowest d tau / d arclength at which a pose is aimed at directly.
+/// Least d tau / d arclength at which a step aims at a pose. Closer to a fold the pose is ill-conditioned.
 const STEEPEST: f64 = 1e-3;
-/// Depth (L) of a free rod that is no rounding.
+/// Depth (L) of a free rod beyond that of rounding.
 const DEEPEST: f64 = 1e-9;
-/// Residual beyond which nothing is a solution, whatever the forces.
+/// Largest residual of a solution (L, rad). The Newton method scales its own tolerance by the forces; this limits it.
 const LARGEST_RESIDUAL: f64 = 1e-9;
-/// A contact this near to the clamp is at the clamp.
+/// Arc length (L) below which a contact counts as at the clamp, where its force has no lever.
 const AT_CLAMP: f64 = 1e-4;
-/// Transitions this close together along the branch are one but for rounding.
+/// Arclength within which transitions coincide. The one next to the clamp is taken.
 const AT_ONCE: f64 = 1e-12;
-/// Arclength by which a touch may be behind the start of the step: where the gap closes slowly, the depth that a proof leaves
-/// open takes so much.
+/// Arclength by which a touch may lie before the start of the step. The proof at the start leaves a depth of 1e-12 L open, which
+/// a slowly closing gap takes so long to pass.
 const BEFORE: f64 = 1e-6;
-/// Arclength of a step that cannot pass over anything thick enough to be met.
+/// Arclength below which a step is not tested for thin things that it passes over: what is thinner is not met anyway.
 const LEAST_SWEPT: f64 = 1e-8;
-/// Halvings of an interval down to rounding.
+/// Halvings of an interval: 60 reach rounding.
 const MOST_HALVINGS: usize = 60;
-/// Path parameter by which a new contact set is tried.
+/// Way along the path, and longest way along the branch, after which a new contact set must still hold.
 const PROBE: f64 = 1e-6;
 const FARTHEST_PROBE: f64 = 1e-3;
 

@@ -39,13 +39,13 @@ pub(crate) enum Break {
     Touch(Crossing),
 }
 
-/// Arc lengths and angles beyond their limits by this are on them.
+/// Rounding of arc lengths (L), parameters and angles (rad) at their limits.
 const LIMIT_TOLERANCE: f64 = 1e-13;
 
-/// Parameters beyond the end of a stretch by no more than this are at its end.
+/// Largest distance of a new contact beyond the end of its stretch, relative. A larger one means that its neighbour was met first.
 const BEYOND_END: f64 = 1e-12;
 
-/// Two contacts this near to each other in a notch have met there.
+/// Distance (L) from the tip at which the contact on one wall of a notch counts as met by the tip on the other.
 const MEETING: f64 = 1e-7;
 
 /// Visits everything that is broken in `configuration`, whose rod goes through the contour at `crossings`.

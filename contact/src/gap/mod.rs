@@ -12,10 +12,10 @@ pub(crate) use prover::{Proof, Prover};
 
 use crate::scene::world::Foot;
 
-/// Gaps down to minus this count as closed: what a residual at rounding level leaves.
+/// Depth (L) that counts as a closed gap: the residual of a solve leaves so much.
 pub(crate) const GAP_TOLERANCE: f64 = 1e-12;
 
-/// The same (L) at a located transition, where another contact may be about to form: what is proven there is ten times this.
+/// The same at a located transition, where another contact may be about to form. Ten times this is proven there.
 pub(crate) const AT_TRANSITION: f64 = 1e-10;
 
 /// A place where the rod goes through the contour: a local minimum of the gap along the rod.

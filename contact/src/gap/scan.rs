@@ -11,13 +11,14 @@ use crate::state::GapBounds;
 use rod_core::{Section, Segment, advance};
 use smallvec::SmallVec;
 
-/// Distance (L) from an end of an open contour within which a rod that has swept over that end is known to have done so.
+/// Distance (L) between the rod and an end of an open contour up to which a change of sides means that the rod went over the
+/// end. Farther away the rod has gone around it.
 const DEEPEST: f64 = 0.1;
 
-/// Distance from the rod at which an end of an open contour is what it cannot go on for.
+/// Distance (L) between the rod and an end of an open contour below which that end is taken for the reason of a stop.
 const BY_END: f64 = 0.02;
 
-/// Distance from the rod of what is on it but for rounding.
+/// Distance (L) from the rod that is rounding.
 const ON_ROD: f64 = 1e-12;
 
 /// What a scan found.

@@ -5,7 +5,8 @@ use crate::gap::shape::Node;
 use rod_contours::Run;
 use smallvec::SmallVec;
 
-/// Most lines that are kept of one run. More are looked at for every interval that none of them clears, fewer are found anew.
+/// Largest number of separating lines kept of one run. More are tried in vain for intervals that none of them clears; fewer
+/// must be found again.
 const KEPT: usize = 12;
 
 /// A line with the run on or behind it. It belongs to the contour alone: found once, it holds in every later state.

@@ -10,21 +10,21 @@ use smallvec::{SmallVec, smallvec};
 /// plane with unit speed, so the gap is 1-Lipschitz).
 const SPACING: f64 = 1.0 / 32.0;
 
-/// Intervals of the straight end of the rod: where more are needed they are halved.
+/// Intervals of the straight end of the rod. The prover halves them where it needs more.
 const STRAIGHT: usize = 4;
 
-/// Points up to the last contact, at least: several a wave of the highest mode by which stability is judged.
+/// Least number of points up to the last contact: several a wave of the highest mode of the stability test.
 const LOADED: f64 = 28.0;
 
-/// Intervals of a segment under load, at least, for Simpson's rule.
+/// Least number of intervals of a segment under load, for Simpson's rule.
 const FEWEST: usize = 4;
 
-/// Largest distance between the points in the elastica's own wavelength, in units of the square root of EI over the force; and
-/// the smallest one, whatever the force.
+/// Largest distance between the points in units of sqrt(E I / force), the length scale of the elastica; and the smallest
+/// distance (L), whatever the force.
 const LARGEST_PHASE: f64 = 0.5;
 const SMALLEST_SPACING: f64 = 1.0 / 512.0;
 
-/// Points that a shape mostly has at most.
+/// Points for which memory is reserved: most shapes have fewer.
 const USUAL: usize = 80;
 
 /// A point of the rod.

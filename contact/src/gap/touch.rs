@@ -8,17 +8,17 @@ use rod_contours::Bend;
 use rod_core::{Section, advance};
 use std::f64::consts::PI;
 
-/// Length within which the deepest point of the rod is found. It is a start for Newton's method.
+/// Tolerance (L) of the deepest point of the rod, from which Newton's method starts.
 const NEAR_ENOUGH: f64 = 1e-9;
-/// Most times that the way along the rod is halved or doubled.
+/// Limit of doublings and halvings of the way along the rod.
 const MOST_LOOKS: usize = 60;
-/// Angle between the rod and the contour that counts as none, rad.
+/// Angle (rad) between rod and contour below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
-/// Curvature (1 / L) of the rod that rounding leaves of none.
+/// Curvature (1 / L) of a straight rod by rounding.
 const STRAIGHT: f64 = 1e-9;
-/// The same for the sine of the angle between the rod and an edge: as far as a contact may lie beyond the end of a corner.
+/// Sine of the angle between a straight rod and an edge below which the rod lies on the edge.
 const FLUSH: f64 = 1e-12;
-/// Most stretches of the contour that are looked at for the one that the rod is parallel to.
+/// Limit of stretches in the search for the one that the rod is parallel to.
 const MOST_STRETCHES: usize = 64;
 
 /// A rod in some shape.

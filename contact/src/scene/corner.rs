@@ -5,10 +5,10 @@ use rod_contours::{Part, Range};
 use rod_core::{Section, Support};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Rounding of an angle between the rod and one of the two pieces that meet in a corner, rad.
+/// Angle (rad) by which the rod may lean beyond the directions of a corner: the rounding of a rod along one of its edges.
 const PARALLEL: f64 = 1e-9;
 
-/// Halvings of a part: to a millionth of it.
+/// Halvings in the search for a direction on a part: 20 find it to a millionth of the part.
 const HALVINGS: usize = 20;
 
 /// A vertex, and the angles with which a rod can lie on it.

@@ -6,14 +6,14 @@ use rod_contours::{
 use rod_core::Support;
 use smallvec::SmallVec;
 
-/// Depth to which a rod that has come there may be in the solid behind an open contour: further than a step of the
-/// sweep takes any point of it.
+/// Depth (L) to which there is solid behind an open contour. A step of the sweep moves no point of the rod as far; a rod that is
+/// deeper came around the end of the contour.
 const SKIN: f64 = 0.1;
 
-/// Arc length of the contour that is looked at for a piece of rod of length 1.
+/// Arc length of the contour that can face a part of the rod, over the length of that part.
 pub(crate) const AHEAD: f64 = 1.25;
 
-/// Intervals of a part whose curvature is sampled.
+/// Intervals in which the curvature of a part is sampled, for shapes without bounds of it. Such states are not proven.
 const SAMPLES: u32 = 8;
 
 /// Contours in dimensionless lengths, their stretches numbered through. Each stretch keeps a parameter of its own (that
@@ -47,7 +47,8 @@ pub(crate) struct Foot {
     pub interior: bool,
 }
 
-/// Gap at which the direction to the foot has lost no more than three digits.
+/// Gap (L) above which the difference of point and foot gives the normal: it has lost three digits there. Below, the frame
+/// gives it.
 const DISTANT: f64 = 1e-3;
 
 impl Foot {

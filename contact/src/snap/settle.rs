@@ -13,7 +13,7 @@ use crate::scene::world::World;
 use rod_core::Hold;
 use smallvec::SmallVec;
 
-/// Most repairs of one guess.
+/// Limit of repairs of one guess.
 const MOST_REPAIRS: usize = 12;
 
 /// Mends `guess` at its own pose until it is an equilibrium that holds (nothing is broken, and it is stable); none

@@ -23,16 +23,16 @@ use rod_core::{Hold, Segment, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
-/// Modes beyond those that the contacts fix. Mode m has energy about (m pi)^2 / 2, so that only loads P of hundreds of
-/// EI / L^2 could destabilise one that is left out.
+/// Number of modes beyond those that the contacts fix. Mode m has an energy of about (m pi)^2 / 2: a mode that is left out is
+/// unstable only under loads of hundreds of E I / L^2.
 const MODES: usize = 6;
-/// Stiffness of the penalty against that of the modes.
+/// Stiffness of the penalty that keeps contacts closed, over that of the modes.
 const PENALTY: f64 = 1e9;
 
-/// Curvature (1 / L) of a rod on a straight edge that is rounding: a hundred times what a condition number of 1e5 leaves.
+/// Curvature (1 / L) of a rod on a straight edge by rounding, with a condition number of 1e7.
 const FLAT: f64 = 1e-9;
 
-/// Points of the rod that are worked on at once: the recurrences from mode to mode wait for themselves, not for each other.
+/// Number of points of the rod whose recurrences run at once.
 const LANES: usize = 4;
 /// One number a lane.
 type Lanes = [f64; LANES];

@@ -6,7 +6,7 @@ use crate::gap::separator::Line;
 use crate::scene::world::RunFoot;
 use rod_contours::{Bend, Bounds, Run};
 
-/// Closer to a vertex than this the direction to it is rounding.
+/// Distance (L) from a vertex below which the direction to it has lost half of its digits.
 const AT_VERTEX: f64 = 1e-6;
 
 impl Search<'_> {

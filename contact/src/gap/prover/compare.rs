@@ -10,7 +10,7 @@ use rod_core::Hold;
 const PARALLEL: f64 = 1e-9;
 /// Room for rounding in the curvatures that are compared, in units of 1 / L.
 const SLACK: f64 = 1e-9;
-/// Most intervals that are compared with the contour at once.
+/// Largest number of intervals that are compared with the contour at once.
 const AT_ONCE: usize = 6;
 
 impl Search<'_> {

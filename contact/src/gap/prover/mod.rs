@@ -19,28 +19,29 @@ use crate::gap::shape::{Node, Shape};
 use crate::scene::world::{RunFoot, World};
 use smallvec::SmallVec;
 
-/// Length (L) of an interval that is not halved any more: its points are no deeper than half of it.
+/// Length (L) below which an interval is not halved. Its points are at most half of it deeper than its ends.
 const SHORTEST: f64 = 1e-12;
-/// What is proven is a gap above minus this many times the depth at which a point counts as inside: with one number for both,
-/// an interval next to a flat contact would be halved millions of times.
+/// Ratio of the proven depth and the depth at which a point counts as inside. At 1, an interval next to a flat contact would be
+/// halved millions of times.
 const PROVEN: f64 = 10.0;
-/// Largest turn of the rod and of the contour over an interval along which they are compared, rad.
+/// Largest turn (rad) of rod and contour over an interval on which their curvatures are compared. The comparison needs their
+/// angles to stay below a right angle.
 const LARGEST_TURN: f64 = 0.5;
-/// Bound (L) of an interval below which it may touch the contour: what follows may be on the other side.
+/// Bound (L) at or below which an interval may touch the contour. The rod beyond it may be on the other side, which is tested.
 const GATE: f64 = 1e-12;
-/// An interval that meets the boxes of more runs than this is halved first.
+/// Largest number of runs whose boxes an interval may meet. With more it is halved first.
 const CROWD: usize = 12;
-/// Largest difference between the smallest gap seen of a free rod and the proven one, as a share of the former.
+/// Largest difference of the smallest gap seen of a free rod and the proven one, relative. Smaller values cost more halvings.
 const BESIDE: f64 = 1e-3;
-/// Length of an interval of a free rod that is not halved any more, as a share of the gap.
+/// Length of the shortest intervals of a free rod, over its gap.
 const COARSE: f64 = 1e-3;
 /// Gap (L) of a free rod below which only the sign is proven.
 const NEARLY_CLOSED: f64 = 1e-9;
-/// Discs without solid that are kept of one object.
+/// Number of discs without solid that are kept of each object.
 const DISCS: usize = 4;
-/// Least share of an interval that is cut off.
+/// Least share of an interval in a halving.
 const LEAST_SHARE: f64 = 0.1;
-/// Most parts of intervals that are looked at one by one; a state takes some tens. Beyond that nothing is proven.
+/// Limit of parts of intervals in one proof; a state takes some tens. Beyond it nothing is proven.
 const MOST_LOOKS: usize = 100_000;
 
 /// A point outside of an object and its gap: a disc without solid.

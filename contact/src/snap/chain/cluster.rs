@@ -9,11 +9,11 @@ use crate::scene::world::World;
 use rod_core::{Hold, Section};
 use smallvec::{SmallVec, smallvec};
 
-/// Forces below this are what a chain that has all but arrived leaves.
+/// Force (E I / L^2) below which a node of the chain at rest counts as free.
 const LEAST_FORCE: f64 = 1e-4;
-/// Length, in links, of what is pressed all along and may be two contacts.
+/// Length (links) above which loaded neighbours may stand for two contacts.
 const WIDE: f64 = 1.5;
-/// Loaded nodes further apart than this, in links, are not neighbours.
+/// Largest distance (links) of loaded neighbours.
 const NEIGHBOURS: f64 = 1.5;
 
 /// Loaded neighbouring nodes on one stretch.

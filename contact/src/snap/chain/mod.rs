@@ -23,16 +23,16 @@ use smallvec::{SmallVec, smallvec};
 const LINKS: usize = 64;
 /// Length of a link.
 const LINK: f64 = 1.0 / LINKS as f64;
-/// Longest way of a node in one step: gaps are taken to be linear over it.
+/// Longest way (L) of a node in one step. The gaps are linearised over it.
 const LONGEST_MOVE: f64 = 0.04;
-/// Gaps beyond this are out of reach of the longest step.
+/// Gap (L) above which a contour is out of reach of a step.
 const REACH: f64 = 2.0 * LONGEST_MOVE;
-/// A step that moves no node further than this has arrived.
+/// Way (L) of a step below which the chain is at rest.
 const ARRIVED: f64 = 2e-5;
 /// Work of interior points, in units of the cube of their number, after which a descent is given up: half a second or so.
 /// Block pivoting settles nearly all steps, and costs next to nothing.
 const MOST_WORK: f64 = 1e8;
-/// Most steps.
+/// Limit of steps of one descent.
 const MOST_STEPS: usize = 400;
 /// Steps after which a chain that still moves fast is taken to swing: in a hollow, whose curvature the linearised gaps leave out, it
 /// goes from one wall to the other. Then the time step is halved and grows no more. With a smaller number long descents take more
@@ -42,12 +42,12 @@ const PATIENCE: usize = 100;
 const LONGEST_TIME_STEP: f64 = 1e3;
 /// Time step over the damping time: the unconstrained shape loses half of its bend in a step of 1.
 const TIME_STEP: f64 = 1.0;
-/// Deepest penetration taken back in one step.
+/// Deepest penetration (L) that one step takes back.
 const DEEPEST_PUSH: f64 = 0.03;
-/// How far walls give way to a unit of force where they leave the chain no other way.
+/// Way (L) by which walls give way to a unit of force, where the linearised walls leave no room.
 const YIELDING: f64 = 1e-5;
 
-/// Turns of a joint below this are what rounding leaves of none.
+/// Turn (rad) of a joint of a straight chain by rounding.
 const STRAIGHT: f64 = 1e-9;
 
 /// Ends of the links, the clamp first.

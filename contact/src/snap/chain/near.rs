@@ -6,10 +6,10 @@ use crate::scene::world::{Foot, World};
 use rod_contours::{Bounds, StretchKind};
 use rod_core::Section;
 
-/// Most stretches that a link is kept from entering in one step: of fine teeth the nearest ones.
+/// Largest number of stretches that a link is kept out of in one step: of fine teeth the nearest. More make the programme larger.
 const MOST_A_LINK: usize = 6;
 
-/// Curvature (1 / L) of the contour beyond which a link may lie on it between its nodes: its radius is two links.
+/// Curvature (1 / L) of the contour above which a link may rest on it between two nodes: a radius of two links.
 const SHARPEST: f64 = 0.5 * LINKS as f64;
 
 /// A point of the chain near the contour: a node, or the point of a link that is next to a corner.

@@ -3,11 +3,11 @@
 use super::programme::{Programme, dot};
 use nalgebra::{DMatrix, DVector};
 
-/// Rounds after which the contact set is given up.
+/// Limit of rounds of block pivoting, which may cycle.
 const MOST_ROUNDS: usize = 12;
-/// A gap that is closed but for rounding.
+/// Rounding of a closed gap (L).
 const CLOSED: f64 = 1e-13;
-/// Least share of what a node gives way that the others leave it; below it two of them are one, but for rounding.
+/// Least pivot of the factorisation, relative. Below it two of the nodes are one by rounding.
 const LEAST_PIVOT: f64 = 1e-10;
 
 /// The forces under which no node goes through a wall, none pulls, and only closed gaps press. Nearly every step has so few
