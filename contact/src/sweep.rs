@@ -268,6 +268,10 @@ impl<'a> Sweep<'a> {
         // a free rod has no fold to get over
         let kicks = TOUCH_KICK.into_iter().filter(|_| last.count() == 0).chain(KICK);
         for kick in kicks {
+            // from inside an object the descent leads anywhere
+            if self.is_clamp_inside(tau + kick) {
+                continue;
+            }
             let Landed { here, ahead } = self.land(&last, tau, kick);
             // a free rod that touches something and stays free has gone past it
             let elsewhere = |landed: &Configuration| last.count() + landed.count() > 0;
@@ -326,6 +330,11 @@ impl<'a> Sweep<'a> {
         let way = (to.x - from.x).hypot(to.y - from.y);
         let slips = landed.contacts[tip].stretch != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
         slips.then_some(landed)
+    }
+
+    /// Whether the clamp is inside an object at `tau`.
+    fn is_clamp_inside(&mut self, tau: f64) -> bool {
+        self.stepper.scan(&Configuration::free(tau)).clamp_inside
     }
 
     /// Whether the rod is next to an end of an open contour.
