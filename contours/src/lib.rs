@@ -71,6 +71,7 @@ mod reversed;
 mod run;
 mod search;
 mod self_crossing;
+mod shared;
 mod span;
 mod spline;
 mod stretch;
