@@ -61,11 +61,13 @@ pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 pub use brent::{Root, find_root};
 pub use dual::Dual;
 #[cfg(feature = "std")]
-pub use elastica::{Elastica, Load};
+pub use elastica::Elastica;
 pub use error::RodError;
 #[cfg(feature = "std")]
 pub use general::GeneralElastica;
 pub use inflection::inflection;
+#[cfg(feature = "std")]
+pub use loads::Load;
 #[cfg(feature = "std")]
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
 #[cfg(feature = "std")]
