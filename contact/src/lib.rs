@@ -44,6 +44,8 @@ mod snap;
 mod stability;
 mod state;
 mod sweep;
+#[cfg(feature = "serde")]
+mod unbounded;
 
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};

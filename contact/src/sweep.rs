@@ -22,6 +22,7 @@ use std::f64::consts::PI;
 
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Item {
     /// The equilibrium at a pose that is reported.
     State(State),
@@ -30,7 +31,9 @@ pub enum Item {
 }
 
 /// All of a sweep.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Outcome {
     /// States at start, start + step, ...
     pub states: Vec<State>,
@@ -141,7 +144,7 @@ impl<'a> Sweep<'a> {
 
     /// Runs to the end and keeps everything.
     pub fn run(self) -> Outcome {
-        let mut outcome = Outcome { states: Vec::new(), events: Vec::new(), stop: None };
+        let mut outcome = Outcome::default();
         for item in self {
             match item {
                 Ok(Item::State(state)) => outcome.states.push(state),

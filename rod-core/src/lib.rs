@@ -22,7 +22,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod agm;
-#[cfg(feature = "std")]
+#[cfg(feature = "argmin")]
 mod argmin_newton;
 mod basis;
 #[cfg(feature = "std")]
@@ -43,7 +43,7 @@ mod loads;
 mod multipoint;
 #[cfg(feature = "std")]
 mod newton;
-#[cfg(feature = "std")]
+#[cfg(feature = "ode")]
 mod ode;
 mod pose;
 #[cfg(feature = "std")]
@@ -55,7 +55,7 @@ mod segment;
 mod units;
 mod walk;
 
-#[cfg(feature = "std")]
+#[cfg(feature = "argmin")]
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
 pub use brent::{Root, find_root};
@@ -72,7 +72,7 @@ pub use loads::Load;
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
 #[cfg(feature = "std")]
 pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
-#[cfg(feature = "std")]
+#[cfg(feature = "ode")]
 pub use ode::{Method, Ode};
 pub use pose::{Pose, Reactions};
 #[cfg(feature = "std")]

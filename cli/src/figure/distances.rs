@@ -7,7 +7,7 @@ use super::palette::{INK, MUTED, OTHERS, RGBColor};
 use super::plane::Window;
 use crate::paper::naive::{Naive, NaivePoint, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
-use vibrissa::{Comparison, ContourEstimate};
+use vibrissa::reconstruct::{Comparison, ContourEstimate};
 
 /// Width of an object, height of the title and keys, of a row's title, and of an object's name, pixels.
 const WIDTH: u32 = PAGE / 3;

@@ -5,7 +5,8 @@ use super::element::Element;
 use super::palette::{INK, WHITE, colour, ink_on};
 use crate::Scan;
 use std::collections::BTreeMap;
-use vibrissa::{EventKind, Label, Phase};
+use vibrissa::Label;
+use vibrissa::contact::{EventKind, Phase};
 
 const SIZE: (u32, u32) = (1400, 880);
 /// Half the width and height of a box, pixels.
