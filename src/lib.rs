@@ -14,6 +14,9 @@ pub use rod_hw as hw;
 #[doc(inline)]
 pub use rod_reconstruct as reconstruct;
 
+#[cfg(any(doc, doctest))]
+pub mod guide;
+
 // What a first program needs. No globs: a name that one package gains cannot clash with that of another.
 #[doc(inline)]
 pub use rod_contact::{ClampPath, Event, State, Sweep, equilibrium};

@@ -1,4 +1,4 @@
-//! Mechanics of one thin elastic rod, planar and inextensible, with large deflections (Euler-Bernoulli, elastica).
+#![doc = include_str!("../README.md")]
 //!
 //! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts.
 //! - [`Sample`]: where the clamp was and what it felt, as a sensor measures it.
