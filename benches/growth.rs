@@ -12,7 +12,8 @@ use measure::{Time, interleaved, is_timed, machine, verdict};
 use rayon::prelude::*;
 use std::hint::black_box;
 use std::time::Instant;
-use vibrissa::{Composite, NewtonWorkspace, Rod};
+use vibrissa::rod::NewtonWorkspace;
+use vibrissa::{Composite, Rod};
 
 /// Numbers of pieces, the first one those that the rod meets.
 const SIZES: [usize; 6] = [FEW, 100, 1000, 10_000, 100_000, 1_000_000];

@@ -18,9 +18,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::hint::black_box;
 use std::process::{Command, ExitCode};
-use vibrissa::{
-    ClampPath, Composite, NewtonWorkspace, Pose, Rod, Sample, Sweep, advance, advance_with_sensitivities, single, walk,
-};
+use vibrissa::reconstruct::single;
+use vibrissa::rod::{NewtonWorkspace, advance, advance_with_sensitivities, walk};
+use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, Sweep};
 
 /// What is kept, beside this file.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.csv");
@@ -72,7 +72,7 @@ fn works() -> Vec<Work> {
             [1, 5],
             repeated(|segments| {
                 for measure::Segment { start, a, b, s } in segments {
-                    let start = vibrissa::Section {
+                    let start = vibrissa::rod::Section {
                         x: start.x as f32,
                         y: start.y as f32,
                         phi: start.phi as f32,

@@ -8,7 +8,7 @@ mod measure;
 use criterion::{Criterion, Throughput};
 use measure::{Segment, Time, interleaved, is_timed, kernel, machine, segments, verdict};
 use std::hint::black_box;
-use vibrissa::{Cut, Method, Ode, Propagator, Section, advance_with_sensitivities, walk};
+use vibrissa::rod::{Cut, Method, Ode, Propagator, Section, advance_with_sensitivities, walk};
 
 /// Interleaved rounds.
 const ROUNDS: usize = 60;

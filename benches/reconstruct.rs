@@ -9,10 +9,10 @@ use measure::objects::{OBJECTS, path, sweep};
 use measure::{Time, interleaved, is_timed, kernel, machine, segments};
 use nalgebra::{Matrix3, Vector3};
 use std::hint::black_box;
-use vibrissa::noise_estimate::ChannelNoise;
-use vibrissa::{
-    Assembly, Label, Live, LiveSettings, NoiseModel, Reactions, Rod, Sample, Settings, reconstruct, single,
-};
+use vibrissa::reconstruct::noise_estimate::ChannelNoise;
+use vibrissa::reconstruct::{Assembly, Live, LiveSettings, NoiseModel, single};
+use vibrissa::rod::Reactions;
+use vibrissa::{Label, Rod, Sample, Settings, reconstruct};
 
 /// A scan of O1 at q = 0.4 recorded at 500 Hz and 1 mm/s with a rod of 100 mm, all contact phases within.
 const WAY: (f64, f64) = (0.68, -0.62);

@@ -8,7 +8,8 @@ use measure::objects::{COEFFICIENT, OBJECTS, path, sweep};
 use measure::{Random, Time, interleaved, is_timed};
 use std::f64::consts::PI;
 use std::hint::black_box;
-use vibrissa::{Bounds, CircularArc, Closest, Composite, Contour, EllipticArc, Frame, Graph, Line, Parabola, Range};
+use vibrissa::contour::{Bounds, Closest, Frame, Range};
+use vibrissa::{CircularArc, Composite, Contour, EllipticArc, Graph, Line, Parabola};
 
 /// Points a round, and rounds.
 const POINTS: usize = 512;

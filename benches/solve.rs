@@ -9,7 +9,7 @@ mod measure;
 use criterion::{Criterion, Throughput};
 use measure::solves::{Case, PHASES, solve_all, warm};
 use measure::{Time, interleaved, is_timed, kernel, machine, segments};
-use vibrissa::{MultiPoint, NewtonOptions, NewtonWorkspace, solve};
+use vibrissa::rod::{MultiPoint, NewtonOptions, NewtonWorkspace, solve};
 
 /// Solves all cases and returns the mean number of iterations, after a look at the solutions.
 fn check(cases: &[Case]) -> f64 {

@@ -1,17 +1,29 @@
 #![doc = include_str!("../README.md")]
 
-// Not as `core`: that would hide Rust's own from whoever imports everything.
-pub use {rod_contact, rod_contours, rod_core, rod_reconstruct};
-
-// A world of its own, whose names (link, unit, step) would crowd those of the rod.
+// The modules have the names of the field, not those of the packages.
+#[doc(inline)]
+pub use rod_contact as contact;
+#[doc(inline)]
+pub use rod_contours as contour;
+#[doc(inline)]
+pub use rod_core as rod;
+#[cfg(feature = "hw")]
 #[doc(inline)]
 pub use rod_hw as hw;
+#[cfg(feature = "reconstruct")]
+#[doc(inline)]
+pub use rod_reconstruct as reconstruct;
 
+#[cfg(any(doc, doctest))]
+pub mod guide;
+
+// What a first program needs. No globs: a name that one package gains cannot clash with that of another.
 #[doc(inline)]
-pub use rod_contact::*;
+pub use rod_contact::{ClampPath, Event, State, Sweep, equilibrium};
 #[doc(inline)]
-pub use rod_contours::*;
+pub use rod_contours::{Bezier, CircularArc, Composite, Contour, Curve, EllipticArc, Graph, Line, Parabola, Spline};
 #[doc(inline)]
-pub use rod_core::*;
+pub use rod_core::{Pose, Rod, Sample};
+#[cfg(feature = "reconstruct")]
 #[doc(inline)]
-pub use rod_reconstruct::*;
+pub use rod_reconstruct::{Label, Settings, reconstruct};

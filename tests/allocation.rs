@@ -6,12 +6,14 @@ use allocation_counter::measure;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::hint::black_box;
-use vibrissa::noise_estimate::ChannelNoise;
-use vibrissa::{
-    Ar1, ContactKind, Dropout, Hold, Label, Live, LiveSettings, MultiPoint, NewtonOptions, NewtonWorkspace, NoiseModel,
-    Pose, Reactions, Rod, Sample, Section, State, Support, Supports, advance, advance_with_sensitivities, single,
-    solve, walk,
+use vibrissa::contact::ContactKind;
+use vibrissa::reconstruct::noise_estimate::ChannelNoise;
+use vibrissa::reconstruct::{Ar1, Dropout, Live, LiveSettings, NoiseModel, single};
+use vibrissa::rod::{
+    Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Section, Support, Supports, advance,
+    advance_with_sensitivities, solve, walk,
 };
+use vibrissa::{Label, Pose, Rod, Sample, State};
 
 #[test]
 fn the_counter_counts() {

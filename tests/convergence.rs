@@ -13,9 +13,9 @@
 
 use crate::common::{Scene, UP};
 use std::f64::consts::{PI, TAU};
-use vibrissa::{
-    CircularArc, ClampPath, Composite, Contour, Frame, Outcome, Parabola, Pose, Rod, Spline, SplineEnd, State, Sweep,
-};
+use vibrissa::contact::Outcome;
+use vibrissa::contour::{Frame, SplineEnd};
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, Parabola, Pose, Rod, Spline, State, Sweep};
 
 /// Poses nearer than this to a transition are left out: on which side of it they are may differ.
 const AWAY: f64 = 0.02;

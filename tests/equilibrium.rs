@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use vibrissa::{EventKind, Outcome, Pose};
+use vibrissa::Pose;
+use vibrissa::contact::{EventKind, Outcome};
 
 const CASES: u32 = 150;
 

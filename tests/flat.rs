@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use vibrissa::{ClampPath, Composite, Curve, DualNum, Graph, Line, Motion, Moved, Outcome, Pose, Range, Rod, Sweep};
+use vibrissa::contact::Outcome;
+use vibrissa::contour::{DualNum, Motion, Moved, Range};
+use vibrissa::{ClampPath, Composite, Curve, Graph, Line, Pose, Rod, Sweep};
 
 fn swept(contour: &Composite, from: [f64; 2], to: [f64; 2], phi: f64, step: f64) -> Outcome {
     let pose = |[x, y]: [f64; 2]| Pose { x, y, phi };
@@ -14,7 +16,7 @@ fn swept(contour: &Composite, from: [f64; 2], to: [f64; 2], phi: f64, step: f64)
 fn superellipse(n: f64, turn: f64) -> Composite {
     let curve = Curve::new(Range { from: -0.3, to: TAU - 0.3 }, move |t| {
         let (sin, cos) = t.sin_cos();
-        let power = |x: vibrissa::Jet| (x * x).powf(0.5 * n);
+        let power = |x: vibrissa::contour::Jet| (x * x).powf(0.5 * n);
         let r = (power(cos) + power(sin)).powf(-1.0 / n);
         [r * cos, r * sin]
     });

@@ -5,7 +5,8 @@ use crate::common::bumps::Bumps;
 use crate::common::judge::judge;
 use crate::common::{OBJECTS, Scene, UP, difference};
 use std::f64::consts::PI;
-use vibrissa::{ContactKind, EventKind, Outcome, Phase, Pose, StopReason};
+use vibrissa::Pose;
+use vibrissa::contact::{ContactKind, EventKind, Outcome, Phase, StopReason};
 
 /// Runs to the end, with every state judged.
 fn judged(scene: &Scene) -> Outcome {

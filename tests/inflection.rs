@@ -1,7 +1,9 @@
 //! The last contact at an inflection of a smooth contour: one parts into two, and the two run together again.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use vibrissa::{ClampPath, Composite, Event, EventKind, Graph, Outcome, Pose, Range, Rod, Sweep};
+use vibrissa::contact::{EventKind, Outcome};
+use vibrissa::contour::Range;
+use vibrissa::{ClampPath, Composite, Event, Graph, Pose, Rod, Sweep};
 
 /// Rate of the contour's curvature at its inflection, in x = 0.
 const RATE: f64 = 1.8;

@@ -5,10 +5,11 @@ use crate::common::bumps::Bump;
 use crate::common::golden::golden;
 use crate::common::{OBJECTS, Scene, close};
 use serde_json::Value;
-use vibrissa::{
-    Contact, ContactKind, Elastica, Event, EventKind, Hold, Load, MultiPoint, NewtonOptions, NewtonWorkspace, Outcome,
-    Pose, Reactions, Rod, State, Support, Supports, Units, solve,
+use vibrissa::contact::{Contact, ContactKind, EventKind, Outcome};
+use vibrissa::rod::{
+    Elastica, Hold, Load, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Support, Supports, Units, solve,
 };
+use vibrissa::{Event, Pose, Rod, State};
 
 const FILES: [(&str, &str); 3] = [
     ("O1_q40", include_str!("data/reference/O1_q40.json")),

@@ -2,10 +2,9 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::f64::consts::PI;
-use vibrissa::{
-    CircularArc, ClampPath, Composite, Contour, EventKind, Line, Motion, Outcome, Parabola, Pose, Rod, StopReason,
-    Sweep,
-};
+use vibrissa::contact::{EventKind, Outcome, StopReason};
+use vibrissa::contour::Motion;
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, Line, Parabola, Pose, Rod, Sweep};
 
 const UP: f64 = std::f64::consts::FRAC_PI_2;
 

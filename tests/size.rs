@@ -9,7 +9,9 @@ mod waves;
 use allocation_counter::measure;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use vibrissa::{Bounds, Closest, Composite, Contour, Frame, Outcome, Range};
+use vibrissa::contact::Outcome;
+use vibrissa::contour::{Bounds, Closest, Frame, Range};
+use vibrissa::{Composite, Contour};
 use waves::{FEW, Kind, difference, objects, pieces_met, shapes, sweep};
 
 /// Pieces of a long contour, and of one that is just too long for all of them to be looked at each time.

@@ -10,6 +10,8 @@ mod hard;
 mod hard_cases;
 mod hard_starts;
 mod inflection;
+#[cfg(feature = "serde")]
+mod json;
 mod phase_criterion;
 mod reference;
 mod reference_set;

@@ -4,7 +4,8 @@
 use crate::common::bumps::Bumps;
 use crate::common::{OBJECTS, Scene, UP, difference};
 use std::f64::consts::PI;
-use vibrissa::{Event, Outcome, Pose, State};
+use vibrissa::contact::Outcome;
+use vibrissa::{Event, Pose, State};
 
 fn paper_scenes() -> impl Iterator<Item = Scene> {
     OBJECTS.into_iter().flat_map(|(_, y1, y2)| [0.2, 0.4, 0.6].into_iter().map(move |q| Scene::paper(y1, y2, q)))
@@ -38,13 +39,11 @@ fn assert_same_outcome(what: &str, a: &Outcome, b: &Outcome) {
 }
 
 /// Every number of a state through a change of units or a mirror, then compared.
-fn mapped(outcome: Outcome, map: impl Fn(State) -> State) -> Outcome {
+fn mapped(mut outcome: Outcome, map: impl Fn(State) -> State) -> Outcome {
     let event = |e: Event| Event { kind: e.kind, before: map(e.before), after: map(e.after) };
-    Outcome {
-        states: outcome.states.into_iter().map(&map).collect(),
-        events: outcome.events.into_iter().map(event).collect(),
-        stop: outcome.stop,
-    }
+    outcome.states = outcome.states.into_iter().map(&map).collect();
+    outcome.events = outcome.events.into_iter().map(event).collect();
+    outcome
 }
 
 /// The sweep of a rod of another length and stiffness, back in dimensionless numbers by the scaling law.

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 use std::ops::RangeBounds;
 use std::time::Instant;
-use vibrissa::{Section, advance};
+use vibrissa::rod::{Section, advance};
 
 /// Seconds a unit of work.
 #[derive(Clone, Copy, Debug)]

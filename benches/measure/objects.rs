@@ -2,7 +2,8 @@
 #![allow(dead_code, reason = "each bench takes what it needs")]
 
 use std::f64::consts::FRAC_PI_2;
-use vibrissa::{ClampPath, Composite, Outcome, Parabola, Pose, Rod, Sweep};
+use vibrissa::contact::Outcome;
+use vibrissa::{ClampPath, Composite, Parabola, Pose, Rod, Sweep};
 
 /// Coefficient of the parabolas.
 pub const COEFFICIENT: f64 = 5.0;

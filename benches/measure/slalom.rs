@@ -3,10 +3,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::hint::black_box;
-use vibrissa::{
-    CircularArc, Composite, Contact, ContactKind, Equilibrium, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose,
-    Rod, Support, Supports, equilibrium, solve,
-};
+use vibrissa::contact::{Contact, ContactKind, Equilibrium};
+use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, solve};
+use vibrissa::{CircularArc, Composite, Pose, Rod, equilibrium};
 
 /// Radius of the discs, and how far each pushes the rod out of its straight line.
 const RADIUS: f64 = 0.02;

@@ -4,10 +4,10 @@
 use super::objects::{OBJECTS, path, rod, sweep};
 use std::f64::consts::PI;
 use std::hint::black_box;
-use vibrissa::{
-    ContactKind, Contour, Frame, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Parabola, Pose, State, Support,
-    Supports, solve,
-};
+use vibrissa::contact::ContactKind;
+use vibrissa::contour::Frame;
+use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, solve};
+use vibrissa::{Contour, Parabola, Pose, State};
 
 /// The phases of that sweep with their contacts from the clamp to the tip.
 pub const PHASES: [&str; 4] = ["A", "B", "BB", "BA"];

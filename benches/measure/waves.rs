@@ -2,9 +2,9 @@
 #![allow(dead_code, reason = "each bench or test takes what it needs")]
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use vibrissa::{
-    CircularArc, ClampPath, Composite, Contour, Event, Outcome, Parabola, Pose, Rod, Spline, SplineEnd, State, Sweep,
-};
+use vibrissa::contact::Outcome;
+use vibrissa::contour::SplineEnd;
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, Event, Parabola, Pose, Rod, Spline, State, Sweep};
 
 /// Pieces of the contour that is cut off.
 pub const FEW: usize = 10;

@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 use crate::shooting::Shooting;
 use std::cell::Cell;
 use std::hint::black_box;
-use vibrissa::{NewtonOptions, NewtonWorkspace, System, solve};
+use vibrissa::rod::{NewtonOptions, NewtonWorkspace, System, solve};
 
 pub const PHASES: [&str; 6] = ["A", "B", "BA", "BB", "BBA", "BBB"];
 pub const KERNEL: &str = "one segment";

@@ -3,7 +3,8 @@
 use crate::held::Case;
 use crate::problem::{Holds, Shape};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use vibrissa::{NewtonOptions, NewtonWorkspace, Pose, Supports, solve};
+use vibrissa::Pose;
+use vibrissa::rod::{NewtonOptions, NewtonWorkspace, Supports, solve};
 
 /// How far the clamp is moved for a warm start, and in how many directions, so that no branch predictor learns one solve by
 /// heart.

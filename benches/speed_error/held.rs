@@ -2,7 +2,9 @@
 
 use crate::problem::{Holds, Problem, Shape};
 use std::f64::consts::PI;
-use vibrissa::{Contour, Frame, Hold, MultiPoint, Parabola, Pose, Support, Supports};
+use vibrissa::contour::Frame;
+use vibrissa::rod::{Hold, MultiPoint, Support, Supports};
+use vibrissa::{Contour, Parabola, Pose};
 
 /// Supports of all the shapes of the reference set, each with a parameter of its own: x from the vertex of a parabola, the
 /// tangent angle on a circle and at a corner, the way along a line.

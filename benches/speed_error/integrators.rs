@@ -1,7 +1,7 @@
 //! What integrates a segment instead of the closed form, at each of its settings.
 
 use crate::rk4::FixedSteps;
-use vibrissa::{Method, Ode, Propagator};
+use vibrissa::rod::{Method, Ode, Propagator};
 
 /// An integrator at one setting.
 pub struct Integrator {

@@ -6,7 +6,9 @@ use crate::point::{Point, median_and_worst};
 use crate::problem::Problem;
 use nalgebra::Matrix3;
 use std::hint::black_box;
-use vibrissa::{GeneralError, Pose, Reactions, Rod, Touch, Units, single, single_general};
+use vibrissa::reconstruct::{GeneralError, Touch, single, single_general};
+use vibrissa::rod::{Reactions, Units};
+use vibrissa::{Pose, Rod};
 
 pub const TASK: &str = "inversion";
 const CLOSED: &str = "closed form";

@@ -4,7 +4,7 @@ use argmin::core::{CostFunction, Error, Executor, Gradient, Hessian, Jacobian, O
 use argmin::solver::gaussnewton::GaussNewton;
 use argmin::solver::trustregion::{Dogleg, TrustRegion};
 use nalgebra::{DMatrix, DVector};
-use vibrissa::{NewtonOptions, NewtonSolver, RootProblem, System};
+use vibrissa::rod::{NewtonOptions, NewtonSolver, RootProblem, System};
 
 /// Iterations after which a solver that does not come to an end has not converged.
 const MOST: u64 = 60;

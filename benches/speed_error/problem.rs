@@ -3,7 +3,8 @@
 use crate::exact::Exact;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
-use vibrissa::{Pose, Section};
+use vibrissa::Pose;
+use vibrissa::rod::Section;
 
 /// Problems that lose more digits than this, relative changes of results by those of inputs, tell of themselves more than of the
 /// method.

@@ -1,7 +1,7 @@
 //! The classical Runge-Kutta method with a given number of equal steps. The only file that knows the crate `ode_solvers`.
 
 use ode_solvers::{Rk4, System, Vector4};
-use vibrissa::{Cut, Propagator, RodError};
+use vibrissa::rod::{Cut, Propagator, RodError};
 
 /// A uniform straight rod, integrated in so many steps a segment.
 #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@
 //! In phase A two unknowns stay, for the arc length is given and the angle free: that is no problem for Brent's method.
 
 use crate::held::Case;
-use vibrissa::{Hold, RodError, Section, Supports, advance, find_root, inflection};
+use vibrissa::rod::{Hold, RodError, Section, Supports, advance, find_root, inflection};
 
 /// How often a bracket is widened, to twice its width.
 const WIDENED: u32 = 10;

@@ -6,7 +6,7 @@ use crate::point::{Point, median_and_worst};
 use crate::problem::Problem;
 use std::hint::black_box;
 use std::rc::Rc;
-use vibrissa::{Cut, Propagator, Section, advance, advance_with_sensitivities, walk};
+use vibrissa::rod::{Cut, Propagator, Section, advance, advance_with_sensitivities, walk};
 
 pub const TASK: &str = "segment";
 pub const KERNEL: &str = "closed form";

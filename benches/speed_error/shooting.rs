@@ -1,7 +1,7 @@
 //! The boundary-value problem by shooting through an integrator, with a Jacobian of differences.
 
 use crate::integrators::Integrator;
-use vibrissa::{Cut, MultiPoint, Segment, Supports, System};
+use vibrissa::rod::{Cut, MultiPoint, Segment, Supports, System};
 
 /// Differences of what is exact to rounding: the root of the rounding.
 const LEAST_STEP: f64 = 2e-8;

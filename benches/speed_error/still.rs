@@ -5,7 +5,8 @@ use crate::point::Point;
 use crate::problem::Shape;
 use crate::row::NONE;
 use std::hint::black_box;
-use vibrissa::{ClampPath, Composite, Contour, Item, Line, Parabola, Pose, Rod, State, Sweep};
+use vibrissa::contact::Item;
+use vibrissa::{ClampPath, Composite, Contour, Line, Parabola, Pose, Rod, State, Sweep};
 
 pub const TASK: &str = "static contact";
 

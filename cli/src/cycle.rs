@@ -1,7 +1,7 @@
 //! The phases of a scan in order.
 
 use std::fmt;
-use vibrissa::{Outcome, Phase};
+use vibrissa::contact::{Outcome, Phase};
 
 /// The cycles of Merker et al. (2020), fig. 8a: name and phases.
 pub(crate) const CYCLES: [(&str, &str); 3] = [("C1", "A B BB B A"), ("C2", "A B BB BA B A"), ("C3", "A B A BA B A")];
@@ -52,7 +52,7 @@ impl fmt::Display for Cycle {
 mod tests {
     use super::*;
     use crate::sample::{event, outcome};
-    use vibrissa::EventKind::{FirstContact, Piece, Snap, SnapOff};
+    use vibrissa::contact::EventKind::{FirstContact, Piece, Snap, SnapOff};
 
     #[test]
     fn the_free_ends_and_what_happens_within_a_phase_do_not_show() {

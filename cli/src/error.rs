@@ -4,7 +4,8 @@ use crate::{
     FakeError, FigureError, LiveError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError,
     SimulationError, TruthError,
 };
-use vibrissa::{ContactError, NoiseError};
+use vibrissa::contact::ContactError;
+use vibrissa::reconstruct::NoiseError;
 
 /// Why a command fails.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -19,7 +20,7 @@ pub enum Error {
     Contact(#[from] ContactError),
     /// The reconstruction of a recording.
     #[error(transparent)]
-    Reconstruct(#[from] vibrissa::ReconstructError),
+    Reconstruct(#[from] vibrissa::reconstruct::ReconstructError),
     /// What is asked of its contours.
     #[error(transparent)]
     Profile(#[from] ProfileError),

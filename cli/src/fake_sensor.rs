@@ -6,10 +6,11 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
+use vibrissa::contact::Stop;
 use vibrissa::hw::device::framed::GsvValues;
 use vibrissa::hw::device::rdt::{RdtRecord, RdtScaling};
 use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit};
-use vibrissa::{Reactions, Stop};
+use vibrissa::rod::Reactions;
 
 /// Samples that are made in advance.
 const AHEAD: usize = 4096;

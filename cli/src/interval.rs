@@ -1,6 +1,7 @@
 //! A scan cut at its transitions.
 
-use vibrissa::{ClampPath, EventKind, Outcome, Phase, Pose, State};
+use vibrissa::contact::{EventKind, Outcome, Phase};
+use vibrissa::{ClampPath, Pose, State};
 
 /// A part of a scan between two transitions.
 #[derive(Clone, Debug)]

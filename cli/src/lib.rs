@@ -1,3 +1,5 @@
+#![doc = include_str!("../README.md")]
+//!
 //! What the command `vibrissa` does, without the printing: scene files, the files and figures of a sweep and of
 //! contours, recordings and what they tell, the nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]

@@ -11,7 +11,8 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use vibrissa::{NoiseModel, Stop};
+use vibrissa::contact::Stop;
+use vibrissa::reconstruct::NoiseModel;
 use vibrissa_cli::{
     Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene,
     SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output, read_noise,

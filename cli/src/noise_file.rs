@@ -5,7 +5,7 @@ use crate::toml_file::{self, Fault, place_of};
 use serde::Deserialize;
 use std::path::Path;
 use toml::de::{DeTable, Deserializer};
-use vibrissa::{NoiseError, NoiseModel};
+use vibrissa::reconstruct::{NoiseError, NoiseModel};
 
 /// The noise model in a TOML file, SI units: any of the tables `gain`, `offset`, `white`, `ar1`, `random_walk`,
 /// `quantum`, `dropout` and the matrix `crosstalk`, as [`NoiseModel`] has them.

@@ -1,8 +1,8 @@
 //! Made-up outcomes for tests: what happened and where, without mechanics.
 
-use vibrissa::{
-    Certificate, ClampPath, Contact, ContactKind, Event, EventKind, GapBounds, Outcome, Pose, Reactions, State,
-};
+use vibrissa::contact::{Certificate, Contact, ContactKind, EventKind, GapBounds, Outcome};
+use vibrissa::rod::Reactions;
+use vibrissa::{ClampPath, Event, Pose, State};
 
 fn pose(x: f64) -> Pose {
     Pose { x, y: 0.0, phi: 0.0 }
@@ -34,7 +34,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
         certificate: Certificate {
             residual: 0.0,
             min_gap: GapBounds { lower: 0.0, seen: 0.0, proven: true },
-            min_force: 0.0,
+            min_force: None,
             first_integral: 0.0,
             stable: true,
             condition: 1.0,
@@ -50,5 +50,8 @@ pub(crate) fn event(x: f64, from: &str, to: &str, kind: EventKind) -> Event {
 
 /// A sweep that was not stopped.
 pub(crate) fn outcome(states: &[(f64, &str)], events: Vec<Event>) -> Outcome {
-    Outcome { states: states.iter().map(|&(x, phase)| state(x, phase)).collect(), events, stop: None }
+    let mut outcome = Outcome::default();
+    outcome.states.extend(states.iter().map(|&(x, phase)| state(x, phase)));
+    outcome.events = events;
+    outcome
 }

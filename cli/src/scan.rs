@@ -2,7 +2,7 @@
 
 use crate::interval::{self, Interval};
 use crate::{Cycle, Error, Interrupt, Interrupted, Scene};
-use vibrissa::{Item, Outcome};
+use vibrissa::contact::{Item, Outcome};
 
 /// A scene and all its states and events.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ impl Scan {
     /// # Errors
     /// As [`run`](Self::run).
     pub fn run_until(scene: Scene, interrupt: &Interrupt) -> Result<Self, Error> {
-        let mut outcome = Outcome { states: Vec::new(), events: Vec::new(), stop: None };
+        let mut outcome = Outcome::default();
         let (mut pose, mut interrupted) = (None, None);
         let mut sweep = scene.sweep()?;
         loop {

@@ -1,7 +1,7 @@
 //! The list of shapes that a scene can have.
 
 use crate::table::Table;
-use vibrissa::description::{FieldUnit, Shape};
+use vibrissa::contour::description::{FieldUnit, Shape};
 
 /// The shapes of scene files with their fields, types, units in scene files, and meanings.
 ///

@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use vibrissa::description::Shape;
+use vibrissa::contour::description::Shape;
 use vibrissa_cli::Scene;
 
 fn scenes(folder: &str) -> Vec<PathBuf> {
@@ -28,7 +28,7 @@ fn every_shape_has_a_section_and_a_small_picture() {
     let page = fs::read_to_string(docs.join("shapes.md")).unwrap();
     for name in Shape::NAMES {
         assert!(page.contains(&format!("\n## {name}\n")), "{name}");
-        assert!(page.contains(&format!("](shapes/{name}.svg)")), "{name}");
+        assert!(page.contains(&format!("][shapes/{name}.svg]\n")), "{name}");
         assert!(fs::metadata(docs.join(format!("shapes/{name}.svg"))).unwrap().len() < 60_000, "{name}");
         let scene = fs::read_to_string(docs.join(format!("shapes/{name}.toml"))).unwrap();
         assert!(scene.contains(&format!("shape = \"{name}\"")), "{name}");

@@ -4,7 +4,7 @@
 mod common;
 
 use common::judge::judge;
-use vibrissa::EventKind;
+use vibrissa::contact::EventKind;
 use vibrissa_cli::{Scan, Scene};
 
 /// Centre at the origin, sides of 40 mm. Side angles: 0 and 90 degrees, and every multiple of 60, plus the rotation.

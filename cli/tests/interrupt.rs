@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use vibrissa::{NoiseModel, Rod};
+use vibrissa::Rod;
+use vibrissa::reconstruct::NoiseModel;
 use vibrissa_cli::{Error, Interrupt, Paper, Reading, Recording, Scan, Scene, Simulation, Staged};
 
 /// The first wait before a signal; each try doubles it.

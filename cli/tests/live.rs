@@ -10,7 +10,9 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
-use vibrissa::{NoiseModel, Pose, Reactions, Sample, single};
+use vibrissa::reconstruct::{NoiseModel, single};
+use vibrissa::rod::Reactions;
+use vibrissa::{Pose, Sample};
 use vibrissa_cli::{Reading, Recording, Scene, Simulation, Tick};
 
 /// O1 at q = 0.4 L: A, B, BB, BA, B, A.

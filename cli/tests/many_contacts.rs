@@ -7,7 +7,8 @@ use common::judge::{is_pushed_from_both_sides, judge};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use vibrissa::{Event, EventKind, Phase};
+use vibrissa::Event;
+use vibrissa::contact::{EventKind, Phase};
 use vibrissa_cli::{Scan, Scene};
 
 /// Scene, phases, and the largest number of contacts that any state has.

@@ -3,8 +3,11 @@
 
 use rayon::prelude::*;
 use std::path::Path;
-use vibrissa::kink::KinkKind;
-use vibrissa::{ContactKind, Label, NoiseModel, Reactions, Sample, Settings, State, reconstruct};
+use vibrissa::contact::ContactKind;
+use vibrissa::reconstruct::NoiseModel;
+use vibrissa::reconstruct::kink::KinkKind;
+use vibrissa::rod::Reactions;
+use vibrissa::{Label, Sample, Settings, State, reconstruct};
 use vibrissa_cli::{Scan, Scene};
 
 /// Scene, way between two samples (m) and most contacts at once. Of `scallops` the sweep ends early with small steps.

@@ -339,8 +339,8 @@ fn what_a_recorder_wrote() {
     let sample = |k: i32| ReactionSample {
         t: 0.1 * f64::from(k),
         pose: Pose { x: 1e-3 * f64::from(k), y: -0.04, phi: 1.5 },
-        reactions: vibrissa::Reactions { f0x: 0.1, f0y: 0.2, m0z: 1e-3 },
-        sigma: Some(vibrissa::Reactions { f0x: 1e-3, f0y: 1e-3, m0z: 1e-5 }),
+        reactions: vibrissa::rod::Reactions { f0x: 0.1, f0y: 0.2, m0z: 1e-3 },
+        sigma: Some(vibrissa::rod::Reactions { f0x: 1e-3, f0y: 1e-3, m0z: 1e-5 }),
         systematic: None,
         out_of_plane: OutOfPlane::default(),
         quality: match k {

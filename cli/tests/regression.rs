@@ -5,7 +5,8 @@ mod common;
 
 use common::judge::judge;
 use std::path::Path;
-use vibrissa::{Event, StopReason};
+use vibrissa::Event;
+use vibrissa::contact::StopReason;
 use vibrissa_cli::{Scan, Scene};
 
 fn swept(name: &str) -> Scan {

@@ -16,6 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 /// What a solve for a given contact set came to.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Equilibrium {
     /// The state. Its certificate says whether it can exist: a contact set that is not the right one shows as a force that
     /// pulls, a negative gap, as unstable, or as a contact with an arc length beyond the rod's.

@@ -56,6 +56,7 @@ pub enum ContactError {
 
 /// Why a sweep could not go on. Everything before it stands.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stop {
     /// Where the clamp was.
     pub pose: Pose,
@@ -68,6 +69,7 @@ pub struct Stop {
 /// Why a sweep could not go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum StopReason {
     /// No equilibrium was found for the first pose of the path.
     NoStart,
@@ -90,6 +92,7 @@ pub enum StopReason {
 /// Why a step along a branch of equilibria is refused, and tried at half its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Obstacle {
     /// Newton's method did not converge, or to a point too far from the predicted one.
     NotConverged,

@@ -7,6 +7,7 @@ use std::fmt;
 
 /// What happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum EventKind {
     /// The free rod meets the contour.
@@ -48,6 +49,7 @@ impl fmt::Display for EventKind {
 
 /// A transition, located on the path to 1e-10 of the rod's length or better.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Event {
     /// What happened.
     pub kind: EventKind,

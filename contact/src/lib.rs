@@ -1,23 +1,8 @@
-//! A flexible rod against a rigid, frictionless contour: which contacts there are, how they move, and what the clamp feels.
+#![doc = include_str!("../README.md")]
 //!
 //! [`Sweep`] takes a [`Rod`](rod_core::Rod) along a [`ClampPath`] past one or more
 //! [`Composite`](rod_contours::Composite) contours and hands out states and events as they come; [`equilibrium`] solves
 //! for one pose and one given contact set. Units are SI.
-//!
-//! ```
-//! use rod_contact::{ClampPath, EventKind, Sweep};
-//! use rod_contours::{Composite, Parabola};
-//! use rod_core::{Pose, Rod};
-//! let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9)?;
-//! let contour = Composite::single(Parabola::new([0.0, 0.0], 50.0)?)?;
-//! let up = std::f64::consts::FRAC_PI_2;
-//! let path = ClampPath::new(Pose { x: 0.05, y: -0.04, phi: up }, Pose { x: -0.09, y: -0.04, phi: up })?;
-//! let outcome = Sweep::new(&rod, &contour, path, 1e-3)?.run();
-//! assert!(outcome.stop.is_none());
-//! assert_eq!(outcome.events.last().map(|event| event.kind), Some(EventKind::SnapOff));
-//! assert!(outcome.states.iter().all(|state| state.certificate.stable && state.certificate.residual < 1e-12));
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 //!
 //! How it works: a contact set turns the rod into a multi-point boundary-value problem
 //! ([`MultiPoint`](rod_core::MultiPoint)). The path parameter joins its unknowns, and one linear condition picks a
@@ -44,6 +29,8 @@ mod snap;
 mod stability;
 mod state;
 mod sweep;
+#[cfg(feature = "serde")]
+mod unbounded;
 
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};

@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Which contacts a rod has. Only the last one can be at the tip, so that their number and kind of the last say it all.
+/// With the feature `serde` it is serialised as its name.
 ///
 /// ```
 /// use rod_contact::Phase;
@@ -14,6 +15,11 @@ use std::str::FromStr;
 /// assert!(Phase::FREE < Phase { contacts: 1, tip: false });
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(into = "String", try_from = "String")
+)]
 pub struct Phase {
     /// Number of contacts.
     pub contacts: usize,
@@ -53,6 +59,22 @@ impl FromStr for Phase {
             return Err(ContactError::Phase { name: name.into() });
         }
         Ok(Self { contacts: name.len(), tip: tangential.len() < name.len() })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Phase> for String {
+    fn from(phase: Phase) -> Self {
+        phase.to_string()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<String> for Phase {
+    type Error = ContactError;
+
+    fn try_from(name: String) -> Result<Self, ContactError> {
+        name.parse()
     }
 }
 

@@ -5,6 +5,8 @@ use rod_core::{Elastica, Load, Pose, Reactions, Rod, RodError};
 
 /// How a contact holds the rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum ContactKind {
     /// The rod lies tangentially on a smooth stretch of the contour.
     Tangent,
@@ -16,8 +18,21 @@ pub enum ContactKind {
     Notch,
 }
 
+/// A name in small letters, such as `tangent`.
+impl std::fmt::Display for ContactKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Tangent => "tangent",
+            Self::Tip => "tip",
+            Self::Corner => "corner",
+            Self::Notch => "notch",
+        })
+    }
+}
+
 /// One contact, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Contact {
     /// Number of the object, from 0.
     pub object: usize,
@@ -39,12 +54,21 @@ pub struct Contact {
 
 /// Bounds of the smallest gap between the whole rod and all objects, m. About zero wherever there is a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GapBounds {
     /// The gap is nowhere smaller than this: a bound over all points of the rod, not over samples. Above -1e-9 L in every
     /// state at a pose that a sweep reports, and within 1e-3 of `seen` for a free rod. Minus infinity where nothing is proven:
     /// the rod is inside an object by more than 1e-12 L, as it may be in a state at an event, or the search was given up.
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "crate::unbounded::finite", deserialize_with = "crate::unbounded::or_minus_infinity")
+    )]
     pub lower: f64,
-    /// The smallest gap that was computed; negative: penetration.
+    /// The smallest gap that was computed; negative: penetration. Infinity where there is no object.
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "crate::unbounded::finite", deserialize_with = "crate::unbounded::or_infinity")
+    )]
     pub seen: f64,
     /// Whether `lower` is proven. It is not where the closest points of a shape are themselves looked for among samples
     /// ([`Contour::closest_is_exact`](rod_contours::Contour::closest_is_exact)): then it is as good as they are.
@@ -53,13 +77,14 @@ pub struct GapBounds {
 
 /// How well a state fulfils what defines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate {
     /// Largest residual of the boundary-value problem, dimensionless.
     pub residual: f64,
     /// Bounds of the smallest gap over the whole rod, m.
     pub min_gap: GapBounds,
-    /// Smallest contact force, N; infinite where there is none.
-    pub min_force: f64,
+    /// Smallest contact force, N; none where there is no contact.
+    pub min_force: Option<f64>,
     /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi) along a segment plus its jump,
     /// dimensionless.
     pub first_integral: f64,
@@ -73,6 +98,7 @@ pub struct Certificate {
 
 /// One equilibrium, SI units.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
     /// The clamp.
     pub pose: Pose,

@@ -21,6 +21,7 @@ use std::f64::consts::PI;
 
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Item {
     /// The equilibrium at a pose that is reported.
     State(State),
@@ -29,7 +30,9 @@ pub enum Item {
 }
 
 /// All of a sweep.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Outcome {
     /// States at start, start + step, ...
     pub states: Vec<State>,
@@ -144,7 +147,7 @@ impl<'a> Sweep<'a> {
 
     /// Runs to the end and keeps everything.
     pub fn run(self) -> Outcome {
-        let mut outcome = Outcome { states: Vec::new(), events: Vec::new(), stop: None };
+        let mut outcome = Outcome::default();
         for item in self {
             match item {
                 Ok(Item::State(state)) => outcome.states.push(state),
@@ -278,6 +281,10 @@ impl<'a> Sweep<'a> {
         // a free rod has no fold to get over
         let kicks = TOUCH_KICK.into_iter().filter(|_| here.count() == 0).chain(KICK);
         for kick in kicks {
+            // from inside an object the descent leads anywhere
+            if self.is_clamp_inside(tau + kick) {
+                continue;
+            }
             let Landed { at_pose, ahead } = self.land(here, tau, kick);
             // a free rod that touches something and stays free has gone past it
             let elsewhere = |landed: &Seen| here.count() + landed.configuration.count() > 0;
@@ -340,6 +347,11 @@ impl<'a> Sweep<'a> {
         let way = (to.x - from.x).hypot(to.y - from.y);
         let slips = there != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
         slips.then(|| self.stepper.point(landed))
+    }
+
+    /// Whether the clamp is inside an object at `tau`.
+    fn is_clamp_inside(&mut self, tau: f64) -> bool {
+        self.stepper.scan(&Configuration::free(tau)).clamp_inside
     }
 
     fn jumped(&mut self, last: Seen, landed: Point) -> Point {

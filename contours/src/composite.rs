@@ -1,10 +1,13 @@
 //! Several pieces as one contour.
 
+use std::sync::Arc;
+
 use crate::assembly;
 use crate::index::Index;
 use crate::joint::Joint;
 use crate::piece::Piece;
 use crate::run::{self, Run, Stored};
+use crate::shared::owned;
 use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, Stretch, StretchKind, curvature};
 
@@ -13,6 +16,8 @@ use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, Stretch,
 /// The parameter runs through the pieces by their own parameters, each moved by an offset; the first piece keeps its own.
 /// Between two pieces whose tangents differ by more than 1e-9 rad stands a joint, a stretch of its own as long as the
 /// turn: the point stands still (speed 0) while alpha grows (convex corner, turning +1) or falls (notch, turning -1).
+///
+/// A clone shares the shapes.
 ///
 /// ```
 /// use rod_contours::{Composite, Contour, Parabola, StretchKind};
@@ -28,10 +33,10 @@ use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, Stretch,
 /// assert_eq!(below.frame.speed, 0.0);
 /// # Ok::<(), rod_contours::ContourError>(())
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Composite {
     /// Never empty.
-    pieces: Vec<Piece>,
+    pieces: Arc<Vec<Piece>>,
     /// The stretches in order: twice the piece, and one more for the joint after it.
     order: Vec<u32>,
     /// Turns of a closed contour, 0 for an open one.
@@ -389,7 +394,7 @@ impl Composite {
 
     /// The pieces in order, and the turns of a closed contour (0 for an open one).
     pub(crate) fn taken_apart(self) -> (Vec<Piece>, i32) {
-        (self.pieces, self.turns)
+        (owned(self.pieces), self.turns)
     }
 
     /// Lists the stretches of placed pieces and cuts them into cells.
@@ -434,6 +439,7 @@ impl Composite {
         }
         cells.shrink_to_fit();
         pieces.shrink_to_fit();
+        let pieces = Arc::new(pieces);
         Self { pieces, order, turns, cells, index, runs, run_index, run_boxes, proven, bounds }
     }
 

@@ -148,52 +148,61 @@ pub trait Contour: Send + Sync + Debug {
     }
 }
 
-impl<C: Contour + ?Sized> Contour for Box<C> {
-    fn frame(&self, t: f64) -> Frame {
-        (**self).frame(t)
-    }
+/// A shape behind a pointer, or another thing with a `Deref` to it, is that shape.
+macro_rules! behind_pointer {
+    ($($head:tt)*) => {
+        $($head)* {
+            fn frame(&self, t: f64) -> Frame {
+                (**self).frame(t)
+            }
 
-    fn range(&self) -> Range {
-        (**self).range()
-    }
+            fn range(&self) -> Range {
+                (**self).range()
+            }
 
-    fn closest(&self, x: f64, y: f64) -> Closest {
-        (**self).closest(x, y)
-    }
+            fn closest(&self, x: f64, y: f64) -> Closest {
+                (**self).closest(x, y)
+            }
 
-    fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        (**self).closest_in(range, x, y)
-    }
+            fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+                (**self).closest_in(range, x, y)
+            }
 
-    fn gap(&self, x: f64, y: f64) -> f64 {
-        (**self).gap(x, y)
-    }
+            fn gap(&self, x: f64, y: f64) -> f64 {
+                (**self).gap(x, y)
+            }
 
-    fn bounds(&self) -> Bounds {
-        (**self).bounds()
-    }
+            fn bounds(&self) -> Bounds {
+                (**self).bounds()
+            }
 
-    fn bounds_in(&self, range: Range) -> Bounds {
-        (**self).bounds_in(range)
-    }
+            fn bounds_in(&self, range: Range) -> Bounds {
+                (**self).bounds_in(range)
+            }
 
-    fn cuts(&self, range: Range) -> Vec<f64> {
-        (**self).cuts(range)
-    }
+            fn cuts(&self, range: Range) -> Vec<f64> {
+                (**self).cuts(range)
+            }
 
-    fn is_convex(&self, range: Range) -> bool {
-        (**self).is_convex(range)
-    }
+            fn is_convex(&self, range: Range) -> bool {
+                (**self).is_convex(range)
+            }
 
-    fn curvature_in(&self, range: Range) -> (f64, f64) {
-        (**self).curvature_in(range)
-    }
+            fn curvature_in(&self, range: Range) -> (f64, f64) {
+                (**self).curvature_in(range)
+            }
 
-    fn closest_is_exact(&self) -> bool {
-        (**self).closest_is_exact()
-    }
+            fn closest_is_exact(&self) -> bool {
+                (**self).closest_is_exact()
+            }
 
-    fn trust(&self, seal: Seal) -> Trust {
-        (**self).trust(seal)
-    }
+            fn trust(&self, seal: Seal) -> Trust {
+                (**self).trust(seal)
+            }
+        }
+    };
 }
+
+pub(crate) use behind_pointer;
+
+behind_pointer!(impl<C: Contour + ?Sized> Contour for Box<C>);

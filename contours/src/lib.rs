@@ -1,4 +1,4 @@
-//! Plane contours for contact: what an object looks like to something that touches it.
+#![doc = include_str!("../README.md")]
 //!
 //! A [`Contour`] is the border of a solid, travelled with the SOLID ON ITS LEFT: a point, a tangent angle `alpha` and
 //! their rates at each parameter. From that one method ([`Contour::frame`]) follow the closest point, the signed gap
@@ -9,20 +9,6 @@
 //!
 //! The crate is geometry and nothing else: no rods, no forces, no units. Coordinates may be metres or dimensionless, as
 //! long as one scene uses one kind; angles are radians.
-//!
-//! ```
-//! use rod_contours::{Composite, Contour, Parabola, StretchKind};
-//!
-//! // Two bumps side by side; the solid is above the lower of the two, with a notch where they cross.
-//! let left = Parabola::new([0.0, 0.0], 5.0)?;
-//! let right = Parabola::new([0.3, 0.0], 5.0)?;
-//! let object = Composite::joined(vec![Box::new(left), Box::new(right)])?;
-//! assert_eq!(object.stretch(1).kind, StretchKind::Notch { before: 0 });
-//!
-//! let closest = object.closest(0.3, -0.2);
-//! assert!((closest.gap - 0.2).abs() < 1e-15 && closest.frame.alpha.abs() < 1e-15);
-//! # Ok::<(), rod_contours::ContourError>(())
-//! ```
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod angle;
@@ -71,6 +57,7 @@ mod reversed;
 mod run;
 mod search;
 mod self_crossing;
+mod shared;
 mod span;
 mod spline;
 mod stretch;

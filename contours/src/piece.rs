@@ -32,6 +32,11 @@ impl Piece {
         Self { shape, range, offset: 0.0, turns: 0, stretch: 0, pace: 1.0, turn: 0.0, end: [0.0; 3] }
     }
 
+    /// The same place for a shape that stands for this one.
+    pub fn with_shape(&self, shape: Box<dyn Contour>) -> Self {
+        Self { shape, ..*self }
+    }
+
     /// Measures the pace, once the range is what it stays.
     pub fn set_pace(&mut self) {
         // of a piece that goes on for ever: where it begins, or at 0, as these are the same points in any unit of length

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use rod_contours::{Composite, Contour, Frame, Parabola, Range, StretchKind, contract};
+use rod_contours::{Composite, Contour, Frame, Motion, Parabola, Range, StretchKind, contract};
 
 #[test]
 fn the_objects_of_the_paper() {
@@ -151,4 +151,19 @@ fn a_part_of_a_composite_ends_where_it_is_cut() {
     assert!(!end.interior && end.t == right.from);
     let bounds = wedge.bounds_in(left);
     assert!(bounds.contains(0.0, 1.0) && bounds.max[0] == 0.0);
+}
+
+#[test]
+fn a_clone_is_the_same_contour_and_can_be_taken_apart() {
+    let bump = |x| Box::new(Parabola::new([x, 0.0], 5.0).unwrap()) as Box<dyn Contour>;
+    let contour = Composite::joined(vec![bump(0.0), bump(0.3)]).unwrap();
+    let motion = Motion { rotation: 0.4, mirror: true, ..Motion::default() };
+    let moved = contour.clone().moved(motion).unwrap();
+    let again = Composite::new(contour.clone().into_pieces()).unwrap();
+    let alone = contour.moved(motion).unwrap();
+    for k in -20..20 {
+        let (x, y) = (0.03 * f64::from(k), -0.1);
+        assert_eq!(moved.closest(x, y), alone.closest(x, y));
+    }
+    assert_eq!(again.stretches().len(), alone.stretches().len());
 }

@@ -8,6 +8,7 @@ mod limits;
 mod parabola;
 mod probe;
 mod shapes;
+#[cfg(feature = "serde")]
 mod spline_keys;
 mod spline_smoothing;
 mod splines;

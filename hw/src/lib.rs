@@ -1,4 +1,4 @@
-//! From force/torque sensors and recordings to what the clamp of a rod feels, and where the clamp is.
+#![doc = include_str!("../README.md")]
 //!
 //! - [`sample`]: what comes and goes. [`RawSample`], what a device said, counts or volts with its own time, sequence number and
 //!   status; [`WrenchSample`], force and torque at the sensor's origin; [`ReactionSample`], pose and reactions of the clamp;

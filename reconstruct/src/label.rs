@@ -1,8 +1,6 @@
 //! The contact phases that can be told from reactions.
 
 use core::fmt;
-#[cfg(feature = "std")]
-use serde::{Deserialize, Serialize};
 
 /// The contact phase of a sample, as far as the clamp can tell: how many contacts beyond two there are it cannot.
 ///
@@ -12,10 +10,10 @@ use serde::{Deserialize, Serialize};
 /// assert!(Label::BA.several() && Label::BA.tip() && !Label::B.several());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "std", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Label {
     /// The rod touches nothing.
-    #[cfg_attr(feature = "std", serde(rename = "free"))]
+    #[cfg_attr(feature = "serde", serde(rename = "free"))]
     Free,
     /// One contact, at the tip.
     A,

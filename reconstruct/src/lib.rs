@@ -1,4 +1,4 @@
-//! From what the clamp feels back to the object: contact points, contact phases, contours.
+#![doc = include_str!("../README.md")]
 //!
 //! - [`single`]: the one contact behind the pose of the clamp and what it feels (a [`Sample`]), in closed form, and
 //!   [`single_general`] for rods without one. [`NoContact`]: why there is none.

@@ -6,6 +6,11 @@ use rod_core::Units;
 
 /// Where the rod touches the object, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: Number + serde::Serialize", deserialize = "T: Number + serde::Deserialize<'de>"))
+)]
 pub struct Touch<T = f64> {
     /// Arc length along the rod, m.
     pub s: T,

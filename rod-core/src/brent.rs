@@ -1,8 +1,6 @@
-//! Roots of functions of one variable, by Brent's method. The only file that knows `argmin`'s `BrentRoot`.
+//! Roots of functions of one variable, by Brent's method.
 
 use crate::error::RodError;
-use argmin::core::{CostFunction, Error, Executor, State, TerminationReason, TerminationStatus};
-use argmin::solver::brent::BrentRoot;
 
 /// A root and how well it was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,43 +44,60 @@ pub fn find_root(
     if !(from.is_finite() && to.is_finite() && tolerance >= 0.0) {
         return Err(no_root(format!("bracket from {from} to {to}, tolerance {tolerance}")));
     }
-    let result = Executor::new(Function { what, f: &f }, BrentRoot::new(from, to, tolerance))
-        .configure(|state| state.max_iters(MOST_ITERATIONS))
-        .ctrlc(false)
-        .timer(false)
-        .run();
-    let state = match result {
-        Ok(result) => result.state,
-        // an error of ours comes back unchanged, any other is the solver's
-        Err(error) => return Err(error.downcast::<RodError>().unwrap_or_else(|error| no_root(error.to_string()))),
+    let f = |x: f64| match f(x)? {
+        value if value.is_finite() => Ok(value),
+        // NaN has no sign: the bracket would not hold
+        value => Err(no_root(format!("the value at {x} is {value}"))),
     };
-    if *state.get_termination_status() != TerminationStatus::Terminated(TerminationReason::SolverConverged) {
-        return Err(no_root(format!("{MOST_ITERATIONS} iterations were not enough")));
+    let (mut a, mut b) = (from, to);
+    let (mut fa, mut fb) = (f(a)?, f(b)?);
+    if fa * fb > 0.0 {
+        return Err(no_root(format!("the values at {a} and {b}, {fa} and {fb}, have the same sign")));
     }
-    // not the "best" one, which is the first of equals: the last is the one whose bracket closed
-    match state.get_param() {
-        Some(&at) => Ok(Root { at, residual: f(at)?, iterations: state.get_iter() }),
-        None => Err(no_root("no value".into())),
-    }
-}
-
-struct Function<'a, F> {
-    what: &'static str,
-    f: &'a F,
-}
-
-impl<F: Fn(f64) -> Result<f64, RodError>> CostFunction for Function<'_, F> {
-    type Param = f64;
-    type Output = f64;
-
-    fn cost(&self, x: &f64) -> Result<f64, Error> {
-        let value = (self.f)(*x)?;
-        if value.is_finite() {
-            return Ok(value);
+    // b is the best point, a the one before, c the other end of the bracket; d is the last step, e the one before
+    let (mut c, mut fc, mut d, mut e) = (b, fb, f64::NAN, f64::NAN);
+    for iterations in 1..=MOST_ITERATIONS {
+        if (fb > 0.0 && fc > 0.0) || (fb < 0.0 && fc < 0.0) {
+            (c, fc) = (a, fa);
+            d = b - a;
+            e = d;
         }
-        // NaN has no sign: the solver would go on with it
-        Err(RodError::NoRoot { what: self.what, reason: format!("the value at {x} is {value}") }.into())
+        if fc.abs() < fb.abs() {
+            (a, b, c) = (b, c, b);
+            (fa, fb, fc) = (fb, fc, fb);
+        }
+        let least = 2.0 * f64::EPSILON * b.abs() + 0.5 * tolerance;
+        let middle = 0.5 * (c - b);
+        if middle.abs() <= least || fb == 0.0 {
+            return Ok(Root { at: b, residual: fb, iterations });
+        }
+        (d, e) = match interpolated([a, b, c], [fa, fb, fc]) {
+            Some((p, q)) if e.abs() >= least && 2.0 * p < (3.0 * middle * q - (least * q).abs()).min((e * q).abs()) => {
+                (p / q, d)
+            }
+            _ => (middle, middle),
+        };
+        (a, fa) = (b, fb);
+        b += if d.abs() > least { d } else { least.copysign(middle) };
+        fb = f(b)?;
     }
+    Err(no_root(format!("{MOST_ITERATIONS} iterations were not enough")))
+}
+
+/// The step from b to the root of the inverse quadratic through the three points, or of the secant where a and c are the same,
+/// as the quotient of a number that is not negative and another. None where b is not better than a.
+fn interpolated([a, b, c]: [f64; 3], [fa, fb, fc]: [f64; 3]) -> Option<(f64, f64)> {
+    if fa.abs() <= fb.abs() {
+        return None;
+    }
+    let (middle, s) = (0.5 * (c - b), fb / fa);
+    let (p, q) = if a == c {
+        (2.0 * middle * s, 1.0 - s)
+    } else {
+        let (q, r) = (fa / fc, fb / fc);
+        (s * (2.0 * middle * q * (q - r) - (b - a) * (r - 1.0)), (q - 1.0) * (r - 1.0) * (s - 1.0))
+    };
+    Some((p.abs(), if p > 0.0 { -q } else { q }))
 }
 
 #[cfg(test)]
@@ -124,5 +139,52 @@ mod tests {
     fn an_error_of_the_function_comes_through() {
         let ours = RodError::NotFinite { what: "x", value: 1.0 };
         assert_eq!(find_root("f", |_| Err(ours.clone()), 0.0, 1.0, 0.0), Err(ours));
+    }
+
+    /// The same steps as the `BrentRoot` of `argmin`, to the last bit.
+    #[cfg(feature = "argmin")]
+    #[test]
+    fn the_iterates_are_those_of_argmin() {
+        use argmin::core::{CostFunction, Error, Executor, State};
+        use argmin::solver::brent::BrentRoot;
+        use std::cell::RefCell;
+
+        struct Watched<'a>(&'a dyn Fn(f64) -> f64, RefCell<Vec<f64>>);
+        impl CostFunction for &Watched<'_> {
+            type Param = f64;
+            type Output = f64;
+            fn cost(&self, x: &f64) -> Result<f64, Error> {
+                self.1.borrow_mut().push(*x);
+                Ok((self.0)(*x))
+            }
+        }
+
+        let functions: [&dyn Fn(f64) -> f64; 6] = [
+            &|x| x.cos() - 0.3 * x,
+            &|x| x * x * x - 2.0,
+            &|x| (x - 0.7).powi(9),
+            &|x| (5.0 * (x - 0.6)).tanh(),
+            &|x| if x < 0.9 { -1.0 } else { x },
+            &|x| x.exp() - 1.9,
+        ];
+        for (f, k) in functions.iter().flat_map(|f| (0..40).map(move |k| (f, k))) {
+            let tolerance = [0.0, 1e-9, 1e-3][k % 3];
+            let (from, to) = (-0.5 - 0.1 * k as f64, 1.3 + 0.07 * k as f64);
+            if f(from) * f(to) > 0.0 {
+                continue;
+            }
+            let theirs = Watched(f, RefCell::default());
+            let solver = BrentRoot::new(from, to, tolerance);
+            let result =
+                Executor::new(&theirs, solver).configure(|state| state.max_iters(200)).ctrlc(false).run().unwrap();
+            let ours = RefCell::new(Vec::new());
+            let watched = |x: f64| {
+                ours.borrow_mut().push(x);
+                Ok(f(x))
+            };
+            let root = find_root("f", watched, from, to, tolerance).unwrap();
+            assert_eq!(*ours.borrow(), *theirs.1.borrow());
+            assert_eq!((Some(&root.at), root.iterations), (result.state().get_param(), result.state().get_iter()));
+        }
     }
 }

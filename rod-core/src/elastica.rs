@@ -1,24 +1,14 @@
 //! The shape of a rod under any number of point forces.
 
 use crate::agm::agm;
+use crate::brent::Root;
 use crate::error::{RodError, finite};
-use crate::loads::{clamp_cut, forces_ahead, march};
+use crate::loads::{Load, clamp_cut, clamp_moment, forces_ahead, march};
 use crate::pose::{Pose, Reactions};
 use crate::propagator::{ClosedForm, Cut};
 use crate::segment::{Section, Segment, advance, axial};
 use crate::units::Units;
 use std::f64::consts::{PI, TAU};
-
-/// A point force on the rod: `force` pushes along (sin alpha, -cos alpha), away from a solid whose tangent angle is alpha.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
-    /// Arc length where it acts.
-    pub s: f64,
-    /// Magnitude, positive when it pushes.
-    pub force: f64,
-    /// Tangent angle of the contact, radians.
-    pub alpha: f64,
-}
 
 /// The elastica of a clamped uniform rod under n point forces, by the closed form, segment by segment.
 ///
@@ -49,6 +39,30 @@ impl Elastica {
             segments.push(Segment { s, start: Section { x, y, phi, kappa: moment }, a, b });
         })?;
         Ok(Self { units, segments })
+    }
+
+    /// The elastica of a rod clamped at `pose` under `loads` of fixed magnitude and direction, ordered from clamp to
+    /// tip, and how its moment m0z at the clamp was found: the root, the moment left at the last load, the iterations.
+    ///
+    /// The solution is unique where the force ahead, hypot(A, B), stays below pi^2 / 4 E I / L^2 along the rod,
+    /// whatever its direction: the energy is convex there. Beyond, a rod that buckles has several; one of them is
+    /// found, not necessarily the stable one. The moment left is zero to rounding.
+    ///
+    /// ```
+    /// use rod_core::{Elastica, Load, Pose, Units};
+    /// // a small force across the tip of a horizontal cantilever: deflection F L^3 / 3 E I
+    /// let clamp = Pose { x: 0.0, y: 0.0, phi: 0.0 };
+    /// let (shape, root) = Elastica::under_loads(Units::ONE, clamp, &[Load { s: 1.0, force: 1e-5, alpha: 0.0 }])?;
+    /// assert!((shape.at(1.0).y + 1e-5 / 3.0).abs() < 1e-14);
+    /// assert!((root.at - 1e-5).abs() < 1e-14); // m0z
+    /// # Ok::<(), rod_core::RodError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RodError::LoadOrder`], [`RodError::NotFinite`] for what is wrong with the input.
+    pub fn under_loads(units: Units, pose: Pose, loads: &[Load]) -> Result<(Self, Root), RodError> {
+        let root = clamp_moment(&ClosedForm, units, pose, loads)?;
+        Ok((Self::from_clamp(units, pose, root.at, loads)?, root))
     }
 
     /// From segments that are known, at least one.

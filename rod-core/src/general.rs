@@ -1,9 +1,8 @@
 //! The shape of any rod under point forces, through any [`Propagator`].
 
 use crate::brent::Root;
-use crate::elastica::Load;
 use crate::error::{RodError, finite};
-use crate::loads::{clamp_cut, clamp_moment, forces_ahead, march};
+use crate::loads::{Load, clamp_cut, clamp_moment, forces_ahead, march};
 use crate::pose::{Pose, Reactions};
 use crate::propagator::{Cut, Propagator};
 use crate::segment::{Section, Segment};

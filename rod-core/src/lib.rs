@@ -1,4 +1,4 @@
-//! Mechanics of one thin elastic rod, planar and inextensible, with large deflections (Euler-Bernoulli, elastica).
+#![doc = include_str!("../README.md")]
 //!
 //! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts.
 //! - [`Sample`]: where the clamp was and what it felt, as a sensor measures it.
@@ -22,7 +22,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod agm;
-#[cfg(feature = "std")]
+#[cfg(feature = "argmin")]
 mod argmin_newton;
 mod basis;
 #[cfg(feature = "std")]
@@ -43,7 +43,7 @@ mod loads;
 mod multipoint;
 #[cfg(feature = "std")]
 mod newton;
-#[cfg(feature = "std")]
+#[cfg(feature = "ode")]
 mod ode;
 mod pose;
 #[cfg(feature = "std")]
@@ -55,22 +55,24 @@ mod segment;
 mod units;
 mod walk;
 
-#[cfg(feature = "std")]
+#[cfg(feature = "argmin")]
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
 pub use brent::{Root, find_root};
 pub use dual::Dual;
 #[cfg(feature = "std")]
-pub use elastica::{Elastica, Load};
+pub use elastica::Elastica;
 pub use error::RodError;
 #[cfg(feature = "std")]
 pub use general::GeneralElastica;
 pub use inflection::inflection;
 #[cfg(feature = "std")]
+pub use loads::Load;
+#[cfg(feature = "std")]
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
 #[cfg(feature = "std")]
 pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
-#[cfg(feature = "std")]
+#[cfg(feature = "ode")]
 pub use ode::{Method, Ode};
 pub use pose::{Pose, Reactions};
 #[cfg(feature = "std")]

@@ -1,36 +1,20 @@
 //! Dead loads: the clamp's moment that given forces ask for, so that nothing bends the rod beyond the last of them.
 
 use crate::brent::{Root, find_root};
-use crate::elastica::{Elastica, Load};
 use crate::error::{RodError, finite};
 use crate::pose::Pose;
-use crate::propagator::{ClosedForm, Cut, Propagator};
+use crate::propagator::{Cut, Propagator};
 use crate::units::Units;
 
-impl Elastica {
-    /// The elastica of a rod clamped at `pose` under `loads` of fixed magnitude and direction, ordered from clamp to
-    /// tip, and how its moment m0z at the clamp was found: the root, the moment left at the last load, the iterations.
-    ///
-    /// The solution is unique where the force ahead, hypot(A, B), stays below pi^2 / 4 E I / L^2 along the rod,
-    /// whatever its direction: the energy is convex there. Beyond, a rod that buckles has several; one of them is
-    /// found, not necessarily the stable one. The moment left is zero to rounding.
-    ///
-    /// ```
-    /// use rod_core::{Elastica, Load, Pose, Units};
-    /// // a small force across the tip of a horizontal cantilever: deflection F L^3 / 3 E I
-    /// let clamp = Pose { x: 0.0, y: 0.0, phi: 0.0 };
-    /// let (shape, root) = Elastica::under_loads(Units::ONE, clamp, &[Load { s: 1.0, force: 1e-5, alpha: 0.0 }])?;
-    /// assert!((shape.at(1.0).y + 1e-5 / 3.0).abs() < 1e-14);
-    /// assert!((root.at - 1e-5).abs() < 1e-14); // m0z
-    /// # Ok::<(), rod_core::RodError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`RodError::LoadOrder`], [`RodError::NotFinite`] for what is wrong with the input.
-    pub fn under_loads(units: Units, pose: Pose, loads: &[Load]) -> Result<(Self, Root), RodError> {
-        let root = clamp_moment(&ClosedForm, units, pose, loads)?;
-        Ok((Self::from_clamp(units, pose, root.at, loads)?, root))
-    }
+/// A point force on the rod: `force` pushes along (sin alpha, -cos alpha), away from a solid whose tangent angle is alpha.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Arc length where it acts.
+    pub s: f64,
+    /// Magnitude, positive when it pushes.
+    pub force: f64,
+    /// Tangent angle of the contact, radians.
+    pub alpha: f64,
 }
 
 /// Moment m0z at the clamp for which the moment vanishes at the last load.
@@ -111,6 +95,7 @@ pub(crate) fn march(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elastica::Elastica;
     use crate::rod::Rod;
     use proptest::prelude::*;
 

@@ -69,6 +69,7 @@ impl SolveStatus {
 
 /// How well a solve went.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolveReport {
     /// How it ended.
     pub status: SolveStatus,

@@ -7,6 +7,7 @@ use ode_solvers::{Dop853, Dopri5, OutputType, System, Vector5};
 
 /// Runge-Kutta method, both with automatic step size after Dormand and Prince (Hairer, Norsett, Wanner 1993).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// Order 5(4): for tolerances of 1e-4 and above.
     Dopri5,

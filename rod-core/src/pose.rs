@@ -4,6 +4,7 @@ use crate::scalar::Scalar;
 
 /// Position and direction of the clamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose<T = f64> {
     /// Position along x (m, or dimensionless inside the library).
     pub x: T,
@@ -17,6 +18,7 @@ pub struct Pose<T = f64> {
 ///
 /// With A = sum f_j cos alpha_j and B = sum f_j sin alpha_j over all contacts: f0x = -B, f0y = A, m0z = -kappa(0) E I.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reactions<T = f64> {
     /// Force along x, N.
     pub f0x: T,

@@ -4,6 +4,7 @@ use crate::pose::{Pose, Reactions};
 
 /// Where the clamp was and what it felt, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample<T = f64> {
     /// Time, s, where it is known.
     pub t: Option<T>,

@@ -2,7 +2,8 @@
 //! formula, distances by sampling.
 
 use super::golden::golden;
-use vibrissa::{Composite, ContourError, Parabola};
+use vibrissa::contour::ContourError;
+use vibrissa::{Composite, Parabola};
 
 /// y = `y` + `coefficient` (x - `x`)^2
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,8 @@ pub mod golden;
 pub mod judge;
 
 use bumps::Bumps;
-use vibrissa::{ClampPath, Item, Outcome, Pose, Rod, State, Sweep};
+use vibrissa::contact::{Item, Outcome};
+use vibrissa::{ClampPath, Pose, Rod, State, Sweep};
 
 pub const UP: f64 = std::f64::consts::FRAC_PI_2;
 

@@ -4,7 +4,8 @@
 use super::reference::{advanced, cos_sin};
 use std::f64::consts::PI;
 use twofloat::TwoFloat;
-use vibrissa::{Hold, Pose, Support, Supports};
+use vibrissa::Pose;
+use vibrissa::rod::{Hold, Support, Supports};
 
 /// What pi is more than its double.
 const REST_OF_PI: f64 = 1.224_646_799_147_353_2e-16;

@@ -3,7 +3,8 @@
 
 use super::exact::{Problem, Shape};
 use std::f64::consts::PI;
-use vibrissa::{Hold, Pose, Section, advance};
+use vibrissa::Pose;
+use vibrissa::rod::{Hold, Section, advance};
 
 /// What holds the rod at a contact.
 #[derive(Clone, Copy, Debug)]

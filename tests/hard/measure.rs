@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 use std::fmt;
 use twofloat::TwoFloat;
-use vibrissa::{
-    Contact, ContactKind, Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Rod, SolveStatus, State, System, solve,
-};
+use vibrissa::contact::{Contact, ContactKind};
+use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, SolveStatus, System, solve};
+use vibrissa::{Rod, State};
 
 /// A residual beyond this is that of no solution.
 const FARTHEST: f64 = 1e-6;
@@ -113,7 +113,7 @@ pub fn measure(problem: &Problem, u: &[f64], status: SolveStatus) -> Measure {
 
 /// (f0x, f0y, m0z) as the library gives them.
 fn reactions_of(system: &MultiPoint<'_, Problem>, problem: &Problem, u: &[f64]) -> [f64; 3] {
-    use vibrissa::Supports;
+    use vibrissa::rod::Supports;
     let (mut a, mut b) = (0.0, 0.0);
     for j in (0..problem.count()).rev() {
         let (sin, cos) = problem.support(j, u[3 * j]).alpha.sin_cos();

@@ -5,7 +5,7 @@ use super::palette::RGBColor;
 use super::text::{Letters, tspans};
 use std::cell::RefCell;
 use std::fmt::Write;
-use vibrissa::RodError;
+use vibrissa::rod::RodError;
 
 /// Why a figure cannot be drawn.
 #[derive(Debug, thiserror::Error)]

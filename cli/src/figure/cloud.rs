@@ -7,7 +7,8 @@ use super::line::thinned;
 use super::outline;
 use super::palette::{INK, RGBColor};
 use super::plane::Window;
-use vibrissa::{Bounds, Composite};
+use vibrissa::Composite;
+use vibrissa::contour::Bounds;
 
 /// Radius of a dot, width of the ring of an open one, least distance of two neighbours, pixels.
 const RADIUS: i32 = 5;

@@ -11,7 +11,10 @@ use super::palette::{INK, TRANSITION, WHITE, colour};
 use super::plane::Window;
 use crate::{Interval, Scan};
 use std::f64::consts::{FRAC_PI_2, PI};
-use vibrissa::{Bounds, EventKind, Phase, Rod, RodError, State};
+use vibrissa::contact::{EventKind, Phase};
+use vibrissa::contour::Bounds;
+use vibrissa::rod::RodError;
+use vibrissa::{Rod, State};
 
 /// Most shapes drawn, besides those at transitions.
 const MOST: usize = 60;

@@ -5,7 +5,7 @@ use super::contour;
 use super::element::ShapeStyle;
 use super::palette::{INK, TRANSITION, colour};
 use crate::Interval;
-use vibrissa::{EventKind, Phase};
+use vibrissa::contact::{EventKind, Phase};
 
 /// Height of a row, pixels.
 const ROW: u32 = 34;

@@ -1,6 +1,7 @@
 //! The visible part of a contour as points.
 
-use vibrissa::{Bounds, Composite, Frame, Range};
+use vibrissa::Composite;
+use vibrissa::contour::{Bounds, Frame, Range};
 
 /// Points along a visible stretch; also the most steps taken where a stretch goes on for ever.
 const POINTS: usize = 500;

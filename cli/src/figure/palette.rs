@@ -1,6 +1,7 @@
 //! Colours: phases have those of Okabe and Ito (2008), near the ones of Merker et al. (2020), fig. 4, everything else has others.
 
-use vibrissa::{Label, Phase};
+use vibrissa::Label;
+use vibrissa::contact::Phase;
 
 /// Red, green and blue, to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

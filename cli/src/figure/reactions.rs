@@ -6,7 +6,8 @@ use super::palette::{INK, MUTED, label_colour};
 use super::trace::{self, Along, Part, Trace};
 use crate::Reconstructed;
 use std::ops::Range;
-use vibrissa::{ClampPath, Pose, Reading, Sample};
+use vibrissa::reconstruct::Reading;
+use vibrissa::{ClampPath, Pose, Sample};
 
 const WIDTH: u32 = PAGE;
 /// Height of a plot, and of the title.

@@ -5,8 +5,9 @@ use super::cloud::{self, Dot};
 use super::palette::{self, FAINT, INK, MUTED, label_colour};
 use super::plane::Window;
 use crate::{Comparison, Reconstructed, naive_touch};
-use vibrissa::compare::Deviation;
-use vibrissa::{Label, Touch};
+use vibrissa::Label;
+use vibrissa::reconstruct::Touch;
+use vibrissa::reconstruct::compare::Deviation;
 
 /// Width; least and largest height of the plot; height of the title and the key, pixels.
 const WIDTH: u32 = PAGE;

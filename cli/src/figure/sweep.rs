@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use crate::Scene;
     use crate::sample::{event, outcome};
-    use vibrissa::EventKind;
+    use vibrissa::contact::EventKind;
 
     #[test]
     fn a_title_too_long_loses_its_last_phases() {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use vibrissa::hw::ReactionSample;
-use vibrissa::{Live, Reading};
+use vibrissa::reconstruct::{Live, Reading};
 
 /// The answer to one sample.
 #[derive(Clone, Copy, Debug)]
@@ -68,8 +68,10 @@ impl Engine {
 mod tests {
     use super::*;
     use vibrissa::hw::{OutOfPlane, Quality, RawSample};
-    use vibrissa::noise_estimate::ChannelNoise;
-    use vibrissa::{LiveSettings, Pose, Reactions, Rod};
+    use vibrissa::reconstruct::LiveSettings;
+    use vibrissa::reconstruct::noise_estimate::ChannelNoise;
+    use vibrissa::rod::Reactions;
+    use vibrissa::{Pose, Rod};
 
     #[test]
     fn every_sample_is_answered_once_in_order() {

@@ -3,9 +3,9 @@
 use super::head::{Chain, FEWEST, Scaled};
 use super::{LiveError, LiveScan};
 use crate::{Error, SensorCalibration};
-use vibrissa::Travel;
 use vibrissa::hw::{Calibration, Channels, Mounting, RawSample, ReactionSample, Scale, Wrench, WrenchSample};
-use vibrissa::noise_estimate::{ChannelNoise, estimate};
+use vibrissa::reconstruct::Travel;
+use vibrissa::reconstruct::noise_estimate::{ChannelNoise, estimate};
 
 /// So many samples from one step of a rounded signal to the next, about.
 const STEP: f64 = 64.0;

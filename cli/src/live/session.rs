@@ -8,9 +8,10 @@ use super::summary::{End, LiveReport};
 use super::{Answer, Engine, LiveScan, Sensor};
 use crate::Error;
 use std::path::Path;
+use vibrissa::Label;
 use vibrissa::hw::recording::About;
 use vibrissa::hw::{ChainError, ReactionSample, StageError};
-use vibrissa::{Label, Live, LiveSettings};
+use vibrissa::reconstruct::{Live, LiveSettings};
 
 /// Seconds between two lines of progress.
 const TICK: f64 = 1.0;

@@ -5,9 +5,10 @@ use super::{Answer, LiveScan};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use vibrissa::Label;
 use vibrissa::hw::{LinkCounters, Quality, ReactionSample, SensorCheck, SensorFinding, Timekeeper};
-use vibrissa::noise_estimate::ChannelNoise;
-use vibrissa::{Label, Touch};
+use vibrissa::reconstruct::Touch;
+use vibrissa::reconstruct::noise_estimate::ChannelNoise;
 
 /// Why a live scan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -1,7 +1,8 @@
 //! States and events as they are written: SI units, objects and pieces counted from 1, numbers that survive a round trip.
 
 use serde::Serialize;
-use vibrissa::{Contact, ContactKind, Event, State};
+use vibrissa::contact::Contact;
+use vibrissa::{Event, State};
 
 /// A line of states.jsonl.
 #[derive(Serialize)]
@@ -50,7 +51,7 @@ impl From<&State> for StateRecord {
 struct ContactRecord {
     object: usize,
     piece: usize,
-    kind: &'static str,
+    kind: String,
     s: f64,
     x: f64,
     y: f64,
@@ -60,12 +61,7 @@ struct ContactRecord {
 
 impl From<&Contact> for ContactRecord {
     fn from(contact: &Contact) -> Self {
-        let kind = match contact.kind {
-            ContactKind::Tangent => "tangent",
-            ContactKind::Tip => "tip",
-            ContactKind::Corner => "corner",
-            ContactKind::Notch => "notch",
-        };
+        let kind = contact.kind.to_string();
         let Contact { object, piece, s, x, y, alpha, force, .. } = *contact;
         Self { object: object + 1, piece: piece + 1, kind, s, x, y, alpha, force }
     }

@@ -19,7 +19,7 @@ pub(super) struct SweepRecord<'a> {
 /// Where and why a sweep ended before its path; SI units.
 #[derive(Serialize)]
 struct StopRecord {
-    /// `interrupted` by the user, or the [reason](vibrissa::StopReason) why the sweep could not go on.
+    /// `interrupted` by the user, or the [reason](vibrissa::contact::StopReason) why the sweep could not go on.
     kind: String,
     x0: Option<f64>,
     y0: Option<f64>,

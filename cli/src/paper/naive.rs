@@ -3,8 +3,9 @@
 use super::scans::PaperScan;
 use crate::reconstructed::naive_touch;
 use crate::{Error, Scan};
-use vibrissa::compare::signed_distance;
-use vibrissa::{Assembly, ContourEstimate, Label, Measured, Sample, State, Sweep, Touch};
+use vibrissa::reconstruct::compare::signed_distance;
+use vibrissa::reconstruct::{Assembly, ContourEstimate, Measured, Touch};
+use vibrissa::{Label, Sample, State, Sweep};
 
 /// Clamp travel between the states that are turned back, m: a quarter of what is reported, for dense rows of points.
 pub(crate) const STEP: f64 = 2.5e-4;

@@ -3,8 +3,10 @@
 use super::scans::PaperScan;
 use crate::Error;
 use crate::reconstructed::naive_touch;
-use vibrissa::compare::signed_distance;
-use vibrissa::{Composite, Reason, Sample, Settings, StretchKind, Sweep, Touch, reconstruct};
+use vibrissa::contour::StretchKind;
+use vibrissa::reconstruct::compare::signed_distance;
+use vibrissa::reconstruct::{Reason, Touch};
+use vibrissa::{Composite, Sample, Settings, Sweep, reconstruct};
 
 /// Clamp travel between samples, m: a tenth of the rate that the paper recorded at.
 const STEP: f64 = 2e-5;

@@ -1,6 +1,7 @@
 //! How much of a contour that goes on for ever the rod can reach.
 
-use vibrissa::{ClampPath, Composite, Frame, Range};
+use vibrissa::contour::{Frame, Range};
+use vibrissa::{ClampPath, Composite};
 
 /// How far from the path of the clamp a contour is followed, in lengths of the rod.
 const REACH: f64 = 1.5;

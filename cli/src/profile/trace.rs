@@ -3,7 +3,8 @@
 use super::ProfilePoint;
 use super::reach::Reach;
 use std::f64::consts::TAU;
-use vibrissa::{Composite, Frame, Range, StretchKind};
+use vibrissa::Composite;
+use vibrissa::contour::{Frame, Range, StretchKind};
 
 /// Distance of a point from the corner or notch beside it, in lengths of the rod.
 const ASIDE: f64 = 1e-9;

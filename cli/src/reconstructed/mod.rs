@@ -18,10 +18,9 @@ use report::ReportRecord;
 use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use vibrissa::kink::Kink;
-use vibrissa::{
-    Assembly, ContourEstimate, Label, Plausibility, Pose, Rod, Sample, Settings, Travel, plausibility, reconstruct,
-};
+use vibrissa::reconstruct::kink::Kink;
+use vibrissa::reconstruct::{Assembly, ContourEstimate, Plausibility, Travel, plausibility};
+use vibrissa::{Label, Pose, Rod, Sample, Settings, reconstruct};
 
 /// Columns of contour.csv.
 const COLUMNS: [&str; 6] = ["stretch", "kind", "x", "y", "alpha", "sigma"];
@@ -33,7 +32,7 @@ pub struct ReconstructionError {
     /// Which recording.
     pub file: PathBuf,
     /// Why.
-    pub source: vibrissa::ReconstructError,
+    pub source: vibrissa::reconstruct::ReconstructError,
 }
 
 /// What a recording says of an object.
@@ -50,7 +49,7 @@ pub struct Reconstructed {
     /// Numbers of those rows, from 0.
     pub rows: Vec<usize>,
     /// What was found, one reading for each of the samples.
-    pub found: vibrissa::Reconstruction,
+    pub found: vibrissa::reconstruct::Reconstruction,
     /// The contour. Its samples are numbered as `samples`.
     pub contour: ContourEstimate,
     /// What the physics says of the recording.

@@ -3,7 +3,8 @@
 use super::Reconstructed;
 use crate::RowFault;
 use serde::Serialize;
-use vibrissa::{Basis, Label, Pose, Reading, Reason, Touch};
+use vibrissa::reconstruct::{Basis, Reading, Reason, Touch};
+use vibrissa::{Label, Pose};
 
 /// A line of points.jsonl.
 #[derive(Serialize)]

@@ -4,10 +4,11 @@
 use super::{Comparison, Reconstructed, Transition};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use vibrissa::compare::{Deviation, KinkScore};
-use vibrissa::kink::KinkKind;
-use vibrissa::noise_estimate::ChannelNoise;
-use vibrissa::{Gap, Label, Plausibility, Pose, Rod, Shares};
+use vibrissa::reconstruct::compare::{Deviation, KinkScore};
+use vibrissa::reconstruct::kink::KinkKind;
+use vibrissa::reconstruct::noise_estimate::ChannelNoise;
+use vibrissa::reconstruct::{Gap, Plausibility, Shares};
+use vibrissa::{Label, Pose, Rod};
 
 /// report.json.
 #[derive(Serialize)]

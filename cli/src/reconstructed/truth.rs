@@ -5,8 +5,10 @@ use crate::{Error, Scan, Scene, interval};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::path::PathBuf;
-use vibrissa::compare::{Confusion, Deviation, KinkScore, signed_distance};
-use vibrissa::{Composite, Event, EventKind, Label, Pose, Rod, Stop, Touch, single};
+use vibrissa::contact::{EventKind, Stop};
+use vibrissa::reconstruct::compare::{Confusion, Deviation, KinkScore, signed_distance};
+use vibrissa::reconstruct::{Touch, single};
+use vibrissa::{Composite, Event, Label, Pose, Rod};
 
 /// How far, in lengths of the rod, a pose may be from the path of the scene and belong to it.
 const OFF_PATH: f64 = 1e-3;

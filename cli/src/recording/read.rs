@@ -5,8 +5,9 @@ use super::row::{RowFault, RowProblem, sample};
 use super::{Reading, Recording, RecordingError, Row};
 use crate::simulation::INCOMPLETE;
 use std::path::Path;
+use vibrissa::Rod;
 use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError};
-use vibrissa::{Halt, Rod, Travel};
+use vibrissa::reconstruct::{Halt, Travel};
 
 /// Fewer samples than this are no scan: a curve through them would leave nothing to judge it by.
 const FEWEST: usize = 10;

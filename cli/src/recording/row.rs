@@ -4,7 +4,8 @@ use super::columns::{POSE, REACTIONS, SIGMAS};
 use std::fmt;
 use vibrissa::hw::Quality;
 use vibrissa::hw::recording::{Columns, Role, Row, RowProblem as CellProblem};
-use vibrissa::{Pose, Reactions, Sample};
+use vibrissa::rod::Reactions;
+use vibrissa::{Pose, Sample};
 
 /// A row that cannot be used.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,9 @@ use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
-use vibrissa::{ClampPath, ContactError, LARGEST_ANGLE, Pose, Rod, RodError};
+use vibrissa::contact::{ContactError, LARGEST_ANGLE};
+use vibrissa::rod::RodError;
+use vibrissa::{ClampPath, Pose, Rod};
 
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
 pub(crate) const MOST_STATES: f64 = 1e6;

@@ -19,7 +19,8 @@ use crate::toml_file::{self, Source};
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::DeTable;
-use vibrissa::{ClampPath, Composite, ContactError, Rod, StopReason, Sweep};
+use vibrissa::contact::{ContactError, StopReason};
+use vibrissa::{ClampPath, Composite, Rod, Sweep};
 
 /// A rod swept along a contour.
 #[derive(Debug)]

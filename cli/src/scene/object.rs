@@ -6,8 +6,9 @@ use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
-use vibrissa::description::Pieces;
-use vibrissa::{Composite, ContourError, Motion, SelfCrossing, file};
+use vibrissa::Composite;
+use vibrissa::contour::description::Pieces;
+use vibrissa::contour::{ContourError, Motion, SelfCrossing, file};
 
 /// All objects of a scene in order: `[contour]`, then every `[[object]]`.
 pub(super) fn all(

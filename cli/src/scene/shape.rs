@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
-use vibrissa::description::{Pieces, Shape};
+use vibrissa::contour::description::{Pieces, Shape};
 
 /// Name of the field that says which shape a piece is.
 const TAG: &str = "shape";

@@ -11,7 +11,10 @@ use crate::scene::MOST_STATES;
 use crate::{Error, Interrupt, Interrupted, OutputError, Scene, Staged};
 use std::io::{self, Write};
 use std::path::Path;
-use vibrissa::{NoiseModel, Pose, Reactions, Stop};
+use vibrissa::Pose;
+use vibrissa::contact::Stop;
+use vibrissa::reconstruct::NoiseModel;
+use vibrissa::rod::Reactions;
 
 /// The columns, those of the standard deviations last.
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];

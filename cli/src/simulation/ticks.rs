@@ -2,7 +2,10 @@
 
 use super::Simulation;
 use crate::Error;
-use vibrissa::{Item, NoiseGenerator, Pose, Reactions, State, Stop, Sweep};
+use vibrissa::contact::{Item, Stop};
+use vibrissa::reconstruct::NoiseGenerator;
+use vibrissa::rod::Reactions;
+use vibrissa::{Pose, State, Sweep};
 
 /// One sample that the sensor took.
 #[derive(Clone, Copy, Debug, PartialEq)]

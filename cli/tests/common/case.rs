@@ -5,7 +5,8 @@ use super::golden::golden;
 use super::outline::{End, Outline, Vertex, wrapped};
 use super::rod::{At, Load, Rod};
 use std::f64::consts::PI;
-use vibrissa::{Contact, ContactKind, State};
+use vibrissa::State;
+use vibrissa::contact::{Contact, ContactKind};
 use vibrissa_cli::Scene;
 
 /// What falls short, in dimensionless units.
@@ -144,6 +145,7 @@ impl<'a> Case<'a> {
                         bad.push(Bad { what: "a tip contact is not the last", off: 1.0 });
                     }
                 }
+                _ => bad.push(Bad { what: "a contact of an unknown kind", off: 1.0 }),
             }
         }
     }
@@ -173,6 +175,7 @@ impl<'a> Case<'a> {
                 need(bad, "a contact is off its vertex", (vertex.x - x).hypot(vertex.y - y), TOLERANCE);
                 need(bad, "a force is outside its cone", inside(vertex, alpha), ANGLE);
             }
+            _ => bad.push(Bad { what: "a contact of an unknown kind", off: 1.0 }),
         }
     }
 

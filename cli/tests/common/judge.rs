@@ -3,7 +3,8 @@
 use super::case::{Case, TOLERANCE};
 use super::outline::{Outline, wrapped};
 use std::f64::consts::PI;
-use vibrissa::{ContactKind, Contour, Event, EventKind, Outcome, Pose, State};
+use vibrissa::contact::{ContactKind, EventKind, Outcome};
+use vibrissa::{Contour, Event, Pose, State};
 use vibrissa_cli::Scene;
 
 /// A transition and its undoing closer together than this, in rod lengths along the path, are no physics.

@@ -2,7 +2,8 @@
 //! bisection. Lengths of the rod.
 
 use std::f64::consts::TAU;
-use vibrissa::{Composite, Frame, StretchKind};
+use vibrissa::Composite;
+use vibrissa::contour::{Frame, StretchKind};
 
 /// Largest turn, rad, and length between two points.
 const TURN: f64 = 0.08;

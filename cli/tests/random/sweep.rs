@@ -5,7 +5,8 @@ use crate::common::case::{Bad, Case};
 use crate::common::outline::{Outline, wrapped};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
-use vibrissa::{ContactKind, Event, EventKind, Item, Phase, State, Stop, StopReason};
+use vibrissa::contact::{ContactKind, EventKind, Item, Phase, Stop, StopReason};
+use vibrissa::{Event, State};
 use vibrissa_cli::Scene;
 
 /// How a sweep ended.
@@ -196,7 +197,7 @@ impl Examiner<'_> {
         let state = |state: &State| {
             let (length, force) = (self.scene.rod.length(), self.scene.rod.units().force);
             let rod = Case::new(self.scene, state).rod;
-            let contact = |c: &vibrissa::Contact| {
+            let contact = |c: &vibrissa::contact::Contact| {
                 // the rod's angle to the contour, and how far along its piece the contact is
                 let angle = wrapped(rod.at(c.s / length).phi - c.alpha).to_degrees();
                 let outline = &self.outlines[c.object];
@@ -359,8 +360,9 @@ impl Examiner<'_> {
             StopReason::ClampInside if clamp > 0.02 => Some(format!("the clamp is outside by {clamp:.3e}")),
             StopReason::EndOfContour => {
                 let last = states.last()?;
-                let near =
-                    |c: &vibrissa::Contact| self.outlines[c.object].distance_to_open_end(c.x / length, c.y / length);
+                let near = |c: &vibrissa::contact::Contact| {
+                    self.outlines[c.object].distance_to_open_end(c.x / length, c.y / length)
+                };
                 // it may come upon an end from the side, anywhere along the rod
                 let rod = Case::new(self.scene, last).rod;
                 let points = (0..=100).map(|k| rod.at(0.01 * f64::from(k)));

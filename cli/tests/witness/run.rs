@@ -6,7 +6,8 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::channel;
 use std::time::Duration;
-use vibrissa::{Event, Item, Pose, State, Stop, StopReason};
+use vibrissa::contact::{Item, Stop, StopReason};
+use vibrissa::{Event, Pose, State};
 use vibrissa_cli::Scene;
 
 /// More items than any sweep of these tests can have.

@@ -36,11 +36,9 @@ pub(crate) fn state(setup: &Setup<'_>, configuration: &Configuration, scan: &Sca
     let problem = setup.problem(&supports, configuration.tau());
     let (clamp, shape) = (problem.clamp, problem.elastica(configuration.of_contacts(), rod.units()));
     let mut contacts = Vec::with_capacity(n);
-    let mut min_force = f64::INFINITY;
     for j in 0..n {
         let at = supports.support(j, configuration.t(j));
         let f = configuration.force(j);
-        min_force = min_force.min(f);
         contacts.push(Contact {
             object: world.object(configuration.contacts[j].stretch),
             piece: world.piece(configuration.contacts[j].stretch),
@@ -55,7 +53,7 @@ pub(crate) fn state(setup: &Setup<'_>, configuration: &Configuration, scan: &Sca
     let certificate = Certificate {
         residual: quality.residual,
         min_gap: GapBounds { lower: scan.gap.lower * length, seen: scan.gap.seen * length, ..scan.gap },
-        min_force: min_force * force,
+        min_force: contacts.iter().map(|contact| contact.force).reduce(f64::min),
         first_integral: shape.first_integral_error(),
         stable: quality.stable,
         condition: quality.condition,

@@ -13,6 +13,10 @@ use crate::{CircularArc, Contour, ContourError, EllipticArc, Line, Parabola, Spl
 /// Degrees of a full turn.
 const TURN: f64 = 360.0;
 
+impl Written for SplineEndField {
+    const KIND: &'static str = "\"natural\", \"clamped\" or \"periodic\"";
+}
+
 fn one(shape: impl Contour + 'static) -> Pieces {
     vec![Box::new(shape)]
 }

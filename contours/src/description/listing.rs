@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use super::fields::SplineEndField;
-
 /// What a field is measured in.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum FieldUnit {
@@ -64,7 +62,6 @@ written! {
     bool = "true or false";
     String = "text";
     PathBuf = "path";
-    SplineEndField = "\"natural\", \"clamped\" or \"periodic\"";
 }
 
 impl<T: Written> Written for Option<T> {

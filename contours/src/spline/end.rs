@@ -20,6 +20,7 @@ use crate::{ContourError, check};
 /// # Ok::<(), rod_contours::ContourError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SplineEnd {
     /// The curvature vanishes at both ends: a thin strip bent through the points, free beyond them.
     Natural,

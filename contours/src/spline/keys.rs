@@ -1,18 +1,18 @@
 //! How a spline is stored: the keys of the crate `splines`, which no other file names.
 
-use serde::{Deserialize, Serialize};
 use splines::{Interpolate, Interpolation, Key};
 
 use crate::ContourError;
 use crate::cubic::Cubic;
 
 /// Points of a spline with their parameters and the two Bezier handles of each, 64 bytes a point.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize), serde(transparent))]
 pub(super) struct Keys(splines::Spline<f64, Point>);
 
 /// A point of the plane that the crate can interpolate.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 struct Point([f64; 2]);
 
 impl Keys {

@@ -11,8 +11,6 @@ mod smooth;
 use std::f64::consts::PI;
 use std::ops::Range as Span;
 
-use serde::{Deserialize, Serialize, Serializer};
-
 pub use end::SplineEnd;
 
 use crate::assembly::SMOOTH;
@@ -39,7 +37,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// range ends where the first and last points are, for a closed curve as well: there `interior` is false at the point where
 /// it closes.
 ///
-/// A spline is serialised as a list of the keys of the crate `splines` (version 5, `Interpolation::StrokeBezier`:
+/// With the feature `serde` a spline is serialised as a list of the keys of the crate `splines` (version 5, `Interpolation::StrokeBezier`:
 /// parameter, point, handle before and handle after), and read from such a list as long as its keys are in order,
 /// finite and smooth. Floating-point numbers that survive the format give back the same spline to the last bit.
 ///
@@ -53,8 +51,8 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// assert_eq!(spline.frame(spline.range().to).x, 3.0);
 /// # Ok::<(), rod_contours::ContourError>(())
 /// ```
-#[derive(Clone, Debug, Deserialize)]
-#[serde(try_from = "Keys")]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(try_from = "Keys"))]
 pub struct Spline {
     keys: Keys,
     /// Tangent angle at the start of each cubic, without jumps along the spline.
@@ -165,6 +163,7 @@ fn angles(keys: &Keys) -> Result<Vec<f64>, ContourError> {
     Ok(angles)
 }
 
+#[cfg(feature = "serde")]
 impl TryFrom<Keys> for Spline {
     type Error = ContourError;
 
@@ -173,8 +172,9 @@ impl TryFrom<Keys> for Spline {
     }
 }
 
-impl Serialize for Spline {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+#[cfg(feature = "serde")]
+impl serde::Serialize for Spline {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.keys.serialize(serializer)
     }
 }

@@ -5,7 +5,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::process::ExitCode;
 
 use custom_shape::Trochoid;
-use vibrissa::{ClampPath, Composite, Contour, Frame, Item, Line, Phase, Pose, Rod, State, Sweep};
+use vibrissa::contact::{Item, Phase};
+use vibrissa::contour::Frame;
+use vibrissa::{ClampPath, Composite, Contour, Line, Pose, Rod, State, Sweep};
 
 /// Distance of reported states, m.
 const STEP: f64 = 5e-3;

@@ -1,6 +1,7 @@
 //! The path of a point on a rolling disc.
 
-use vibrissa::{Contour, ContourError, Frame, Range};
+use vibrissa::Contour;
+use vibrissa::contour::{ContourError, Frame, Range};
 
 /// Ripples: the path of a point `arm` from the centre of a disc that rolls along the line above it (y = radius) to +x,
 /// by the angle rolled; the solid is above.
@@ -22,7 +23,7 @@ use vibrissa::{Contour, ContourError, Frame, Range};
 /// let ripples = Trochoid::new(0.006, 0.003, TAU)?; // m, m, rad
 /// assert!((ripples.gap(0.0, -0.010) - 0.007).abs() < 1e-15); // below the crest at -arm
 /// assert!((ripples.frame(0.0).curvature() - 0.003 / 0.003_f64.powi(2)).abs() < 1e-9);
-/// # Ok::<(), vibrissa::ContourError>(())
+/// # Ok::<(), vibrissa::contour::ContourError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trochoid {

@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 use custom_shape::Trochoid;
-use vibrissa::{Composite, Contour, Line, Motion, Moved, Reversed, contract};
+use vibrissa::contour::{Motion, Moved, Reversed, contract};
+use vibrissa::{Composite, Contour, Line};
 
 /// Random ripples over an angle that the documentation of the shape recommends.
 fn ripples() -> impl Strategy<Value = Trochoid> {

@@ -1,4 +1,4 @@
-//! Devices that are programs: what a user tests with who has no sensor at hand, or not one that fails on demand.
+#![doc = include_str!("../README.md")]
 //!
 //! [`FakeSensor`] has a [`FakeDevice`], which speaks a device's language, send what a source yields over any stream, and has it
 //! fail by a [`Script`]. Over a pseudo-terminal (feature `pty`) it is a serial port for any program.

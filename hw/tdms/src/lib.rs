@@ -1,4 +1,4 @@
-//! Recordings of LabVIEW and NI-DAQmx: TDMS files.
+#![doc = include_str!("../README.md")]
 //!
 //! Read are all segments of a file, in both byte orders, contiguous and interleaved, integers, floats, booleans, texts,
 //! timestamps, and what cards deliver (DAQmx: format changing and digital line scalers). A file that breaks off gives what
@@ -33,16 +33,6 @@ use std::borrow::Cow;
 use std::path::Path;
 
 /// A TDMS file.
-///
-/// ```
-/// use tdms_file::{TdmsFile, TdmsTime};
-/// let file = TdmsFile::read("tests/vectors/waveforms.tdms")?;
-/// assert!(file.fault().is_none()); // it does not break off
-/// assert_eq!(file.channel("Measured", "Fx")?.unit(), Some("mN"));
-/// let second = file.rows("Measured", &["Fx", "Fy"], TdmsTime::Waveform)?.nth(1).ok_or("too short")??;
-/// assert_eq!((second.time, second.values()), (0.502, &[1.0, -0.125][..]));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct TdmsFile<'a> {
     bytes: Cow<'a, [u8]>,

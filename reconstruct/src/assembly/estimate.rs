@@ -2,7 +2,6 @@
 
 use super::gap::Gap;
 use super::trace::{Trace, TraceKind};
-use serde::Serialize;
 
 /// The parts of a contour that are known, and the gaps between them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,7 +14,8 @@ pub struct ContourEstimate {
 }
 
 /// A point of a trace as a line of a table, SI units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TraceRow {
     /// Number of the trace, from 0.
     pub stretch: usize,

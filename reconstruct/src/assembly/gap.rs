@@ -5,6 +5,7 @@ use std::ops::Range;
 
 /// Why there is a gap.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum GapReason {
     /// Several contacts: the points found from such samples are flagged, and kept as traces of their own.
     Several,

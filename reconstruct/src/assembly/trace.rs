@@ -1,13 +1,12 @@
 //! A stretch of the contour that one run of samples followed.
 
 use rod_contours::{Composite, ContourError, Spline, SplineEnd};
-use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
 /// Which contacts a trace is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum TraceKind {
     /// Those of samples with one contact.
     Single,
@@ -29,6 +28,7 @@ impl fmt::Display for TraceKind {
 
 /// A point of a trace, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TracePoint {
     /// Position, m.
     pub x: f64,
@@ -42,6 +42,7 @@ pub struct TracePoint {
 
 /// How a trace becomes a contour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TraceCurve {
     /// Straight from point to point.
     #[default]
@@ -58,6 +59,7 @@ pub enum TraceCurve {
 /// leaves out nothing that departs from it by more than half a standard deviation, or the tolerance of
 /// [`Assembly`](crate::Assembly) where that is more.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trace {
     /// Which contacts.
     pub kind: TraceKind,

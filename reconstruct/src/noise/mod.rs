@@ -4,6 +4,7 @@
 //! the other.
 
 mod error;
+#[cfg(feature = "serde")]
 mod file;
 mod generator;
 mod model;

@@ -17,7 +17,7 @@ use rod_core::Reactions;
 /// while samples are lost. Correlation, walk and dropouts count samples, not seconds: a walk of w per square root of a
 /// second has steps of w / sqrt(rate).
 ///
-/// It deserialises from tables of the same names ([`white`](Self::white) and so on) with the channels as fields;
+/// With the feature `serde` it deserialises from tables of the same names ([`white`](Self::white) and so on) with the channels as fields;
 /// `force` in place of `f0x` and `f0y` stands for both.
 ///
 /// ```

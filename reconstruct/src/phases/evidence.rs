@@ -5,7 +5,6 @@ use crate::known::Clamp;
 use crate::label::Label;
 use crate::single::{MomentZero, NoContact};
 use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
-use serde::Serialize;
 use std::fmt;
 
 /// Rounding and what a solver leaves, dimensionless, in the criterion, the arc length and the reactions.
@@ -66,8 +65,9 @@ impl Quantity {
 }
 
 /// What a label rests on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
 pub enum Basis {
     /// The size of the reactions.
     Force,

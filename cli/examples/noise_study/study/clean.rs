@@ -2,7 +2,9 @@
 
 use super::{Outcome, STEP};
 use std::path::Path;
-use vibrissa::{Event, EventKind, Item, Label, NoiseModel, Sample, Sweep};
+use vibrissa::contact::{EventKind, Item};
+use vibrissa::reconstruct::NoiseModel;
+use vibrissa::{Event, Label, Sample, Sweep};
 use vibrissa_cli::Scene;
 
 /// A transition between two phases.

@@ -5,7 +5,8 @@ use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use vibrissa::{Reconstruction, Sample};
+use vibrissa::Sample;
+use vibrissa::reconstruct::Reconstruction;
 
 /// Recordings as CSV files in a directory, and what is known of them in `kinks.json`.
 pub struct Recordings {

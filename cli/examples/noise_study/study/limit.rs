@@ -2,7 +2,7 @@
 
 use super::{Clean, Level, MARGIN, Noise, STEP};
 use std::collections::BTreeMap;
-use vibrissa::kink::KinkKind;
+use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::{Settings, reconstruct};
 
 /// Half-windows, m.

@@ -1,6 +1,7 @@
 //! The sensors.
 
-use vibrissa::{Ar1, NoiseModel, Reactions};
+use vibrissa::reconstruct::{Ar1, NoiseModel};
+use vibrissa::rod::Reactions;
 
 /// A noise level.
 #[derive(Clone, Copy, Debug)]

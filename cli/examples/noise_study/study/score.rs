@@ -3,8 +3,9 @@
 use super::{Clean, MARGIN, STEP};
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
-use vibrissa::compare::{Confusion, KinkScore, signed_distance};
-use vibrissa::{Assembly, Label, Reconstruction, Sample, Touch, TraceKind, single};
+use vibrissa::reconstruct::compare::{Confusion, KinkScore, signed_distance};
+use vibrissa::reconstruct::{Assembly, Reconstruction, Touch, TraceKind, single};
+use vibrissa::{Label, Sample};
 
 /// Distance of the places at which an assembled contour is compared, m.
 const SPACING: f64 = 5e-5;

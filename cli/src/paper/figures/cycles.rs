@@ -6,7 +6,7 @@ use crate::figure::element::Element;
 use crate::figure::labels::Labels;
 use crate::figure::palette::{FAINT, INK, MUTED, colour, ink_on};
 use crate::paper::scans::{DISTANCES, OBJECTS, Paper, PaperScan};
-use vibrissa::{EventKind, Phase};
+use vibrissa::contact::{EventKind, Phase};
 
 /// Size of a cell, room left of and above the cells, room below for axis and key, pixels.
 const CELL: (i32, i32) = (472, 190);

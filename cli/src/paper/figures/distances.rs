@@ -7,7 +7,7 @@ use crate::figure::palette::{INK, MUTED, OTHERS, RGBColor};
 use crate::figure::plane::Window;
 use crate::paper::naive::{Naive, NaivePoint, STEP};
 use crate::paper::scans::{DISTANCES, OBJECTS};
-use vibrissa::{Comparison, ContourEstimate};
+use vibrissa::reconstruct::{Comparison, ContourEstimate};
 
 /// Width of an object, height of the title and keys, of a row's title, and of an object's name, pixels.
 const WIDTH: u32 = PAGE / 3;

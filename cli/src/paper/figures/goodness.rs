@@ -5,8 +5,9 @@ use crate::figure::element::Element;
 use crate::figure::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
 use crate::paper::naive::{Naive, STEP};
 use crate::paper::scans::{DISTANCES, OBJECTS};
-use vibrissa::compare::goodness_of_fit;
-use vibrissa::{NoiseModel, Reactions};
+use vibrissa::reconstruct::NoiseModel;
+use vibrissa::reconstruct::compare::goodness_of_fit;
+use vibrissa::rod::Reactions;
 
 /// Noise of the sensor that stands in for the experiment: standard deviations, N, N, N m.
 const NOISE: Reactions = Reactions { f0x: 2.5e-3, f0y: 2.5e-3, m0z: 6e-5 };

@@ -5,7 +5,8 @@ use crate::figure::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, w
 use crate::figure::element::Element;
 use crate::figure::palette::{INK, WHITE, colour, ink_on};
 use std::collections::BTreeMap;
-use vibrissa::{EventKind, Label, Phase};
+use vibrissa::Label;
+use vibrissa::contact::{EventKind, Phase};
 
 const SIZE: (u32, u32) = (1400, 880);
 /// Half the width and height of a box, pixels.

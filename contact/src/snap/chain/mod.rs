@@ -5,6 +5,7 @@
 //! Kelvin-Voigt damping), under the linearised gaps of all nodes and of corners to links, which is a small quadratic
 //! programme. The result is good to the square of a link's length: enough to see which contacts there are.
 
+mod active_set;
 mod cluster;
 mod near;
 mod pressed;
@@ -29,8 +30,8 @@ const LONGEST_MOVE: f64 = 0.04;
 const REACH: f64 = 2.0 * LONGEST_MOVE;
 /// Way (L) of a step below which the chain is at rest.
 const ARRIVED: f64 = 2e-5;
-/// Work of interior points, in units of the cube of their number, after which a descent is given up: half a second or so.
-/// Block pivoting settles nearly all steps, and costs next to nothing.
+/// Work of the active-set method, in units of the cube of the number of near nodes, after which a descent is given up. Block
+/// pivoting settles nearly all steps, and is not counted. A larger limit lets a snap in a narrow gap go on for longer.
 const MOST_WORK: f64 = 1e8;
 /// Limit of steps of one descent.
 const MOST_STEPS: usize = 400;

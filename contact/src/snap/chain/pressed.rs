@@ -8,10 +8,10 @@ const MOST_ROUNDS: usize = 12;
 /// Rounding of a closed gap (L).
 const CLOSED: f64 = 1e-13;
 /// Least pivot of the factorisation, relative. Below it two of the nodes are one by rounding.
-const LEAST_PIVOT: f64 = 1e-10;
+pub(super) const LEAST_PIVOT: f64 = 1e-10;
 
 /// The forces under which no node goes through a wall, none pulls, and only closed gaps press. Nearly every step has so few
-/// contacts that supposing them is a hundred times cheaper than finding them by interior points: none at first, then what
+/// contacts that supposing them is cheaper than finding them one by one (`active_set`): none at first, then what
 /// pulls lets go and what goes through is held, all at once, until both is nowhere the case (block pivoting, Portugal, Judice
 /// and Vicente 1994). That is the solution, for there is only one. None where it does not settle.
 pub(super) fn pressed(programme: &Programme) -> Option<Vec<f64>> {

@@ -1,0 +1,38 @@
+//! The guides of the project, page by page. They are compiled for the documentation only.
+
+// Its code needs the package examples/custom-shape, which tests it.
+#[cfg(not(doctest))]
+#[doc = include_str!("../docs/add-a-shape.md")]
+pub mod add_a_shape {}
+
+#[cfg(feature = "hw")]
+#[doc = include_str!("../docs/add-a-sensor.md")]
+pub mod add_a_sensor {}
+
+#[doc = include_str!("../docs/sweep.md")]
+pub mod sweep {}
+
+#[doc = include_str!("../docs/scene-files.md")]
+pub mod scene_files {}
+
+#[doc = include_str!("../docs/shapes.md")]
+pub mod shapes {}
+
+#[doc = include_str!("../docs/output-files.md")]
+pub mod output_files {}
+
+#[doc = include_str!("../docs/reconstruction.md")]
+pub mod reconstruction {}
+
+#[cfg(feature = "recordings")]
+#[doc = include_str!("../docs/recordings.md")]
+pub mod recordings {}
+
+#[doc = include_str!("../docs/sensors.md")]
+pub mod sensors {}
+
+#[doc = include_str!("../docs/microcontroller.md")]
+pub mod microcontroller {}
+
+#[doc = include_str!("../docs/glossary.md")]
+pub mod glossary {}
