@@ -10,6 +10,7 @@ mod cluster;
 mod near;
 mod pressed;
 mod programme;
+mod solution;
 
 use crate::contact_set::Configuration;
 use crate::scene::setup::Setup;
@@ -19,6 +20,7 @@ use near::{Near, near};
 use programme::Programme;
 use rod_core::{Pose, advance};
 use smallvec::{SmallVec, smallvec};
+use solution::solve;
 
 /// Number of links.
 const LINKS: usize = 64;
@@ -124,11 +126,11 @@ impl Chain {
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
             let mut programme = Programme::new(self, &nodes, &near, time_step, push);
-            let (change, forces) = match programme.solve(work) {
+            let (change, forces) = match solve(&programme, work) {
                 Some(solved) => solved,
                 None => {
                     programme.yielding = YIELDING;
-                    programme.solve(work)?
+                    solve(&programme, work)?
                 }
             };
             let mut moved = self.clone();
