@@ -1,0 +1,123 @@
+//! The solution of the quadratic programme of a step: the contacts are supposed first, and found one by one where that fails.
+
+use super::active_set::active_set;
+use super::pressed::pressed;
+use super::programme::{Joints, Programme};
+
+/// Change d of the joints and the force at each near node. None where the walls leave no room, or where the `work` that is left (in
+/// units of the cube of the number of near nodes) does not suffice.
+pub(super) fn solve(programme: &Programme, work: &mut f64) -> Option<(Joints, Vec<f64>)> {
+    let forces = pressed(programme).or_else(|| {
+        *work -= (programme.rows.len() as f64).powi(3);
+        (*work >= 0.0).then(|| active_set(programme)).flatten()
+    })?;
+    let bent = programme.bent(&forces);
+    Some((std::array::from_fn(|i| programme.free[i] - bent[i]), forces))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::near::Near;
+    use super::super::programme::dot;
+    use super::super::{Chain, LINKS};
+    use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use rod_core::Pose;
+    use std::f64::consts::PI;
+
+    /// A straight chain above a wavy floor that has come up to it in places.
+    fn floored(seed: u32) -> Programme {
+        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
+        let (nodes, _) = chain.nodes();
+        let waves = 2.0 + f64::from(seed) * 0.7;
+        let near: Vec<Near> = (1..=LINKS)
+            .filter(|i| i % (1 + seed as usize % 3) == 0)
+            .map(|i| {
+                let ([x, y], phase) = (nodes[i], waves * i as f64 / LINKS as f64);
+                let (gap, alpha) = (0.01 * phase.cos() + 0.002, 0.3 * phase.sin());
+                Near { s: i as f64, x, y, stretch: 0, gap, alpha }
+            })
+            .collect();
+        Programme::new(&chain, &nodes, &near, 1.0, 0.03)
+    }
+
+    /// No wall is gone through by more than rounding, none pulls, and only closed gaps press.
+    fn solves(programme: &Programme, forces: &[f64]) -> bool {
+        let bent = programme.bent(forces);
+        let slack = 1e-10 + 1e-15 * forces.iter().copied().fold(0.0, f64::max);
+        programme.rows.iter().zip(&programme.gaps).zip(forces).all(|((row, gap), force)| {
+            let gap = gap + dot(row, &bent) + programme.yielding * force;
+            gap > -slack && *force >= 0.0 && (*force == 0.0 || gap < slack)
+        })
+    }
+
+    #[test]
+    fn contacts_that_hold_are_those_of_the_active_set() {
+        let mut settled = 0;
+        for seed in 0..60 {
+            let programme = floored(seed);
+            let exact = active_set(&programme).unwrap();
+            assert!(solves(&programme, &exact), "{seed}");
+            let Some(forces) = pressed(&programme) else { continue };
+            settled += 1;
+            assert!(solves(&programme, &forces), "{seed}");
+            let largest = exact.iter().copied().fold(0.0, f64::max);
+            for (force, exact) in forces.iter().zip(&exact) {
+                assert!((force - exact).abs() < 1e-6 * (1.0 + largest), "{seed}: {force} {exact}");
+            }
+        }
+        assert!(settled > 40, "{settled}");
+    }
+
+    /// A wall in the way of the node `s`: where it is and how it lies.
+    fn walls() -> impl Strategy<Value = Vec<(usize, f64, f64)>> {
+        vec((1..=LINKS, -0.02..0.06_f64, -0.3..0.3_f64), 1..100)
+    }
+
+    proptest! {
+        #[test]
+        fn the_active_set_solves_what_has_a_solution(
+            (bend, base, walls, time_step) in (-6.0..6.0_f64, -3.0..3.0_f64, walls(), -3.0..3.0_f64),
+            both_sides in any::<bool>(),
+            yields in any::<bool>(),
+        ) {
+            let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, bend);
+            let (nodes, _) = chain.nodes();
+            let wall = |(k, (i, gap, turned)): (usize, (usize, f64, f64))| {
+                let [x, y] = nodes[i];
+                let turned = if both_sides && k % 3 == 0 { turned + PI } else { turned };
+                Near { s: i as f64, x, y, stretch: 0, gap, alpha: base + turned }
+            };
+            let near: Vec<Near> = walls.into_iter().enumerate().map(wall).collect();
+            let mut programme = Programme::new(&chain, &nodes, &near, 10_f64.powf(time_step), 0.03);
+            programme.yielding = if yields { 1e-5 } else { 0.0 };
+            let found = active_set(&programme);
+            prop_assert!(found.is_some() || !yields);
+            prop_assert!(found.is_none_or(|forces| solves(&programme, &forces)));
+        }
+    }
+
+    #[test]
+    fn nothing_near_gives_way_freely() {
+        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
+        let (nodes, _) = chain.nodes();
+        let (change, forces) = solve(&Programme::new(&chain, &nodes, &[], 1.0, 0.03), &mut { f64::INFINITY }).unwrap();
+        assert!(forces.is_empty());
+        assert!(change.iter().zip(&chain.joints).all(|(change, joint)| (change + 0.5 * joint).abs() < 1e-15));
+    }
+
+    #[test]
+    fn walls_without_room_give_way_only_where_they_may() {
+        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
+        let (nodes, _) = chain.nodes();
+        let [x, y] = nodes[LINKS];
+        let wall = |alpha| Near { s: LINKS as f64, x, y, stretch: 0, gap: -0.01, alpha };
+        let walls = [wall(0.0), wall(PI)];
+        let mut programme = Programme::new(&chain, &nodes, &walls, 1.0, 0.03);
+        assert!(solve(&programme, &mut { f64::INFINITY }).is_none());
+        programme.yielding = 1e-5;
+        let (_, forces) = solve(&programme, &mut { f64::INFINITY }).unwrap();
+        assert!((forces[0] - forces[1]).abs() < 1e-3 * forces[0] && forces[0] > 100.0, "{forces:?}");
+    }
+}
