@@ -56,6 +56,9 @@ mod track;
 #[cfg(feature = "std")]
 mod travel;
 
+// Covariances are its matrices.
+pub use nalgebra;
+
 #[cfg(feature = "std")]
 pub use assembly::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,

@@ -55,6 +55,10 @@ mod segment;
 mod units;
 mod walk;
 
+// Their types are in the interface of `NewtonSolver`.
+#[cfg(feature = "argmin")]
+pub use {argmin, nalgebra};
+
 #[cfg(feature = "argmin")]
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
