@@ -8,7 +8,7 @@
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: how contours of several scans are offset, where they disagree, one of all.
 //! - [`plausibility`]: whether a recording can be of the rod it is said to be of.
-//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings. [`compare`]: how near a result is to
+//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings. [`score`]: how near a result is to
 //!   the truth.
 //!
 //! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
@@ -19,69 +19,55 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 #[cfg(feature = "std")]
-mod assembly;
+mod check;
 #[cfg(feature = "std")]
-mod bound;
-#[cfg(feature = "std")]
-pub mod compare;
-#[cfg(feature = "std")]
-mod fit;
-#[cfg(feature = "std")]
-mod general;
+mod contour;
 #[cfg(feature = "std")]
 pub mod kink;
-mod known;
-mod label;
 #[cfg(feature = "std")]
-mod live;
+mod merge;
+mod numeric;
+mod phase;
 #[cfg(feature = "std")]
-mod noise;
+mod pipeline;
+mod point;
 #[cfg(feature = "std")]
-pub mod noise_estimate;
-mod number;
+mod scan;
 #[cfg(feature = "std")]
-mod phases;
+pub mod score;
 #[cfg(feature = "std")]
-mod plausibility;
+mod sensor_noise;
 #[cfg(feature = "std")]
-mod reconstruction;
-#[cfg(feature = "std")]
-mod scans;
-#[cfg(feature = "std")]
-mod several;
-mod single;
-mod touch;
-#[cfg(feature = "std")]
-mod track;
-#[cfg(feature = "std")]
-mod travel;
+mod two_contacts;
 
 #[cfg(feature = "std")]
-pub use assembly::{
+pub use check::{Finding, Plausibility, Shares, TangentialLine, plausibility};
+#[cfg(feature = "std")]
+pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
 #[cfg(feature = "std")]
-pub use general::{GeneralError, single_general};
-pub use label::Label;
+pub use merge::{Comparison, Disagreement, Offset, align, merge};
+pub use numeric::number::Number;
+pub use phase::label::Label;
 #[cfg(feature = "std")]
-pub use live::{Live, LiveSettings};
+pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
-pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
-pub use number::Number;
+pub use pipeline::live::{Live, LiveSettings};
 #[cfg(feature = "std")]
-pub use phases::{Basis, Evidence, Quantity};
+pub use pipeline::reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
+pub use point::single::{NoContact, single};
 #[cfg(feature = "std")]
-pub use plausibility::{Finding, Plausibility, Shares, TangentialLine, plausibility};
-#[cfg(feature = "std")]
-pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
+pub use point::single_general::{GeneralError, single_general};
+pub use point::touch::Touch;
 pub use rod_core::Sample;
 #[cfg(feature = "std")]
-pub use scans::{Comparison, Disagreement, Offset, align, merge};
+pub use scan::noise_estimate;
 #[cfg(feature = "std")]
-pub use several::Unresolved;
-pub use single::{NoContact, single};
-pub use touch::Touch;
+pub use scan::track::Fault;
 #[cfg(feature = "std")]
-pub use track::Fault;
+pub use scan::travel::{Halt, Travel};
 #[cfg(feature = "std")]
-pub use travel::{Halt, Travel};
+pub use sensor_noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
+#[cfg(feature = "std")]
+pub use two_contacts::Unresolved;

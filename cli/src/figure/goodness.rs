@@ -5,7 +5,7 @@ use super::element::Element;
 use super::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
 use crate::paper::naive::{Naive, STEP};
 use crate::paper::{DISTANCES, OBJECTS};
-use vibrissa::compare::goodness_of_fit;
+use vibrissa::score::goodness_of_fit;
 use vibrissa::{NoiseModel, Reactions};
 
 /// Noise of the sensor that stands in for the experiment: standard deviations, N, N, N m.

@@ -5,7 +5,7 @@ use super::cloud::{self, Dot};
 use super::palette::{self, FAINT, INK, MUTED, label_colour};
 use super::plane::Window;
 use crate::{Comparison, Reconstructed, naive_touch};
-use vibrissa::compare::Deviation;
+use vibrissa::score::Deviation;
 use vibrissa::{Label, Touch};
 
 /// Width; least and largest height of the plot; height of the title and the key, pixels.

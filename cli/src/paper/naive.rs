@@ -2,7 +2,7 @@
 
 use crate::reconstructed::naive_touch;
 use crate::{Error, PaperScan, Scan};
-use vibrissa::compare::signed_distance;
+use vibrissa::score::signed_distance;
 use vibrissa::{Assembly, ContourEstimate, Label, Measured, Sample, State, Sweep, Touch};
 
 /// Clamp travel between the states that are turned back, m: a quarter of what is reported, for dense rows of points.

@@ -2,7 +2,7 @@
 
 use crate::reconstructed::naive_touch;
 use crate::{Error, PaperScan};
-use vibrissa::compare::signed_distance;
+use vibrissa::score::signed_distance;
 use vibrissa::{Composite, Reason, Sample, Settings, StretchKind, Sweep, Touch, reconstruct};
 
 /// Clamp travel between samples, m: a tenth of the rate that the paper recorded at.

@@ -4,9 +4,9 @@
 use super::{Comparison, Reconstructed, Transition};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use vibrissa::compare::{Deviation, KinkScore};
 use vibrissa::kink::KinkKind;
 use vibrissa::noise_estimate::ChannelNoise;
+use vibrissa::score::{Deviation, KinkScore};
 use vibrissa::{Gap, Label, Plausibility, Pose, Rod, Shares};
 
 /// report.json.

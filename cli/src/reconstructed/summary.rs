@@ -5,7 +5,7 @@ use super::truth::Comparison;
 use super::{Reconstructed, Transition};
 use crate::table::Table;
 use std::fmt::Write;
-use vibrissa::compare::Deviation;
+use vibrissa::score::Deviation;
 
 impl Reconstructed {
     /// Rows, noise, labels, points and gaps; where the truth is known, how near they are to it.

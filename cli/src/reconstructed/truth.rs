@@ -5,7 +5,7 @@ use crate::{Error, Scan, Scene, interval};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::path::PathBuf;
-use vibrissa::compare::{Confusion, Deviation, KinkScore, signed_distance};
+use vibrissa::score::{Confusion, Deviation, KinkScore, signed_distance};
 use vibrissa::{Composite, Event, EventKind, Label, Pose, Rod, Stop, Touch, single};
 
 /// How far, in lengths of the rod, a pose may be from the path of the scene and belong to it.

@@ -3,7 +3,7 @@
 use super::scale::reach;
 use super::search::Detector;
 use super::{Kink, KinkOptions};
-use crate::noise_estimate::ChannelNoise;
+use crate::scan::noise_estimate::ChannelNoise;
 use std::collections::VecDeque;
 
 /// [`find_kinks`](super::find_kinks) sample by sample: the search runs over the last samples each time that half of the

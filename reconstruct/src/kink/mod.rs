@@ -25,13 +25,12 @@
 
 mod basis;
 mod filter;
+mod free_knot;
 mod level;
-mod refine;
 mod scale;
 mod search;
-mod threshold;
 
-use crate::noise_estimate::ChannelNoise;
+use crate::scan::noise_estimate::ChannelNoise;
 use search::Detector;
 
 pub use filter::KinkFilter;

@@ -1,12 +1,12 @@
 //! From the finest scale to the coarsest: what no finer scale explains.
 
 use super::basis::{Basis, FEWEST, MOST, ROWS, Verdict, Window};
+use super::free_knot::{Part, Placed};
 use super::level::Level;
-use super::refine::{Part, Placed};
 use super::scale::{Scale, scales};
-use super::threshold;
 use super::{Kink, KinkKind, KinkOptions, equivalents};
-use crate::noise_estimate::ChannelNoise;
+use crate::numeric::chi_squared as threshold;
+use crate::scan::noise_estimate::ChannelNoise;
 
 /// The noise is known to some 10 % of its variance, and thresholds allow for it.
 const ALLOWANCE: f64 = 1.1;

@@ -3,7 +3,7 @@
 use super::{Clean, MARGIN, STEP};
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
-use vibrissa::compare::{Confusion, KinkScore, signed_distance};
+use vibrissa::score::{Confusion, KinkScore, signed_distance};
 use vibrissa::{Assembly, Label, Reconstruction, Sample, Touch, TraceKind, single};
 
 /// Distance of the places at which an assembled contour is compared, m.

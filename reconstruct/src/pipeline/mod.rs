@@ -1,0 +1,4 @@
+//! From samples to labels, contact points and the contour.
+
+pub(crate) mod live;
+pub(crate) mod reconstruction;
