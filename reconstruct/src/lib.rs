@@ -1,20 +1,19 @@
-//! From what the clamp feels back to the object: contact points, contact phases, contours.
+//! Contact points, contact phases and contours of objects from the reactions at the clamp of a rod.
 //!
-//! - [`single`]: the one contact behind the pose of the clamp and what it feels (a [`Sample`]), in closed form, and
+//! - [`single`]: the contact point of one contact from one [`Sample`] (pose of the clamp and reactions), in closed form, and
 //!   [`single_general`] for rods without one. [`NoContact`]: why there is none.
-//! - [`reconstruct`]: a whole scan, its samples with their [`Label`]s, contacts ([`Touch`]), also both where there are two, and
-//!   the [`Evidence`]. [`Live`]: the labels and single contacts as samples come.
-//! - [`kink`], [`noise_estimate`]: where the reactions break, and how noisy they are.
+//! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
+//!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
+//! - [`kink`], [`noise_estimate`]: the places where the reactions have kinks and jumps, and their noise.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
-//! - [`align`], [`Comparison`], [`merge`]: how contours of several scans are offset, where they disagree, one of all.
-//! - [`plausibility`]: whether a recording can be of the rod it is said to be of.
-//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings. [`score`]: how near a result is to
-//!   the truth.
+//! - [`align`], [`Comparison`], [`merge`]: offsets of the contours of several scans, where they disagree, and one contour from all.
+//! - [`plausibility`]: whether a recording can be of the rod that is given.
+//! - `NoiseModel` (feature `sensor-noise`): simulated sensors. `score` (feature `score`): scores of a result against the truth.
 //!
-//! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
-//! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
+//! This crate needs reactions only: it does not depend on sensors, nor on how a rod is swept. Units are SI at its border and
+//! dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 //!
-//! Without the feature `std` there is no heap, and [`single`] is left, in `f32` or `f64`, for a microcontroller.
+//! Without the feature `std` there is no heap. [`single`] is left, in `f32` or `f64`, for a microcontroller.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
@@ -33,9 +32,9 @@ mod pipeline;
 mod point;
 #[cfg(feature = "std")]
 mod scan;
-#[cfg(feature = "std")]
+#[cfg(feature = "score")]
 pub mod score;
-#[cfg(feature = "std")]
+#[cfg(feature = "sensor-noise")]
 mod sensor_noise;
 #[cfg(feature = "std")]
 mod two_contacts;
@@ -48,26 +47,21 @@ pub use contour::{
 };
 #[cfg(feature = "std")]
 pub use merge::{Comparison, Disagreement, Offset, align, merge};
-pub use numeric::number::Number;
-pub use phase::label::Label;
+pub use numeric::Number;
+pub use phase::Label;
 #[cfg(feature = "std")]
 pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
-pub use pipeline::live::{Live, LiveSettings};
+pub use pipeline::{
+    Live, LiveSession, LiveSettings, Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct,
+};
 #[cfg(feature = "std")]
-pub use pipeline::reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
-pub use point::single::{NoContact, single};
-#[cfg(feature = "std")]
-pub use point::single_general::{GeneralError, single_general};
-pub use point::touch::Touch;
+pub use point::{GeneralError, single_general};
+pub use point::{NoContact, Touch, single};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]
-pub use scan::noise_estimate;
-#[cfg(feature = "std")]
-pub use scan::track::Fault;
-#[cfg(feature = "std")]
-pub use scan::travel::{Halt, Travel};
-#[cfg(feature = "std")]
+pub use scan::{Fault, Halt, Travel, noise_estimate};
+#[cfg(feature = "sensor-noise")]
 pub use sensor_noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 #[cfg(feature = "std")]
 pub use two_contacts::Unresolved;

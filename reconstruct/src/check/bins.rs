@@ -1,12 +1,12 @@
-//! Consecutive samples, averaged: what is linear in them stays so, and the noise is less.
+//! Consecutive samples, averaged: linear relations between them remain, with less noise.
 
 use crate::scan::noise_estimate::estimate;
 use nalgebra::Matrix3;
 use rod_core::{Pose, Reactions, Sample};
 
-/// Most bins.
-const MOST: usize = 1000;
-/// So many standard deviations are more than noise.
+/// Most bins of a recording. More: more time, and more noise of a bin.
+const MOST_BINS: usize = 1000;
+/// The rod is free where all reactions are within so many standard deviations of 0.
 const SIGMAS: f64 = 4.0;
 
 /// The mean of consecutive samples, SI units if theirs are.
@@ -16,12 +16,12 @@ pub(super) struct Bin {
     pub reactions: Reactions,
     /// 2 (f0y sin phi0 + f0x cos phi0)
     pub load: f64,
-    /// m0z^2, without what the noise adds to it.
+    /// m0z^2, less the variance of the noise.
     pub square: f64,
     /// Standard deviations of both.
     pub sigma_load: f64,
     pub sigma_square: f64,
-    /// Of the reactions.
+    /// Covariance of the reactions.
     pub covariance: Matrix3<f64>,
 }
 
@@ -31,9 +31,9 @@ pub(super) fn bins(samples: &[Sample]) -> Vec<Bin> {
     let count: Vec<f64> = (0..usable.len()).map(|k| k as f64).collect();
     let channel = |of: fn(&Reactions) -> f64| -> Vec<f64> { usable.iter().map(|s| of(&s.reactions)).collect() };
     let channels = [channel(|r| r.f0x), channel(|r| r.f0y), channel(|r| r.m0z)];
-    // Spaced by number, not by way: the way may be in a wrong unit, too.
+    // spaced by number, not by path length, which may be in a wrong unit, too
     let noise = channels.each_ref().map(|channel| estimate(&count, channel));
-    let length = usable.len().div_ceil(MOST).max(1);
+    let length = usable.len().div_ceil(MOST_BINS).max(1);
     let mut bins = Vec::with_capacity(usable.len() / length + 1);
     for part in usable.chunks(length) {
         let n = part.len() as f64;

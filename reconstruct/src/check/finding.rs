@@ -1,38 +1,19 @@
-//! What the check by the physics suggests.
+//! A conclusion of the check by the physics.
 
-use super::bins::Bin;
-use super::line::Found;
-use super::{Shares, contact};
-use crate::point::single::NoContact;
-use crate::point::touch::Touch;
-use crate::scan::travel::Travel;
-use rod_core::{Reactions, Rod, Sample};
-use std::f64::consts::TAU;
+use super::Shares;
 use std::fmt;
 
-/// Standard errors that are no chance.
-const SIGMAS: f64 = 4.0;
-/// A length off by so much is none of the rod's.
+/// Relative difference of the stiffness from which on the recording does not fit the rod.
+const MISFIT_STIFFNESS: f64 = 0.1;
+/// Relative difference of the length from which on the recording does not fit the rod. Larger than that of the stiffness: samples with
+/// several contacts may look like contacts of the tip at another length.
 const MISFIT_LENGTH: f64 = 0.2;
-/// How far off, in parts, the stiffness may be before it is told, and before the rod does not fit.
-const TOLD: f64 = 0.03;
-const MISFIT: f64 = 0.1;
-/// How large an intercept is told, in parts of the largest m0z^2, and when the recording does not fit.
-const SHIFTED: f64 = 0.01;
-const FAR_SHIFTED: f64 = 0.1;
-/// The slope is a power of ten of the stiffness within this factor.
-const NEAR: f64 = 2.0;
-/// Share of the scan in contact that no single contact explains from which on the rod does not fit.
-const UNEXPLAINED: f64 = 0.2;
-/// How far off, in parts, the length may be.
-const LENGTH: f64 = 0.03;
-/// Contacts of the tip whose arc lengths differ by no more than this part are all at the tip.
-const ALIKE: f64 = 0.01;
-/// A way of the clamp of so many lengths of the rod is more likely in another unit.
-const LONG_WAY: f64 = 100.0;
+/// Intercept, relative to the largest m0z^2, or offset of the moment, relative to the largest moment, from which on the recording does
+/// not fit the rod.
+const MISFIT_SHIFT: f64 = 0.1;
 
 /// Units by the power of ten that they give the slope.
-const UNITS: [(i32, &str); 8] = [
+pub(super) const UNITS: [(i32, &str); 8] = [
     (-6, "forces are in uN, or moments in kN mm or N km"),
     (-3, "forces are in mN"),
     (3, "moments are in N mm and forces in mN"),
@@ -43,28 +24,28 @@ const UNITS: [(i32, &str); 8] = [
     (12, "moments are in mN mm"),
 ];
 
-/// Something that the check by the physics suggests. Displays as a sentence without its full stop.
+/// A conclusion of the check by the physics. Displays as a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// The rod is free all along.
+    /// The rod is always free.
     NoContact,
-    /// There is no line to check anything by.
+    /// The samples of tangential contacts are on no line.
     NoLine,
     /// The slope is negative.
     Sign,
-    /// The slope is about a power of ten of the stiffness.
+    /// The slope is about the stiffness times a power of ten.
     Units {
         /// Slope over bending stiffness.
         ratio: f64,
         /// The power.
         power: i32,
     },
-    /// The slope is another stiffness.
+    /// The slope is that of another stiffness.
     Stiffness {
         /// That of the rod, N m^2.
         given: f64,
-        /// What the recording suggests, N m^2, in the units that it seems to be in.
+        /// That of the recording, N m^2, in the units that it seems to be in.
         suggested: f64,
         /// Its standard error, N m^2.
         sigma: f64,
@@ -73,12 +54,12 @@ pub enum Finding {
     Intercept {
         /// The intercept, in parts of the largest m0z^2.
         part: f64,
-        /// The force that would have to be taken off the load f0y sin phi0 + f0x cos phi0, N.
+        /// The force to be subtracted from the load f0y sin phi0 + f0x cos phi0, N.
         force: f64,
     },
-    /// The moment is off by a constant.
+    /// The moment has an offset.
     MomentOffset {
-        /// By how much, N m.
+        /// The offset, N m.
         moment: f64,
         /// Its standard error, N m.
         sigma: f64,
@@ -91,38 +72,37 @@ pub enum Finding {
     Length {
         /// That of the rod, m.
         given: f64,
-        /// What the recording suggests, m.
+        /// That of the recording, m.
         suggested: f64,
     },
-    /// The angle of the clamp is many turns.
+    /// The angle of the clamp exceeds a turn.
     Angle {
         /// The largest, radians.
         largest: f64,
     },
-    /// The way of the clamp is very long.
+    /// The path of the clamp is very long.
     Way {
         /// In lengths of the rod.
         lengths: f64,
     },
-    /// Much is explained by no contact on this rod, were it as stiff as the line suggests.
+    /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
     Unexplained {
-        /// By what a single contact makes of it.
+        /// The shares of what a single contact explains or not.
         shares: Shares,
-        /// Whether of what is on the line, or, where there is none, of all of the scan in contact: that may have several
-        /// contacts.
+        /// Whether these are shares of the samples on the line. Without a line they are of all samples in contact, of which some may have
+        /// several contacts.
         tangential: bool,
     },
 }
 
 impl Finding {
-    /// Whether it says that recording, units and rod do not fit together.
+    /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {
             Self::NoContact | Self::NoLine | Self::Angle { .. } | Self::Way { .. } => false,
-            Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT,
-            // where several contacts look like one they may look alike, too: a small difference is a hint at most
+            Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT_STIFFNESS,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
-            Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > FAR_SHIFTED,
+            Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
             Self::Sign | Self::Units { .. } | Self::MomentSign => true,
         }
@@ -189,126 +169,3 @@ impl fmt::Display for Finding {
         }
     }
 }
-
-/// What line and shares suggest.
-pub(super) fn findings(
-    rod: &Rod,
-    samples: &[Sample],
-    bins: &[Bin],
-    found: Option<&Found>,
-    mut shares: Shares,
-) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    let largest = samples.iter().map(|sample| sample.pose.phi.abs()).filter(|phi| phi.is_finite()).fold(0.0, f64::max);
-    if largest > TAU {
-        findings.push(Finding::Angle { largest });
-    }
-    let mut travel = Travel::new(rod);
-    let way = samples.iter().fold(0.0, |way, sample| travel.go(&sample.pose).unwrap_or(way));
-    if way > LONG_WAY * rod.length() {
-        findings.push(Finding::Way { lengths: way / rod.length() });
-    }
-    // with this stiffness, the length can be looked at
-    let mut stiffness = rod.bending_stiffness();
-    match found {
-        None => findings.push(Finding::NoLine),
-        Some(found) => stiffness = of_line(rod, bins, found, &mut findings),
-    }
-    let in_units = !findings.iter().any(|f| matches!(f, Finding::Sign | Finding::Units { .. } | Finding::Way { .. }));
-    if in_units && let Ok(rod) = Rod::new(rod.length(), stiffness) {
-        if found.is_some_and(|found| moment_sign(&rod, bins, found)) {
-            findings.push(Finding::MomentSign);
-            return findings;
-        }
-        findings.extend(length(&rod, bins));
-        let on = |found: &Found| bins.iter().zip(&found.on).filter(|(_, on)| **on).map(|(bin, _)| *bin).collect();
-        shares = Shares::of(&rod, &found.map_or_else(|| bins.to_vec(), on));
-    }
-    if 1.0 - shares.explained > UNEXPLAINED {
-        findings.push(Finding::Unexplained { shares, tangential: in_units && found.is_some() });
-    }
-    findings
-}
-
-/// What slope and intercept suggest; the stiffness they suggest, in the recording's own units.
-fn of_line(rod: &Rod, bins: &[Bin], found: &Found, findings: &mut Vec<Finding>) -> f64 {
-    let (line, given) = (&found.line, rod.bending_stiffness());
-    let mut ratio = line.slope / given;
-    if ratio < 0.0 && line.slope.abs() > SIGMAS * line.slope_sigma {
-        findings.push(Finding::Sign);
-    }
-    let near = |power: i32| (ratio.abs().log10() - f64::from(power)).abs() < NEAR.log10();
-    if let Some(&(power, _)) = UNITS.iter().find(|unit| near(unit.0)) {
-        findings.push(Finding::Units { ratio: ratio.abs(), power });
-        ratio /= 10_f64.powi(power);
-    }
-    let suggested = ratio.abs() * given;
-    let sigma = line.slope_sigma / line.slope.abs() * suggested;
-    let off = (suggested - given).abs();
-    if off > TOLD * given && off > SIGMAS * sigma {
-        findings.push(Finding::Stiffness { given, suggested, sigma });
-    }
-    let square = bins.iter().map(|bin| bin.square.abs()).fold(0.0, f64::max);
-    if let Some((moment, sigma)) = line.moment_offset
-        && moment.abs() > SIGMAS * sigma
-    {
-        let part = moment / square.sqrt();
-        if part.abs() > 0.5 * SHIFTED {
-            findings.push(Finding::MomentOffset { moment, sigma, part });
-        }
-    } else {
-        let part = line.intercept / square;
-        if part.abs() > SHIFTED && line.intercept.abs() > SIGMAS * line.intercept_sigma {
-            findings.push(Finding::Intercept { part, force: -0.5 * line.intercept / line.slope });
-        }
-    }
-    line.slope.abs()
-}
-
-/// Whether tangential contacts are on the rod with the moment's sign turned only.
-fn moment_sign(rod: &Rod, bins: &[Bin], found: &Found) -> bool {
-    let on = || bins.iter().zip(&found.on).filter(|(_, on)| **on).map(|(bin, _)| bin);
-    let turned = |bin: &Bin| Reactions { m0z: -bin.reactions.m0z, ..bin.reactions };
-    let (mut as_is, mut other, mut nearer) = (0, 0, 0);
-    for bin in on() {
-        let [here, there] = [bin.reactions, turned(bin)].map(|reactions| contact(rod, bin, reactions));
-        as_is += usize::from(here.is_ok());
-        other += usize::from(there.is_ok());
-        // the rod bends towards the contact, not away from it and back
-        let s = |found: Result<Touch, NoContact>| found.map_or(f64::INFINITY, |touch| touch.s);
-        nearer += usize::from(s(there) < s(here));
-    }
-    let count = on().count();
-    10 * as_is < 9 * other && 2 * other > count && 2 * nearer > count
-}
-
-/// Another length, where half of the contacts of the tip (with a negative phase criterion) are at one arc length.
-fn length(rod: &Rod, bins: &[Bin]) -> Option<Finding> {
-    let stiffness = rod.bending_stiffness();
-    let tip = |bin: &&Bin| {
-        let noise = bin.sigma_square.hypot(stiffness * bin.sigma_load);
-        let criterion = bin.square - stiffness * bin.load;
-        criterion < -SIGMAS * noise && criterion < -SLACK_OF_TIP * bin.square.abs()
-    };
-    let mut lengths: Vec<f64> = bins
-        .iter()
-        .filter(tip)
-        .filter_map(|bin| contact(rod, bin, bin.reactions).map_or_else(|none| none.touch(), Some))
-        .map(|touch| touch.s)
-        .collect();
-    lengths.sort_unstable_by(f64::total_cmp);
-    let (half, given) = (lengths.len() / 2, rod.length());
-    let as_given = lengths.iter().filter(|s| (*s / given - 1.0).abs() < LENGTH).count();
-    if half < FEWEST_TIPS || 5 * as_given > lengths.len() {
-        return None;
-    }
-    let ranges = lengths.windows(half + 1).map(|part| (part[half] - part[0], part[half / 2]));
-    let (range, suggested) = ranges.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let off = (suggested - given).abs();
-    (range < ALIKE * suggested && off > LENGTH * given && off > range).then_some(Finding::Length { given, suggested })
-}
-
-/// A phase criterion within this part of m0z^2 of zero may be of a tangential contact.
-const SLACK_OF_TIP: f64 = 0.02;
-/// Fewest bins that half of the contacts of the tip must be.
-const FEWEST_TIPS: usize = 5;

@@ -1,36 +1,43 @@
-//! The line on which tangential contacts lie, found among everything else.
+//! The line on which tangential contacts lie, found among all samples.
 
 use super::bins::Bin;
-use nalgebra::{DMatrix, DVector};
+use super::fit::{Columns, Fit, sigma, straight, with_offset};
 
-/// Bins of the windows that lines are tried through.
+/// Bins of the windows through which lines are tried.
 const WINDOWS: [usize; 3] = [8, 24, 72];
-/// How far off a line a bin may be at first, in parts of the largest square.
+/// First tolerance of the distance of a bin from a line, relative to the largest square. Larger: contacts of the tip near the line
+/// count, too; smaller: a line is missed where the noise is underestimated.
 const WIDE: f64 = 2e-3;
 /// Bins within so many standard deviations are on a line.
 const SIGMAS: f64 = 4.0;
-/// Fewest bins on a line, the least part of the bins, and of the range of the loads that they must span.
+/// Fewest bins on a line.
 const FEWEST: usize = 8;
-const LEAST_SHARE: f64 = 0.2;
-const LEAST_SPAN: f64 = 0.2;
-/// A quadratic that departs from the line by this part of the squares' range is no line.
+/// Smallest share of the bins that must be on a line.
+const SMALLEST_SHARE: f64 = 0.2;
+/// Smallest share of the range of the loads that a line must span.
+const SHORTEST: f64 = 0.2;
+/// Departure of a quadratic from the line, relative to the range of the squares, from which on it is no line.
 const BENT: f64 = 0.02;
-/// A line that misses the origin by less, in parts of the largest square, needs no offset of the moment.
+/// Intercept, relative to the largest square, below which no offset of the moment is looked for.
 const ORIGIN: f64 = 5e-3;
-/// Offsets of the moment that are tried, to either side, and the largest, in parts of the largest moment.
+/// Offsets of the moment that are tried, on either side of 0.
 const OFFSETS: i32 = 20;
+/// The largest of them, relative to the largest moment.
 const LARGEST_OFFSET: f64 = 0.2;
-/// With an offset of the moment taken into account, so many times as much of the scan must be on the line; or so much
-/// of it where there is no line otherwise.
+/// Factor by which more bins must be on the line with an offset of the moment than without.
 const MORE: f64 = 1.2;
-const LEAST_WITH_OFFSET: f64 = 0.3;
-/// What may be left beyond the noise, in parts of the largest square; and where an offset of the moment is fitted, too.
+/// Smallest share of the bins that must be on the line with an offset, if there is none without.
+const SMALLEST_SHARE_WITH_OFFSET: f64 = 0.3;
+/// Largest scatter of a line beyond the noise, relative to the largest square.
 const SCATTER: f64 = 2e-2;
+/// The same of a line with an offset of the moment, which fits other curves, too.
 const SCATTER_WITH_OFFSET: f64 = 1e-3;
-/// Bins on either side that a bin must be on the line with.
+/// Bins on either side with which the mean of a bin must be on the line.
 const NEIGHBOURS: usize = 8;
-/// Rounds of fitting and choosing.
+/// Most rounds of fitting and choosing.
 const ROUNDS: usize = 30;
+/// Median of |z| of a standard normal variable z.
+const NORMAL_MEDIAN: f64 = 0.6745;
 
 /// The straight line that m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) follows wherever the last contact is tangential;
 /// its slope is the bending stiffness, and it goes through the origin.
@@ -40,90 +47,25 @@ pub struct TangentialLine {
     pub slope: f64,
     /// Its standard error, N m^2.
     pub slope_sigma: f64,
-    /// Intercept, N^2 m^2: 0 where forces and moments are.
+    /// Intercept, N^2 m^2: 0 if forces and moments have no offset.
     pub intercept: f64,
     /// Its standard error, N^2 m^2.
     pub intercept_sigma: f64,
     /// Share of the scan in contact that lies on it.
     pub share: f64,
-    /// What m0z is too large by, N m, and its standard error: the line is then that of the moment without it. None
-    /// where the line holds as well as it is.
+    /// The offset of m0z, N m, and its standard error; the line is then that of the moment without it. None where the line fits as well
+    /// without an offset.
     pub moment_offset: Option<(f64, f64)>,
 }
 
 /// A line with the bins on it.
-pub(super) struct Found {
+pub(super) struct Consensus {
     pub line: TangentialLine,
     pub on: Vec<bool>,
 }
 
-/// A polynomial in the load, and the moment: what is fitted.
-type Columns<'a> = &'a dyn Fn(&Bin) -> Vec<f64>;
-
-struct Fit {
-    at: DVector<f64>,
-    covariance: DMatrix<f64>,
-}
-
-impl Fit {
-    /// Weighted least squares; standard errors by the scatter where that is more than the noise.
-    fn of(bins: &[Bin], on: &[bool], columns: Columns<'_>, slope: f64, floor: f64) -> Option<Self> {
-        let used: Vec<&Bin> = bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin).collect();
-        let width = columns(used.first()?).len();
-        if used.len() <= width {
-            return None;
-        }
-        let rows: Vec<Vec<f64>> = used.iter().map(|bin| columns(bin)).collect();
-        let sigma: Vec<f64> = used.iter().map(|bin| sigma(bin, slope).max(floor)).collect();
-        // Columns of one size: squares of newtons and newton metres are far apart.
-        let scale: Vec<f64> = (0..width)
-            .map(|c| rows.iter().map(|row| row[c].abs()).fold(0.0, f64::max))
-            .map(|largest| if largest > 0.0 { largest } else { 1.0 })
-            .collect();
-        let matrix = DMatrix::from_fn(used.len(), width, |i, c| rows[i][c] / scale[c] / sigma[i]);
-        let right = DVector::from_fn(used.len(), |i, _| used[i].square / sigma[i]);
-        let normal = (matrix.transpose() * &matrix).cholesky()?;
-        let at = normal.solve(&(matrix.transpose() * &right));
-        let rest = (&matrix * &at - &right).norm_squared() / (used.len() - width) as f64;
-        let unscale = |c: usize| 1.0 / scale[c];
-        let covariance = normal.inverse() * rest.max(1.0);
-        Some(Self {
-            at: DVector::from_fn(width, |c, _| at[c] * unscale(c)),
-            covariance: DMatrix::from_fn(width, width, |a, b| covariance[(a, b)] * unscale(a) * unscale(b)),
-        })
-    }
-
-    fn sigma(&self, column: usize) -> f64 {
-        self.covariance[(column, column)].max(0.0).sqrt()
-    }
-
-    /// What is left beyond the noise: root of the mean square.
-    fn rest(&self, bins: &[Bin], on: &[bool], columns: Columns<'_>) -> f64 {
-        let used = || bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin);
-        let excess = |bin: &Bin| self.off(bin, columns).powi(2) - sigma(bin, self.at[0]).powi(2);
-        (used().map(excess).sum::<f64>() / used().count().max(1) as f64).max(0.0).sqrt()
-    }
-
-    fn off(&self, bin: &Bin, columns: Columns<'_>) -> f64 {
-        bin.square - columns(bin).iter().zip(&self.at).map(|(column, at)| column * at).sum::<f64>()
-    }
-}
-
-fn straight(bin: &Bin) -> Vec<f64> {
-    vec![bin.load, 1.0]
-}
-
-fn with_offset(bin: &Bin) -> Vec<f64> {
-    vec![bin.load, 1.0, bin.reactions.m0z]
-}
-
-/// Standard deviation of the distance from a line of this slope.
-fn sigma(bin: &Bin, slope: f64) -> f64 {
-    bin.sigma_square.hypot(slope * bin.sigma_load)
-}
-
 /// The line that most bins are on.
-pub(super) fn find(bins: &[Bin]) -> Option<Found> {
+pub(super) fn line_of(bins: &[Bin]) -> Option<Consensus> {
     let largest = bins.iter().map(|bin| bin.square.abs()).fold(0.0, f64::max);
     let rounding = f64::EPSILON * 8.0 * largest;
     let plain = consensus(bins, largest)
@@ -132,24 +74,31 @@ pub(super) fn find(bins: &[Bin]) -> Option<Found> {
         .filter(|(fit, on)| !is_bent(bins, on, fit.at[0], rounding));
     let through_origin = plain.as_ref().is_some_and(|(fit, _)| fit.at[1].abs() < ORIGIN * largest);
     let offset = if through_origin { None } else { with_offset_of_moment(bins, largest, rounding) };
-    let least = plain.as_ref().map_or(LEAST_WITH_OFFSET * bins.len() as f64, |(_, on)| MORE * count(on) as f64);
-    let offset = offset.filter(|(_, on)| count(on) as f64 > least);
-    let moment_offset = offset.as_ref().map(|(fit, _)| (0.5 * fit.at[2], 0.5 * fit.sigma(2)));
-    let (fit, on) = offset.or(plain)?;
-    let line = TangentialLine {
+    let least =
+        plain.as_ref().map_or(SMALLEST_SHARE_WITH_OFFSET * bins.len() as f64, |(_, on)| MORE * count(on) as f64);
+    if let Some((fit, on)) = offset.filter(|(_, on)| count(on) as f64 > least) {
+        let moment_offset = Some((0.5 * fit.at[2], 0.5 * fit.sigma(2)));
+        let line = TangentialLine { moment_offset, ..line(&fit, &on) };
+        return Some(Consensus { line, on });
+    }
+    plain.map(|(fit, on)| Consensus { line: line(&fit, &on), on })
+}
+
+/// The line of a fit, without an offset of the moment.
+fn line<const N: usize>(fit: &Fit<N>, on: &[bool]) -> TangentialLine {
+    TangentialLine {
         slope: fit.at[0],
         slope_sigma: fit.sigma(0),
         intercept: fit.at[1],
         intercept_sigma: fit.sigma(1),
-        share: count(&on) as f64 / bins.len() as f64,
-        moment_offset,
-    };
-    Some(Found { line, on })
+        share: count(on) as f64 / on.len() as f64,
+        moment_offset: None,
+    }
 }
 
-/// The line where a moment that is off bends it: of a range of offsets, the one that leaves most bins on a line is
-/// where the fit starts.
-fn with_offset_of_moment(bins: &[Bin], largest: f64, rounding: f64) -> Option<(Fit, Vec<bool>)> {
+/// The line with an offset of the moment, which bends the line without it. The fit starts from that of a range of offsets which leaves
+/// most bins on a line.
+fn with_offset_of_moment(bins: &[Bin], largest: f64, rounding: f64) -> Option<(Fit<3>, Vec<bool>)> {
     let tried = (-OFFSETS..=OFFSETS).filter_map(|k| {
         let offset = LARGEST_OFFSET * largest.sqrt() * f64::from(k) / f64::from(OFFSETS);
         let shifted = |bin: &Bin| Bin { square: bin.square + offset * (offset - 2.0 * bin.reactions.m0z), ..*bin };
@@ -173,7 +122,7 @@ fn consensus(bins: &[Bin], largest: f64) -> Option<(Vec<bool>, f64)> {
             let Some((slope, intercept)) = through(window) else { continue };
             let off = |bin: &Bin| (bin.square - intercept - slope * bin.load).abs();
             let on = |bin: &Bin| off(bin) <= wide.max(SIGMAS * sigma(bin, slope));
-            // a window that is not straight itself is none to start from
+            // a window that is not straight itself has no tangential contacts
             if !window.iter().all(on) {
                 continue;
             }
@@ -208,17 +157,17 @@ fn spans(bins: &[Bin], on: &[bool]) -> bool {
     let count = count(on);
     let all = range(&mut bins.iter().map(|bin| bin.load));
     let part = range(&mut bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin.load));
-    count >= FEWEST && count as f64 >= LEAST_SHARE * bins.len() as f64 && part >= LEAST_SPAN * all
+    count >= FEWEST && count as f64 >= SMALLEST_SHARE * bins.len() as f64 && part >= SHORTEST * all
 }
 
-/// Fits, and chooses the bins on the fit by their noise or their scatter, until nothing changes. A bin must be on it
-/// with its neighbours: contacts of the tip come near the line, and are then a little off it all together.
-fn refine(
+/// Fits, and chooses the bins on the fit by their noise or their scatter, until the choice stays the same. The mean of a bin and its
+/// neighbours must be on the fit, too: contacts of the tip come near the line, and then all depart to the same side.
+fn refine<const N: usize>(
     bins: &[Bin],
     (mut on, mut slope): (Vec<bool>, f64),
-    columns: Columns<'_>,
+    columns: Columns<'_, N>,
     rounding: f64,
-) -> Option<(Fit, Vec<bool>)> {
+) -> Option<(Fit<N>, Vec<bool>)> {
     let mut fit = Fit::of(bins, &on, columns, slope, rounding)?;
     for _ in 0..ROUNDS {
         slope = fit.at[0];
@@ -247,16 +196,15 @@ fn with_neighbours(alone: &[f64]) -> Vec<f64> {
 fn scatter(z: &[f64], on: &[bool]) -> f64 {
     let mut sizes: Vec<f64> = z.iter().zip(on).filter(|(_, on)| **on).map(|(z, _)| z.abs()).collect();
     sizes.sort_unstable_by(f64::total_cmp);
-    // the median of |z| of a normal variable is 0.6745
-    sizes.get(sizes.len() / 2).map_or(0.0, |median| median / 0.6745)
+    sizes.get(sizes.len() / 2).map_or(0.0, |median| median / NORMAL_MEDIAN)
 }
 
-/// Whether a parabola fits better than the line, and is another thing.
+/// Whether a parabola fits significantly better than the line, and departs from it.
 fn is_bent(bins: &[Bin], on: &[bool], slope: f64, rounding: f64) -> bool {
     let loads = || bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin.load);
     let (least, most) = loads().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let middle = 0.5 * (least + most);
-    let quadratic = move |bin: &Bin| vec![bin.load, 1.0, (bin.load - middle).powi(2)];
+    let quadratic = move |bin: &Bin| [bin.load, 1.0, (bin.load - middle).powi(2)];
     let Some(fit) = Fit::of(bins, on, &quadratic, slope, rounding) else { return false };
     let half = 0.5 * (most - least);
     let bent = fit.at[2].abs() * half * half;

@@ -1,15 +1,15 @@
-//! Consecutive points of a run averaged, so that what is left of the noise is less than their distance.
+//! Consecutive points of a run, averaged until their noise is smaller than their distance.
 //!
-//! The bins are cut by the number of the sample, never by where the noisy points lie: a mean over points chosen by
-//! their own noise would be off.
+//! The bins are cut by the index of the sample, never by the position of the noisy points: a mean over points that are selected by
+//! their own noise would be biased.
 
 use super::point::Point;
 use super::scatter;
 use nalgebra::{Matrix2, Vector2};
 
-/// Bins are at least so many of their standard deviations apart, on average.
+/// Smallest mean distance of neighbouring bins, in their standard deviations. Larger: smoother contours with fewer points.
 const APART: f64 = 4.0;
-/// A run has at least so many bins, as long as it has as many points.
+/// Fewest bins of a run, unless it has fewer points.
 const FEWEST: usize = 8;
 
 /// The mean of some consecutive points.
@@ -19,10 +19,10 @@ pub(super) struct Bin {
     pub from: usize,
     pub to: usize,
     pub at: Vector2<f64>,
-    /// Of `at`.
+    /// Covariance of `at`.
     pub covariance: Matrix2<f64>,
-    /// How far the mean of the points may be off because a point does not depend linearly on what was measured: the
-    /// error of the rod's angles squared, times half the length over which they count.
+    /// Bias of the mean, m, because a point is not linear in the reactions: the square of the error of the rod's angles, times half
+    /// the length over which they act.
     pub bias: f64,
     /// Tangent of the contour, a unit vector.
     pub tangent: Vector2<f64>,
@@ -33,7 +33,7 @@ pub(super) struct Bin {
 /// The bins of a run whose points have covariances.
 pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
     let parts = parts(run);
-    // Where nothing is known of the force the tangents count alike.
+    // where no force is known, all tangents have the same weight
     let forceless = run.iter().all(|point| point.force.norm() == 0.0);
     let force = |point: &Point| if forceless { point.tangent } else { point.force };
     let force_noise = scatter::variance(run.iter().map(force), |_| Matrix2::identity()).unwrap_or(0.0);
@@ -43,7 +43,7 @@ pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
         .filter_map(|part| {
             let (first, last, many) = (part.first()?, part.last()?, part.len() as f64);
             let covariance = part.iter().map(|point| point.covariance).sum::<Matrix2<f64>>() / (many * many);
-            // The mean of the force vectors, not of the angles: it is as exact where the force is small.
+            // the mean of the force vectors, whose errors are the same, not of the angles
             let force = part.iter().map(force).sum::<Vector2<f64>>() / many;
             let bias =
                 part.iter().map(|point| 0.5 * point.covariance.trace() / (point.shared * point.s)).sum::<f64>() / many;
@@ -70,8 +70,8 @@ pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
     bins
 }
 
-/// The points of each bin: as many bins of equal size as their distance allows, on average; those are halved in which
-/// the contact goes much faster.
+/// The points of each bin: as many bins of equal size as their mean distance allows. Bins in which the contact moves much faster are
+/// halved.
 fn parts(run: &[Point]) -> Vec<&[Point]> {
     let count = count(run);
     let mut parts = Vec::with_capacity(count);
@@ -81,7 +81,7 @@ fn parts(run: &[Point]) -> Vec<&[Point]> {
     parts
 }
 
-/// Halves a part as long as its halves are apart by more than noise could tell.
+/// Halves a part as long as its halves are far enough apart.
 fn halved<'a>(part: &'a [Point], parts: &mut Vec<&'a [Point]>) {
     let (first, second) = part.split_at(part.len() / 2);
     let apart = !first.is_empty() && {
@@ -99,18 +99,18 @@ fn halved<'a>(part: &'a [Point], parts: &mut Vec<&'a [Point]>) {
 /// The mean of some points, one at least, and the trace of its covariance.
 fn mean(part: &[Point]) -> (Vector2<f64>, f64) {
     let many = part.len() as f64;
-    // Relative to the first, so that nothing is lost to rounding.
+    // relative to the first point, against rounding
     let sum: Vector2<f64> = part.iter().map(|point| point.at - part[0].at).sum();
     let variance: f64 = part.iter().map(|point| point.covariance.trace()).sum();
     (part[0].at + sum / many, variance / (many * many))
 }
 
-/// How many bins of equal size.
+/// The number of bins of equal size.
 fn count(run: &[Point]) -> usize {
     let mut size = 1;
     while run.len() / (2 * size) >= FEWEST {
         let means = run.chunks_exact(size).map(mean);
-        // Squares of the distances, in variances: two of them are noise. No distance counts for more than four others.
+        // Squared distances in units of the variance; noise contributes 2. Each counts at most four times the limit.
         let (mut sum, mut before) = (0.0, None);
         for (mean, variance) in means {
             if let Some((last, noise)) = before.replace((mean, variance)) {

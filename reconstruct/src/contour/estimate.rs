@@ -1,7 +1,6 @@
-//! What a scan, or several, tell of a contour.
+//! The contour as one scan, or several, determine it.
 
-use super::gap::Gap;
-use super::trace::{Trace, TraceKind};
+use super::{Gap, Trace, TraceKind};
 use serde::Serialize;
 
 /// The parts of a contour that are known, and the gaps between them.
@@ -10,7 +9,7 @@ pub struct ContourEstimate {
     /// Stretches that were followed: those of single contacts, then those of first and of second contacts, each in the
     /// order of the samples.
     pub traces: Vec<Trace>,
-    /// Parts of the scan without a sure answer, in the order of the samples.
+    /// Parts of the scan without points of a single contact, in the order of the samples.
     pub gaps: Vec<Gap>,
 }
 

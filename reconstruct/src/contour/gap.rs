@@ -1,4 +1,4 @@
-//! A part of a scan that says nothing sure of the contour.
+//! A part of a scan without contact points of a single contact.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,11 +6,11 @@ use std::ops::Range;
 /// Why there is a gap.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum GapReason {
-    /// Several contacts: the points found from such samples are flagged, and kept as traces of their own.
+    /// Several contacts. Their points are kept as traces of their own kinds.
     Several,
     /// The rod touched nothing.
     Free,
-    /// The contact leapt from one place to another between two samples: a snap or a slip.
+    /// The contact leapt between two samples: a snap or a slip.
     Leap,
     /// There is no contact point, for the reason that the first of the samples gave.
     NoAnswer(String),
@@ -30,11 +30,11 @@ impl fmt::Display for GapReason {
 /// A part of a scan in which the contour is not known, or a leap between two samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
-    /// The samples, numbered from 0; empty for a leap, which is before the sample at which the range starts.
+    /// The samples, numbered from 0; empty for a leap, which happens before the sample at which the range starts.
     pub samples: Range<usize>,
-    /// Where single contact ended before it, m; none at the start of the scan.
+    /// Last point of single contact before it, m; none at the start of the scan.
     pub from: Option<[f64; 2]>,
-    /// Where single contact began after it, m; none at the end of the scan.
+    /// First point of single contact after it, m; none at the end of the scan.
     pub to: Option<[f64; 2]>,
     /// Why.
     pub reason: GapReason,

@@ -1,17 +1,19 @@
 //! Where a run of contact points leaps: a snap or a slip to another place of the contour within one contact phase.
 
-use super::point::{Point, whitened};
+use super::point::Point;
 use super::scatter;
+use crate::numeric::squared_distance;
 use nalgebra::Vector2;
 
-/// Samples averaged before and after a possible leap: a small leap shows only in the averages of many.
+/// Numbers of samples that are averaged before and after a possible leap. Small leaps show in the means of many only.
 const SCALES: [usize; 5] = [1, 4, 16, 64, 256];
-/// A leap exceeds the motion beside it by this factor; a contact that speeds up smoothly does not.
+/// A leap exceeds the motion before and after it by this factor. Smaller: a contact that accelerates smoothly counts as a leap.
 const FACTOR: f64 = 4.0;
-/// And by so many standard deviations, which 65,000 samples at five scales do not reach by chance.
+/// A leap exceeds the motion before and after it by so many standard deviations, which 65,000 samples at five scales do not reach by
+/// chance.
 const SIGNIFICANCE: f64 = 6.0;
-/// Share of a leap that must be seen in shorter averages too, up to this many of their standard deviations: what is
-/// spread over many samples is motion.
+/// Share of a leap that shorter means must show, too, less this many of their standard deviations. A change that is spread over
+/// many samples is motion.
 const SUDDEN: (f64, f64) = (0.6, 3.0);
 
 /// The indices in a run at which the point has leapt since the point before, in order.
@@ -48,7 +50,7 @@ struct Means<'a> {
     run: &'a [Point],
     /// Sums of the positions, relative to the first, up to each point.
     sums: Vec<Vector2<f64>>,
-    /// Standard deviation of a difference of two means at each scale, in those of one point.
+    /// Standard deviation of a difference of two means at each scale, relative to that of one point.
     noise: [f64; SCALES.len()],
 }
 
@@ -63,7 +65,7 @@ impl<'a> Means<'a> {
         }
         let mut means = Self { run, sums, noise: [0.0; SCALES.len()] };
         means.noise = SCALES.map(|scale| {
-            // Noise that is not white does not average out as white noise does.
+            // noise of positive correlation averages out less than white noise
             let blocks = (0..run.len() / scale).map(|block| means.mean(block * scale, (block + 1) * scale));
             let of_block = |block: usize| run[block * scale + scale / 2].covariance / scale as f64;
             let excess = scatter::variance(blocks, of_block).filter(|excess| excess.is_finite()).unwrap_or(1.0);
@@ -88,10 +90,10 @@ impl<'a> Means<'a> {
             return None;
         }
         let step = self.mean(at, at + scale) - self.mean(at - scale, at);
-        Some(whitened(&step, &self.run[origin].covariance).sqrt())
+        Some(squared_distance(&step, &self.run[origin].covariance).sqrt())
     }
 
-    /// By how much the motion at `at` exceeds what a contact that just goes on could show; none where it does not.
+    /// By how much the motion at `at` exceeds that of a contact that moves on steadily; none where it does not.
     fn excess(&self, at: usize, k: usize) -> Option<f64> {
         let scale = SCALES[k];
         let motion = self.motion(at, at, scale)?;
@@ -99,16 +101,16 @@ impl<'a> Means<'a> {
         if motion <= chance {
             return None;
         }
-        // Samples without an answer between two points stretch the way between them.
+        // samples without an answer between two points lengthen the distance between them
         let span = |at: usize| (self.mean_sample(at, at + scale) - self.mean_sample(at - scale, at)).max(1.0);
         let beside = |beside: usize| self.motion(beside, at, scale).map(|motion| motion * span(at) / span(beside));
         let beside = match (at.checked_sub(2 * scale).and_then(beside), beside(at + 2 * scale)) {
             (Some(a), Some(b)) => a.max(b),
-            // Near an end of the run the other side is not known: only a single step tells a leap there.
+            // near an end of the run one side is missing: there only single steps are compared
             (a, b) if scale == 1 => a.or(b)?,
             _ => return None,
         };
-        // Noise alone moves the means beside by the root of two of it.
+        // less what noise alone contributes
         let beside = (beside * beside - 2.0 * self.noise[k] * self.noise[k]).max(0.0).sqrt();
         let excess = motion - FACTOR * beside - chance;
         let sudden = || {

@@ -1,29 +1,30 @@
 //! From bins to the points of a trace: in order along the contour, and no more of them than its shape needs.
 
+use super::TracePoint;
 use super::bins::Bin;
+use super::simplify::simplified;
 use super::smooth::Estimate;
-use super::trace::TracePoint;
+use crate::numeric::wrapped;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// A point counts as ahead of another if it is farther by so many standard deviations of their distance.
+/// A point is ahead of another one where it is farther along the contour by so many standard deviations of their distance. Smaller:
+/// points may be in the wrong order by noise.
 const AHEAD: f64 = 3.0;
-/// And the contact turns back where it goes back by so many.
+/// The contact turns back where it has gone back by so many standard deviations.
 const BACK: f64 = 6.0;
-/// Share of the standard deviation of another point along the contour with which one is much better known.
+/// Ratio of standard deviations along the contour below which the new point replaces the old one.
 const BETTER: f64 = 0.5;
-/// Departures smaller than this are none, m.
-const LEAST: f64 = 1e-100;
-/// Bins to each side from which a direction is taken.
+/// Bins on either side from which a direction is computed.
 const BESIDE: usize = 4;
-/// Share of a standard deviation by which a point that is left out may depart from the chord.
+/// Largest departure of a point that is left out from the chord, in its standard deviations.
 const LEFT_OUT: f64 = 0.5;
 
 /// Bins with their estimates, and how far each is along the contour.
 pub(super) struct Line {
     points: Vec<TracePoint>,
-    /// The way along the tangents, positive where it is that of the contour.
+    /// Path length along the tangents, growing in the direction of the contour.
     way: Vec<f64>,
     /// Standard deviation of each point along the tangent.
     along: Vec<f64>,
@@ -39,7 +40,7 @@ impl Line {
         let mut way = 0.0;
         for (k, (bin, (at, covariance))) in bins.iter().zip(estimates).enumerate() {
             let tangent = bin.tangent;
-            // Where the tangents are not to be trusted, the error that matters is that across the way of the points.
+            // where the tangents are not those of the contour, the error that matters is that across the chord
             let along = if tangents { tangent } else { chord(estimates, k).unwrap_or(tangent) };
             let normal = Vector2::new(-along.y, along.x);
             let variance = |side: &Vector2<f64>| side.dot(&(covariance * side)).max(0.0);
@@ -62,7 +63,7 @@ impl Line {
         self.one_way().into_iter().filter_map(|part| self.part(part, tolerance)).collect()
     }
 
-    /// Parts in which the way only grows or only shrinks, but for noise; they share the bins at which it turns.
+    /// Parts in which the path length only grows or only shrinks, but for noise. Neighbouring parts share the bin at which it turns.
     fn one_way(&self) -> Vec<Range<usize>> {
         let count = self.points.len();
         if !self.tangents {
@@ -122,9 +123,9 @@ impl Line {
         Some((samples, reversed, simplified(&points, LEFT_OUT, tolerance)))
     }
 
-    /// Those bins of a part that are ahead of the one kept before, the last one in any case. One that is much better known
-    /// takes the place of those before that it is not ahead of: where the force is about to vanish a point is known so
-    /// badly along the contour that nothing would be ahead of it for a long way.
+    /// The bins of a part that are ahead of the one kept before, and the last one in any case. A bin that is much better known
+    /// replaces those before that it is not ahead of: where the force is about to vanish, a point is so uncertain along the contour
+    /// that no other would be ahead of it for a long distance.
     fn ahead(&self, part: Range<usize>) -> Vec<usize> {
         let mut kept: Vec<usize> = Vec::new();
         let last = part.end - 1;
@@ -139,7 +140,7 @@ impl Line {
                 kept.push(k);
             }
         }
-        // The end of the stretch is worth more than the point just before it, unless it is known much worse.
+        // The end of the stretch is kept instead of the point just before it, unless it is known much worse.
         if kept.last().is_some_and(|&before| before != last && BETTER * self.along[last] <= self.along[before]) {
             while kept.len() > 1
                 && kept.last().is_some_and(|&before| (self.way[last] > self.way[before]) != up || !apart(last, before))
@@ -153,7 +154,7 @@ impl Line {
         kept
     }
 
-    /// Moves the end points, which are means over bins, on to where the bins end.
+    /// Moves the end points, which are means over bins, to the ends of their bins.
     fn to_the_ends(&self, kept: &[usize], points: &mut [TracePoint]) {
         if kept.len() < 3 {
             return;
@@ -186,72 +187,9 @@ fn angle(direction: &Vector2<f64>) -> f64 {
     if angle == -PI { PI } else { angle }
 }
 
-/// The same angle in (-pi, pi].
-pub(crate) fn wrapped(angle: f64) -> f64 {
-    let wrapped = (PI - angle).rem_euclid(2.0 * PI);
-    PI - wrapped
-}
-
-/// The points without those that lie on the chords between the others (Ramer 1972; Douglas and Peucker 1973): within a
-/// share of their standard deviation or the tolerance.
-pub(crate) fn simplified(points: &[TracePoint], share: f64, tolerance: f64) -> Vec<TracePoint> {
-    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
-    let mut keep = vec![false; points.len()];
-    keep[0] = true;
-    keep[last] = true;
-    let mut spans = vec![(0, last)];
-    while let Some((from, to)) = spans.pop() {
-        let (a, b) = (&points[from], &points[to]);
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        let square = dx * dx + dy * dy;
-        let mut worst = (1.0, 0);
-        for (k, p) in points.iter().enumerate().take(to).skip(from + 1) {
-            let (px, py) = (p.x - a.x, p.y - a.y);
-            let t = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-            let (u, v) = (px - t * dx, py - t * dy);
-            let allowed = (share * p.sigma).max(tolerance).max(LEAST);
-            let departure = (u * u + v * v) / (allowed * allowed);
-            if departure > worst.0 {
-                worst = (departure, k);
-            }
-        }
-        if worst.1 > 0 {
-            keep[worst.1] = true;
-            spans.extend([(from, worst.1), (worst.1, to)]);
-        }
-    }
-    points.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_lies_on_a_chord_is_left_out() {
-        let point = |k: i32| {
-            let x = f64::from(k) * 1e-5;
-            TracePoint { x, y: 50.0 * x * x, alpha: (100.0 * x).atan(), sigma: 0.0 }
-        };
-        let points: Vec<_> = (-1000..=1000).map(point).collect();
-        let few = simplified(&points, 0.5, 1e-6);
-        assert!(few.len() < 120 && few[0] == points[0] && few.last() == points.last(), "{}", few.len());
-        for p in &points {
-            let k = few.iter().position(|q| q.x >= p.x).unwrap().max(1);
-            let (a, b) = (few[k - 1], few[k]);
-            let y = a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x);
-            assert!((y - p.y) / (1.0 + (100.0 * p.x).powi(2)).sqrt() < 1.2e-6);
-        }
-        assert!(simplified(&points, 0.5, 1e-3).len() < 10);
-        assert_eq!(simplified(&points[..1], 0.5, 1e-6).len(), 1);
-        assert_eq!(simplified(&[], 0.5, 1e-6), []);
-    }
-
-    #[test]
-    fn angles_are_wrapped() {
-        assert_eq!((wrapped(PI), wrapped(-PI), wrapped(0.5)), (PI, PI, 0.5));
-        assert!((wrapped(3.0 * PI + 0.1) - (0.1 - PI)).abs() < 1e-14);
-    }
 
     #[test]
     fn a_point_that_is_hardly_known_does_not_hide_better_ones() {

@@ -1,12 +1,13 @@
-//! What is known of one sample when contours are assembled.
+//! A sample as contours are assembled from it.
 
 use super::point::Point;
-use crate::{Label, Touch};
+use crate::phase::Label;
+use crate::point::Touch;
 
-/// One sample of a scan as contours are made of it: its contact phase and its contact points.
+/// One sample of a scan as contours are assembled from it: its contact phase and its contact points.
 ///
-/// A sample with several contacts gives its first contact, or the first and the second; a sample with one gives that
-/// one; a sample without any gives the reason, where there is one.
+/// A sample with several contacts has its first contact, or the first and the second; a sample with one contact has that one; a
+/// sample without contact points has the reason, if there is one.
 ///
 /// ```
 /// use rod_reconstruct::{Label, Measured};
@@ -21,8 +22,8 @@ pub struct Measured<'a> {
     pub touches: &'a [Touch],
     /// Why there is none, where there is none.
     pub reason: Option<&'a str>,
-    /// How many neighbouring samples share the noise of the points: 1 where each has its own, the length of the window where
-    /// they come from fits through many samples.
+    /// Number of neighbouring samples that share the noise of the points: 1 where each has its own, the length of the window where
+    /// the points come from fits through many samples.
     pub shared: usize,
 }
 

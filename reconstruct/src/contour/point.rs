@@ -1,6 +1,6 @@
-//! A contact point as assembly needs it.
+//! A contact point as the assembly needs it.
 
-use crate::Touch;
+use crate::point::Touch;
 use nalgebra::{Matrix2, Vector2};
 
 /// One contact of one sample.
@@ -8,21 +8,21 @@ use nalgebra::{Matrix2, Vector2};
 pub(super) struct Point {
     pub sample: usize,
     pub at: Vector2<f64>,
-    /// Along the tangent of the contour, as long as the contact force: its error is that of the reactions, the same in
-    /// every sample, where the error of the angle grows without bound as the force vanishes.
+    /// Tangent of the contour times the contact force, N. Its error is that of the reactions, the same in every sample; the error of
+    /// the angle grows without bound as the force vanishes.
     pub force: Vector2<f64>,
-    /// The same of length 1.
+    /// Tangent of the contour, a unit vector.
     pub tangent: Vector2<f64>,
     /// Arc length along the rod, infinite where it is not known.
     pub s: f64,
-    /// Of the position, as if it shared its noise with no other sample; zero where it is not known.
+    /// Covariance of the position, as if it shared its noise with no other sample; zero where it is not known.
     pub covariance: Matrix2<f64>,
-    /// How many samples share it.
+    /// Number of samples that share the noise.
     pub shared: f64,
 }
 
 impl Point {
-    /// None where the numbers are none.
+    /// None where position or angle are not finite.
     pub fn of(sample: usize, touch: &Touch, shared: usize) -> Option<Self> {
         let shared = shared.max(1) as f64;
         if ![touch.x, touch.y, touch.alpha].into_iter().all(f64::is_finite) {
@@ -45,15 +45,4 @@ impl Point {
             shared,
         })
     }
-}
-
-/// The inverse of a symmetric positive definite matrix.
-pub(super) fn inverse(m: &Matrix2<f64>) -> Matrix2<f64> {
-    let determinant = m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)];
-    Matrix2::new(m[(1, 1)], -m[(0, 1)], -m[(1, 0)], m[(0, 0)]) / determinant
-}
-
-/// The square of a vector's length in standard deviations.
-pub(super) fn whitened(v: &Vector2<f64>, covariance: &Matrix2<f64>) -> f64 {
-    v.dot(&(inverse(covariance) * v))
 }

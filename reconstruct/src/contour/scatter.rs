@@ -1,25 +1,25 @@
-//! How noisy a run of points is, told from the points.
+//! The noise of a run of points, estimated from the points.
 //!
-//! Fourth differences of neighbours leave nothing of what changes smoothly and 70 times the variance of white noise;
-//! their median does not see the few that span a vertex or a leap.
+//! Fourth differences of neighbours remove what changes smoothly and have 70 times the variance of white noise. Their median is not
+//! affected by the few that span a vertex or a leap.
 
-use super::point::{Point, whitened};
+use super::point::Point;
+use crate::numeric::squared_distance;
 use nalgebra::{Matrix2, Vector2};
 
 /// Variance of a fourth difference over that of its terms: 1 + 16 + 36 + 16 + 1.
 const GAIN: f64 = 70.0;
 /// Median of the square of a plane standard normal vector, 2 ln 2.
 const MEDIAN: f64 = 2.0 * std::f64::consts::LN_2;
-/// Fewer differences than this tell nothing.
+/// Fewest differences for an estimate.
 const FEWEST: usize = 8;
-/// The smallest share of a covariance's trace that each of its axes keeps, so that it can be inverted.
+/// Smallest share of the trace of a covariance that each of its axes gets, so that it can be inverted.
 const ROUNDEST: f64 = 1e-6;
-/// Position error that rounding alone may make, in the points and in sums of them: m, and relative to the size of the
-/// run.
+/// Standard deviation of a position by rounding, in the points and in sums of them: in m, and relative to the size of the run.
 const ROUNDING: (f64, f64) = (1e-14, 1e-10);
 
-/// The variance of white noise in each coordinate, relative to a covariance given for each vector (of its index); none
-/// for too few of them.
+/// The variance of white noise in each coordinate, as a multiple of the covariance given for each vector (by its index); none for
+/// too few vectors.
 pub(super) fn variance(
     vectors: impl Iterator<Item = Vector2<f64>>,
     covariance: impl Fn(usize) -> Matrix2<f64>,
@@ -30,7 +30,7 @@ pub(super) fn variance(
         let [a, b, c, d] = last;
         if index >= 4 {
             let difference = a - 4.0 * b + 6.0 * c - 4.0 * d + vector;
-            squares.push(whitened(&difference, &covariance(index - 2)));
+            squares.push(squared_distance(&difference, &covariance(index - 2)));
         }
         last = [b, c, d, vector];
     }
@@ -42,8 +42,8 @@ pub(super) fn variance(
     Some(*median / (MEDIAN * GAIN))
 }
 
-/// Gives every point of a run a covariance that can be inverted and is no smaller than the points' scatter: where none
-/// is known the scatter itself.
+/// Gives each point of a run a covariance that can be inverted and is at least the scatter of the points. Where none is known it is
+/// the scatter itself.
 pub(super) fn complete(run: &mut [Point]) {
     let Some(first) = run.first() else { return };
     let extent = run.iter().map(|point| (point.at - first.at).norm()).fold(0.0, f64::max);

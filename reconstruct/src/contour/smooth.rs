@@ -1,19 +1,19 @@
-//! The most likely positions of bins, from their own and from the tangents of all.
+//! The most likely positions of bins, from their own positions and the tangents of all.
 //!
-//! The step from one bin to the next goes along the contour, whose direction the contact force gives far more exactly
-//! than the positions do: n . (r_next - r) = 0 with n the normal at the mean angle of the two, right to second order in
-//! the step and exact on a circle. With the positions this is a chain of linear equations, solved by one pass forwards
-//! and one backwards: each bin hears from its neighbour one number, its normal coordinate, and how well that is known.
+//! The step from one bin to the next is along the contour, whose direction the contact force gives far more exactly than the
+//! positions do: n . (r_next - r) = 0 with n the normal at the mean angle of the two. This is right to second order in the step
+//! and exact on a circle. Together with the positions these are linear equations in a chain, solved by one pass forwards and one
+//! backwards (as a Kalman smoother): each bin gets from its neighbour an estimate of its normal coordinate and its variance.
 
 use super::bins::Bin;
-use super::point::{inverse, whitened};
+use crate::numeric::{inverse, squared_distance};
 use nalgebra::{Matrix2, Vector2};
 
-/// Share of the change of the turning by which the direction of a chord may leave the mean of the tangents at its ends;
+/// Departure of the direction of a chord from the mean of the tangents at its ends, as a share of the change of the turning angle:
 /// 1/12 on a smooth curve, more where a vertex begins.
 const BEND: f64 = 0.25;
 
-/// Variance that a step has in any case, relative to that of its ends: rounding must not look like contradiction.
+/// Smallest variance of a step, relative to that of its ends, so that rounding is no contradiction.
 const SLACK: f64 = 1e-6;
 
 /// A bin's position and its covariance.
@@ -28,12 +28,12 @@ pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
     let step = |k| if tangents { Step::before(bins, &turns, k) } else { None };
     let steps: Vec<_> = (1..bins.len()).map(step).collect();
     let count = bins.len();
-    // What each bin hears from before and from behind, as information added to its own.
+    // what each bin gets from the bins before it and from those after it: information vector and matrix
     let mut ahead = vec![(Vector2::zeros(), Matrix2::zeros()); count];
     let mut behind = ahead.clone();
-    let with = |k: usize, heard: &(Vector2<f64>, Matrix2<f64>)| {
+    let with = |k: usize, from_neighbour: &(Vector2<f64>, Matrix2<f64>)| {
         let (at, weight) = &own[k];
-        (weight * at + heard.0, weight + heard.1)
+        (weight * at + from_neighbour.0, weight + from_neighbour.1)
     };
     for k in 1..count {
         ahead[k] = Step::tell(&steps[k - 1], with(k - 1, &ahead[k - 1]));
@@ -55,10 +55,10 @@ pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
     estimates
 }
 
-/// How the squares of all residuals compare with what their standard deviations let expect.
+/// The sum of squares of all residuals over its expected value.
 fn excess(bins: &[Bin], steps: &[Option<Step>], estimates: &[Estimate]) -> f64 {
     let freedom = steps.iter().flatten().count();
-    let of_points = bins.iter().zip(estimates).map(|(bin, (at, _))| whitened(&(at - bin.at), &bin.covariance));
+    let of_points = bins.iter().zip(estimates).map(|(bin, (at, _))| squared_distance(&(at - bin.at), &bin.covariance));
     let of_steps = steps.iter().zip(estimates.windows(2)).filter_map(|(step, pair)| {
         let step = step.as_ref()?;
         Some(step.normal.dot(&(pair[1].0 - pair[0].0)).powi(2) / step.variance)
@@ -66,10 +66,10 @@ fn excess(bins: &[Bin], steps: &[Option<Step>], estimates: &[Estimate]) -> f64 {
     if freedom == 0 { 1.0 } else { (of_points.sum::<f64>() + of_steps.sum::<f64>()) / freedom as f64 }
 }
 
-/// What is known of a step between two bins.
+/// The step between two bins: across the contour it vanishes within a variance.
 struct Step {
     normal: Vector2<f64>,
-    /// Of the step along the normal.
+    /// Variance of the step along the normal.
     variance: f64,
 }
 
@@ -86,14 +86,14 @@ impl Step {
         let here = turns[k - 1];
         let change = |beside: Option<&f64>| beside.map_or(0.0, |turn| (turn - here).abs());
         let bend = BEND * change(k.checked_sub(2).map(|k| &turns[k])).max(change(turns.get(k)));
-        // The way is uncertain too; with none of it nothing would hold the two together at a vertex.
+        // The length of the step is uncertain, too. Without that, no step would connect the bins at a vertex.
         let way = (b.at - a.at).norm_squared() + a.covariance.trace() + b.covariance.trace();
-        // The tangent of a bin enters two steps, the same way: twice what each gives alone.
+        // the tangent of a bin enters two steps with the same sign: twice the variance of each alone
         let variance = way * (0.5 * uncertain + bend * bend) + SLACK * (a.covariance.trace() + b.covariance.trace());
         Some(Self { normal: Vector2::new(-tangent.y, tangent.x), variance })
     }
 
-    /// What the bin at one end of a step tells the one at the other.
+    /// The information that the bin at one end of a step gives the one at the other end.
     fn tell(step: &Option<Self>, (right, weight): (Vector2<f64>, Matrix2<f64>)) -> (Vector2<f64>, Matrix2<f64>) {
         let Some(Self { normal, variance }) = step else { return (Vector2::zeros(), Matrix2::zeros()) };
         let covariance = inverse(&weight);
@@ -186,7 +186,7 @@ mod tests {
             .collect();
         let estimates = smooth(&bins, true);
         for (at, covariance) in &estimates[100..=200] {
-            assert!(whitened(at, covariance) < 25.0, "{at:?}");
+            assert!(squared_distance(at, covariance) < 25.0, "{at:?}");
         }
         let mean = estimates[120..180].iter().map(|(at, _)| at.norm_squared()).sum::<f64>() / 60.0;
         assert!(mean.sqrt() < sigma, "{mean}");

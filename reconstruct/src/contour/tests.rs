@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::numeric::seeded::Random;
-use crate::{Label, Touch};
+use crate::phase::Label;
+use crate::point::Touch;
 use nalgebra::Matrix2;
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,4 +1,4 @@
-//! A stretch of the contour that one run of samples followed.
+//! A stretch of the contour from one run of samples.
 
 use rod_contours::{Composite, ContourError, Spline, SplineEnd};
 use serde::Serialize;
@@ -54,9 +54,9 @@ pub enum TraceCurve {
 
 /// A stretch of the contour that the contact followed through consecutive samples, as points along the contour.
 ///
-/// The points run with the solid on the left, as contours do, whichever way the scan went. A polygon through them
-/// leaves out nothing that departs from it by more than half a standard deviation, or the tolerance of
-/// [`Assembly`](crate::Assembly) where that is more.
+/// The points are in the direction of contours, with the solid on the left, whichever way the scan went. Points that were left out
+/// depart from the polygon through the others by no more than half a standard deviation, or the tolerance of
+/// [`Assembly`](crate::Assembly) where that is larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
     /// Which contacts.
@@ -117,7 +117,7 @@ impl Trace {
             }
             TraceCurve::Smoothing => {
                 let square: f64 = self.points.iter().map(|point| point.sigma * point.sigma).sum();
-                // Across the contour only, where a spline's noise is that of two coordinates.
+                // the spline expects the noise of two coordinates; that of a trace is across the contour only
                 let sigma = (0.5 * square / points.len().max(1) as f64).sqrt();
                 Composite::single(Spline::smoothing(&points, sigma)?)
             }

@@ -1,6 +1,8 @@
-//! Where a transition is, and how large: least squares with a free knot, on samples or on bins of them.
+//! Place and size of a transition: least squares with a free knot, on samples or on bins of them.
 
 use super::KinkKind;
+use crate::numeric::NormalEquations;
+use nalgebra::{SMatrix, SVector};
 
 /// A transition placed between samples.
 #[derive(Clone, Copy, Debug)]
@@ -23,20 +25,27 @@ pub(crate) struct Part<'a> {
     pub sigma: [f64; 3],
 }
 
-/// Moves of the knot at most.
+/// Most moves of the knot (Gauss-Newton steps). It settles in 3 to 5 where there is a kink.
 const MOVES: usize = 12;
-/// Steps of the search for the place of a jump, per round.
+/// Places of a jump that are tried per round; the next round looks between the neighbours of the best.
 const ROUND: usize = 8;
 
-/// Fit of a quadratic with a hinge at the knot, and of what a step there would add.
-struct Fit {
-    /// Residuals' sums of squares over the noise variance, without and with the step.
+/// The functions 1, u, u^2, hinge and step at a sample.
+type Row = SVector<f64, 5>;
+/// The channels at a sample, relative to the sample after the knot.
+type Values = SVector<f64, 3>;
+/// Coefficients of the functions for each channel.
+type Coefficients = SMatrix<f64, 5, 3>;
+
+/// Fits of a quadratic with a hinge at the knot, without and with a step there.
+struct HingeFit {
+    /// Sums of squares of the residuals over the noise variance, without and with the step.
     kinked: [f64; 3],
     stepped: [f64; 3],
-    /// Change of slope without step, and slope and step of the fit with both.
+    /// Change of slope without step; change of slope and step of the fit with both.
     slope: [f64; 3],
     both: [[f64; 2]; 3],
-    /// Norms of hinge and step, each without what the functions before it explain.
+    /// Norms of hinge and step, each without its part along the functions before it.
     hinge_norm: f64,
     step_norm: f64,
 }
@@ -51,7 +60,8 @@ impl Part<'_> {
         let mut tau = guess.clamp(first, last);
         let mut best: Option<(Placed, f64)> = None;
         for _ in 0..MOVES {
-            let fit = self.fit(from, to, tau, self.tau[from..to].partition_point(|t| *t <= tau) + from);
+            let next = self.tau[from..to].partition_point(|t| *t <= tau) + from;
+            let Some(fit) = self.fit(from, to, tau, next) else { break };
             let total: f64 = fit.kinked.iter().sum();
             if !total.is_finite() {
                 return best;
@@ -64,7 +74,7 @@ impl Part<'_> {
                     kind: KinkKind::Kink,
                     tau,
                     sigma_tau: misfit / (steep.sqrt() * fit.step_norm),
-                    next: self.tau[from..to].partition_point(|t| *t <= tau) + from,
+                    next,
                     change: fit.slope,
                     sigma: self.sigma.map(|s| misfit * s / fit.hinge_norm),
                 };
@@ -90,7 +100,7 @@ impl Part<'_> {
             return None;
         }
         let middle = |next: usize| 0.5 * (self.tau[next - 1] + self.tau[next]);
-        let total = |next: usize| self.fit(from, to, middle(next), next).stepped.iter().sum::<f64>();
+        let total = |next| self.fit(from, to, middle(next), next).map_or(f64::NAN, |fit| fit.stepped.iter().sum());
         let (mut low, mut high) = (low, high);
         let mut best = (f64::INFINITY, low);
         loop {
@@ -110,7 +120,7 @@ impl Part<'_> {
             return None;
         }
         let next = best.1;
-        let fit = self.fit(from, to, middle(next), next);
+        let fit = self.fit(from, to, middle(next), next)?;
         let misfit = (best.0 / (3 * (to - from - 5)) as f64).max(1.0).sqrt();
         let placed = Placed {
             kind: KinkKind::Jump,
@@ -123,118 +133,47 @@ impl Part<'_> {
         Some((placed, best.0))
     }
 
-    /// The fit over samples `from..to` with the knot at `knot`, `next` being the first sample after it.
-    fn fit(&self, from: usize, to: usize, knot: f64, next: usize) -> Fit {
+    /// The fit over samples `from..to` with the knot at `knot`, `next` being the first sample after it; none where the samples do
+    /// not determine it.
+    fn fit(&self, from: usize, to: usize, knot: f64, next: usize) -> Option<HingeFit> {
         let scale = (self.tau[to - 1] - knot).max(knot - self.tau[from]);
         let row = |i: usize| {
             let u = (self.tau[i] - knot) / scale;
-            [1.0, u, u * u, if i >= next { u } else { 0.0 }, if i >= next { 1.0 } else { 0.0 }]
+            Row::from([1.0, u, u * u, if i >= next { u } else { 0.0 }, if i >= next { 1.0 } else { 0.0 }])
         };
-        // normal equations, so that no columns are stored; the residuals below make up for their condition
-        let mut normal = [[0.0; 5]; 5];
-        let mut moments = [[0.0; 5]; 3];
         let offset = [0, 1, 2].map(|c| self.channels[c][next.min(to - 1)]);
+        let values = |i: usize| Values::from([0, 1, 2].map(|c| self.channels[c][i] - offset[c]));
+        // normal equations, so that no rows are stored; the solutions are corrected once, on the residuals
+        let mut equations = NormalEquations::<5, 3>::default();
+        (from..to).for_each(|i| equations.add(&row(i), &values(i), 1.0));
+        let both = equations.factor()?;
+        let lower = both.l();
+        let hinge = equations.factor_of_first::<4>()?;
+        let hinge_only = |right: &Coefficients| hinge.solve(&right.fixed_rows::<4>(0).into_owned()).fixed_resize(0.0);
+        let mut stepped: Coefficients = both.solve(&equations.right);
+        let mut kinked: Coefficients = hinge_only(&equations.right);
+        let (mut of_stepped, mut of_kinked) = (Coefficients::zeros(), Coefficients::zeros());
         for i in from..to {
-            let row = row(i);
-            for a in 0..5 {
-                for b in 0..=a {
-                    normal[a][b] += row[a] * row[b];
-                }
-            }
-            for (c, moment) in moments.iter_mut().enumerate() {
-                let y = self.channels[c][i] - offset[c];
-                moment.iter_mut().zip(row).for_each(|(m, r)| *m += r * y);
-            }
+            let (row, values) = (row(i), values(i));
+            of_stepped += row * (values - stepped.tr_mul(&row)).transpose();
+            of_kinked += row * (values - kinked.tr_mul(&row)).transpose();
         }
-        let lower = cholesky(normal);
-        let mut fit = Fit {
-            kinked: [0.0; 3],
-            stepped: [0.0; 3],
-            slope: [0.0; 3],
-            both: [[0.0; 2]; 3],
-            hinge_norm: lower[3][3] * scale,
-            step_norm: lower[4][4],
-        };
-        let mut coefficients = [[0.0; 5]; 3];
-        let mut bent = [[0.0; 5]; 3];
-        for c in 0..3 {
-            // once more on the residuals: the normal equations square the condition
-            for round in 0..2 {
-                let rest =
-                    if round == 0 { moments[c] } else { self.left(from, to, &row, c, offset[c], &coefficients[c]) };
-                add(&mut coefficients[c], solve(&lower, rest, 5));
-                let rest = if round == 0 { moments[c] } else { self.left(from, to, &row, c, offset[c], &bent[c]) };
-                add(&mut bent[c], solve(&lower, rest, 4));
-            }
-            let variance = self.sigma[c] * self.sigma[c];
-            for i in from..to {
-                let (row, y) = (row(i), self.channels[c][i] - offset[c]);
-                let value = |k: &[f64; 5]| row.iter().zip(k).map(|(r, k)| r * k).sum::<f64>();
-                fit.stepped[c] += (y - value(&coefficients[c])).powi(2) / variance;
-                fit.kinked[c] += (y - value(&bent[c])).powi(2) / variance;
-            }
-            fit.slope[c] = bent[c][3] / scale;
-            fit.both[c] = [coefficients[c][3] / scale, coefficients[c][4]];
-        }
-        fit
-    }
-
-    /// Moments of the residuals.
-    fn left(
-        &self,
-        from: usize,
-        to: usize,
-        row: &impl Fn(usize) -> [f64; 5],
-        c: usize,
-        offset: f64,
-        coefficients: &[f64; 5],
-    ) -> [f64; 5] {
-        let mut moments = [0.0; 5];
+        stepped += both.solve(&of_stepped);
+        kinked += hinge_only(&of_kinked);
+        let (mut left_stepped, mut left_kinked) = (Values::zeros(), Values::zeros());
         for i in from..to {
-            let row = row(i);
-            let value: f64 = row.iter().zip(coefficients).map(|(r, k)| r * k).sum();
-            let rest = self.channels[c][i] - offset - value;
-            moments.iter_mut().zip(row).for_each(|(m, r)| *m += r * rest);
+            let (row, values) = (row(i), values(i));
+            left_stepped += (values - stepped.tr_mul(&row)).map(|v| v * v);
+            left_kinked += (values - kinked.tr_mul(&row)).map(|v| v * v);
         }
-        moments
+        let variance = self.sigma.map(|sigma| sigma * sigma);
+        Some(HingeFit {
+            kinked: [0, 1, 2].map(|c| left_kinked[c] / variance[c]),
+            stepped: [0, 1, 2].map(|c| left_stepped[c] / variance[c]),
+            slope: [0, 1, 2].map(|c| kinked[(3, c)] / scale),
+            both: [0, 1, 2].map(|c| [stepped[(3, c)] / scale, stepped[(4, c)]]),
+            hinge_norm: lower[(3, 3)] * scale,
+            step_norm: lower[(4, 4)],
+        })
     }
-}
-
-fn add(a: &mut [f64; 5], b: [f64; 5]) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
-}
-
-/// Lower triangular factor.
-fn cholesky(mut a: [[f64; 5]; 5]) -> [[f64; 5]; 5] {
-    for j in 0..5 {
-        for k in 0..j {
-            a[j][j] -= a[j][k] * a[j][k];
-        }
-        a[j][j] = a[j][j].max(0.0).sqrt();
-        for i in j + 1..5 {
-            for k in 0..j {
-                a[i][j] -= a[i][k] * a[j][k];
-            }
-            a[i][j] /= a[j][j];
-        }
-    }
-    a
-}
-
-/// Solution of the first `size` normal equations; 0 for the others.
-fn solve(lower: &[[f64; 5]; 5], mut rest: [f64; 5], size: usize) -> [f64; 5] {
-    for i in 0..size {
-        for k in 0..i {
-            rest[i] -= lower[i][k] * rest[k];
-        }
-        rest[i] /= lower[i][i];
-    }
-    for i in (0..size).rev() {
-        for k in i + 1..size {
-            rest[i] -= lower[k][i] * rest[k];
-        }
-        rest[i] /= lower[i][i];
-    }
-    rest[size..].fill(0.0);
-    rest
 }

@@ -1,14 +1,15 @@
-//! By how much the contours of several scans are offset against each other.
+//! The offsets of the contours of several scans.
 
 use super::nearest::{nearest, sampled};
-use crate::{ContourEstimate, TraceKind};
+use crate::contour::{ContourEstimate, TraceKind};
 use nalgebra::{DMatrix, DVector};
 
-/// Places of a trace that are compared, at least.
+/// Fewest places of a trace that are compared.
 const PLACES: f64 = 200.0;
-/// Rounds of looking for the nearest places anew: each reduces an offset by a factor of ten or so.
+/// Most rounds of searching the nearest places again: each reduces an offset by a factor of about ten.
 const ROUNDS: usize = 12;
-/// Distances beyond so many times their median count less: a few places where the contours truly differ.
+/// Distances beyond this multiple of their median have less weight: places where the contours differ. Smaller: fewer places count, and
+/// the offsets are noisier.
 const OUTLYING: f64 = 3.0;
 
 /// How far a scan must be moved to lie on the others.
@@ -142,7 +143,7 @@ fn change(count: usize, pairs: &[Pair], groups: &[usize]) -> Option<Vec<f64>> {
         let half = values.len() / 2;
         *values.select_nth_unstable_by(half, f64::total_cmp).1
     };
-    // No place is so certain that a single one decides.
+    // limits the weight of a single place
     let floor = middle(pairs.iter().map(|pair| pair.sigma).collect()).max(1e-9);
     let mut solution = DVector::zeros(count);
     for _ in 0..20 {
@@ -155,7 +156,7 @@ fn change(count: usize, pairs: &[Pair], groups: &[usize]) -> Option<Vec<f64>> {
         let mut right = DVector::zeros(count);
         for pair in pairs {
             let relative = relative(pair, &solution) / (OUTLYING * scale);
-            // Tukey's biweight would lose all where offsets are large; this one only fades.
+            // Tukey's biweight would give no weight at all where offsets are large; this weight only decreases
             let weight = 1.0 / ((1.0 + relative.powi(4)) * pair.sigma.max(floor).powi(2));
             let (a, b) = pair.scans;
             let rates = [(a, pair.rate), (b, -pair.rate)];
@@ -166,7 +167,7 @@ fn change(count: usize, pairs: &[Pair], groups: &[usize]) -> Option<Vec<f64>> {
                 }
             }
         }
-        // The mean of each group is 0.
+        // makes the mean of each group 0
         let size = (0..count).map(|k| matrix[(k, k)]).fold(f64::MIN_POSITIVE, f64::max);
         for (i, of_i) in groups.iter().enumerate() {
             for (j, of_j) in groups.iter().enumerate() {

@@ -1,17 +1,16 @@
-//! Where contour estimates of several scans disagree.
+//! Intervals in which the contours of several scans disagree.
 
 use super::nearest::{nearest, sampled};
-use crate::{ContourEstimate, Trace};
+use crate::contour::{ContourEstimate, Trace};
 
-/// Places of a trace that are compared, along its length at least.
+/// Fewest places of a trace that are compared.
 const PLACES: f64 = 400.0;
 
-/// When contours disagree, and along which direction that is told.
+/// When contours of several scans disagree.
 ///
-/// Merker et al. (2020), section 3 and fig. 9: points found as if every sample had one contact agree between scans at
-/// different distances, but not in the concave parts of an object. So the comparison of [naive](crate::Assembly::naive)
-/// contours finds concave parts without any identification of phases; that of flagged points shows how far these are to
-/// be trusted.
+/// Points computed as if every sample had one contact agree between scans at different distances, except in the concave parts of an
+/// object (Merker et al. 2020, section 3 and fig. 9). A comparison of [naive](crate::Assembly::naive) contours therefore finds
+/// concave parts without identifying phases. A comparison of the traces of several contacts shows how accurate those are.
 ///
 /// ```
 /// use rod_reconstruct::{Comparison, ContourEstimate, Trace, TraceKind, TracePoint};
@@ -28,11 +27,11 @@ const PLACES: f64 = 400.0;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// The direction along which intervals are told, radians: 0 is x.
+    /// The direction of the coordinate in which intervals are given, radians: 0 is x.
     pub direction: f64,
-    /// Contours disagree where they are farther apart than so many standard deviations of their distance,
+    /// Contours disagree where they are farther apart than so many standard deviations of their distance, plus `least`.
     pub significance: f64,
-    /// and than this, m: what the points leave out between them.
+    /// Distance, m, that is allowed in any case: contours depart from the polygon of their points by as much.
     pub least: f64,
 }
 
@@ -84,7 +83,7 @@ impl Comparison {
         let mut open: Option<Disagreement> = None;
         for place in sampled(&trace.points, trace.length() / PLACES) {
             let of_trace = |trace: &Trace| nearest(&trace.points, place.x, place.y);
-            // The end of a trace that is nearest of all says that the other scan was not here.
+            // where the end of a trace is the nearest place of all, the other scan was not here
             let near = other.traces.iter().filter_map(of_trace).min_by(|a, b| a.distance.total_cmp(&b.distance));
             let apart = near.filter(|near| near.interior).and_then(|near| {
                 let sigma = place.sigma.hypot(near.point.sigma).max(f64::MIN_POSITIVE);

@@ -1,18 +1,18 @@
 //! Two traces of the same stretch of a contour made one.
 
 use super::nearest::{Nearest, nearest};
-use crate::contour::line::{simplified, wrapped};
-use crate::{Trace, TracePoint};
+use crate::contour::{Trace, TracePoint, simplified};
+use crate::numeric::wrapped;
 
-/// Traces agree within so many standard deviations of their distance,
+/// Traces agree at a place where their distance is within so many of its standard deviations.
 const AGREE: f64 = 5.0;
-/// and this, m: what the points leave out between them.
-const LEAST: f64 = 5e-6;
-/// Places that do not agree are of the same stretch still if they are no farther apart than this share of the shorter
-/// trace, and the cosine between their tangents is larger than this.
+/// Distance, m, within which they agree in any case: points that were left out depart by as much.
+const LEFT_OUT: f64 = 5e-6;
+/// Largest distance of places that do not agree but follow the same stretch, as a share of the shorter trace.
 const FAR: f64 = 0.1;
+/// Smallest cosine between the tangents of such places.
 const PARALLEL: f64 = 0.88;
-/// Points are left out that depart from the chords of the others by less, m.
+/// Points of the result are left out that depart from the chords of the others by less, m.
 const TOLERANCE: f64 = 1e-6;
 
 /// Whether two traces follow the same stretch, in part at least: most of the places that both passed agree.
@@ -44,11 +44,11 @@ fn beside(place: &TracePoint, other: &Trace, far: f64) -> Option<Nearest> {
 }
 
 fn agrees(place: &TracePoint, near: &Nearest) -> bool {
-    near.distance <= AGREE * place.sigma.hypot(near.point.sigma) + LEAST
+    near.distance <= AGREE * place.sigma.hypot(near.point.sigma) + LEFT_OUT
 }
 
-/// One trace through the places of both: their mean, weighted by their variances, where both passed and agree; the more
-/// certain one where they do not; and the one that there is elsewhere.
+/// One trace through the places of both. Where both passed, it is their mean weighted by the inverse variances if they agree, and the
+/// more certain one if they do not; elsewhere it is the only one.
 pub(super) fn fused(a: &Trace, b: &Trace) -> Trace {
     let far = far(a, b);
     let along = lengths(&a.points);
@@ -61,7 +61,7 @@ pub(super) fn fused(a: &Trace, b: &Trace) -> Trace {
     }
     places.sort_by(|(a, p), (b, q)| a.total_cmp(b).then(p.x.total_cmp(&q.x)).then(p.y.total_cmp(&q.y)));
     let mut points: Vec<TracePoint> = places.into_iter().map(|(_, place)| place).collect();
-    // Two places that noise put in the wrong order along the contour.
+    // two places in the wrong order along the contour, by noise
     points.dedup_by(|next, before| {
         let (sin, cos) = before.alpha.sin_cos();
         (next.x - before.x) * cos + (next.y - before.y) * sin <= 1e-9 && (next.alpha - before.alpha).cos() > 0.999
@@ -70,8 +70,8 @@ pub(super) fn fused(a: &Trace, b: &Trace) -> Trace {
     Trace { kind: a.kind, samples, reversed, points: simplified(&points, 0.0, TOLERANCE) }
 }
 
-/// How far along another trace, whose lengths are given, each point of one is; beyond what both passed it goes on by
-/// its own length.
+/// The path length along `other` (whose path lengths are given) at each point of `one`. Beyond the common stretch it continues with
+/// the path length of `one`.
 fn keys(one: &Trace, other: &Trace, along: &[f64], far: f64) -> Vec<f64> {
     let own = lengths(&one.points);
     let common: Vec<Option<f64>> = one
@@ -109,7 +109,7 @@ fn keys(one: &Trace, other: &Trace, along: &[f64], far: f64) -> Vec<f64> {
         .collect()
 }
 
-/// A point with what another trace says of it; none where the other one knows better.
+/// The mean of a point and another trace; none where the other one is more certain and they disagree.
 fn mean(place: &TracePoint, other: &Trace, far: f64) -> Option<TracePoint> {
     let Some(near) = beside(place, other, far) else { return Some(*place) };
     let (own, of_other) = (place.sigma * place.sigma, near.point.sigma * near.point.sigma);

@@ -2,16 +2,16 @@
 
 use super::fuse::{fused, overlap};
 use super::nearest::nearest;
-use crate::{ContourEstimate, Gap, Trace, TraceKind};
+use crate::contour::{ContourEstimate, Gap, Trace, TraceKind, TracePoint};
 use std::cmp::Ordering;
 
-/// The contour that several scans of one object tell together, in one frame.
+/// One contour from several scans of one object, in one frame.
 ///
-/// Traces that follow the same stretch become one: where both passed, their mean weighted by their variances, or the
-/// more certain one where they disagree; where one alone passed, that one, so that a gap closes as far as any scan
-/// came, with the tip deep in a notch for example. Traces of single contacts are merged with each other, flagged ones
-/// apart from them. Scans that do not overlap stay separate. A gap of a scan remains if its ends belong to different
-/// traces still, and ends where these do. Offsets must have been [applied](crate::Offset::applied) before.
+/// Traces that follow the same stretch become one. Where both passed, it is their mean weighted by the inverse variances, or the
+/// more certain one if they disagree. Where only one passed, it is that one, so that a gap closes as far as any scan reached, for
+/// example with the tip deep in a notch. Each kind of trace is merged on its own. Scans that do not overlap stay separate. A gap
+/// of a scan remains if its ends still belong to different traces, and ends where these end. Offsets must have been
+/// [applied](crate::Offset::applied) before.
 ///
 /// The order of the scans does not matter, not even by rounding.
 ///
@@ -99,7 +99,7 @@ fn of_which(traces: &[&Trace], [x, y]: [f64; 2]) -> Option<usize> {
 
 /// The end of one trace and the start of another that face each other along the contour, whichever is nearer.
 fn facing(a: &Trace, b: &Trace) -> (Option<[f64; 2]>, Option<[f64; 2]>) {
-    let place = |point: Option<&crate::TracePoint>| point.map(|point| [point.x, point.y]);
+    let place = |point: Option<&TracePoint>| point.map(|point| [point.x, point.y]);
     let ways = [(place(a.points.last()), place(b.points.first())), (place(b.points.last()), place(a.points.first()))];
     let far = |way: &(Option<[f64; 2]>, Option<[f64; 2]>)| match way {
         (Some(a), Some(b)) => (a[0] - b[0]).hypot(a[1] - b[1]),

@@ -1,5 +1,4 @@
-//! Contour estimates of several scans of one object: how they are offset, where they disagree, and what they tell
-//! together.
+//! Contour estimates of several scans of one object: their offsets, where they disagree, and the contour from all of them.
 
 mod align;
 mod disagreement;

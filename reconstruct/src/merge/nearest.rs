@@ -1,7 +1,7 @@
 //! The nearest place of a trace.
 
-use crate::TracePoint;
-use crate::contour::line::wrapped;
+use crate::contour::TracePoint;
+use crate::numeric::wrapped;
 
 /// A place on the polygon through a trace's points.
 #[derive(Clone, Copy, Debug)]
@@ -15,17 +15,19 @@ pub(super) struct Nearest {
     pub interior: bool,
 }
 
-/// Tangents that leave the chord by more than this, radians, or by more on one side than on the other by this share,
-/// say nothing of the arc above it.
-const ARC: (f64, f64) = (0.3, 0.5);
+/// Largest angle (radians) between a chord and the tangents at its ends at which an arc is put through both.
+const STEEPEST: f64 = 0.3;
+/// Largest difference of the two angles, relative to the larger one, at which an arc is put through both.
+const UNEQUAL: f64 = 0.5;
 
-/// The place at a share of the way between two points: on the cubic with their tangents, where these fit an arc.
+/// The place at a share of the distance between two points: on the cubic with their tangents, where these fit an arc; otherwise on
+/// the chord.
 fn between(a: &TracePoint, b: &TracePoint, share: f64) -> TracePoint {
     let (dx, dy) = (b.x - a.x, b.y - a.y);
     let chord = dy.atan2(dx);
     let (start, end) = (wrapped(a.alpha - chord), wrapped(b.alpha - chord));
     let most = start.abs().max(end.abs());
-    let arc = most <= ARC.0 && (start + end).abs() <= ARC.1 * most;
+    let arc = most <= STEEPEST && (start + end).abs() <= UNEQUAL * most;
     let left = share * (1.0 - share) * ((1.0 - share) * start.tan() - share * end.tan());
     let left = if arc { left } else { 0.0 };
     TracePoint {
@@ -56,7 +58,7 @@ pub(super) fn nearest(points: &[TracePoint], x: f64, y: f64) -> Option<Nearest> 
     }
     let Some((square, edge, share, interior)) = best else { return Some(alone) };
     let point = between(&points[edge], &points[edge + 1], share);
-    // The end of a trace is where it is; beyond it there is no tangent to go along.
+    // beyond an end of the trace there is no arc, and the distance is that to the end itself
     let distance = if interior { (point.x - x).hypot(point.y - y) } else { square.sqrt() };
     Some(Nearest { point, edge, share, distance, interior })
 }

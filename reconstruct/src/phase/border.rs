@@ -1,18 +1,19 @@
-//! Where A and B meet: the one transition at which the reactions hardly break.
+//! The border between A and B, the one transition at which the reactions hardly break.
 
-use super::evidence::Evidence;
-use crate::point::clamp::Clamp;
-use crate::scan::local_cubic::Noise;
-use crate::scan::track::Track;
-use nalgebra::{Matrix2, Vector2, Vector3};
+use super::Evidence;
+use crate::numeric::NormalEquations;
+use crate::point::Clamp;
+use crate::scan::{Noise, Track};
+use nalgebra::{Vector1, Vector2, Vector3};
 use std::ops::Range;
 
-/// Most means of neighbouring samples that a border is looked for among.
+/// Most means of neighbouring samples among which a border is searched. The work grows with the square.
 const MEANS: usize = 400;
 
-/// The first sample of the phase after, in a range where A (`tip_first`) goes over into B, or B into A. The criterion K
-/// leaves 0 on the side of A, the arc length of the moment zero leaves the tip on the side of B, both gradually: least
-/// squares with a parabola through the border on each side.
+/// The first sample after the border, in a range in which A is followed by B (`tip_first`), or B by A.
+///
+/// The criterion K leaves 0 on the side of A, and the arc length of the moment zero leaves the tip on the side of B, both gradually.
+/// On each side a parabola that vanishes at the border is fitted; the border is where the two fit best.
 pub(super) fn border(track: &Track, noise: &Noise, range: Range<usize>, tip_first: bool) -> usize {
     let count = range.len().div_ceil(MEANS).max(1);
     let spread = noise.variance.component_mul(&noise.long_run) / count as f64;
@@ -28,11 +29,11 @@ pub(super) fn border(track: &Track, noise: &Noise, range: Range<usize>, tip_firs
     for border in 0..=means.len() {
         let origin = means.get(border).map_or(track.tau[range.end - 1], |mean| mean.from);
         let (before, after) = means.split_at(border);
-        let (tip, flank) = if tip_first { (before, after) } else { (after, before) };
-        let gain = Parabola::through(origin, tip.iter().map(|mean| (mean.tau, mean.criterion)))
-            + Parabola::through(origin, flank.iter().map(|mean| (mean.tau, mean.length)));
-        if gain > best.0 {
-            best = (gain, (range.start + border * count).min(range.end));
+        let (tip, side) = if tip_first { (before, after) } else { (after, before) };
+        let both = gain(origin, tip.iter().map(|mean| (mean.tau, mean.criterion)))
+            + gain(origin, side.iter().map(|mean| (mean.tau, mean.length)));
+        if both > best.0 {
+            best = (both, (range.start + border * count).min(range.end));
         }
     }
     best.1
@@ -64,25 +65,15 @@ impl Mean {
     }
 }
 
-/// Normal equations of c x + d x^2.
-#[derive(Default)]
-struct Parabola {
-    normal: Matrix2<f64>,
-    right: Vector2<f64>,
-}
-
-impl Parabola {
-    /// By how much the weighted sum of squares falls with a parabola through 0 at the origin.
-    fn through(origin: f64, values: impl Iterator<Item = (f64, (f64, f64))>) -> f64 {
-        let mut sums = Self::default();
-        for (tau, (value, weight)) in values {
-            let x = tau - origin;
-            let basis = Vector2::new(x, x * x);
-            sums.normal += basis * basis.transpose() * weight;
-            sums.right += basis * (weight * value);
-        }
-        let line = sums.right.x * sums.right.x / sums.normal[(0, 0)];
-        let gain = sums.normal.cholesky().map_or(line, |normal| sums.right.dot(&normal.solve(&sums.right)));
-        if gain.is_finite() { gain } else { 0.0 }
+/// By how much the weighted sum of squares falls with a parabola c x + d x^2 through 0 at the origin; `values` are the path
+/// parameters, the values and their weights.
+fn gain(origin: f64, values: impl Iterator<Item = (f64, (f64, f64))>) -> f64 {
+    let mut equations = NormalEquations::<2, 1>::default();
+    for (tau, (value, weight)) in values {
+        let x = tau - origin;
+        equations.add(&Vector2::new(x, x * x), &Vector1::new(value), weight);
     }
+    let line = equations.right.x * equations.right.x / equations.square(0);
+    let gain = equations.factor().map_or(line, |normal| equations.right.dot(&normal.solve(&equations.right)));
+    if gain.is_finite() { gain } else { 0.0 }
 }

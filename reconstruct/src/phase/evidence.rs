@@ -1,97 +1,32 @@
-//! What a place of the scan says for and against each phase.
+//! The evidence for each phase at a place of a scan.
 
-use crate::phase::label::Label;
-use crate::point::clamp::Clamp;
-use crate::point::single::{MomentZero, NoContact};
-use crate::scan::local_cubic::Estimate;
+use super::{Basis, Label, Quantity};
+use crate::point::{Clamp, MomentZero, NoContact};
+use crate::scan::Estimate;
 use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
-use serde::Serialize;
-use std::fmt;
 
-/// Rounding and what a solver leaves, dimensionless, in the criterion, the arc length and the reactions.
+/// Error of the criterion, the arc length and the reactions (dimensionless) that solvers and rounding leave. Smaller: exact samples
+/// contradict their own phase.
 const FLOOR: f64 = 1e-9;
-/// Sine of the angle between the way of the point and its tangent that is taken for none: what the rates of clean
-/// data leave where the reactions steepen.
+/// Sine of the angle between the motion of the point and its tangent that counts as zero: the error of rates of noise-free data
+/// where the reactions are steep.
 const SINE: f64 = 1e-6;
-/// Standard deviation of the arc length, and of the force in parts of itself, from which on the length and tangent criteria say
-/// nothing: they are not linear in the noise any more.
+/// Standard deviation of the arc length (rod lengths), and relative standard deviation of the force, from which on the length and
+/// the tangent criterion are not used: they are not linear in the noise any more.
 const BLUR: f64 = 0.05;
-/// Standard deviation of a reaction below which its noise moves the tangent criterion by its rate alone.
+/// Standard deviation of a reaction (dimensionless) below which only the noise of its rate enters the tangent criterion.
 const NOISY: f64 = 1e-7;
-/// Least log-likelihood of a phase at one place: one bad place must not outweigh all others.
-const LEAST: f64 = -40.0;
-/// Share of single contacts that stand still, how fast the others go, per way of the clamp, and the most that counts.
+/// Smallest log-likelihood of a phase at one place, so that one bad place does not outweigh all others.
+const UNLIKELIEST: f64 = -40.0;
+/// Share of single contacts that stand still, as at a vertex.
 const STANDING: f64 = 0.3;
+/// Standard deviation of the speed of the others along the contour, per path length of the clamp.
 const MOVING: f64 = 1.0;
-const MOST: f64 = 30.0;
-/// How far the quantities spread where a phase does not bind them: forces, criterion, arc length and normal speed.
+/// Largest log-likelihood of standing still, for the reason of `UNLIKELIEST`.
+const MOST_STILL: f64 = 30.0;
+/// Standard deviations of the quantities about 0 in the phases that do not require them to vanish: forces, criterion, arc length and
+/// normal speed, dimensionless. Larger: noise counts more in favour of the phase that requires 0.
 const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
-
-/// A quantity that a phase requires to vanish, and its standard deviation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Quantity {
-    /// Its value.
-    pub value: f64,
-    /// Its standard deviation.
-    pub sigma: f64,
-}
-
-impl Quantity {
-    /// Nothing is known of it.
-    pub const UNKNOWN: Self = Self { value: 0.0, sigma: f64::INFINITY };
-
-    fn new(value: f64, variance: f64, floor: f64) -> Self {
-        Self { value, sigma: (variance + floor * floor).sqrt() }
-    }
-
-    /// Value over standard deviation.
-    pub fn z(&self) -> f64 {
-        self.value / self.sigma
-    }
-
-    /// Log of the odds of "it vanishes" against "it is spread about 0 by so much": none where the noise is wider.
-    fn vanishes(&self, spread: f64) -> f64 {
-        if self.sigma.is_infinite() {
-            return 0.0;
-        }
-        let wide = self.sigma.hypot(spread);
-        (wide / self.sigma).ln() - 0.5 * (self.z() * self.z() - (self.value / wide).powi(2))
-    }
-
-    /// Log of about the probability that it is not positive.
-    fn not_positive(&self) -> f64 {
-        let z = self.z().max(0.0);
-        -0.5 * z * z
-    }
-}
-
-/// What a label rests on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Basis {
-    /// The size of the reactions.
-    Force,
-    /// The phase criterion K (Merker et al. 2020, eq. 20).
-    Criterion,
-    /// The arc length to where the moment vanishes.
-    Length,
-    /// The direction in which the reconstructed point moves.
-    Tangent,
-    /// Kinks and the phase diagram: what lies before and after.
-    Diagram,
-}
-
-impl fmt::Display for Basis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Force => "force",
-            Self::Criterion => "criterion",
-            Self::Length => "length",
-            Self::Tangent => "tangent",
-            Self::Diagram => "diagram",
-        })
-    }
-}
 
 /// The criteria at one place of a scan, dimensionless (lengths in L, forces in EI/L^2).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,19 +36,19 @@ pub struct Evidence {
     /// Phase criterion K = m0z^2 - 2 (f0y sin phi0 + f0x cos phi0): 0 where the last contact is tangential (Merker et al.
     /// 2020, eq. 20), negative where it is at the tip.
     pub criterion: Quantity,
-    /// Length criterion: arc length to where the moment vanishes, less 1: 0 where the tip alone is in contact.
+    /// Length criterion: arc length at which the moment vanishes, less 1: 0 where the tip alone is in contact.
     pub length: Quantity,
-    /// Tangent criterion: speed, across its own tangent, of the point that a single contact would have, per way of the
-    /// clamp: 0 where a single contact there is; at a vertex too, where the point stands still.
+    /// Tangent criterion: speed, across its own tangent, of the point that a single contact would have, per path length of the
+    /// clamp: 0 where there is a single contact, also at a vertex, where the point stands still.
     pub tangent: Quantity,
-    /// Speed of that point along its tangent, per way of the clamp: 0 at a vertex or in a notch.
+    /// Speed of that point along its tangent, per path length of the clamp: 0 at a vertex or in a notch.
     pub motion: Quantity,
     /// Length, tangent criterion and motion of a later zero of the moment, where one is nearer to the tip than the first.
     again: Option<[Quantity; 3]>,
 }
 
 impl Evidence {
-    /// The criteria where the reactions and their rates are these.
+    /// The criteria at a place where the reactions and their rates are estimated.
     pub(crate) fn of(estimate: &Estimate) -> Self {
         let none = Vector3::zeros();
         let found = MomentZero::of(&estimate.clamp, &Matrix3::zeros());
@@ -121,7 +56,7 @@ impl Evidence {
         Self::new(&estimate.clamp, found, speed, |gradient| estimate.variance(gradient, &none))
     }
 
-    /// The criteria of one sample with noise of this variance; no rates, hence no tangent criterion.
+    /// The criteria of one sample with noise of this variance. Without rates there is no tangent criterion.
     pub(crate) fn of_sample(clamp: &Clamp, variance: &Vector3<f64>) -> Self {
         let found = MomentZero::of(clamp, &Matrix3::zeros());
         Self::new(
@@ -170,14 +105,14 @@ impl Evidence {
         evidence
     }
 
-    /// What each criterion says of a label: logs of likelihoods, up to constants common to all labels.
+    /// The log-likelihood of a label by each criterion, up to constants common to all labels.
     fn terms(&self, label: Label) -> [(Basis, f64); 4] {
         let [force, criterion, length, tangent] = SPREAD;
         let (tip, touch) = (self.criterion.not_positive(), self.criterion.vanishes(criterion));
-        // A single contact moves along its tangent, or, at a vertex or in a notch, not at all: two points that are taken
-        // for one do neither, and hardly ever stand still.
+        // A single contact moves along its tangent, or, at a vertex or in a notch, not at all. The point computed from two
+        // contacts does neither.
         let single = |across: &Quantity, along: &Quantity| {
-            let standing = STANDING * along.vanishes(MOVING).min(MOST).exp();
+            let standing = STANDING * along.vanishes(MOVING).min(MOST_STILL).exp();
             across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
         };
         let [free, k, s, v] = match label {
@@ -195,11 +130,10 @@ impl Evidence {
 
     /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.
     pub(crate) fn scores(&self) -> [f64; 5] {
-        Label::ALL.map(|label| self.terms(label).iter().map(|term| term.1).sum::<f64>().max(LEAST))
+        Label::ALL.map(|label| self.terms(label).iter().map(|term| term.1).sum::<f64>().max(UNLIKELIEST))
     }
 
-    /// What speaks for this label against the next best: one of the criteria, or, where these hardly tell the two apart,
-    /// what lies before and after.
+    /// The criterion that decided for this label against the next best one; the diagram, where no criterion does.
     pub fn basis(&self, label: Label) -> Basis {
         let scores = self.scores();
         let others = Label::ALL.into_iter().filter(|other| *other != label);
@@ -214,20 +148,19 @@ impl Evidence {
     }
 }
 
-/// The speed of the point of the moment zero across its tangent and along it, with standard deviations.
+/// The speed of the moment zero across its tangent and along it, with standard deviations.
 fn speed(estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
     let of = |clamp: &Clamp, found: &MomentZero| {
         let (_, gradient) = clamp.gradient_at(found.s);
         let rate = gradient.rate(&estimate.rate);
-        // the point slides along the rod so that the curvature there stays 0
+        // the point slides along the rod such that the curvature there stays 0
         let slide = -rate[3] / gradient.by_s[3];
         let velocity = Vector2::new(rate[0] + gradient.by_s[0] * slide, rate[1] + gradient.by_s[1] * slide);
         let normal = found.normal();
         Vector2::new(normal.dot(&velocity), normal.y * velocity.x - normal.x * velocity.y)
     };
     let value = of(&estimate.clamp, found);
-    // How it depends on the reactions themselves matters in noise only: a difference over one standard deviation, which is
-    // what the noise does.
+    // The dependence on the reactions themselves matters in noise only: differences over one standard deviation.
     let covariance = estimate.covariance();
     let mut by_value = Matrix2x3::zeros();
     for c in 0..3 {

@@ -1,39 +1,38 @@
 //! The phases of a whole scan.
 
 use super::border::border;
-use super::evidence::Evidence;
-use super::trellis::{Break, Place, Trellis};
-use crate::phase::label::Label;
-use crate::scan::local_cubic::{Fit, Noise};
-use crate::scan::track::Track;
+use super::diagram::Break;
+use super::trellis::{Place, Trellis};
+use super::{Evidence, Label};
+use crate::scan::{LocalCubic, Noise, Track};
 use std::ops::Range;
 
-/// A cubic has four coefficients: a window tells about three independent rates.
+/// Independent values of the evidence in a window: a cubic has four coefficients, hence three rates.
 const INDEPENDENT: f64 = 3.0;
-/// Places to a window.
+/// Places per window.
 const PLACES: usize = 8;
-/// Most samples on one side of a place.
+/// Most samples of a window on one side of a place. Larger: less noise in slow scans, and more time.
 const WIDEST: usize = 2000;
 
-/// What a scan says at one place.
+/// A place of a scan with the fit about it and its evidence.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub index: usize,
-    pub fit: Fit,
+    pub fit: LocalCubic,
     pub evidence: Evidence,
     pub place: Place,
 }
 
 impl Node {
-    /// About a sample, from samples of `part` only, at most `widest` on one side; none where these are too few.
+    /// At a sample, from samples of `part` only, at most `widest` on one side; none where these are too few.
     pub fn about(track: &Track, index: usize, part: Range<usize>, noise: &Noise, widest: usize) -> Option<Self> {
-        let fit = Fit::about(track, index, part, noise, widest)?;
+        let fit = LocalCubic::about(track, index, part, noise, widest)?;
         let evidence = Evidence::of(&fit.at(track.tau[index]));
         Some(Self { index, fit, evidence, place: Place { scores: [0.0; 5], between: None } })
     }
 
-    /// As one of places `stride` samples apart, with what lies before it. Windows that overlap tell the same thing
-    /// several times: each counts for its part.
+    /// As one of places that are `stride` samples apart, with the break before it. Overlapping windows contain the same samples: each
+    /// counts with its share.
     pub fn placed(self, stride: usize, between: Option<Break>) -> Self {
         let weight = (INDEPENDENT * stride as f64 / self.fit.window.len() as f64).min(1.0);
         let place = Place { scores: self.evidence.scores().map(|score| weight * score), between };
@@ -41,13 +40,13 @@ impl Node {
     }
 }
 
-/// The label of each sample, how sure it is, and what decided.
+/// The labels of a scan.
 #[derive(Clone, Debug)]
 pub(crate) struct Identified {
     pub nodes: Vec<Node>,
-    /// Runs of one label, in order, without gaps.
+    /// Runs of samples with one label, in order, without gaps.
     pub runs: Vec<(Range<usize>, Label)>,
-    /// Of each node.
+    /// The label of each node and its margin.
     pub labels: Vec<(Label, f64)>,
 }
 
@@ -65,13 +64,13 @@ fn parts(samples: usize, breaks: &[Break]) -> Vec<(Range<usize>, Option<Break>)>
     parts
 }
 
-/// Finds the phases of a scan that may break where `breaks` say.
+/// The phases of a scan whose reactions break at `breaks`.
 pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identified {
     let mut nodes = Vec::new();
     for (part, before) in parts(track.tau.len(), breaks) {
         let mut between = before;
         let mut index = part.start;
-        // too few samples between two breaks go with what is around them
+        // a part with too few samples for a fit has no node, and takes the label of its neighbours
         while let Some(node) = Node::about(track, index, part.clone(), noise, WIDEST) {
             let stride = (node.fit.window.len() / PLACES).max(1);
             nodes.push(node.placed(stride, between.take()));
@@ -86,7 +85,7 @@ pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identi
     Identified { nodes, runs, labels }
 }
 
-/// Runs of one label: they change at a break, or, between A and B, where the samples themselves say.
+/// Runs of one label. They end at breaks, or, between A and B, at the border that fits the samples best.
 fn runs(track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -> Vec<(Range<usize>, Label)> {
     let mut runs: Vec<(Range<usize>, Label)> = Vec::new();
     let mut start = 0;
@@ -98,7 +97,7 @@ fn runs(track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -
         let border = match nodes[k].place.between {
             Some(here) => here.index,
             None => {
-                // the window of the fit reaches over the change: look further than its two places
+                // the window of the fit may reach across the border: search beyond the two places
                 let reach = nodes[k].fit.window.len();
                 let from = nodes[k - 1].index.saturating_sub(reach).max(start);
                 let to = (nodes[k].index + reach).min(track.tau.len());

@@ -1,10 +1,10 @@
-//! The contact phases that can be told from reactions.
+//! The contact phases that reactions distinguish.
 
 use core::fmt;
 #[cfg(feature = "std")]
 use serde::{Deserialize, Serialize};
 
-/// The contact phase of a sample, as far as the clamp can tell: how many contacts beyond two there are it cannot.
+/// The contact phase of a sample, as far as the reactions determine it: they do not distinguish two contacts from more.
 ///
 /// ```
 /// use rod_reconstruct::Label;

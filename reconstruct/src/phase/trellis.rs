@@ -1,73 +1,17 @@
-//! Which phase may follow which (Merker et al. 2020, fig. 8b), and the likeliest way through the diagram.
+//! The most likely sequence of phases.
 
-use crate::phase::label::Label;
+use super::Label;
+use super::diagram::{Break, passage};
 
-/// A place between two samples where the reactions may break.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Break {
-    /// The first sample after it.
-    pub index: usize,
-    /// Whether the reactions jump there, or only their rates.
-    pub jump: bool,
-    /// Its chi^2.
-    pub score: f64,
-}
-
-/// Log-odds against a change of phase: where the reactions break, where they need not (between A and B they hardly do), where
-/// they should but do not.
-const AT_BREAK: f64 = -3.0;
-const SMOOTH: f64 = -7.0;
-const UNSEEN: f64 = -60.0;
-/// Log-odds against a change that is not in the diagram.
-const STRANGE: f64 = -12.0;
-/// A break of this chi^2 may as well be a false alarm, and each so many more make it surer by one, up to a limit: a vertex
-/// breaks the reactions too, without a change of phase.
-const DOUBTFUL: f64 = 30.0;
-const SURER: f64 = 4.0;
-const SUREST: f64 = 8.0;
-
-/// Whether one contact comes, goes or passes between tip and flank from one to the other: the diagram of fig. 8b with the
-/// free rod, read in both directions.
-fn neighbours(from: Label, to: Label) -> bool {
-    use Label::{A, B, BA, BB, Free};
-    let either = |u, v| (from, to) == (u, v) || (from, to) == (v, u);
-    either(Free, A)
-        || either(Free, B)
-        || either(A, B)
-        || either(A, BA)
-        || either(B, BA)
-        || either(B, BB)
-        || either(BB, BA)
-}
-
-/// Log-odds of going on from one label to another across what lies between two places.
-pub(crate) fn passage(from: Label, to: Label, between: Option<Break>) -> f64 {
-    use Label::{A, B};
-    let sure = between.map_or(0.0, |here| ((here.score - DOUBTFUL) / SURER).clamp(-SUREST, SUREST));
-    if from == to {
-        // a rod that snaps or slips may well land in the phase it left, and a third contact keeps the label of two
-        let again = from.several() || between.is_some_and(|here| here.jump);
-        let least = if again { AT_BREAK } else { f64::NEG_INFINITY };
-        return (-sure.max(0.0)).max(least);
-    }
-    let strange = if neighbours(from, to) { 0.0 } else { STRANGE };
-    match between {
-        Some(Break { jump: true, .. }) => AT_BREAK,
-        Some(_) => AT_BREAK + sure.min(0.0) + strange,
-        None if matches!((from, to), (A, B) | (B, A)) => SMOOTH,
-        None => UNSEEN + strange,
-    }
-}
-
-/// A place: log-likelihood of each label, and what lies between it and the place before.
+/// A place of a scan: the log-likelihood of each label there, and the break between it and the place before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub scores: [f64; 5],
     pub between: Option<Break>,
 }
 
-/// The likeliest way through places in order, and how sure each label is (Viterbi's and the forward-backward algorithm).
-/// Its memory is kept from one use to the next.
+/// The most likely sequence of labels (Viterbi's algorithm) and the probability of each label (forward-backward algorithm). The
+/// memory is kept from one run to the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trellis {
     steps: Vec<[u8; 5]>,
@@ -76,7 +20,7 @@ pub(crate) struct Trellis {
 }
 
 impl Trellis {
-    /// With memory for so many places.
+    /// With memory for this many places.
     pub fn with_capacity(places: usize) -> Self {
         let mut trellis = Self::default();
         trellis.steps.reserve(places);
@@ -85,8 +29,8 @@ impl Trellis {
         trellis
     }
 
-    /// The labels of all places, and by how much the probability of each exceeds that of the next best label there.
-    /// `before` are the scores of the ways that lead up to the first place, equal where it is the first of all.
+    /// The label of each place, and by how much its probability exceeds that of the next best label there. `before` are the scores of
+    /// the best sequences up to the first place for each label: equal where there are none.
     pub fn run(
         &mut self,
         before: &[f64; 5],
@@ -133,7 +77,7 @@ impl Trellis {
     }
 }
 
-/// One step of Viterbi's algorithm: the best score of a way that ends in each label, and where it came from.
+/// One step of Viterbi's algorithm: the best score of a sequence that ends in each label, and the label before it.
 pub(crate) fn forward(before: &[f64; 5], place: &Place) -> ([f64; 5], [u8; 5]) {
     let mut best = [f64::NEG_INFINITY; 5];
     let mut from = [0; 5];
@@ -153,7 +97,7 @@ fn greatest(scores: &[f64; 5]) -> usize {
     (1..5).fold(0, |best, k| if scores[k] > scores[best] { k } else { best })
 }
 
-/// Scores after (or, `back`, before) what lies between two places, from those on its other side.
+/// Scores carried over the transition between two places, forwards or (`back`) backwards.
 fn carry(scores: &[f64; 5], between: Option<Break>, back: bool) -> [f64; 5] {
     std::array::from_fn(|to| {
         sum(std::array::from_fn(|from| {

@@ -1,50 +1,31 @@
 //! Phases and contact points sample by sample, a fixed number of samples late.
 
+use super::reading::{Reason, sure};
+use super::settings::positive;
+use super::{LiveSettings, Reading, ReconstructError};
 use crate::kink::{Kink, KinkFilter, KinkKind, KinkOptions};
-use crate::phase::contact::contact;
-use crate::phase::label::Label;
-use crate::phase::{Break, Node, Trellis, forward};
-use crate::pipeline::reconstruction::{Reading, Reason, ReconstructError, dimensionless, positive, sure};
-use crate::scan::local_cubic::Noise;
-use crate::scan::noise_estimate::ChannelNoise;
-use crate::scan::track::{Fault, Intake, Track};
+use crate::phase::{Break, Label, Node, Trellis, contact, forward};
+use crate::scan::{Fault, Intake, Noise, Track, dimensionless};
 use rod_core::{Rod, Sample, Units};
 use std::collections::VecDeque;
 
-/// Places to a half-window.
+/// Places per half-window.
 const PLACES: usize = 8;
-/// So many places after a place decide on its label, too.
+/// Number of places after a place that take part in the decision on its label. Larger: fewer wrong labels, later.
 const LAG: usize = 16;
-/// Least and most samples of a half-window.
-const LEAST: usize = 8;
-const MOST: usize = 100_000;
-/// Breaks that may become known at once.
+/// Fewest samples of a half-window.
+const NARROWEST: usize = 8;
+/// Most samples of a half-window, which limits the memory.
+const WIDEST: usize = 100_000;
+/// Largest number of breaks that may be found at once.
 const BREAKS: usize = 16;
-/// The number of samples that the false alarms are counted on.
+/// Number of samples for which the false-alarm rate is given.
 const NOMINAL: usize = 100_000;
 
-/// What must be known before the first sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LiveSettings {
-    /// Noise of f0x, f0y (N) and m0z (N m), as [`noise_estimate::estimate`](crate::noise_estimate::estimate) finds it in
-    /// samples of the free rod, or as the sensor's maker tells.
-    pub noise: [ChannelNoise; 3],
-    /// Way of the clamp from one sample to the next, about, m.
-    pub spacing: f64,
-    /// Half-window, m: how far to both sides of a sample the reactions are looked at. Twice as wide sees a kink 2.8 times as
-    /// small, twice as late.
-    pub half_window: f64,
-    /// False alarms of the kink filter in 100,000 samples.
-    pub false_alarms: f64,
-    /// Largest standard deviation of a contact point across the contour, in lengths of the rod.
-    pub largest_sigma: f64,
-}
-
-/// The identification of [`reconstruct`](crate::reconstruct) as the samples come: the same criteria, kinks and diagram, in
-/// windows of fixed length, with what the next [`delay`](Self::delay) samples tell. Several contacts are flagged, not
-/// resolved.
+/// [`reconstruct`](crate::reconstruct) sample by sample: the same criteria, kinks and diagram, in windows of fixed length. The answer
+/// to a sample comes [`delay`](Self::delay) samples later. Several contacts are recognised, but not resolved.
 ///
-/// Memory is taken once, in [`new`](Self::new).
+/// All memory is allocated in [`new`](Self::new).
 ///
 /// ```
 /// use rod_core::{Pose, Reactions, Rod};
@@ -67,20 +48,20 @@ pub struct Live {
     largest_sigma: f64,
     intake: Intake,
     kinks: KinkFilter,
-    /// Samples in memory, and how many came before them.
+    /// Samples in memory, and the number of samples before them.
     track: Track,
     passed: usize,
     breaks: VecDeque<Break>,
     window: Window,
-    /// Places whose label is not decided, the oldest first, and the scores of the ways up to them.
+    /// Places whose label is not decided, the oldest first, and the scores of the sequences up to them.
     open: VecDeque<Node>,
     before: [f64; 5],
     trellis: Trellis,
     /// Next place, by the number of its sample.
     next: usize,
-    /// Places whose label is decided: the one that holds for the next sample to be answered, and those after it.
+    /// Places whose label is decided: that of the next sample to be answered, and those after it.
     decided: VecDeque<(Node, Label, f64)>,
-    /// What came in and is not answered yet: numbers of usable samples, and faults in between.
+    /// Samples that are not answered yet: the numbers of usable ones, and the faults of others.
     waiting: VecDeque<Result<usize, Fault>>,
     last: Label,
     ended: bool,
@@ -92,20 +73,12 @@ struct Window {
     half: usize,
     /// Distance of places.
     stride: usize,
-    /// How many samples must follow a place.
+    /// Number of samples that must follow a place.
     ahead: usize,
     delay: usize,
     /// Fewest and most samples in memory.
     kept: usize,
     capacity: usize,
-}
-
-impl LiveSettings {
-    /// For samples with this noise at this distance (m): half-windows of 1000 samples.
-    pub fn new(noise: [ChannelNoise; 3], spacing: f64) -> Self {
-        let false_alarms = KinkOptions::default().false_alarms;
-        Self { noise, spacing, half_window: 1000.0 * spacing, false_alarms, largest_sigma: 0.02 }
-    }
 }
 
 impl Live {
@@ -124,9 +97,9 @@ impl Live {
         let noise = dimensionless(&settings.noise, units);
         let options = KinkOptions { false_alarms: settings.false_alarms, widest: settings.half_window / units.length };
         let kinks = KinkFilter::new(settings.spacing / units.length, noise, options, NOMINAL);
-        let half = ((settings.half_window / settings.spacing) as usize).clamp(LEAST, MOST);
+        let half = ((settings.half_window / settings.spacing) as usize).clamp(NARROWEST, WIDEST);
         let stride = (half / PLACES).max(1);
-        // a transition is handed out one a sample: those of one search within as many samples
+        // the filter returns one transition per sample: all of one search within this many samples
         let ahead = half.max(kinks.delay() + BREAKS);
         let delay = ahead + (LAG + 2) * stride;
         let kept = delay + half + stride;
@@ -155,13 +128,12 @@ impl Live {
         })
     }
 
-    /// How many usable samples after a sample its answer comes.
+    /// Number of usable samples after a sample at which its answer comes.
     pub fn delay(&self) -> usize {
         self.window.delay
     }
 
-    /// Takes a sample and answers the one that is due, in order. A sample that is of no use is answered in its turn, with its
-    /// fault.
+    /// Takes a sample and returns the answer that is due. Each sample is answered in its turn; one that cannot be used with its fault.
     pub fn push(&mut self, sample: &Sample) -> Option<Reading> {
         match self.intake.take(sample) {
             Ok((tau, clamp)) => {
@@ -192,7 +164,7 @@ impl Live {
         if due { self.answer() } else { None }
     }
 
-    /// No more samples come: answers those left, one a call, then none.
+    /// Ends the scan: returns the remaining answers, one per call.
     pub fn finish(&mut self) -> Option<Reading> {
         if !self.ended {
             self.ended = true;
@@ -214,6 +186,7 @@ impl Live {
         self.passed + self.track.len()
     }
 
+    /// Keeps a transition, in order.
     fn note(&mut self, kink: Option<Kink>) {
         let Some(kink) = kink else { return };
         if self.breaks.len() == 2 * BREAKS {
@@ -224,7 +197,7 @@ impl Live {
         self.breaks.insert(at, here);
     }
 
-    /// Looks at the next place.
+    /// Adds the next place.
     fn visit(&mut self) {
         let (index, Window { half, stride, .. }) = (self.next, self.window);
         self.next += stride;
@@ -242,7 +215,7 @@ impl Live {
         }
     }
 
-    /// Settles the label of the oldest open place.
+    /// Decides the label of the oldest open place.
     fn decide(&mut self) {
         let found = self.trellis.run(&self.before, self.open.iter().map(|node| node.place));
         let (Some((label, margin)), Some(node)) = (found.first().copied(), self.open.pop_front()) else { return };
@@ -259,7 +232,7 @@ impl Live {
         while self.decided.get(1).is_some_and(|(node, ..)| node.index <= index) {
             self.decided.pop_front();
         }
-        // between two places of different labels the break decides, or else the middle
+        // between two places of different labels the border is at the break, or else in the middle
         let beyond = self.decided.get(1).filter(|(after, ..)| {
             let from = self.decided.front().map_or(0, |place| place.0.index);
             let border = after.place.between.map_or((from + after.index) / 2, |here| here.index);

@@ -1,7 +1,7 @@
-//! The rod as its clamp knows it: from pose and reactions up to the first contact, dimensionless.
+//! The rod between its clamp and its first contact, which pose and reactions determine; dimensionless.
 
-use crate::numeric::number::Number;
-use nalgebra::{Matrix3, Matrix4x3, SMatrix, Vector3, Vector4};
+use crate::numeric::Number;
+use nalgebra::{Matrix4x3, Vector3, Vector4};
 use rod_core::{Pose, Reactions, Section, Units, advance, advance_with_sensitivities};
 
 /// Clamp pose and reactions, dimensionless: x0, y0, phi0 and f0x, f0y, m0z; or their rates along the scan.
@@ -42,7 +42,7 @@ impl<T: Number> Clamp<T> {
         advance(&self.section(), a, b, s)
     }
 
-    /// What [`Self::gradient_at`] gives, but for the derivatives by the clamp, which are left at 0: a third of the work.
+    /// [`Self::gradient_at`] with zeros in place of the derivatives by the clamp's pose and reactions: a third of the work.
     pub fn slide_at(&self, s: T) -> (Section<T>, Gradient<T>) {
         let ([a, b], end) = (self.force(), self.at(s));
         let (sin, cos) = end.phi.sin_cos();
@@ -71,7 +71,7 @@ impl<T: Number> Clamp<T> {
         (end, gradient)
     }
 
-    /// The phase criterion K and its derivatives by the reactions (and phi0).
+    /// The phase criterion K and its derivatives by the reactions.
     pub fn criterion(&self) -> (T, Vector3<T>) {
         let (two, (sin, cos)) = (T::from_f64(2.0), self.pose.z.sin_cos());
         let r = &self.reactions;
@@ -79,7 +79,7 @@ impl<T: Number> Clamp<T> {
     }
 }
 
-/// Derivatives of a section (x, y, phi, kappa) of the rod; by x0 and y0 it only moves along.
+/// Derivatives of a section (x, y, phi, kappa) of the rod. Those by x0 and y0 are trivial: the rod moves along.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gradient<T = f64> {
     pub by_reactions: Matrix4x3<T>,
@@ -95,18 +95,4 @@ impl Gradient {
         let carried = Vector4::new(rate.pose.x, rate.pose.y, 0.0, 0.0);
         carried + self.by_phi0 * rate.pose.z + self.by_reactions * rate.reactions
     }
-}
-
-/// J C J^T.
-pub(crate) fn spread<T: Number, const N: usize>(
-    jacobian: &SMatrix<T, N, 3>,
-    covariance: &Matrix3<T>,
-) -> SMatrix<T, N, N> {
-    jacobian * covariance * jacobian.transpose()
-}
-
-/// Variance of a number with this gradient.
-#[cfg(feature = "std")]
-pub(crate) fn variance<const N: usize>(gradient: &nalgebra::SVector<f64, N>, covariance: &SMatrix<f64, N, N>) -> f64 {
-    gradient.dot(&(covariance * gradient)).max(0.0)
 }

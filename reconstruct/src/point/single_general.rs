@@ -1,19 +1,23 @@
-//! One contact from one sample for rods without a closed form: tapered, bent at rest, of any stiffness law.
+//! One contact from one sample for rods without a closed form: tapered, bent at rest, of any law of curvature.
 
-use crate::point::clamp::{Clamp, spread};
-use crate::point::single::{NoContact, SIGMAS, dimensionless, is_free};
-use crate::point::touch::Touch;
+use super::clamp::Clamp;
+use super::moment_zero::{NOISE_SIGMAS, is_free};
+use super::single::dimensionless;
+use super::{NoContact, Touch};
+use crate::numeric::propagated;
 use nalgebra::{Matrix2x3, Matrix3, Vector3};
 use rod_core::{Cut, Pose, Propagator, Reactions, RodError, Units, find_root};
 
-/// Length of the steps in which the moment is followed: two zeros nearer to each other than this may be missed.
+/// Length of the steps (rod lengths) in which the moment is followed. Two zeros within one step may be missed; the work grows
+/// with its inverse.
 const STEP: f64 = 1.0 / 64.0;
-/// How far beyond the clamp the moment is followed, as far as the rod's law goes on beyond its tip.
+/// Arc length (rod lengths) to which the moment is followed, as far as the rod's law is defined beyond the tip. Zeros between the
+/// tip and there give [`NoContact::BeyondTip`].
 const REACH: f64 = 1.5;
-/// Step of the central differences by the reactions, in parts of 1 + |reactions|: what they leave out, its square, is
-/// as much as what an integrator exact to 1e-12 leaves in them.
+/// Step of the central differences by the reactions, relative to 1 + |reactions|. Their truncation error, the square of the step,
+/// is as large as the error that an integrator exact to 1e-12 makes in the quotient: larger and smaller steps are worse.
 const DIFFERENCE: f64 = 1e-4;
-/// What an integrator leaves in the arc length and in the angle between rod and contour.
+/// Error that an integrator leaves in the arc length (rod lengths) and in the angle between rod and contour (radians).
 const SLACK: f64 = 1e-6;
 
 /// Why there is no contact.
@@ -28,14 +32,14 @@ pub enum GeneralError {
     Rod(#[from] RodError),
 }
 
-/// The contact that bends a rod of any kind, clamped at `pose` (m, radians), so that its clamp feels `reactions` (N, N
-/// m), with the covariance of its position from the `covariance` of (f0x, f0y, m0z): [`single`](crate::single) for
-/// rods without a closed form. `units` are those that `rod` is dimensionless in; the criterion K is none of such rods,
-/// so that a contact that pulls is told by the angle between rod and contour.
+/// [`single`](crate::single) for rods without a closed form: the single contact that explains the `reactions` (N, N m) of a rod
+/// clamped at `pose` (m, radians), with the covariance of its position from the `covariance` of (f0x, f0y, m0z). `units` make
+/// the dimensionless `rod` one with a length and a stiffness. The criterion K does not hold for such rods; a contact that
+/// would have to pull is recognised by the angle between rod and contour.
 ///
-/// The moment is followed through the propagator to its zeros, and each of those is found by Brent's method: as
-/// accurate as the propagator. The covariance rests on central differences, 1e-6 of its size with a propagator exact
-/// to 1e-12. Two zeros within 1/64 of the rod's length may be missed.
+/// The zeros of the moment are bracketed in steps of 1/64 of the rod's length, in which two zeros may be missed, and found by
+/// Brent's method: they are as accurate as the propagator. The covariance is computed from central differences, and exact
+/// to 1e-6 of its size with a propagator exact to 1e-12.
 ///
 /// ```
 /// use nalgebra::Matrix3;
@@ -64,11 +68,11 @@ pub fn single_general(
     }
     let zeros = zeros(rod, &clamp)?;
     let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
-    let first = Found::new(rod, &clamp, first, &covariance)?;
+    let first = Candidate::new(rod, &clamp, first, &covariance)?;
     let mut found = first;
     if first.pressing > first.pressing_noise {
         for &zero in zeros[1..].iter().filter(|zero| zero.0 < 1.0 + STEP && zero.0 > 1.0 - STEP) {
-            let later = Found::new(rod, &clamp, zero, &covariance)?;
+            let later = Candidate::new(rod, &clamp, zero, &covariance)?;
             if (later.touch.s - 1.0).abs() <= later.s_noise {
                 found = later;
             }
@@ -81,7 +85,7 @@ pub fn single_general(
     if found.pressing < -found.pressing_noise { Err(NoContact::Pulling(touch).into()) } else { Ok(touch) }
 }
 
-/// All zeros of the moment as far as the rod reaches. Beyond the tip its law may end: what is not there is no zero.
+/// All zeros of the moment. Where the rod's law ends beyond the tip, the search ends, too.
 fn zeros(rod: &dyn Propagator, clamp: &Clamp) -> Result<Vec<(f64, Cut)>, RodError> {
     let [a, b] = clamp.force();
     let mut start = cut(clamp);
@@ -113,17 +117,17 @@ fn cut(clamp: &Clamp) -> Cut {
 
 /// A zero of the moment as a contact, dimensionless.
 #[derive(Clone, Copy)]
-struct Found {
+struct Candidate {
     touch: Touch,
-    /// How far its arc length may be off.
+    /// Bound of the error of its arc length.
     s_noise: f64,
-    /// Sine of the angle from the contour to the rod: positive at the tip, 0 of a tangential contact; and how far off
-    /// it may be.
+    /// Sine of the angle from the contour to the rod: positive at the tip, 0 at a tangential contact.
     pressing: f64,
+    /// Bound of its error.
     pressing_noise: f64,
 }
 
-impl Found {
+impl Candidate {
     fn new(
         rod: &dyn Propagator,
         clamp: &Clamp,
@@ -138,7 +142,7 @@ impl Found {
         if covariance.iter().any(|&v| v != 0.0) {
             let bend = rod.curvature(s, 0.0);
             let moment_by_s = a * cos + b * sin;
-            // of alpha = atan2(-f0x, f0y)
+            // derivatives of alpha = atan2(-f0x, f0y)
             let turn = Vector3::new(-a, -b, 0.0) / (force * force);
             for c in 0..3 {
                 let step = DIFFERENCE * (1.0 + clamp.reactions.norm());
@@ -158,8 +162,9 @@ impl Found {
                 by_angle[c] = by(|cut| cut.phi) + bend * slide - turn[c];
             }
         }
-        let noise = |gradient: &Vector3<f64>| SIGMAS * spread(&gradient.transpose(), covariance).x.sqrt() + SLACK;
-        let touch = Touch { s, x: at.x, y: at.y, alpha, force, covariance: spread(&position, covariance) };
+        let noise =
+            |gradient: &Vector3<f64>| NOISE_SIGMAS * propagated(&gradient.transpose(), covariance).x.sqrt() + SLACK;
+        let touch = Touch { s, x: at.x, y: at.y, alpha, force, covariance: propagated(&position, covariance) };
         let (pressing, tilt) = (at.phi - alpha).sin_cos();
         Ok(Self { touch, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) })
     }
@@ -168,7 +173,7 @@ impl Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::point::single::single;
+    use crate::single;
     use rod_core::{ClosedForm, Elastica, GeneralElastica, Load, Method, Ode, Rod};
 
     const CLAMP: Pose = Pose { x: 0.3, y: -0.2, phi: 1.5 };

@@ -1,10 +1,10 @@
 //! A contact point found from reactions.
 
-use crate::numeric::number::Number;
+use crate::numeric::Number;
 use nalgebra::Matrix2;
 use rod_core::Units;
 
-/// Where the rod touches the object, SI units.
+/// A contact point of the rod and the object, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch<T = f64> {
     /// Arc length along the rod, m.
@@ -13,12 +13,12 @@ pub struct Touch<T = f64> {
     pub x: T,
     /// Position, m.
     pub y: T,
-    /// Tangent angle of the contour, radians, in (-pi, pi], the solid on its left: the force on the rod is force (sin alpha,
-    /// -cos alpha).
+    /// Tangent angle of the contour, radians, in (-pi, pi], with the solid on its left. The contact force on the rod is
+    /// force (sin alpha, -cos alpha).
     pub alpha: T,
     /// Contact force, N, >= 0.
     pub force: T,
-    /// Covariance of the position (x, y), m^2; zero where nothing is known of the noise.
+    /// Covariance of the position (x, y), m^2; zero where the noise is not known.
     pub covariance: Matrix2<T>,
 }
 
@@ -36,8 +36,7 @@ impl<T: Number> Touch<T> {
         }
     }
 
-    /// Standard deviation of the position across the contour, m: what displaces the contour, where an error along it
-    /// does not.
+    /// Standard deviation of the position across the contour, m. Only this error displaces the contour; one along it does not.
     pub fn sigma_normal(&self) -> T {
         let (sin, cos) = self.alpha.sin_cos();
         let c = &self.covariance;

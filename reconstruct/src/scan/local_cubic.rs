@@ -1,51 +1,27 @@
 //! Local cubics through the reactions: values, rates and their covariance, from a part of a scan without transitions.
 
-use crate::point::clamp::Clamp;
-use crate::scan::noise_estimate::ChannelNoise;
-use crate::scan::track::Track;
+use super::noise::Noise;
+use super::track::Track;
+use crate::numeric::legendre;
+use crate::point::Clamp;
 use nalgebra::{Matrix4, SMatrix, Vector3, Vector4};
 use std::ops::Range;
 
-/// Least standard deviation of a sample, dimensionless: what solver and file leave of it.
-const ROUNDING: f64 = 1e-13;
-/// Standard deviation of a reaction, dimensionless, below which a sample is called clean.
-const CLEAN: f64 = 1e-9;
-/// Samples on both sides of a place that the smallest window takes.
-const LEAST: usize = 8;
-/// By how much a window grows while the cubic still fits.
+/// Samples on either side of a place that the narrowest window takes.
+const NARROWEST: usize = 8;
+/// Factor by which a window grows while the cubic still fits. Larger: fewer fits are tried, and the window is further from the
+/// best one.
 const GROWTH: f64 = 1.5;
-/// How far, in standard deviations of themselves, the residual sum and the terms of order 4 and 5 may exceed the noise
-/// before the cubic is called unfit. The terms see a bias long before the sum does. Many windows are tried: a smaller number
-/// would call one unfit by chance.
-const EXCESS: f64 = 5.0;
-const BIAS: f64 = 4.5;
-
-/// Noise of one sample, dimensionless: variance, and by how much that of long means exceeds what independent samples
-/// would give.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Noise {
-    pub variance: Vector3<f64>,
-    pub long_run: Vector3<f64>,
-}
-
-impl Noise {
-    /// Whether the samples themselves are better than a fit through them.
-    pub fn is_clean(&self) -> bool {
-        self.variance.max() < CLEAN * CLEAN
-    }
-
-    /// From what is known of each channel. Rounding stays.
-    pub fn new(channels: &[ChannelNoise; 3]) -> Self {
-        Self {
-            variance: Vector3::from_fn(|c, _| channels[c].sigma.max(ROUNDING).powi(2)),
-            long_run: Vector3::from_fn(|c, _| channels[c].long_run.max(1.0)),
-        }
-    }
-}
+/// Largest excess of the residual sum of squares over what the noise lets expect, in its standard deviations. Larger: wider
+/// windows, which are less noisy and more biased. Many windows are tried, so that a smaller one rejects some by chance.
+const MOST_EXCESS: f64 = 5.0;
+/// Largest Legendre terms of degree 4 and 5 in the residuals, in their standard deviations. They show a bias long before the sum
+/// of squares does.
+const MOST_BIAS: f64 = 4.5;
 
 /// A cubic through the samples of a window.
 #[derive(Clone, Debug)]
-pub(crate) struct Fit {
+pub(crate) struct LocalCubic {
     centre: f64,
     half: f64,
     /// Coefficients of x0, y0, phi0, f0x, f0y, m0z, in powers of (tau - centre) / half.
@@ -57,7 +33,7 @@ pub(crate) struct Fit {
     pub window: Range<usize>,
 }
 
-/// What a fit says of one place.
+/// Clamp and rates at one place, with the covariance of the reactions and of their rates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Estimate {
     pub clamp: Clamp,
@@ -68,7 +44,7 @@ pub(crate) struct Estimate {
 }
 
 impl Estimate {
-    /// Of a place known without error.
+    /// A place known without error.
     pub fn exact(clamp: Clamp, rate: Clamp) -> Self {
         Self { clamp, rate, shape: [0.0; 3], variance: Vector3::zeros() }
     }
@@ -95,8 +71,8 @@ impl Estimate {
     }
 }
 
-impl Fit {
-    /// The cubic through the samples of the window, if they are enough.
+impl LocalCubic {
+    /// The cubic through the samples of the window and whether it fits within the noise; none for too few samples.
     fn through(track: &Track, window: Range<usize>, noise: &Noise) -> Option<(Self, bool)> {
         let tau = &track.tau[window.clone()];
         let (first, last) = (*tau.first()?, *tau.last()?);
@@ -127,17 +103,17 @@ impl Fit {
             let fitted = coefficients.fixed_columns::<3>(3).tr_mul(&basis);
             let off = clamp.reactions - reference.fixed_rows::<3>(3) - fitted;
             residuals += off.component_mul(&off);
-            // Legendre's polynomials: orthogonal to the cubic, as the residuals are
-            let t2 = t * t;
-            fourth += off * ((35.0 * t2 - 30.0) * t2 + 3.0);
-            fifth += off * (((63.0 * t2 - 70.0) * t2 + 15.0) * t);
+            // Legendre polynomials are orthogonal to the cubic, as the residuals are
+            fourth += off * legendre::fourth(t);
+            fifth += off * legendre::fifth(t);
         }
         let freedom = tau.len() as f64 - 4.0;
         let found = residuals / freedom;
-        let limit = |c: usize| noise.variance[c] * (1.0 + EXCESS * (2.0 * noise.long_run[c] / freedom).sqrt());
+        let limit = |c: usize| noise.variance[c] * (1.0 + MOST_EXCESS * (2.0 * noise.long_run[c] / freedom).sqrt());
         let biased = |c: usize| {
-            let scale = (noise.variance[c] * noise.long_run[c] * tau.len() as f64).sqrt() * 8.0;
-            fourth[c].abs() > BIAS * scale / 9.0_f64.sqrt() || fifth[c].abs() > BIAS * scale / 11.0_f64.sqrt()
+            // the mean of P_n^2 over [-1, 1] is 1 / (2 n + 1)
+            let scale = (noise.variance[c] * noise.long_run[c] * tau.len() as f64).sqrt();
+            fourth[c].abs() > MOST_BIAS * scale / 9.0_f64.sqrt() || fifth[c].abs() > MOST_BIAS * scale / 11.0_f64.sqrt()
         };
         let fits = (0..3).all(|c| found[c] <= limit(c) && !biased(c));
         for (c, value) in reference.iter().enumerate() {
@@ -152,21 +128,22 @@ impl Fit {
         SMatrix::<f64, 6, 1>::new(p.x, p.y, p.z, r.x, r.y, r.z)
     }
 
-    /// The widest cubic about sample `index` that fits as well as the noise allows, from samples of `part` only.
+    /// The widest cubic about sample `index` that fits within the noise, from samples of `part` only, at most `most` on one side.
     pub fn about(track: &Track, index: usize, part: Range<usize>, noise: &Noise, most: usize) -> Option<Self> {
         let window = |half: usize| {
             let length = (2 * half + 1).min(part.len());
             let start = index.saturating_sub(half).clamp(part.start, part.end - length);
             start..start + length
         };
-        let mut half = LEAST.min(most);
+        let mut half = NARROWEST.min(most);
         let mut best = Self::through(track, window(half), noise)?.0;
         let mut narrower = None;
         while half < most && best.window.len() < part.len() {
             half = ((half as f64 * GROWTH).ceil() as usize).min(most);
             match Self::through(track, window(half), noise) {
                 Some((wider, true)) => narrower = Some(std::mem::replace(&mut best, wider)),
-                // The last that passed may be biased by as much as its noise; a step back the bias is a sixth.
+                // The last one that passed may be biased by as much as its noise. The bias of a cubic grows with the fourth
+                // to fifth power of the window: one step narrower it is a sixth.
                 _ => return Some(narrower.unwrap_or(best)),
             }
         }
@@ -206,7 +183,7 @@ mod tests {
         let noise = Noise { variance: Vector3::repeat(1e-24), long_run: Vector3::repeat(1.0) };
         for (bend, widest) in [(0.0, 200), (1.0, 50)] {
             let track = Track { clamps: tau.iter().map(|&t| clamp(t, bend)).collect(), tau: tau.clone() };
-            let fit = Fit::about(&track, 80, 0..200, &noise, 1000).unwrap();
+            let fit = LocalCubic::about(&track, 80, 0..200, &noise, 1000).unwrap();
             assert!(fit.window.len() <= widest && fit.window.len() >= widest / 2, "{:?}", fit.window);
             let at = fit.at(0.08);
             assert!((at.clamp.reactions.y - 0.08_f64.powi(3)).abs() < 1e-13);

@@ -1,20 +1,20 @@
 //! The samples of a scan in order along the path of the clamp.
 
-use crate::point::clamp::Clamp;
-use crate::scan::travel::{Halt, Travel};
+use super::travel::{Halt, Travel};
+use crate::point::Clamp;
 use rod_core::{Rod, Sample, Units};
 
-/// Why a sample is of no use.
+/// Why a sample cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// Pose, reactions or their standard deviations are no finite numbers.
+    /// The pose, the reactions or their standard deviations are not finite.
     #[error("a number is not finite")]
     NotFinite,
-    /// The scan ends before there are enough samples to tell.
+    /// The scan ends before there are enough samples for a phase.
     #[error("too few samples")]
     TooFew,
-    /// The clamp does not go on.
+    /// The clamp does not move on.
     #[error("{0}")]
     Halt(#[from] Halt),
 }
@@ -22,12 +22,12 @@ pub enum Fault {
 /// A scan, dimensionless: path parameter (strictly increasing), clamp poses and reactions.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Track {
-    /// Way of the clamp: root of the sum of squares of its translation and its turning angle.
+    /// Path length of the clamp in the norm of (x, y, phi), rod lengths and radians.
     pub tau: Vec<f64>,
     pub clamps: Vec<Clamp>,
 }
 
-/// Takes samples one by one.
+/// Makes samples dimensionless, one by one, and gives each its path parameter.
 #[derive(Clone, Debug)]
 pub(crate) struct Intake {
     units: Units,
@@ -51,7 +51,7 @@ impl Intake {
 }
 
 impl Track {
-    /// The usable samples, and of each sample its place among them or what is wrong with it.
+    /// The usable samples, and for each sample its index among them or why it is left out.
     pub fn new(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
         let mut intake = Intake::new(rod);
         let mut track = Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()) };

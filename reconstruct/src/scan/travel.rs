@@ -1,22 +1,24 @@
-//! Whether the clamp goes on, and how far it has come.
+//! The path length of the clamp, and whether it moves on.
 
 use rod_core::{Pose, Rod};
 
-/// Why a pose is none to go on to.
+/// Why a pose does not continue the path of the clamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Halt {
-    /// The clamp is where it was.
+    /// The pose is that of the sample before.
     #[error("the pose is that of the usable sample before, expected a clamp that moves")]
     Repeated,
-    /// The clamp comes back.
+    /// The clamp moves backwards.
     #[error("the pose turns back, expected a clamp that goes on in one direction")]
     TurnsBack,
 }
 
-/// The way of the clamp so far, over the poses that it went on to. Distances are those of (x, y, L phi); the direction is
-/// that of the last steps; a pose farther away than twice the whole way before it starts a new direction, so that a clamp
-/// that trembled before it set off costs its trembling only.
+/// The path length of the clamp, over the poses that continue its path.
+///
+/// Distances are those of (x, y, L phi). The direction of the path is the mean of the last steps. A step that is longer than
+/// twice the path so far starts a new direction, so that of a clamp that trembles before it sets off only the trembling is
+/// lost.
 ///
 /// ```
 /// use rod_core::{Pose, Rod};
@@ -29,21 +31,21 @@ pub enum Halt {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Travel {
-    /// Rod length, which makes a length of an angle.
+    /// Rod length, m, by which angles become lengths.
     length: f64,
     last: Option<[f64; 3]>,
-    /// Sum of the directions of the last steps, each new one weighing more.
+    /// Sum of the unit vectors of the last steps, older ones with less weight.
     direction: [f64; 3],
-    /// Length of the way.
+    /// Path length, m.
     way: f64,
 }
 
-/// Movements shorter than this, in rod lengths, are rounding.
+/// Steps shorter than this (rod lengths) are rounding, and count as no movement.
 const STANDING: f64 = 1e-12;
-/// What a direction keeps of its weight with each step after it: some ten steps count, so that a clamp that trembles
-/// sideways is no clamp that turns back.
+/// Factor on the weight of earlier steps in the direction, with each new step. At 0.9 about ten steps count. Smaller: a clamp
+/// that trembles sideways is taken for one that turns back.
 const KEPT: f64 = 0.9;
-/// A step this many times as long as the whole way before it starts anew.
+/// A step this many times as long as the whole path before it starts a new direction.
 const ANEW: f64 = 2.0;
 
 impl Travel {
@@ -52,10 +54,10 @@ impl Travel {
         Self { length: rod.length(), last: None, direction: [0.0; 3], way: 0.0 }
     }
 
-    /// Goes on to a pose (finite; m, radians), if that is one to go on to; how far the clamp has come then, m.
+    /// Moves on to a pose (m, radians; finite), and returns the path length up to there, m.
     ///
     /// # Errors
-    /// [`Halt`]; the pose is left out.
+    /// [`Halt`] where the pose does not continue the path; it is left out.
     pub fn go(&mut self, pose: &Pose) -> Result<f64, Halt> {
         let here = [pose.x, pose.y, self.length * pose.phi];
         let Some(last) = self.last else {

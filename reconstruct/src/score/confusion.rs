@@ -1,13 +1,13 @@
-//! Which phases were taken for which.
+//! The confusion matrix of the phases.
 
-use crate::Label;
+use crate::phase::Label;
 use std::fmt;
 use std::ops::AddAssign;
 
 /// Counts of samples by their true phase and the one found.
 ///
-/// Collected from pairs (truth, found); matrices of several scans add up. Shares are between 0 and 1, and none where
-/// there is nothing to share.
+/// Collected from pairs (truth, found); matrices of several scans add up. Shares are between 0 and 1; they are `None` where the whole
+/// is 0.
 ///
 /// ```
 /// use rod_reconstruct::{Label, score::Confusion};
@@ -79,7 +79,7 @@ impl Confusion {
     }
 }
 
-/// A part of a whole; none of nothing.
+/// The share of a part; none where the whole is 0.
 fn share(part: u64, whole: u64) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }

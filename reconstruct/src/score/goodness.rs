@@ -1,4 +1,4 @@
-//! How well one signal fits another.
+//! The goodness of fit of two signals.
 
 /// The normalised mean square error as a goodness of fit, 1 - |x - r|^2 / |r - mean(r)|^2 for the signal x and the
 /// reference r: 1 where they are equal, 0 where x is no better than the mean of r, without a lower bound.
@@ -7,8 +7,8 @@
 /// (2020), fig. 5, who used R2019a. From R2020a on that function returns the error alone, |x - r|^2 / |r - mean(r)|^2,
 /// so that there 0 is a perfect fit: one minus ours.
 ///
-/// None without samples, with lists of different lengths, with numbers that are not finite, with a constant reference,
-/// and where the answer is no finite number. Both signals may be shifted and scaled together, in any unit.
+/// None without samples, for lists of different lengths, for numbers that are not finite, for a constant reference, and where the
+/// result is not finite. It is the same for signals that are shifted and scaled together.
 ///
 /// ```
 /// use rod_reconstruct::score::goodness_of_fit;

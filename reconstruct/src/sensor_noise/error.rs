@@ -1,10 +1,10 @@
 //! What can be wrong with a noise model.
 
-/// Why a noise model is none.
+/// Why a noise model is not possible.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoiseError {
-    /// A number that cannot be what it is given for.
+    /// A number that is out of its range.
     #[error("{field} is {value}, expected {expected}")]
     Value {
         /// Which one, as in `white.f0x` or `crosstalk[1][3]`, rows and columns counted from 1.

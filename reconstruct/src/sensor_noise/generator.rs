@@ -1,15 +1,16 @@
-//! The noise model at work.
+//! The readings of a simulated sensor.
 
+use super::error::NoiseError;
 use super::model::{Ar1, Dropout, NoiseModel};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use rod_core::Reactions;
 
-/// Turns true reactions into what a sensor with a [`NoiseModel`] reads, sample by sample, without allocation.
+/// Turns true reactions into the readings of a sensor with a [`NoiseModel`], sample by sample, without allocation.
 #[derive(Clone, Debug)]
 pub struct NoiseGenerator {
-    // Each part only where there is one: zeros times something are not always nothing.
+    // each part only where the model has one, because zero times infinity is not zero
     linear: Option<([[f64; 3]; 3], [f64; 3])>,
     white: Option<Normal>,
     ar1: Option<Remembered>,
@@ -27,9 +28,21 @@ enum Stream {
     Dropout,
 }
 
+impl NoiseModel {
+    /// A simulated sensor before its first sample. The same seed gives the same noise. Each part of the model has its own stream of
+    /// random numbers, so that the noise of one part does not depend on the others.
+    ///
+    /// # Errors
+    /// [`NoiseError`] of [`check`](Self::check).
+    pub fn generator(&self, seed: u64) -> Result<NoiseGenerator, NoiseError> {
+        self.check()?;
+        Ok(NoiseGenerator::new(self, seed))
+    }
+}
+
 impl NoiseGenerator {
-    /// The model has been checked.
-    pub(super) fn new(model: &NoiseModel, seed: u64) -> Self {
+    /// Of a model that has been checked.
+    fn new(model: &NoiseModel, seed: u64) -> Self {
         let normal =
             |sigma: Reactions, stream| channels(sigma).map(|sigma| Normal { sigma, random: random(seed, stream) });
         let Dropout { probability, .. } = model.dropout;
@@ -43,7 +56,7 @@ impl NoiseGenerator {
         }
     }
 
-    /// What the sensor reads of the next sample; none where it is lost.
+    /// The reading of the next sample; none where it is lost.
     pub fn sample(&mut self, clean: Reactions) -> Option<Reactions> {
         let mut r = [clean.f0x, clean.f0y, clean.m0z];
         if let Some((matrix, offset)) = &self.linear {

@@ -1,7 +1,6 @@
-//! Simulated sensors: what becomes of true reactions on their way into a recording.
+//! Simulated sensors: from true reactions to readings with the errors of a sensor (feature `sensor-noise`).
 //!
-//! `model` says what is wrong with a sensor, `file` how that is written down, `generator` does it to one sample after
-//! the other.
+//! `model` describes the errors, `file` how they are written in a file, and `generator` applies them to one sample after the other.
 
 mod error;
 mod file;

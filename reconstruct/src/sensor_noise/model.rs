@@ -1,7 +1,6 @@
-//! What is wrong with a sensor, as numbers.
+//! The errors of a sensor.
 
 use super::error::NoiseError;
-use super::generator::NoiseGenerator;
 use rod_core::Reactions;
 
 /// A sensor that is not perfect, SI units. Everything is zero by default, and a model of zeros changes nothing.
@@ -39,18 +38,18 @@ use rod_core::Reactions;
 pub struct NoiseModel {
     /// Relative error of the gain: 0.01 reads 1 % too much.
     pub gain: Reactions,
-    /// What each channel (row) takes from each (column), both in the order f0x, f0y, m0z. Forces take from the moment
-    /// in 1/m, the moment from forces in m, the others have no unit.
+    /// What each channel (row) gets from each (column), both in the order f0x, f0y, m0z. The unit is 1/m for a force from the moment,
+    /// m for the moment from a force, and 1 otherwise.
     pub crosstalk: [[f64; 3]; 3],
-    /// What is read without a load, N and N m.
+    /// Reading without a load, N and N m.
     pub offset: Reactions,
     /// Standard deviation of white noise, N and N m.
     pub white: Reactions,
-    /// Noise of which the next sample remembers a part.
+    /// Noise that is correlated from sample to sample.
     pub ar1: Ar1,
     /// Standard deviation of the step from one sample to the next, N and N m.
     pub random_walk: Reactions,
-    /// Distance of two readings that can be told apart, N and N m; 0 where all can.
+    /// Quantum to whose multiples readings are rounded, N and N m; 0 for none.
     pub quantum: Reactions,
     /// Samples that are lost.
     pub dropout: Dropout,
@@ -76,16 +75,6 @@ pub struct Dropout {
 }
 
 impl NoiseModel {
-    /// The model at work, on its first sample. The same seed gives the same noise; each part of the model has a stream
-    /// of random numbers of its own, so that the noise of one does not depend on whether the others are there.
-    ///
-    /// # Errors
-    /// [`NoiseError`] as of [`check`](Self::check).
-    pub fn generator(&self, seed: u64) -> Result<NoiseGenerator, NoiseError> {
-        self.check()?;
-        Ok(NoiseGenerator::new(self, seed))
-    }
-
     /// Standard deviation of one reading (N, N m) about what gain, crosstalk and offset make of the truth: of white and
     /// AR(1) noise together with the quantum's q / sqrt(12). The random walk, which has none, is left out.
     ///
@@ -105,7 +94,7 @@ impl NoiseModel {
         }
     }
 
-    /// Whether every number is possible.
+    /// Checks that every number is possible.
     ///
     /// # Errors
     /// [`NoiseError::Value`] with the field: a number that is not finite, a negative standard deviation or quantum, a

@@ -1,16 +1,16 @@
-//! Beyond the first contact: its force, and the contact at the tip or the next one.
+//! The rod beyond its first contact.
 
-use crate::point::clamp::Clamp;
+use crate::point::Clamp;
 use rod_core::{Section, advance_with_sensitivities, inflection};
 
-/// Newton's method converges in 4 to 8 steps or not at all.
+/// Most steps of Newton's method, which converges in 4 to 8 or not at all.
 const STEPS: usize = 30;
-/// Relative change of the force that is rounding.
+/// Relative change of the force below which Newton's method has converged: rounding.
 const SETTLED: f64 = 1e-14;
 
 /// The rod beyond its first contact: the section there, and the force (A, B) next to the clamp.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Beyond {
+pub(super) struct Beyond {
     pub s1: f64,
     pub first: Section,
     pub force: [f64; 2],
@@ -36,7 +36,7 @@ impl Beyond {
         (end, -by.by_a[3] * cos - by.by_b[3] * sin)
     }
 
-    /// f1 for which the tip is without moment, by Newton from a guess.
+    /// The f1 for which the moment at the tip vanishes, by Newton's method from a guess.
     pub fn force_of_tip(&self, guess: f64) -> Option<f64> {
         let mut f = guess;
         for _ in 0..STEPS {
@@ -53,7 +53,7 @@ impl Beyond {
         None
     }
 
-    /// Arc length to the next section without moment: the next contact, if it is the last one and tangential.
+    /// Arc length of the next section without moment: the second contact, if that is tangential.
     pub fn second(&self, f1: f64) -> Option<f64> {
         let [a, b] = self.left(f1);
         Some(self.s1 + inflection(&self.first, a, b)?)

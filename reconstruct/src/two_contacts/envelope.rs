@@ -1,21 +1,21 @@
-//! The first of several contacts, from the envelope that the known arcs of a scan touch.
+//! The first of several contacts, from the envelope of the rod's shapes along a scan.
 //!
-//! Up to its first contact the rod is known from the reactions alone, whatever comes after it. Along the scan these arcs are
-//! a family of curves; a frictionless contact moves along its own tangent, so that there the normal speed of the family
-//! vanishes: v_n(s) = n(s) . dr(s; tau) / dtau = 0.
+//! The reactions determine the rod up to its first contact, however many follow. Along the scan these shapes are a family of
+//! curves. A frictionless contact moves along its own tangent, so that the normal speed of the family vanishes there:
+//! v_n(s) = n(s) . dr(s; tau) / dtau = 0.
 
-use crate::scan::local_cubic::Estimate;
+use crate::scan::Estimate;
 use nalgebra::{Matrix2x3, Vector2, Vector3, Vector4};
 use rod_core::Section;
 
-/// Places along the rod at which the normal speed is looked at for changes of sign.
+/// Places along the rod between which the normal speed is searched for changes of sign. Two roots between neighbours are missed.
 const PLACES: usize = 48;
-/// Iterations of the safeguarded Newton's method; bisection alone would need 50.
+/// Most iterations of the safeguarded Newton's method; bisection alone would need 50.
 const STEPS: usize = 60;
 
-/// The normal speed of the known arc at arc length s, and what goes with it.
+/// The normal speed of the rod at arc length s, and its derivatives.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NormalSpeed {
+pub(super) struct NormalSpeed {
     pub section: Section,
     /// v_n, and its derivative by s.
     pub value: f64,
@@ -41,8 +41,8 @@ impl NormalSpeed {
     }
 }
 
-/// All places before arc length `end` where the known arc touches its envelope, from the clamp outwards.
-pub(crate) fn touches(estimate: &Estimate, end: f64, mut found: impl FnMut(f64, NormalSpeed)) {
+/// All places before arc length `end` where the rod touches the envelope, from the clamp outwards.
+pub(super) fn touches(estimate: &Estimate, end: f64, mut found: impl FnMut(f64, NormalSpeed)) {
     let mut before = (0.0, NormalSpeed::at(estimate, 0.0));
     for place in 1..=PLACES {
         let s = end * place as f64 / PLACES as f64;

@@ -1,47 +1,42 @@
-//! Legendre series over a stretch of a scan: what is smooth in there, in few numbers.
+//! Legendre series of pose and reactions over a stretch of a scan.
 
-use crate::point::clamp::Clamp;
-use crate::scan::local_cubic::Noise;
-use crate::scan::track::Track;
+use crate::numeric::legendre;
+use crate::point::Clamp;
+use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, Vector3};
 use std::ops::Range;
 
-/// Terms of the longest series: the nine scans of the paper need 11 to 21 for all digits.
-const MOST: usize = 24;
+/// Most terms of a series: the nine scans of the paper need 11 to 21 for all digits. More terms cost time as their third power.
+const MOST_TERMS: usize = 24;
 /// Fewest terms of the reactions' series.
-const LEAST: usize = 4;
-/// A term of the series is there where it exceeds this many standard deviations.
+const FEWEST_TERMS: usize = 4;
+/// A term of the series is kept where it exceeds so many of its standard deviations in a channel.
 const SIGNIFICANT: f64 = 3.0;
-/// After so many terms that do not, none follows.
+/// After so many insignificant terms the series ends.
 const QUIET: usize = 3;
-/// Terms beyond the last one that is there: conditions are met with them that were not met without.
+/// Terms added to the last significant one. The conditions determine them where the noise of the reactions hides them.
 const SPARE: usize = 2;
-/// Standard deviation, dimensionless, below which reactions are called exact: rounding and truncation of the series.
+/// Smallest standard deviation of the reactions, dimensionless: truncation of the series and rounding. Smaller: the least squares
+/// become ill-conditioned on noise-free scans.
 const EXACT: f64 = 1e-10;
 
-/// Where a stretch lies along the scan, as t from -1 to 1.
+/// The part of the path that a stretch covers, mapped to t from -1 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Span {
+pub(super) struct Interval {
+    /// Path parameter at t = 0, and half the path length.
     pub centre: f64,
     pub half: f64,
 }
 
-impl Span {
+impl Interval {
+    /// The t of a path parameter.
     pub fn local(&self, tau: f64) -> f64 {
         (tau - self.centre) / self.half
     }
 
-    /// The first `terms` Legendre polynomials and their derivatives by tau.
+    /// The first `terms` Legendre polynomials at t and their derivatives by the path parameter.
     pub fn basis(&self, t: f64, terms: usize) -> (Vec<f64>, Vec<f64>) {
-        let (mut p, mut d) = (vec![1.0; terms], vec![0.0; terms]);
-        if terms > 1 {
-            (p[1], d[1]) = (t, 1.0);
-        }
-        for j in 2..terms {
-            let n = j as f64;
-            p[j] = ((2.0 * n - 1.0) * t * p[j - 1] - (n - 1.0) * p[j - 2]) / n;
-            d[j] = d[j - 2] + (2.0 * n - 1.0) * p[j - 1];
-        }
+        let (p, mut d) = legendre::with_derivatives(t, terms);
         d.iter_mut().for_each(|d| *d /= self.half);
         (p, d)
     }
@@ -49,25 +44,26 @@ impl Span {
 
 /// Poses and reactions along a stretch without transitions.
 #[derive(Clone, Debug)]
-pub(crate) struct Series {
-    pub span: Span,
+pub(super) struct Series {
+    pub interval: Interval,
     /// Coefficients of x0, y0, phi0 and of f0x, f0y, m0z.
     pub pose: DMatrix<f64>,
     pub reactions: DMatrix<f64>,
-    /// Normal matrix of the basis, and its inverse: the covariance of a reaction's coefficients is `variance` times it.
+    /// Normal matrix of the polynomials at the samples, and its inverse. The covariance of the coefficients of a reaction is its
+    /// `variance` times the inverse.
     pub normal: DMatrix<f64>,
     pub inverse: DMatrix<f64>,
     pub variance: Vector3<f64>,
 }
 
 impl Series {
-    /// The shortest series through the samples of `range` that leaves nothing but noise.
+    /// The shortest series through the samples of `range` whose residuals are noise; none for too few samples.
     pub fn through(track: &Track, range: Range<usize>, noise: &Noise) -> Option<Self> {
         let tau = track.tau.get(range.clone())?;
         let (&first, &last) = (tau.first()?, tau.last()?);
-        let span = Span { centre: 0.5 * (first + last), half: 0.5 * (last - first) };
-        let most = MOST.min(tau.len() / 3);
-        if most < LEAST || span.half <= 0.0 {
+        let interval = Interval { centre: 0.5 * (first + last), half: 0.5 * (last - first) };
+        let most = MOST_TERMS.min(tau.len() / 3);
+        if most < FEWEST_TERMS || interval.half <= 0.0 {
             return None;
         }
         let clamps = &track.clamps[range];
@@ -75,7 +71,7 @@ impl Series {
         let mut normal = DMatrix::<f64>::zeros(most, most);
         let mut sums = DMatrix::<f64>::zeros(most, 6);
         for (&tau, clamp) in tau.iter().zip(clamps) {
-            let p = legendre(span.local(tau), most);
+            let p = polynomials(interval.local(tau), most);
             let six = six(clamp);
             for i in 0..most {
                 for j in 0..=i {
@@ -88,11 +84,11 @@ impl Series {
         }
         normal.fill_upper_triangle_with_lower_triangle();
         let lower = normal.clone().cholesky()?.l();
-        // coefficients in an orthonormal basis: each has the variance of a sample, long runs considered
+        // coefficients in an orthonormal basis: each has the (long-run) variance of a sample
         let single = lower.solve_lower_triangular(&sums)?;
         let sigma = noise.variance.component_mul(&noise.long_run).map(f64::sqrt);
         let present = |j: &usize| (0..3).any(|c| single[(*j, c + 3)].abs() > SIGNIFICANT * sigma[c]);
-        let mut terms = LEAST;
+        let mut terms = FEWEST_TERMS;
         while let Some(next) = (terms..most.min(terms + QUIET)).find(present) {
             terms = next + 1;
         }
@@ -102,7 +98,7 @@ impl Series {
         let mut coefficients = lower.tr_solve_lower_triangular(&single.rows(0, terms).into_owned())?;
         let mut left = Vector3::zeros();
         for (&tau, clamp) in tau.iter().zip(clamps) {
-            let p = legendre(span.local(tau), terms);
+            let p = polynomials(interval.local(tau), terms);
             let six = six(clamp);
             for c in 0..3 {
                 let fitted: f64 = (0..terms).map(|j| p[j] * coefficients[(j, c + 3)]).sum();
@@ -116,15 +112,15 @@ impl Series {
         let variance = noise.variance.sup(&found).component_mul(&noise.long_run).map(|v| v.max(EXACT * EXACT));
         let inverse = normal.clone().cholesky()?.inverse();
         let part = |from| coefficients.columns(from, 3).into_owned();
-        Some(Self { span, pose: part(0), reactions: part(3), normal, inverse, variance })
+        Some(Self { interval, pose: part(0), reactions: part(3), normal, inverse, variance })
     }
 
-    /// The first terms alone: nearly the best series of that length, as Legendre's polynomials are nearly orthogonal.
+    /// The first terms alone. They are nearly the best series of that length, because Legendre polynomials are nearly orthogonal.
     pub fn shortened(&self, terms: usize) -> Self {
         let terms = terms.min(self.terms());
         let block = |m: &DMatrix<f64>| m.view((0, 0), (terms, terms)).into_owned();
         Self {
-            span: self.span,
+            interval: self.interval,
             pose: self.pose.rows(0, terms).into_owned(),
             reactions: self.reactions.rows(0, terms).into_owned(),
             normal: block(&self.normal),
@@ -137,9 +133,9 @@ impl Series {
         self.normal.nrows()
     }
 
-    /// The clamp and its rates where the reactions have these coefficients.
+    /// The clamp and its rates at t.
     pub fn clamps(&self, t: f64) -> [Clamp; 2] {
-        let (p, d) = self.span.basis(t, self.terms());
+        let (p, d) = self.interval.basis(t, self.terms());
         let by = |b: Vec<f64>, m: &DMatrix<f64>| {
             Vector3::from_fn(|c, _| m.column(c).iter().zip(&b).map(|(m, b)| m * b).sum())
         };
@@ -152,12 +148,9 @@ fn six(clamp: &Clamp) -> [f64; 6] {
     [p.x, p.y, p.z, r.x, r.y, r.z]
 }
 
-fn legendre(t: f64, terms: usize) -> [f64; MOST] {
-    let mut p = [1.0; MOST];
-    p[1] = t;
-    for j in 2..terms {
-        let n = j as f64;
-        p[j] = ((2.0 * n - 1.0) * t * p[j - 1] - (n - 1.0) * p[j - 2]) / n;
-    }
+/// The first `terms` Legendre polynomials at t.
+fn polynomials(t: f64, terms: usize) -> [f64; MOST_TERMS] {
+    let mut p = [0.0; MOST_TERMS];
+    legendre::values(t, &mut p[..terms]);
     p
 }

@@ -1,11 +1,15 @@
 #![allow(clippy::print_stdout, reason = "tables are for those who run the tests")]
 
+use super::pair::Pair;
 use super::*;
-use crate::point::clamp::Clamp;
+use crate::phase::Label;
+use crate::point::Clamp;
+use crate::scan::{Noise, Track};
 use nalgebra::Vector3;
 use rod_contact::{ClampPath, Item, State, Sweep};
 use rod_contours::{Composite, Contour, Parabola};
 use rod_core::{Pose, Rod, Units};
+use std::ops::Range;
 
 /// Vertices of the two parabolas of the paper's objects.
 const OBJECTS: [[[f64; 2]; 2]; 3] = [[[0.0, 0.0], [0.3, 0.0]], [[0.0, 0.0], [0.3, 0.1]], [[0.0, 0.1], [0.3, 0.0]]];

@@ -1,10 +1,10 @@
-//! Why contacts of a rod with several could not be found.
+//! Why one of several contacts is not resolved.
 
-/// Why a contact of a sample with several contacts is not known. Not a failure: an answer.
+/// Why a contact of a sample with several contacts is not known. This is an answer, not a failure.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unresolved {
-    /// The stretch has too few samples for rates.
+    /// The stretch has too few samples to determine rates.
     #[error("the stretch has {samples} samples, {least} are needed")]
     TooShort {
         /// Samples of the stretch, without the margins at its ends.
@@ -12,16 +12,16 @@ pub enum Unresolved {
         /// How many are needed.
         least: usize,
     },
-    /// Nowhere along the rod do the known arcs touch an envelope.
+    /// The shapes of the rod along the scan have no envelope that touches the rod.
     #[error("the rod's arcs touch no envelope")]
     NoTouch,
-    /// The second contact's force is within its noise of nothing: its place is not defined.
+    /// The force of the second contact is within its noise of zero, so that its place is not defined.
     #[error("the force of the second contact is within its noise of zero")]
     ForceVanishes,
-    /// No end of the stretch tells the first contact's force.
+    /// The force of the first contact is known at neither end of the stretch.
     #[error("the force of the first contact is known at no end of the stretch")]
     NoAnchor,
-    /// The standard deviation of the position, in lengths of the rod, exceeds what was asked for.
+    /// The standard deviation of the position exceeds the limit.
     #[error("the position is uncertain by {sigma} lengths of the rod")]
     TooNoisy {
         /// Standard deviation across the contour or, where that decided, along it, in lengths of the rod.
