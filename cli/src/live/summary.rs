@@ -1,13 +1,13 @@
 //! What is said of a live scan.
 
 use super::latency::Latency;
-use super::{Answer, LiveScan};
+use super::scan::LiveScan;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use vibrissa::hw::{LinkCounters, Quality, ReactionSample, SensorCheck, SensorFinding, Timekeeper};
 use vibrissa::noise_estimate::ChannelNoise;
-use vibrissa::{Label, Touch};
+use vibrissa::{Label, Reading, Touch};
 
 /// Why a live scan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -95,8 +95,8 @@ impl LiveReport {
         }
     }
 
-    pub(super) fn answer(&mut self, answer: &Answer) {
-        let Some(reading) = &answer.reading else { return };
+    pub(super) fn answer(&mut self, reading: Option<&Reading>) {
+        let Some(reading) = reading else { return };
         *self.labels.entry(reading.label.to_string()).or_default() += 1;
         self.points += u64::from(reading.touch.is_ok());
     }
@@ -122,8 +122,7 @@ impl LiveReport {
     }
 
     /// A line of progress: the answer, and where the label is new, the one before.
-    pub(super) fn line(&self, answer: &Answer, before: Option<Label>) -> String {
-        let (sample, Some(reading)) = (&answer.sample, &answer.reading) else { return String::new() };
+    pub(super) fn line(&self, sample: &ReactionSample, reading: &Reading, before: Option<Label>) -> String {
         let phase = match before {
             Some(before) => format!("{before} -> {}", reading.label),
             None => reading.label.to_string(),

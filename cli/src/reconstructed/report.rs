@@ -1,7 +1,8 @@
 //! What is said of a reconstruction as a whole: report.json, SI units, rows counted from 0 as the lines of
 //! points.jsonl.
 
-use super::{Comparison, Reconstructed, Transition};
+use super::comparison::{Comparison, Transition};
+use super::result::Reconstructed;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use vibrissa::kink::KinkKind;

@@ -1,8 +1,8 @@
 //! What the command says of a reconstruction.
 
+use super::comparison::{Comparison, Transition};
 use super::report::Answered;
-use super::truth::Comparison;
-use super::{Reconstructed, Transition};
+use super::result::Reconstructed;
 use crate::table::Table;
 use std::fmt::Write;
 use vibrissa::score::Deviation;

@@ -1,6 +1,6 @@
 //! A conclusion of the check by the physics.
 
-use super::Shares;
+use super::shares::Shares;
 use std::fmt;
 
 /// Relative difference of the stiffness from which on the recording does not fit the rod.

@@ -1,10 +1,9 @@
 //! The conclusions of the check by the physics.
 
 use super::bins::Bin;
-use super::finding::UNITS;
+use super::finding::{Finding, UNITS};
 use super::line::Consensus;
-use super::shares::contact;
-use super::{Finding, Shares};
+use super::shares::{Shares, contact};
 use crate::point::{NoContact, Touch};
 use crate::scan::Travel;
 use rod_core::{Reactions, Rod, Sample};

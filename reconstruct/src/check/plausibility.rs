@@ -1,9 +1,10 @@
 //! The check of a recording.
 
 use super::bins::bins;
+use super::finding::Finding;
 use super::findings::findings;
-use super::line::line_of;
-use super::{Finding, Shares, TangentialLine};
+use super::line::{TangentialLine, line_of};
+use super::shares::Shares;
 use rod_core::{Rod, Sample};
 
 /// The result of a check by the physics, in SI units if the recording is.

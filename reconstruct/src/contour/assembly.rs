@@ -1,13 +1,16 @@
 //! The assembly of a contour.
 
 use super::bins::bins;
+use super::estimate::ContourEstimate;
+use super::gap::{Gap, GapReason};
 use super::leaps::leaps;
 use super::line::Line;
+use super::measured::Measured;
 use super::point::Point;
 use super::runs::Runs;
 use super::scatter;
 use super::smooth::smooth;
-use super::{ContourEstimate, Gap, GapReason, Measured, Trace, TraceKind};
+use super::trace::{Trace, TraceKind};
 use std::ops::Range;
 
 /// How the contact points of a scan are assembled into stretches of a contour.

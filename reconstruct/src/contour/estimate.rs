@@ -1,6 +1,7 @@
 //! The contour as one scan, or several, determine it.
 
-use super::{Gap, Trace, TraceKind};
+use super::gap::Gap;
+use super::trace::{Trace, TraceKind};
 use serde::Serialize;
 
 /// The parts of a contour that are known, and the gaps between them.

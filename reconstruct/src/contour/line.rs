@@ -1,9 +1,9 @@
 //! From bins to the points of a trace: in order along the contour, and no more of them than its shape needs.
 
-use super::TracePoint;
 use super::bins::Bin;
 use super::simplify::simplified;
 use super::smooth::Estimate;
+use super::trace::TracePoint;
 use crate::numeric::wrapped;
 use nalgebra::Vector2;
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! The samples of a scan, taken apart into consecutive ones of a kind.
 
-use super::GapReason;
+use super::gap::GapReason;
 use super::measured::Says;
 use super::point::Point;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! Polygons with no more points than their shape needs (Ramer 1972; Douglas and Peucker 1973).
 
-use super::TracePoint;
+use super::trace::TracePoint;
 
 /// Departure, m, that counts as zero: it only keeps the quotient below finite.
 const SMALLEST: f64 = 1e-100;

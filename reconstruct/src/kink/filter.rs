@@ -1,8 +1,9 @@
 //! Kinks and jumps as the samples come.
 
+use super::options::KinkOptions;
 use super::scale::reach;
 use super::search::Detector;
-use super::{Kink, KinkOptions};
+use super::transition::Kink;
 use crate::scan::noise_estimate::ChannelNoise;
 use std::collections::VecDeque;
 

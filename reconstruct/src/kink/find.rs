@@ -1,7 +1,8 @@
 //! Kinks and jumps of a whole recording.
 
+use super::options::KinkOptions;
 use super::search::Detector;
-use super::{Kink, KinkOptions};
+use super::transition::Kink;
 use crate::scan::noise_estimate::ChannelNoise;
 
 /// Kinks and jumps of three channels sampled at `tau` (increasing strictly), in order.

@@ -3,8 +3,9 @@
 use super::basis::{Basis, FEWEST_BINS, MOST_BINS, ROWS, Verdict, Window};
 use super::free_knot::{Part, Placed};
 use super::level::Level;
+use super::options::KinkOptions;
 use super::scale::{Scale, scales};
-use super::{Kink, KinkKind, KinkOptions};
+use super::transition::{Kink, KinkKind};
 use crate::numeric::chi_squared::{exceeded_by_six, exceeded_by_three, wilson_hilferty};
 use crate::scan::noise_estimate::ChannelNoise;
 

@@ -1,6 +1,6 @@
 //! Covariance matrices: propagation to functions of the measured numbers, inversion, distances in standard deviations.
 
-use super::Number;
+use super::number::Number;
 #[cfg(feature = "std")]
 use nalgebra::{Matrix2, SVector, Vector2};
 use nalgebra::{Matrix3, SMatrix};

@@ -1,6 +1,6 @@
 //! The border between A and B, the one transition at which the reactions hardly break.
 
-use super::Evidence;
+use super::evidence::Evidence;
 use crate::numeric::NormalEquations;
 use crate::point::Clamp;
 use crate::scan::{Noise, Track};

@@ -1,6 +1,6 @@
 //! The single contact of a sample whose phase is known.
 
-use super::Label;
+use super::label::Label;
 use crate::point::{Clamp, MomentZero, NoContact, Touch};
 use crate::scan::{LocalCubic, Noise};
 use nalgebra::{Matrix2, Matrix3, Vector3};

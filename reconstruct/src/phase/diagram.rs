@@ -1,6 +1,6 @@
 //! The phase diagram of Merker et al. (2020, fig. 8b): which phase may follow which, and how likely.
 
-use super::Label;
+use super::label::Label;
 
 /// A kink or a jump of the reactions between two samples.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,8 @@
 //! The evidence for each phase at a place of a scan.
 
-use super::{Basis, Label, Quantity};
+use super::basis::Basis;
+use super::label::Label;
+use super::quantity::Quantity;
 use crate::point::{Clamp, MomentZero, NoContact};
 use crate::scan::Estimate;
 use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};

@@ -2,8 +2,9 @@
 
 use super::border::border;
 use super::diagram::Break;
+use super::evidence::Evidence;
+use super::label::Label;
 use super::trellis::{Place, Trellis};
-use super::{Evidence, Label};
 use crate::scan::{LocalCubic, Noise, Track};
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! The most likely sequence of phases.
 
-use super::Label;
 use super::diagram::{Break, passage};
+use super::label::Label;
 
 /// A place of a scan: the log-likelihood of each label there, and the break between it and the place before.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! The answers to the samples of a scan whose phases are known.
 
 use super::nearest::Nearest;
-use super::reading::{Reason, sure};
-use super::{Reading, Settings};
+use super::reading::{Reading, Reason, sure};
+use super::settings::Settings;
 use crate::kink::Kink;
 use crate::phase::{Break, Identified, Label, contact};
 use crate::point::Touch;

@@ -1,8 +1,8 @@
 //! Phases and contact points sample by sample, a fixed number of samples late.
 
-use super::reading::{Reason, sure};
-use super::settings::positive;
-use super::{LiveSettings, Reading, ReconstructError};
+use super::live_settings::LiveSettings;
+use super::reading::{Reading, Reason, sure};
+use super::settings::{ReconstructError, positive};
 use crate::kink::{Kink, KinkFilter, KinkKind, KinkOptions};
 use crate::phase::{Break, Label, Node, Trellis, contact, forward};
 use crate::scan::{Fault, Intake, Noise, Track, dimensionless};

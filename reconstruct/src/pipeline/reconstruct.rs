@@ -1,9 +1,9 @@
 //! The reconstruction of a whole scan.
 
 use super::answers::Answers;
-use super::reading::Reason;
-use super::settings::positive;
-use super::{Reading, ReconstructError, Reconstruction, Settings};
+use super::reading::{Reading, Reason};
+use super::reconstruction::Reconstruction;
+use super::settings::{ReconstructError, Settings, positive};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Label, identify};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};

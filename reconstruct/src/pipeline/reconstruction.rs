@@ -1,7 +1,6 @@
 //! The result of a reconstruction.
 
-use super::Reading;
-use super::reading::Reason;
+use super::reading::{Reading, Reason};
 use crate::contour::{Assembly, ContourEstimate, Measured};
 use crate::kink::Kink;
 use crate::phase::{Evidence, Label};

@@ -1,6 +1,7 @@
 //! A live scan with samples of which some cannot be used.
 
-use super::{Live, Reading};
+use super::live::Live;
+use super::reading::Reading;
 use rod_core::Sample;
 use std::collections::VecDeque;
 
@@ -69,5 +70,36 @@ impl<S> LiveSession<S> {
         {
             answer(sample, None);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::LiveSettings;
+    use crate::noise_estimate::ChannelNoise;
+    use rod_core::{Pose, Reactions, Rod};
+
+    #[test]
+    fn every_sample_is_answered_once_in_order() {
+        let rod = Rod::new(0.1, 6.3e-4).unwrap();
+        let noise = [1e-3, 1e-3, 2e-5].map(ChannelNoise::white);
+        let live = Live::new(&rod, &LiveSettings { half_window: 1e-4, ..LiveSettings::new(noise, 2e-6) }).unwrap();
+        let mut session = LiveSession::new(live);
+        let mut answers = Vec::new();
+        for k in 0..2000 {
+            let usable = !matches!(k, 0..3 | 500 | 1999);
+            // a clamp that turns back for one sample
+            let x = 2e-6 * f64::from(if k == 800 { 600 } else { k });
+            let sample = Sample::new(Pose { x, y: 0.0, phi: 1.5 }, Reactions::default());
+            session.push(k as usize, usable.then_some(&sample), |k, reading| answers.push((k, reading)));
+        }
+        session.finish(|k, reading| answers.push((k, reading)));
+        assert_eq!(answers.len(), 2000);
+        assert!(answers.iter().enumerate().all(|(k, answer)| answer.0 == k));
+        let without: Vec<usize> = (0..2000).filter(|&k| answers[k].1.is_none()).collect();
+        assert_eq!(without, [0, 1, 2, 500, 1999]);
+        let turned = answers[800].1.unwrap().touch.unwrap_err().to_string();
+        assert!(turned.contains("turns back"), "{turned}");
     }
 }

@@ -1,7 +1,8 @@
 //! Where the moment along the rod vanishes: the contact point of a single contact.
 
 use super::clamp::Clamp;
-use super::{NoContact, Touch};
+use super::no_contact::NoContact;
+use super::touch::Touch;
 use crate::numeric::{Number, propagated};
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
 use rod_core::{Section, inflection};

@@ -1,6 +1,6 @@
 //! Why there is no single contact.
 
-use super::Touch;
+use super::touch::Touch;
 use crate::numeric::Number;
 
 /// Why no single contact explains the reactions. This is an answer, not a failure, and holds the point where there is one.

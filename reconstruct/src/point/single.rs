@@ -3,7 +3,8 @@
 
 use super::clamp::Clamp;
 use super::moment_zero::{MomentZero, NOISE_SIGMAS};
-use super::{NoContact, Touch};
+use super::no_contact::NoContact;
+use super::touch::Touch;
 use crate::numeric::{Number, propagated};
 use nalgebra::{Matrix3, Vector3};
 use rod_core::{Pose, Reactions, Rod, Units};

@@ -2,8 +2,9 @@
 
 use super::clamp::Clamp;
 use super::moment_zero::{NOISE_SIGMAS, is_free};
+use super::no_contact::NoContact;
 use super::single::dimensionless;
-use super::{NoContact, Touch};
+use super::touch::Touch;
 use crate::numeric::propagated;
 use nalgebra::{Matrix2x3, Matrix3, Vector3};
 use rod_core::{Cut, Pose, Propagator, Reactions, RodError, Units, find_root};

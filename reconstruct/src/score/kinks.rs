@@ -1,6 +1,6 @@
 //! How many of the true kinks were found, and where.
 
-use super::Deviation;
+use super::deviation::Deviation;
 
 /// A true kink and the one found for it, positions along the path of the clamp in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
