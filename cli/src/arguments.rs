@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
-use vibrissa_cli::{FakeProtocol, Reading, SensorAddress, StageSpec};
+use vibrissa_cli::{FakeProtocol, ReadOptions, SensorAddress, StageSpec};
 
 /// Simulates a flexible whisker that is dragged past an object, and reconstructs the object from the forces and the moment at
 /// the base of the whisker.
@@ -169,7 +169,7 @@ pub struct Written {
     segment: Option<usize>,
 }
 
-impl From<Written> for Reading {
+impl From<Written> for ReadOptions {
     fn from(written: Written) -> Self {
         let delimiter = written.delimiter.map(|name| match name.as_str() {
             "comma" => Delimiter::Comma,

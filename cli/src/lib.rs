@@ -37,8 +37,8 @@ pub use init::{FIRST_SCENE, write_first_scene};
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::Interval;
 pub use live::{
-    AddressError, Answer, End, Engine, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor,
-    SensorAddress, StageSpec, StageSpecError,
+    AddressError, End, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor, SensorAddress, StageSpec,
+    StageSpecError,
 };
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged, abandon, check_output, write_profile_table, write_profiles};
@@ -46,7 +46,7 @@ pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
-pub use recording::{Reading, Recording, RecordingError, Row, RowFault, RowProblem};
+pub use recording::{ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{Scene, read_rod};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};

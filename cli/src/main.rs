@@ -14,9 +14,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::NoiseModel;
 use vibrissa_cli::{
-    Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, Reading, Reconstructed, Recording, Scan, Scene,
-    SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output, read_noise,
-    read_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
+    Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Reconstructed, Recording, Scan,
+    Scene, SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output,
+    read_noise, read_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -193,7 +193,7 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
 
 fn reconstruct(
     file: &Path,
-    how: &Reading,
+    how: &ReadOptions,
     rod: &Path,
     truth: Option<PathBuf>,
     out: Option<PathBuf>,
@@ -229,7 +229,7 @@ fn reconstruct(
 
 fn live(
     address: &SensorAddress,
-    reading: Reading,
+    read: ReadOptions,
     rod: &Path,
     stage: Option<StageSpec>,
     path: Option<&Path>,
@@ -252,8 +252,8 @@ fn live(
         (None, Some(StageSpec::Constant(_))) => read_scene(rod).ok().map(|scene| scene.path),
         (None, _) => None,
     };
-    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, reading, inputs };
-    let sensor = Sensor::open(address, &scan.setup, &scan.reading)?;
+    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, read, inputs };
+    let sensor = Sensor::open(address, &scan.setup, &scan.read)?;
     let interrupt = signals::ask().interrupt;
     let report = scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
     say(&report.text());

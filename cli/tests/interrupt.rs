@@ -13,7 +13,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use vibrissa::Rod;
 use vibrissa::reconstruct::NoiseModel;
-use vibrissa_cli::{Error, Interrupt, Paper, Reading, Recording, Scan, Scene, Simulation, Staged};
+use vibrissa_cli::{Error, Interrupt, Paper, ReadOptions, Recording, Scan, Scene, Simulation, Staged};
 
 /// The first wait before a signal; each try doubles it.
 const FIRST_WAIT: Duration = Duration::from_millis(30);
@@ -199,7 +199,7 @@ fn an_interrupted_simulation_ends_with_a_comment_that_the_reader_knows() {
     let text = fs::read_to_string(&file).unwrap();
     assert!(text.lines().last().unwrap().starts_with("# incomplete: interrupted at clamp (0.0"));
     let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9).unwrap();
-    let recording = Recording::read(&file, &rod, &Reading::default()).unwrap();
+    let recording = Recording::read(&file, &rod, &ReadOptions::default()).unwrap();
     assert_eq!(recording.samples().count(), text.lines().count() - 2);
     let warnings = recording.warnings();
     assert!(warnings[0].contains("the recording is incomplete: interrupted at clamp"), "{warnings:?}");

@@ -13,7 +13,7 @@ use std::process::{Child, Command, Output, Stdio};
 use vibrissa::reconstruct::{NoiseModel, single};
 use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Sample};
-use vibrissa_cli::{Reading, Recording, Scene, Simulation, Tick};
+use vibrissa_cli::{ReadOptions, Recording, Scene, Simulation, Tick};
 
 /// O1 at q = 0.4 L: A, B, BB, BA, B, A.
 fn scene() -> String {
@@ -83,7 +83,7 @@ fn truth(directory: &Path, rate: f64, speed: f64) -> Vec<Sample> {
 /// quantum (N, N m) at most, a point by what that makes of it.
 fn agrees(directory: &Path, truth: &[Sample], quantum: [f64; 2]) {
     let scene = Scene::read(&directory.join("scene.toml")).unwrap();
-    let recording = Recording::read(&directory.join("out/recording.csv"), &scene.rod, &Reading::default()).unwrap();
+    let recording = Recording::read(&directory.join("out/recording.csv"), &scene.rod, &ReadOptions::default()).unwrap();
     let samples: Vec<&Sample> = recording.samples().collect();
     let first = samples[0].t.unwrap();
     assert_eq!(samples.len(), recording.rows.len());

@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::hw::{AtiFile, Frame, Mounting, OutOfPlane};
-use vibrissa_cli::{Reading, Recording, Scene};
+use vibrissa_cli::{ReadOptions, Recording, Scene};
 use writer::{Endian, F64, Index, Object, segment};
 
 const NOISE: &str = "[white]\nforce = 1e-5\nm0z = 1e-7\n";
@@ -43,7 +43,7 @@ fn felt() -> Felt {
     );
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let scene = Scene::read(&dir.join("scene.toml")).unwrap();
-    let recording = Recording::read(&dir.join("felt.csv"), &scene.rod, &Reading::default()).unwrap();
+    let recording = Recording::read(&dir.join("felt.csv"), &scene.rod, &ReadOptions::default()).unwrap();
     let file = AtiFile::read(&data("data/turned.cal")).unwrap();
     let matrix = file.calibration(None).unwrap().matrix::<6, f64>().unwrap();
     let matrix = Matrix6::from_fn(|i, j| matrix.rows()[i][j]);

@@ -7,7 +7,7 @@ mod study;
 
 use std::path::Path;
 use study::{LEVELS, NOISES, Score, judge, scans, sweep};
-use vibrissa::reconstruct::compare::Deviation;
+use vibrissa::reconstruct::score::Deviation;
 
 const SEEDS: u64 = 1;
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use vibrissa::{Pose, Rod};
-use vibrissa_cli::{Reading, Recording, RecordingError, RowProblem};
+use vibrissa_cli::{ReadOptions, Recording, RecordingError, RowProblem};
 
 const HEADER: &str = "x0,y0,phi0,f0x,f0y,m0z";
 
@@ -371,7 +371,7 @@ fn what_a_recorder_wrote() {
 #[test]
 fn a_file_that_cannot_be_read() {
     let rod = Rod::new(0.1, 6.32e-4).unwrap();
-    let message = Recording::read("nowhere.csv".as_ref(), &rod, &Reading::default()).unwrap_err().to_string();
+    let message = Recording::read("nowhere.csv".as_ref(), &rod, &ReadOptions::default()).unwrap_err().to_string();
     assert!(message.starts_with("cannot read the recording nowhere.csv: "), "{message}");
     // Bytes that are no text are names and cells like others.
     let image = Recording::parse("image.csv".as_ref(), b"\xff\xd8\xff\xe0,\x00\n", &rod).unwrap_err().to_string();

@@ -7,7 +7,7 @@ use common::{SCENE, complaint, edited, vibrissa};
 use std::fs;
 use std::path::Path;
 use std::process::Output;
-use vibrissa_cli::{Reading, Recording, Scan, Scene};
+use vibrissa_cli::{ReadOptions, Recording, Scan, Scene};
 
 const NOISE: &str = "\
 [white]
@@ -118,7 +118,7 @@ fn what_is_written_can_be_read() {
     let arguments = ["--noise", "noise.toml", "--rate", "100", "--sigmas", "--out", "r.csv"];
     assert_eq!(simulate(directory.path(), &arguments).status.code(), Some(0));
     let rod = Scene::parse("scene.toml".as_ref(), SCENE).unwrap().rod;
-    let recording = Recording::read(&file, &rod, &Reading::default()).unwrap();
+    let recording = Recording::read(&file, &rod, &ReadOptions::default()).unwrap();
     assert!(recording.warnings().is_empty(), "{:?}", recording.warnings());
     let read: Vec<Vec<f64>> = recording
         .samples()

@@ -1,90 +1,70 @@
 #![doc = include_str!("../README.md")]
 //!
-//! - [`single`]: the one contact behind the pose of the clamp and what it feels (a [`Sample`]), in closed form, and
+//! - [`single`]: the contact point of one contact from one [`Sample`] (pose of the clamp and reactions), in closed form, and
 //!   [`single_general`] for rods without one. [`NoContact`]: why there is none.
-//! - [`reconstruct`]: a whole scan, its samples with their [`Label`]s, contacts ([`Touch`]), also both where there are two, and
-//!   the [`Evidence`]. [`Live`]: the labels and single contacts as samples come.
-//! - [`kink`], [`noise_estimate`]: where the reactions break, and how noisy they are.
+//! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
+//!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
+//! - [`kink`], [`noise_estimate`]: the places where the reactions have kinks and jumps, and their noise.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
-//! - [`align`], [`Comparison`], [`merge`]: how contours of several scans are offset, where they disagree, one of all.
-//! - [`plausibility`]: whether a recording can be of the rod it is said to be of.
-//! - [`NoiseModel`]: what a sensor makes of the true reactions, for simulated recordings. [`compare`]: how near a result is to
-//!   the truth.
+//! - [`align`], [`Comparison`], [`merge`]: offsets of the contours of several scans, where they disagree, and one contour from all.
+//! - [`plausibility`]: whether a recording can be of the rod that is given.
+//! - `NoiseModel` (feature `sensor-noise`): simulated sensors. `score` (feature `score`): scores of a result against the truth.
 //!
-//! This crate knows reactions, not sensors, and nothing of how a rod is swept: what it is told is where the clamp was and
-//! what it felt. Units are SI at its border, dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
+//! This crate needs reactions only: it does not depend on sensors, nor on how a rod is swept. Units are SI at its border and
+//! dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 //!
-//! Without the feature `std` there is no heap, and [`single`] is left, in `f32` or `f64`, for a microcontroller.
+//! Without the feature `std` there is no heap. [`single`] is left, in `f32` or `f64`, for a microcontroller.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 #[cfg(feature = "std")]
-mod assembly;
+mod check;
 #[cfg(feature = "std")]
-mod bound;
-#[cfg(feature = "std")]
-pub mod compare;
-#[cfg(feature = "std")]
-mod fit;
-#[cfg(feature = "std")]
-mod general;
+mod contour;
 #[cfg(feature = "std")]
 pub mod kink;
-mod known;
-mod label;
 #[cfg(feature = "std")]
-mod live;
+mod merge;
+mod numeric;
+mod phase;
 #[cfg(feature = "std")]
-mod noise;
+mod pipeline;
+mod point;
 #[cfg(feature = "std")]
-pub mod noise_estimate;
-mod number;
+mod scan;
+#[cfg(feature = "score")]
+pub mod score;
+#[cfg(feature = "sensor-noise")]
+mod sensor_noise;
 #[cfg(feature = "std")]
-mod phases;
-#[cfg(feature = "std")]
-mod plausibility;
-#[cfg(feature = "std")]
-mod reconstruction;
-#[cfg(feature = "std")]
-mod scans;
-#[cfg(feature = "std")]
-mod several;
-mod single;
-mod touch;
-#[cfg(feature = "std")]
-mod track;
-#[cfg(feature = "std")]
-mod travel;
+mod two_contacts;
 
 // Covariances are its matrices.
 pub use nalgebra;
 
 #[cfg(feature = "std")]
-pub use assembly::{
+pub use check::{Finding, Plausibility, Shares, TangentialLine, plausibility};
+#[cfg(feature = "std")]
+pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
 #[cfg(feature = "std")]
-pub use general::{GeneralError, single_general};
-pub use label::Label;
+pub use merge::{Comparison, Disagreement, Offset, align, merge};
+pub use numeric::Number;
+pub use phase::Label;
 #[cfg(feature = "std")]
-pub use live::{Live, LiveSettings};
+pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
-pub use noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
-pub use number::Number;
+pub use pipeline::{
+    Live, LiveSession, LiveSettings, Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct,
+};
 #[cfg(feature = "std")]
-pub use phases::{Basis, Evidence, Quantity};
-#[cfg(feature = "std")]
-pub use plausibility::{Finding, Plausibility, Shares, TangentialLine, plausibility};
-#[cfg(feature = "std")]
-pub use reconstruction::{Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct};
+pub use point::{GeneralError, single_general};
+pub use point::{NoContact, Touch, single};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]
-pub use scans::{Comparison, Disagreement, Offset, align, merge};
+pub use scan::{Fault, Halt, Travel, noise_estimate};
+#[cfg(feature = "sensor-noise")]
+pub use sensor_noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 #[cfg(feature = "std")]
-pub use several::Unresolved;
-pub use single::{NoContact, single};
-pub use touch::Touch;
-#[cfg(feature = "std")]
-pub use track::Fault;
-#[cfg(feature = "std")]
-pub use travel::{Halt, Travel};
+pub use two_contacts::Unresolved;

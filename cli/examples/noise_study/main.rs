@@ -81,7 +81,7 @@ fn main() -> Outcome<()> {
 fn detail(scans: &[Clean], level: &Level, noise: Option<&Noise>, scores: &[Score]) -> String {
     let mut text = format!("\n{} {}\n\n", level.title(), noise.map_or("", |noise| noise.name));
     text += &study::by_scan(scans.iter().zip(scores).map(|(clean, score)| (clean.scene.name.as_str(), score)));
-    let mut phases = vibrissa::reconstruct::compare::Confusion::default();
+    let mut phases = vibrissa::reconstruct::score::Confusion::default();
     for (clean, score) in scans.iter().zip(scores) {
         phases += score.phases;
         if score.phases.accuracy().is_some_and(|accuracy| accuracy < 0.998) {

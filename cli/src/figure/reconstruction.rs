@@ -7,7 +7,7 @@ use super::plane::Window;
 use crate::{Comparison, Reconstructed, naive_touch};
 use vibrissa::Label;
 use vibrissa::reconstruct::Touch;
-use vibrissa::reconstruct::compare::Deviation;
+use vibrissa::reconstruct::score::Deviation;
 
 /// Width; least and largest height of the plot; height of the title and the key, pixels.
 const WIDTH: u32 = PAGE;

@@ -1,24 +1,27 @@
-//! What is heard before the first answer: the free rod, its tare, and when the stage sets off.
+//! The samples before the first answer: those of the free rod, their tare, and the start of the stage.
 
+use super::error::LiveError;
 use super::feed::{Fed, Miss};
 use super::motion::Motion;
+use super::scan::LiveScan;
+use super::sensor::Sensor;
 use super::summary::LiveReport;
-use super::{LiveError, LiveScan, Sensor};
 use crate::{Error, SensorCalibration};
 use vibrissa::hw::{
     Calibration, CalibrationError, RawSample, ReactionSample, Scale, SignalChain, Tare, TareError, TareLimits,
     TareWindow, Timekeeper, Wrench, WrenchChain, WrenchSample, Zero,
 };
+use vibrissa::reconstruct::LiveSettings;
 
-/// Change within a tare window that does not matter, in units of the rod.
+/// Largest change within a tare window, in units of the rod (EI/L^2, EI/L): 1 % of the force that bends it by its length.
 const SMALL: f64 = 0.01;
-/// Fewest samples that tell noise and spacing.
-pub(super) const FEWEST: usize = 100;
-/// How long to listen before the first answer where there is no tare, s.
+/// Fewest samples of the free rod, for its noise and the spacing.
+const FEWEST: usize = LiveSettings::FEWEST_FREE;
+/// Time, s, of the samples of the free rod where there is no tare.
 const LISTEN: f64 = 0.5;
 /// Seconds without a sample that end a scan.
 pub(super) const PATIENCE: f64 = 3.0;
-/// Window of a device's clock, s.
+/// Window, s, over which the clock of a device is compared with that of the host. Longer: less jitter, slower correction.
 const WINDOW: f64 = 10.0;
 
 /// What a sample is in N and N m, and how far it can be trusted.
@@ -106,7 +109,7 @@ pub(super) fn head<'a>(
         let chain = SignalChain::new(scaled(), wrench_chain);
         return Ok(Head { chain, samples, tare: "as recorded".into() });
     };
-    let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, &scan.reading)?;
+    let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, &scan.read)?;
     if matches!(motion, Motion::Told) {
         return Err(LiveError::NoStage { address: sensor.name.clone() }.into());
     }

@@ -1,8 +1,8 @@
 //! The stage of a live scan.
 
-use super::StageSpec;
-use crate::live::LiveError;
-use crate::{Error, Reading};
+use super::error::LiveError;
+use super::stage::StageSpec;
+use crate::{Error, ReadOptions};
 use std::path::Path;
 use vibrissa::hw::recording::{Role, Table};
 use vibrissa::hw::{ConstantSpeed, StageError, StageSource, StageTable};
@@ -21,7 +21,12 @@ pub(super) enum Motion {
 
 impl Motion {
     /// What is asked for, a constant speed from time `start` (s) on.
-    pub fn new(spec: Option<&StageSpec>, path: Option<&ClampPath>, start: f64, how: &Reading) -> Result<Self, Error> {
+    pub fn new(
+        spec: Option<&StageSpec>,
+        path: Option<&ClampPath>,
+        start: f64,
+        how: &ReadOptions,
+    ) -> Result<Self, Error> {
         match (spec, path) {
             (None, _) => Ok(Self::Told),
             (Some(StageSpec::Constant(_)), None) => Err(LiveError::NoPath.into()),
@@ -55,7 +60,7 @@ impl StageSource for Motion {
 }
 
 /// The table of poses in a file.
-fn table(file: &Path, how: &Reading) -> Result<StageTable, LiveError> {
+fn table(file: &Path, how: &ReadOptions) -> Result<StageTable, LiveError> {
     let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let roles = [Role::Time, Role::X0, Role::Y0, Role::Phi0];
     let columns = how.columns.find(&table, &roles, &[]).map_err(LiveError::Columns)?;

@@ -1,8 +1,9 @@
 //! Recordings, played back.
 
+use super::error::LiveError;
 use super::feed::{Fed, Feed, Miss};
-use super::{LiveError, Sensor};
-use crate::{Error, Reading, RecordingSetup, RecordingTime, SensorCalibration, Setup};
+use super::sensor::Sensor;
+use crate::{Error, ReadOptions, RecordingSetup, RecordingTime, SensorCalibration, Setup};
 use std::error::Error as StdError;
 use std::fmt::Display;
 use std::path::Path;
@@ -21,7 +22,7 @@ struct Played {
 type Samples = (Vec<Result<Fed, Miss>>, Option<SensorCalibration>);
 
 /// Opens a recording: TDMS and MCAP by the end of its name, anything else as a table.
-pub(super) fn open(file: &Path, setup: &Setup, how: &Reading) -> Result<Sensor, Error> {
+pub(super) fn open(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Sensor, Error> {
     let is = |end: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(end));
     let (samples, calibration) = if is("tdms") {
         labview(file, setup)
@@ -109,7 +110,7 @@ fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
 
 /// Rows of a table: raw values where the setup has a matrix for them or names their columns; otherwise reactions with poses,
 /// wrenches in units that the file tells, or raw values, whatever there is.
-fn table(file: &Path, setup: &Setup, how: &Reading) -> Result<Samples, LiveError> {
+fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Samples, LiveError> {
     let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let RecordingSetup { columns, time, .. } = &setup.recording;
     let mut map = how.columns.clone();

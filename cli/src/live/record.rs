@@ -1,6 +1,5 @@
 //! What a live scan writes while it runs: files that are complete up to the last flush, whatever happens then.
 
-use super::Answer;
 use crate::OutputError;
 use crate::output::check_output;
 use crate::reconstructed::PointRecord;
@@ -10,6 +9,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use vibrissa::hw::recording::{About, Contents, RecordError, Recorder};
 use vibrissa::hw::{LinkCounters, ReactionSample};
+use vibrissa::reconstruct::Reading;
 
 /// recording.csv and points.jsonl.
 #[derive(Debug)]
@@ -68,8 +68,7 @@ impl Record {
         })
     }
 
-    pub fn answer(&mut self, answer: &Answer) -> Result<(), OutputError> {
-        let Answer { sample, reading } = answer;
+    pub fn answer(&mut self, sample: &ReactionSample, reading: Option<&Reading>) -> Result<(), OutputError> {
         let point = match reading {
             Some(reading) => PointRecord::of_reading(sample.pose, reading),
             None => PointRecord::without(Some(sample.pose), sample.quality.to_string()),

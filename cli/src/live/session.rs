@@ -1,113 +1,147 @@
 //! A live scan, from the first sample to the last.
 
+use super::error::LiveError;
 use super::feed::{Fed, Miss};
 use super::head::{Head, PATIENCE, head};
-use super::noise::noise;
-use super::record::Record;
+use super::record::{Record, check};
+use super::rounding::rounding;
+use super::scan::LiveScan;
+use super::sensor::Sensor;
 use super::summary::{End, LiveReport};
-use super::{Answer, Engine, LiveScan, Sensor};
 use crate::Error;
 use std::path::Path;
 use vibrissa::Label;
+use vibrissa::Sample;
 use vibrissa::hw::recording::About;
 use vibrissa::hw::{ChainError, ReactionSample, StageError};
-use vibrissa::reconstruct::{Live, LiveSettings};
+use vibrissa::reconstruct::{Live, LiveSession, LiveSettings, Reading, ReconstructError};
+use vibrissa::rod::Reactions;
 
 /// Seconds between two lines of progress.
 const TICK: f64 = 1.0;
-/// Half-window of the identification: in lengths of the rod, but no fewer samples than this.
-const HALF_WINDOW: f64 = 0.02;
-const FEWEST_IN_HALF_WINDOW: f64 = 200.0;
 
-/// Runs a scan to its end. `tell` is handed lines to show; `stopped` asks it to end.
-pub(super) fn run(
-    scan: &LiveScan,
-    mut sensor: Sensor,
-    out: &Path,
-    tell: &mut dyn FnMut(&str),
-    stopped: &dyn Fn() -> bool,
-) -> Result<LiveReport, Error> {
-    let mut report = LiveReport::new(scan, &sensor.name);
-    for finding in report.findings() {
-        tell(&format!("warning: {finding}"));
-    }
-    let Head { mut chain, samples, tare } = head(scan, &mut sensor, &mut report, tell, stopped)?;
-    tell(&format!("tare: {tare}"));
-    let (noise, spacing) = noise(scan, &samples, &chain)?;
-    let usual = (HALF_WINDOW * scan.rod.length()).max(FEWEST_IN_HALF_WINDOW * spacing);
-    let half_window = scan.setup.half_window.unwrap_or(usual);
-    let live = Live::new(&scan.rod, &LiveSettings { half_window, ..LiveSettings::new(noise, spacing) })?;
-    report.begin(noise, spacing, live.delay());
-    tell(&format!(
-        "noise: f0x {:.1e} N, f0y {:.1e} N, m0z {:.1e} N m; answers {} samples late",
-        noise[0].sigma,
-        noise[1].sigma,
-        noise[2].sigma,
-        live.delay()
-    ));
-    let about =
-        About { sensor: sensor.name.clone(), tare, clock: "seconds from the first sample".into(), ..About::default() };
-    let mut recorded = Recorded { record: Record::new(out, about)?, report, label: None, told: 0.0, tell, fault: None };
-    let mut engine = Engine::new(live);
-    for sample in samples {
-        recorded.sample(&sample);
-        engine.push(sample, |answer| recorded.answer(&answer));
-    }
-    let (mut last, mut period) = (f64::NEG_INFINITY, 0.0);
-    // those that came before had to wait for the tare
-    let ready = sensor.feed.now();
-    let end = loop {
-        if let Some(error) = recorded.fault.take() {
-            return Err(error.into());
+impl LiveScan {
+    /// Listens to the sensor until the clamp has arrived, there are no more samples, the sensor falls silent, or `stopped`
+    /// says so. Writes recording.csv, points.jsonl and summary.json into `out`, the first two as it goes. `tell` is handed
+    /// lines to show.
+    ///
+    /// The first samples, for [`TareSetup::seconds`](crate::TareSetup), must be of the free rod: tare and noise are computed from them.
+    /// The stage starts with the first sample.
+    ///
+    /// # Errors
+    /// [`Error::Live`], [`Error::Output`].
+    pub fn run(
+        &self,
+        mut sensor: Sensor,
+        out: &Path,
+        tell: &mut dyn FnMut(&str),
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<LiveReport, Error> {
+        check(out, &self.inputs)?;
+        let mut report = LiveReport::new(self, &sensor.name);
+        for finding in report.findings() {
+            tell(&format!("warning: {finding}"));
         }
-        if stopped() {
-            break End::Stopped;
+        let Head { mut chain, samples, tare } = head(self, &mut sensor, &mut report, tell, stopped)?;
+        tell(&format!("tare: {tare}"));
+        let settings = settings(self, &samples, rounding(chain.calibration(), &self.setup.mounting, &samples[0]))?;
+        let (noise, spacing) = (settings.noise, settings.spacing);
+        let live = Live::new(&self.rod, &settings)?;
+        report.begin(noise, spacing, live.delay());
+        tell(&format!(
+            "noise: f0x {:.1e} N, f0y {:.1e} N, m0z {:.1e} N m; answers {} samples late",
+            noise[0].sigma,
+            noise[1].sigma,
+            noise[2].sigma,
+            live.delay()
+        ));
+        let about = About {
+            sensor: sensor.name.clone(),
+            tare,
+            clock: "seconds from the first sample".into(),
+            ..About::default()
+        };
+        let mut recorded =
+            Recorded { record: Record::new(out, about)?, report, label: None, told: 0.0, tell, fault: None };
+        let mut session = LiveSession::new(live);
+        for sample in samples {
+            recorded.sample(&sample);
+            session.push(sample, usable(&sample).as_ref(), |sample, reading| recorded.answer(&sample, reading));
         }
-        let fed = match sensor.feed.next() {
-            None => break End::Source,
-            Some(Ok(fed)) => fed,
-            Some(Err(Miss::Silence(text))) => {
-                // the next sample would have come after the end of the way
-                if last + period >= chain.wrenches().stage().end() {
-                    break End::Stage;
-                }
-                if recorded.silent(&text) {
-                    break End::Silence;
-                }
-                continue;
+        let (mut last, mut period) = (f64::NEG_INFINITY, 0.0);
+        // those that came before had to wait for the tare
+        let ready = sensor.feed.now();
+        let end = loop {
+            if let Some(error) = recorded.fault.take() {
+                return Err(error.into());
             }
-            Some(Err(Miss::Fault(text))) => {
-                recorded.report.miss(&text);
-                continue;
+            if stopped() {
+                break End::Stopped;
+            }
+            let fed = match sensor.feed.next() {
+                None => break End::Source,
+                Some(Ok(fed)) => fed,
+                Some(Err(Miss::Silence(text))) => {
+                    // the next sample would have come after the end of the way
+                    if last + period >= chain.wrenches().stage().end() {
+                        break End::Stage;
+                    }
+                    if recorded.silent(&text) {
+                        break End::Silence;
+                    }
+                    continue;
+                }
+                Some(Err(Miss::Fault(text))) => {
+                    recorded.report.miss(&text);
+                    continue;
+                }
+            };
+            let taken = match fed {
+                Fed::Raw(raw) => chain.take(&raw),
+                Fed::Reactions(sample) => Ok(sample),
+            };
+            match taken {
+                Ok(sample) => {
+                    (period, last) = (sample.t - last, sample.t);
+                    recorded.sample(&sample);
+                    if let Some((now, ready)) = sensor.feed.now().zip(ready)
+                        && sample.raw.host_time > ready
+                    {
+                        recorded.report.latency.push(now - sample.raw.host_time);
+                    }
+                    session.push(sample, usable(&sample).as_ref(), |sample, reading| recorded.answer(&sample, reading));
+                }
+                Err(ChainError::Stage(StageError::Outside { .. })) => break End::Stage,
+                Err(error) => recorded.report.miss(&error.to_string()),
             }
         };
-        let taken = match fed {
-            Fed::Raw(raw) => chain.take(&raw),
-            Fed::Reactions(sample) => Ok(sample),
-        };
-        match taken {
-            Ok(sample) => {
-                (period, last) = (sample.t - last, sample.t);
-                recorded.sample(&sample);
-                if let Some((now, ready)) = sensor.feed.now().zip(ready)
-                    && sample.raw.host_time > ready
-                {
-                    recorded.report.latency.push(now - sample.raw.host_time);
-                }
-                engine.push(sample, |answer| recorded.answer(&answer));
-            }
-            Err(ChainError::Stage(StageError::Outside { .. })) => break End::Stage,
-            Err(error) => recorded.report.miss(&error.to_string()),
-        }
-    };
-    engine.finish(|answer| recorded.answer(&answer));
-    let Recorded { record, mut report, fault, .. } = recorded;
-    report.end(end, sensor.feed.counters(), chain.timekeeper());
-    record.finish(&report.counters, &report.record())?;
-    fault.map_or(Ok(report), |error| Err(error.into()))
+        session.finish(|sample, reading| recorded.answer(&sample, reading));
+        let Recorded { record, mut report, fault, .. } = recorded;
+        report.end(end, sensor.feed.counters(), chain.timekeeper());
+        record.finish(&report.counters, &report.record())?;
+        fault.map_or(Ok(report), |error| Err(error.into()))
+    }
 }
 
-/// What is written and told of a scan while it runs.
+/// The sample for the reconstruction, if its quality allows.
+fn usable(sample: &ReactionSample) -> Option<Sample> {
+    sample.quality.is_usable().then(|| sample.sample())
+}
+
+/// The settings of the reconstruction from the first samples, which are of the free rod.
+fn settings(scan: &LiveScan, free: &[ReactionSample], rounding: Reactions) -> Result<LiveSettings, Error> {
+    let samples: Vec<Sample> = free.iter().filter_map(usable).collect();
+    let settings = LiveSettings::of_free_rod(&scan.rod, &samples, rounding).map_err(|error| match error {
+        ReconstructError::TooFew { usable: samples, fewest, .. } => {
+            LiveError::TooFew { samples, fewest, first: "; the clamp does not move".into() }.into()
+        }
+        other => Error::from(other),
+    })?;
+    let half_window = scan.setup.half_window.unwrap_or(settings.half_window);
+    Ok(LiveSettings { half_window, ..settings })
+}
+
+/// The files and the lines of progress of a scan while it runs.
 struct Recorded<'a> {
     record: Record,
     report: LiveReport,
@@ -127,16 +161,16 @@ impl Recorded<'_> {
         }
     }
 
-    fn answer(&mut self, answer: &Answer) {
-        self.report.answer(answer);
-        if let Err(error) = self.record.answer(answer) {
+    fn answer(&mut self, sample: &ReactionSample, reading: Option<Reading>) {
+        self.report.answer(reading.as_ref());
+        if let Err(error) = self.record.answer(sample, reading.as_ref()) {
             self.fault.get_or_insert(error);
         }
-        let Some(reading) = answer.reading else { return };
+        let Some(reading) = reading else { return };
         let changed = self.label != Some(reading.label);
-        if changed || answer.sample.t - self.told >= TICK {
-            let line = self.report.line(answer, self.label.filter(|_| changed));
-            (self.label, self.told) = (Some(reading.label), answer.sample.t);
+        if changed || sample.t - self.told >= TICK {
+            let line = self.report.line(sample, &reading, self.label.filter(|_| changed));
+            (self.label, self.told) = (Some(reading.label), sample.t);
             (self.tell)(&line);
             if let Err(error) = self.record.flush() {
                 self.fault.get_or_insert(error);

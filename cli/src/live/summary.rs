@@ -1,14 +1,14 @@
 //! What is said of a live scan.
 
 use super::latency::Latency;
-use super::{Answer, LiveScan};
+use super::scan::LiveScan;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use vibrissa::Label;
 use vibrissa::hw::{LinkCounters, Quality, ReactionSample, SensorCheck, SensorFinding, Timekeeper};
-use vibrissa::reconstruct::Touch;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
+use vibrissa::reconstruct::{Reading, Touch};
 
 /// Why a live scan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -96,8 +96,8 @@ impl LiveReport {
         }
     }
 
-    pub(super) fn answer(&mut self, answer: &Answer) {
-        let Some(reading) = &answer.reading else { return };
+    pub(super) fn answer(&mut self, reading: Option<&Reading>) {
+        let Some(reading) = reading else { return };
         *self.labels.entry(reading.label.to_string()).or_default() += 1;
         self.points += u64::from(reading.touch.is_ok());
     }
@@ -123,8 +123,7 @@ impl LiveReport {
     }
 
     /// A line of progress: the answer, and where the label is new, the one before.
-    pub(super) fn line(&self, answer: &Answer, before: Option<Label>) -> String {
-        let (sample, Some(reading)) = (&answer.sample, &answer.reading) else { return String::new() };
+    pub(super) fn line(&self, sample: &ReactionSample, reading: &Reading, before: Option<Label>) -> String {
         let phase = match before {
             Some(before) => format!("{before} -> {}", reading.label),
             None => reading.label.to_string(),

@@ -3,7 +3,7 @@
 use super::scans::PaperScan;
 use crate::reconstructed::naive_touch;
 use crate::{Error, Scan};
-use vibrissa::reconstruct::compare::signed_distance;
+use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::reconstruct::{Assembly, ContourEstimate, Measured, Touch};
 use vibrissa::{Label, Sample, State, Sweep};
 

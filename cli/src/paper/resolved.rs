@@ -4,7 +4,7 @@ use super::scans::PaperScan;
 use crate::Error;
 use crate::reconstructed::naive_touch;
 use vibrissa::contour::StretchKind;
-use vibrissa::reconstruct::compare::signed_distance;
+use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::reconstruct::{Reason, Touch};
 use vibrissa::{Composite, Sample, Settings, Sweep, reconstruct};
 

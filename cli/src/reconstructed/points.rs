@@ -1,6 +1,6 @@
 //! A row of a recording as it is written: SI units, numbers that survive a round trip, null where there is no answer.
 
-use super::Reconstructed;
+use super::result::Reconstructed;
 use crate::RowFault;
 use serde::Serialize;
 use vibrissa::reconstruct::{Basis, Reading, Reason, Touch};

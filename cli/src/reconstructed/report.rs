@@ -1,12 +1,13 @@
 //! What is said of a reconstruction as a whole: report.json, SI units, rows counted from 0 as the lines of
 //! points.jsonl.
 
-use super::{Comparison, Reconstructed, Transition};
+use super::comparison::{Comparison, Transition};
+use super::result::Reconstructed;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use vibrissa::reconstruct::compare::{Deviation, KinkScore};
 use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
+use vibrissa::reconstruct::score::{Deviation, KinkScore};
 use vibrissa::reconstruct::{Gap, Plausibility, Shares};
 use vibrissa::{Label, Pose, Rod};
 

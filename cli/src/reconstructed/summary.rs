@@ -1,11 +1,11 @@
 //! What the command says of a reconstruction.
 
+use super::comparison::{Comparison, Transition};
 use super::report::Answered;
-use super::truth::Comparison;
-use super::{Reconstructed, Transition};
+use super::result::Reconstructed;
 use crate::table::Table;
 use std::fmt::Write;
-use vibrissa::reconstruct::compare::Deviation;
+use vibrissa::reconstruct::score::Deviation;
 
 impl Reconstructed {
     /// Rows, noise, labels, points and gaps; where the truth is known, how near they are to it.

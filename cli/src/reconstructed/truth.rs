@@ -1,82 +1,37 @@
-//! What was found against the scene that the recording is of.
+//! The comparison of a reconstruction with the scene that the recording is of.
 
-use super::Reconstructed;
+use super::comparison::{Comparison, Transition, TruthError};
+use super::naive::naive_touch;
+use super::result::Reconstructed;
 use crate::{Error, Scan, Scene, interval};
-use nalgebra::Matrix3;
 use rayon::prelude::*;
-use std::path::PathBuf;
-use vibrissa::contact::{EventKind, Stop};
-use vibrissa::reconstruct::compare::{Confusion, Deviation, KinkScore, signed_distance};
-use vibrissa::reconstruct::{Touch, single};
+use vibrissa::contact::EventKind;
+use vibrissa::reconstruct::Touch;
+use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore, signed_distance};
 use vibrissa::{Composite, Event, Label, Pose, Rod};
 
-/// How far, in lengths of the rod, a pose may be from the path of the scene and belong to it.
+/// Largest distance, rod lengths, of a pose from the path of the scene at which it is compared.
 const OFF_PATH: f64 = 1e-3;
-/// Within so many lengths of the rod about a transition a label may be that before or after it.
+/// Distance from a transition, rod lengths, within which a label may be that before or after it.
 const EITHER: f64 = 1e-4;
-/// Kinks are matched with true ones within this, m.
+/// Largest distance, m, at which kinks are matched with true ones.
 const MARGIN: f64 = 1e-3;
-/// A transition found so many lengths of the rod away, or more, is not the one that is looked for.
+/// Distance, rod lengths, from which on a transition is not matched with a true one.
 const FAR: f64 = 0.05;
 
-/// Why there is no comparison.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: no sample is on the path of the scene {scene}, expected the scene that the recording is of", file.display())]
-pub struct TruthError {
-    /// The recording.
-    pub file: PathBuf,
-    /// Name of the scene.
-    pub scene: String,
-}
-
-/// A change of label in the scene, and where it was found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Transition {
-    /// The label before.
-    pub from: Label,
-    /// The label after.
-    pub to: Label,
-    /// What happened.
-    pub kind: EventKind,
-    /// The clamp there.
-    pub pose: Pose,
-    /// How far beyond it, along the path of the clamp, the labels change: m, or rad where the clamp only turns. None
-    /// where no such change was found nearby.
-    pub error: Option<f64>,
-}
-
-/// How near a reconstruction is to the truth.
-#[derive(Debug)]
-pub struct Comparison {
-    /// The scene.
-    pub scene: Scene,
-    /// Why its sweep stopped before the end of the path, if it did: samples beyond are compared with nothing.
-    pub stop: Option<Stop>,
-    /// Samples that are not on the path of the scene.
-    pub off_path: usize,
-    /// Phases; of samples on the path.
-    pub confusion: Confusion,
-    /// Wrong labels within 1e-4 rod lengths of a transition, where they may be either.
-    pub either: u64,
-    /// Distance from the contour of the points of samples with a single contact.
-    pub single: Option<Deviation>,
-    /// Of the first contacts of samples with several.
-    pub first: Option<Deviation>,
-    /// Of the second ones.
-    pub second: Option<Deviation>,
-    /// Of the points that samples with several contacts would have if they had a single one.
-    pub naive: Option<Deviation>,
-    /// Kinks within 1 mm (or mrad) of transitions that make one: all changes of phase but A -> B, and snaps. For
-    /// recall.
-    pub kinks: KinkScore,
-    /// Kinks within 1 mm (or mrad) of anything that happened, A -> B and borders of pieces included. For precision.
-    pub kinks_of_events: KinkScore,
-    /// Changes of label.
-    pub transitions: Vec<Transition>,
+impl Reconstructed {
+    /// Compares with the scene that the recording is of, which is swept for it.
+    ///
+    /// # Errors
+    /// [`Error::Contact`], [`Error::Truth`].
+    pub fn compare(&mut self, scene: Scene) -> Result<(), Error> {
+        self.comparison = Some(Comparison::of(self, scene)?);
+        Ok(())
+    }
 }
 
 impl Comparison {
-    pub(super) fn of(found: &Reconstructed, scene: Scene) -> Result<Self, Error> {
+    fn of(found: &Reconstructed, scene: Scene) -> Result<Self, Error> {
         let scan = Scan::run(scene)?;
         let truth = Truth::of(&scan, &found.rod);
         let ways: Vec<Option<f64>> = found.samples.iter().map(|sample| truth.way(sample.pose)).collect();
@@ -117,11 +72,6 @@ impl Comparison {
             scene: scan.scene,
         })
     }
-}
-
-/// The point of a sample if it had a single contact.
-pub(crate) fn naive_touch(rod: &Rod, sample: &vibrissa::Sample) -> Option<Touch> {
-    single(rod, sample.pose, sample.reactions, &Matrix3::zeros()).map_or_else(|none| none.touch(), Some)
 }
 
 fn deviation(objects: &[Composite], touches: impl ParallelIterator<Item = Touch>) -> Option<Deviation> {

@@ -45,9 +45,9 @@ pub struct Recording {
     pub incomplete: Option<String>,
 }
 
-/// How to read a recording, where the file alone does not tell.
+/// How to read a recording, where the file alone does not determine it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reading {
+pub struct ReadOptions {
     /// How the table is written.
     pub options: TableOptions,
     /// Which column means what.

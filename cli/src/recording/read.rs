@@ -2,7 +2,7 @@
 
 use super::columns::find;
 use super::row::{RowFault, RowProblem, sample};
-use super::{Reading, Recording, RecordingError, Row};
+use super::{ReadOptions, Recording, RecordingError, Row};
 use crate::simulation::INCOMPLETE;
 use std::path::Path;
 use vibrissa::Rod;
@@ -18,7 +18,7 @@ impl Recording {
     /// # Errors
     /// [`RecordingError`]: the file cannot be read, columns are missing, more than half of the rows cannot be used, or
     /// fewer than 10 can.
-    pub fn read(file: &Path, rod: &Rod, how: &Reading) -> Result<Self, RecordingError> {
+    pub fn read(file: &Path, rod: &Rod, how: &ReadOptions) -> Result<Self, RecordingError> {
         Self::of_table(file, Table::read(file, &how.options), rod, how)
     }
 
@@ -41,7 +41,7 @@ impl Recording {
     /// # Errors
     /// As [`read`](Self::read), but for an unreadable file.
     pub fn parse(file: &Path, text: &[u8], rod: &Rod) -> Result<Self, RecordingError> {
-        let how = Reading::default();
+        let how = ReadOptions::default();
         Self::of_table(file, Table::parse(&file.display().to_string(), text, &how.options), rod, &how)
     }
 
@@ -49,7 +49,7 @@ impl Recording {
         file: &Path,
         table: Result<Table, TableError>,
         rod: &Rod,
-        how: &Reading,
+        how: &ReadOptions,
     ) -> Result<Self, RecordingError> {
         let file = file.to_path_buf();
         let table = table.map_err(|error| match error {

@@ -1,39 +1,26 @@
-//! The functions that a window is fitted with.
+//! The functions that are fitted to a window, and the verdict of the fit.
+
+use crate::numeric::{dot, orthonormalise, subtract};
 
 /// Most bins on either side of a node.
-pub(crate) const MOST: usize = 12;
+pub(crate) const MOST_BINS: usize = 12;
 /// Fewest bins on either side of a node.
-pub(crate) const FEWEST: usize = 3;
+pub(crate) const FEWEST_BINS: usize = 3;
 /// Most bins in a window.
-pub(crate) const ROWS: usize = 2 * MOST;
+pub(crate) const ROWS: usize = 2 * MOST_BINS;
 
 /// A function at the bins of a window; zero beyond them.
 pub(crate) type Row = [f64; ROWS];
 
-pub(crate) fn dot(a: &Row, b: &Row) -> f64 {
-    // four sums at once, so that the processor's lanes are used
-    let mut sums = [0.0; 4];
-    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
-        for lane in 0..4 {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
-fn subtract(a: &mut Row, share: f64, b: &Row) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a -= share * b);
-}
-
-/// Orthonormal functions over a window with a node at 0: a quadratic, what a hinge and a step at the node add to it,
-/// and what a cubic and a quartic add to it in their place.
+/// Orthonormal functions over a window with a node at 0: a quadratic; a hinge and a step at the node, without their quadratic part;
+/// and in their place a cubic and a quartic, without theirs.
 #[derive(Clone, Debug)]
 pub(crate) struct Basis {
     pub quadratic: [Row; 3],
     pub hinge: Row,
     pub step: Row,
     pub quartic: [Row; 2],
-    /// Norms of what hinge and step add, and the share of the step that the hinge takes.
+    /// Norms of the hinge and the step without the functions before them, and the component of the step along the hinge.
     hinge_norm: f64,
     step_norm: f64,
     shared: f64,
@@ -53,14 +40,14 @@ impl Basis {
             (columns[5][i], columns[6][i]) = (u * u * u, u * u * u * u);
         }
         let [mut one, mut linear, mut square, mut hinge, mut step, mut cubic, mut quartic] = columns;
-        normalised(&mut one, &[]);
-        normalised(&mut linear, &[&one]);
-        normalised(&mut square, &[&one, &linear]);
-        let hinge_norm = normalised(&mut hinge, &[&one, &linear, &square]);
+        orthonormalise::<Row>(&mut one, &[]);
+        orthonormalise(&mut linear, &[one]);
+        orthonormalise(&mut square, &[one, linear]);
+        let hinge_norm = orthonormalise(&mut hinge, &[one, linear, square]);
         let whole = step;
-        let step_norm = normalised(&mut step, &[&one, &linear, &square, &hinge]);
-        normalised(&mut cubic, &[&one, &linear, &square]);
-        normalised(&mut quartic, &[&one, &linear, &square, &cubic]);
+        let step_norm = orthonormalise(&mut step, &[one, linear, square, hinge]);
+        orthonormalise(&mut cubic, &[one, linear, square]);
+        orthonormalise(&mut quartic, &[one, linear, square, cubic]);
         let shared = dot(&whole, &hinge);
         Self { quadratic: [one, linear, square], hinge, step, quartic: [cubic, quartic], hinge_norm, step_norm, shared }
     }
@@ -84,26 +71,10 @@ impl Basis {
         [(along[0] - step * self.shared) / self.hinge_norm, step]
     }
 
-    /// What a change of slope (per width of a bin) and a step add to the sum of squares.
+    /// Sum of squares that a change of slope (per width of a bin) and a step explain.
     pub fn power(&self, changes: [f64; 2]) -> f64 {
         (changes[0] * self.hinge_norm + changes[1] * self.shared).powi(2) + (changes[1] * self.step_norm).powi(2)
     }
-}
-
-/// Makes `column` normal to the others and of length 1; its length before.
-fn normalised(column: &mut Row, others: &[&Row]) -> f64 {
-    // twice is enough (Giraud et al. 2005)
-    for _ in 0..2 {
-        for other in others {
-            let share = dot(column, other);
-            subtract(column, share, other);
-        }
-    }
-    let norm = dot(column, column).sqrt();
-    if norm > 0.0 {
-        column.iter_mut().for_each(|c| *c /= norm);
-    }
-    norm
 }
 
 /// The channels over a window, and how the models fit them.
@@ -113,14 +84,14 @@ pub(crate) struct Window<'a> {
     pub y: [Row; 3],
 }
 
-/// How a window speaks for a transition at its node.
+/// How well a transition at the node explains a window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Verdict {
     /// Sum over channels of squares of hinge, and of hinge and step, over the variance (of the noise, or the misfit
     /// where that is larger).
     pub hinge: f64,
     pub both: f64,
-    /// By how much the residuals of a quartic are larger than those of quadratic, hinge and step.
+    /// Sum of squares of the residuals of a quartic, less that of quadratic, hinge and step.
     pub margin: f64,
     /// Largest ratio of misfit to noise, 1 where noise explains the residuals.
     pub misfit: f64,
@@ -128,11 +99,11 @@ pub(crate) struct Verdict {
     pub changes: [[f64; 2]; 3],
 }
 
-/// A difference of squares that is a smaller share of them is computed from residuals instead.
+/// Share of the sum of squares below which a difference of squares is computed from the residuals instead, because it cancels.
 const CANCELLED: f64 = 1e-6;
 
 impl Window<'_> {
-    /// Squares of hinge and of both over the noise variances alone: at least as large as the verdict's.
+    /// Squares of hinge and of both over the noise variances: upper bounds of the verdict's.
     pub fn glance(&self, variance: &[f64; 3]) -> (f64, f64) {
         let mut sums = (0.0, 0.0);
         for (y, variance) in self.y.iter().zip(variance) {
@@ -143,7 +114,7 @@ impl Window<'_> {
         sums
     }
 
-    /// The verdict; `usual` is what the residuals' sum of squares over the variance is below in 95 of 100 windows.
+    /// The verdict; `usual` is the 95 % quantile of the residuals' sum of squares over the variance.
     pub fn judge(&self, variance: &[f64; 3], usual: f64) -> Verdict {
         let mut verdict = Verdict { hinge: 0.0, both: 0.0, margin: 0.0, misfit: 1.0, changes: [[0.0; 2]; 3] };
         for (channel, (y, variance)) in self.y.iter().zip(variance).enumerate() {

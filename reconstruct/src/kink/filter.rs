@@ -1,16 +1,17 @@
 //! Kinks and jumps as the samples come.
 
+use super::options::KinkOptions;
 use super::scale::reach;
 use super::search::Detector;
-use super::{Kink, KinkOptions};
-use crate::noise_estimate::ChannelNoise;
+use super::transition::Kink;
+use crate::scan::noise_estimate::ChannelNoise;
 use std::collections::VecDeque;
 
-/// [`find_kinks`](super::find_kinks) sample by sample: the search runs over the last samples each time that half of the
-/// longest half-window has come in, and answers for places that have a whole half-window of samples on either side.
+/// [`find_kinks`](super::find_kinks) sample by sample. The search runs over the last samples each time that half of the longest
+/// half-window has come in, and reports transitions that have a whole half-window of samples on either side.
 ///
-/// It finds what the whole recording at once would show, but for transitions whose neighbours decide on them over more
-/// than a half-window. Memory is taken once, when it is made.
+/// It finds the transitions that a search of the whole recording finds, except where those depend on neighbours farther away than a
+/// half-window. All memory is allocated in [`new`](Self::new).
 ///
 /// ```
 /// use rod_reconstruct::kink::{KinkFilter, KinkOptions};
@@ -34,7 +35,7 @@ pub struct KinkFilter {
     channels: [Vec<f64>; 3],
     /// Samples before the first in memory.
     passed: usize,
-    /// Samples about which nothing more is said.
+    /// Samples up to which all transitions have been reported.
     decided: usize,
     margin: usize,
     hop: usize,
@@ -44,7 +45,7 @@ pub struct KinkFilter {
     skipped: usize,
 }
 
-/// A place is said again only where it is so many standard deviations and samples from the last one.
+/// A transition within so many samples or standard deviations of the last one is the same, found again by the next search.
 const APART: f64 = 5.0;
 
 impl KinkFilter {
@@ -71,18 +72,18 @@ impl KinkFilter {
         }
     }
 
-    /// After how many samples, at most, a transition is known: the longest half-window and the half of it that is
-    /// searched at once. Of several that become known at once, one is handed out a sample.
+    /// The largest number of samples after which a transition is found: the longest half-window and the half of it that is searched
+    /// at once. Of several that are found at once, one is returned per sample.
     pub fn delay(&self) -> usize {
         self.margin + self.hop
     }
 
-    /// Samples left out because they were not finite, or not beyond the one before.
+    /// Number of samples left out because they were not finite, or not beyond the one before.
     pub fn skipped(&self) -> usize {
         self.skipped
     }
 
-    /// Takes a sample; hands out the next transition that is known, its `next` counting the samples taken.
+    /// Takes a sample and returns the next transition that was found. Its `next` counts the samples taken.
     pub fn push(&mut self, tau: f64, channels: [f64; 3]) -> Option<Kink> {
         let increases = self.tau.last().is_none_or(|last| tau > *last);
         if !tau.is_finite() || !increases || channels.iter().any(|y| !y.is_finite()) {
@@ -102,7 +103,7 @@ impl KinkFilter {
         self.pending.pop_front()
     }
 
-    /// No more samples come: hands out what remains, one transition a call.
+    /// Ends the recording: returns the remaining transitions, one per call.
     pub fn finish(&mut self) -> Option<Kink> {
         if self.decided < self.passed + self.tau.len() {
             self.search(self.tau.len());
@@ -114,7 +115,7 @@ impl KinkFilter {
     fn search(&mut self, end: usize) {
         let [a, b, c] = &self.channels;
         self.detector.run(&self.tau, [a, b, c], self.nominal);
-        // a transition that an earlier search placed just beyond its end may lie just before it now
+        // a transition that an earlier search placed just beyond its end may now be placed just before it
         let from = self.decided.saturating_sub(self.margin / 8);
         for kink in self.detector.found() {
             let kink = Kink { next: kink.next + self.passed, ..kink };

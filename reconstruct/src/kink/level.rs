@@ -10,17 +10,18 @@ pub(crate) struct Level {
     pub y: [Vec<f64>; 3],
     /// Typical distance of bins.
     pub width: f64,
-    /// Bins that windows end at.
+    /// Bins that no window may contain.
     masked: Vec<bool>,
-    /// Number of bins before each that are out of step with their neighbours.
+    /// Number of bins before each one that are not evenly spaced with their neighbours.
     uneven: Vec<u32>,
 }
 
-/// Bins this much out of step, in widths, are in step for any noise.
+/// Unevenness of the spacing (relative to it) that is rounding.
 const ROUNDING: f64 = 1e-9;
-/// Share of the noise of a bin's mean that its being out of step may shift it by and still pass for even.
+/// A bin counts as evenly spaced where treating it so shifts its value by less than this share of its noise. Larger: more windows use
+/// the precomputed functions, with larger errors.
 const NEGLIGIBLE: f64 = 0.1;
-/// Bins either way that the slope there is taken from.
+/// Bins on either side from which the slope is taken: between neighbours the noise is larger than the slope.
 const AROUND: usize = 6;
 
 impl Level {
@@ -81,13 +82,12 @@ impl Level {
     fn out_of_step(&self, i: usize, sigma: &[f64; 3]) -> bool {
         let (before, after) = (self.tau[i] - self.tau[i - 1], self.tau[i + 1] - self.tau[i]);
         let out = (after - before).abs() / (after + before);
-        // slopes over several bins, for between neighbours there is more noise than slope
         let (low, high) = (i.saturating_sub(AROUND), (i + AROUND).min(self.len() - 1));
         let share = out / (high - low) as f64;
         out > ROUNDING && self.y.iter().zip(sigma).any(|(y, s)| share * (y[high] - y[low]).abs() > NEGLIGIBLE * s)
     }
 
-    /// Whether bins pass for evenly spaced.
+    /// Whether bins count as evenly spaced.
     pub fn even(&self, from: usize, to: usize) -> bool {
         self.uneven[to] == self.uneven[from]
     }

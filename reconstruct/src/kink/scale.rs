@@ -1,11 +1,11 @@
 //! The lengths of windows.
 
-use super::KinkOptions;
+use super::options::KinkOptions;
 
 /// Half-windows in bins at the finest level, and at the others.
 const FINEST: [usize; 4] = [4, 6, 8, 12];
 const OTHERS: [usize; 2] = [8, 12];
-/// Bins of at most 2^23 samples.
+/// Number of levels: the bins of the coarsest hold 2^23 samples.
 const LEVELS: usize = 24;
 
 /// One window length.
@@ -20,7 +20,7 @@ pub(crate) struct Scale {
     pub six: f64,
 }
 
-/// Window lengths from the finest to the widest, thresholds to be set.
+/// Window lengths from the finest to the widest; their thresholds are not set yet.
 pub(crate) fn scales(spacing: f64, options: KinkOptions) -> impl Iterator<Item = Scale> {
     let reach = options.widest / spacing;
     let reach = if reach.is_finite() { reach.max(FINEST[0] as f64) } else { FINEST[0] as f64 };

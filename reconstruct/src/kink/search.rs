@@ -1,34 +1,39 @@
-//! From the finest scale to the coarsest: what no finer scale explains.
+//! The search for transitions, from the finest scale to the coarsest.
 
-use super::basis::{Basis, FEWEST, MOST, ROWS, Verdict, Window};
+use super::basis::{Basis, FEWEST_BINS, MOST_BINS, ROWS, Verdict, Window};
+use super::free_knot::{Part, Placed};
 use super::level::Level;
-use super::refine::{Part, Placed};
+use super::options::KinkOptions;
 use super::scale::{Scale, scales};
-use super::threshold;
-use super::{Kink, KinkKind, KinkOptions, equivalents};
-use crate::noise_estimate::ChannelNoise;
+use super::transition::{Kink, KinkKind};
+use crate::numeric::chi_squared::{exceeded_by_six, exceeded_by_three, wilson_hilferty};
+use crate::scan::noise_estimate::ChannelNoise;
 
-/// The noise is known to some 10 % of its variance, and thresholds allow for it.
+/// Factor on the thresholds: the variance of the noise is known to about 10 %. Smaller: more false alarms than asked for.
 const ALLOWANCE: f64 = 1.1;
-/// A kink must beat a quartic by this much in units of variance, and by this share of its own score, of which an ideal
-/// kink beats it by a quarter.
+/// A kink must fit better than a quartic by at least this much, in units of the noise variance, and by this share of its own score.
+/// An ideal kink fits better by a quarter of its score. Larger: weak kinks beside curved signals are missed.
 const MARGIN: (f64, f64) = (2.0, 0.1);
-/// Where a window's own misfit stands in for the noise, its chance of being small is that of an F distribution of few
-/// degrees of freedom: thresholds rise with the misfit, up to this factor (11 degrees, a chance of 1e-7).
+/// Largest factor by which thresholds rise with the misfit of a window. Where the misfit stands in for the noise, the score follows
+/// an F distribution of few degrees of freedom, with heavier tails: at 11 degrees and a chance of 1e-7 the factor is 6.
 const MISFIT: f64 = 6.0;
-/// What would have been so far above the threshold with half the window, but was not found there, is smooth.
+/// A candidate is rejected where half the window should have found it at this multiple of its threshold but did not: the signal is
+/// smooth there.
 const MISSED: f64 = 4.0;
-/// A jump fits so much better than a kink, in units of the noise variance, where there is one: three more degrees of
-/// freedom exceed it by chance about once in a million times.
+/// A transition is a jump where that fits better than a kink by this much, in units of the noise variance. The jump has three more
+/// degrees of freedom, which exceed this by chance about once in a million times.
 const JUMP: f64 = 32.0;
-/// A knot is placed by bins so many times halved.
+/// Levels by which the bins that place a knot are finer than those that found it.
 const FINER: usize = 3;
-/// Searches at most.
+/// Largest number of searches of a recording. A search follows another where a transition was dropped in it.
 const ROUNDS: usize = 3;
-/// Knots of two windows agree within so many standard deviations of the shorter one's.
+/// A longer window is used if its knot agrees with those of all shorter ones within so many of their standard deviations. Larger:
+/// smaller errors from noise, and larger ones from the curvature beside a kink.
 const AGREES: f64 = 1.0;
 /// Samples within so many standard deviations of a kink belong to neither side.
 const GUARD: f64 = 4.0;
+/// Standard normal quantile of 95 %: residuals of noise are below it in 95 of 100 windows.
+const USUAL: f64 = 1.6449;
 
 /// A transition that was taken.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +47,7 @@ struct Taken {
     guard: (usize, usize),
 }
 
-/// What the search works with; made once for recordings up to a length.
+/// The search and its memory, which is allocated once for recordings up to a length.
 #[derive(Clone, Debug)]
 pub(crate) struct Detector {
     options: KinkOptions,
@@ -54,28 +59,29 @@ pub(crate) struct Detector {
     bases: Vec<Basis>,
     taken: Vec<Taken>,
     candidates: Vec<(f64, usize)>,
-    /// Scale and sample of what was taken and did not hold.
+    /// Scale and sample of the transitions that were taken and dropped again.
     dropped: Vec<(usize, usize)>,
 }
 
-const SIDES: usize = MOST - FEWEST + 1;
+/// Numbers of bins that one side of a window may have.
+const SIDES: usize = MOST_BINS - FEWEST_BINS + 1;
 
 impl Detector {
     /// For recordings of up to `capacity` samples at distances of about `spacing`.
     pub fn new(capacity: usize, spacing: f64, noise: [ChannelNoise; 3], options: KinkOptions) -> Self {
         let scales: Vec<Scale> = scales(spacing, options)
-            .filter(|scale| (2 * FEWEST) << scale.level <= capacity || scale.level == 0)
+            .filter(|scale| (2 * FEWEST_BINS) << scale.level <= capacity || scale.level == 0)
             .collect();
         let finest = scales.iter().map(|scale| scale.level).max().unwrap_or(0);
         let levels = (0..=finest).map(|level| Level::with_capacity(capacity >> level)).collect();
         let bases = (0..2 * SIDES * SIDES)
-            .map(|i| Basis::even(FEWEST + i / SIDES % SIDES, FEWEST + i % SIDES, i / (SIDES * SIDES)))
+            .map(|i| Basis::even(FEWEST_BINS + i / SIDES % SIDES, FEWEST_BINS + i % SIDES, i / (SIDES * SIDES)))
             .collect();
         let (taken, candidates, dropped) = (Vec::new(), Vec::new(), Vec::new());
         Self { options, noise, sigma: [0.0; 3], levels, scales, bases, taken, candidates, dropped }
     }
 
-    /// With room for all that recordings up to the capacity can hold, so that no run takes memory.
+    /// With memory for the largest number of transitions, so that no run allocates.
     pub fn roomy(mut self, capacity: usize) -> Self {
         self.candidates.reserve(capacity);
         self.taken.reserve(capacity / 2);
@@ -96,8 +102,8 @@ impl Detector {
         let share = self.options.false_alarms.max(0.0) / self.scales.len() as f64;
         for scale in &mut self.scales {
             let p = share * self.levels[scale.level].size as f64 / nominal.max(1) as f64;
-            scale.three = ALLOWANCE * threshold::three(0.5 * p);
-            scale.six = ALLOWANCE * threshold::six(0.5 * p);
+            scale.three = ALLOWANCE * exceeded_by_three(0.5 * p);
+            scale.six = ALLOWANCE * exceeded_by_six(0.5 * p);
         }
         self.dropped.clear();
         for _ in 0..ROUNDS {
@@ -106,14 +112,14 @@ impl Detector {
                 self.search(scale);
             }
             self.settle();
-            // what was misplaced may hide what longer windows see
+            // a misplaced transition may have hidden one that longer windows see
             if self.dropped.len() == before {
                 break;
             }
         }
     }
 
-    /// What the last run found, in order.
+    /// The transitions of the last run, in order.
     pub fn found(&self) -> impl Iterator<Item = Kink> + '_ {
         self.taken.iter().map(|taken| Kink::from(*taken))
     }
@@ -156,7 +162,7 @@ impl Detector {
         self.dropped.iter().any(|(last, next)| scale <= *last && next.abs_diff(node * size) < half * size)
     }
 
-    /// Score over threshold of a node, where it speaks for a transition.
+    /// Score over threshold of a node; none where there is no transition.
     fn ratio(&self, scale: usize, node: usize) -> Option<f64> {
         let (verdict, ..) = self.verdict(scale, node, true)?;
         self.passes(scale, &verdict)
@@ -174,13 +180,13 @@ impl Detector {
         self.sigma.map(|s| s * s / size)
     }
 
-    /// What the window of a scale around a node says, and the bins it spans; none where there is no room for one, or,
-    /// in a hurry, where noise alone explains it.
+    /// The fit of a window around a node, and the bins of the window. None where there is no room for one and, in a `hurry`, where
+    /// noise alone explains the window.
     fn verdict(&self, scale: usize, node: usize, hurry: bool) -> Option<(Verdict, usize, usize)> {
         let Scale { level, half, three, six } = self.scales[scale];
         let bins = &self.levels[level];
         let (left, right) = bins.room(node, half);
-        let fewest = FEWEST.max(half / 2);
+        let fewest = FEWEST_BINS.max(half / 2);
         if left < fewest || right < fewest || left + right < 7 {
             return None;
         }
@@ -188,7 +194,7 @@ impl Detector {
         let (from, to) = (node - left, node + gap + right);
         let own;
         let basis = if bins.even(from, to) {
-            &self.bases[((gap * SIDES) + left - FEWEST) * SIDES + right - FEWEST]
+            &self.bases[((gap * SIDES) + left - FEWEST_BINS) * SIDES + right - FEWEST_BINS]
         } else {
             let middle = if gap == 1 { bins.tau[node] } else { 0.5 * (bins.tau[node - 1] + bins.tau[node]) };
             let mut positions = [0.0; ROWS];
@@ -211,11 +217,11 @@ impl Detector {
                 return None;
             }
         }
-        let verdict = window.judge(&variance, threshold::usual(window.bins - 5));
+        let verdict = window.judge(&variance, wilson_hilferty(window.bins - 5, USUAL));
         Some((verdict, from, to))
     }
 
-    /// A candidate in its place, unless it turns out to be none.
+    /// A candidate, placed between samples; none where it does not hold.
     fn take(&self, scale: usize, node: usize, score: f64) -> Option<Taken> {
         let (verdict, from, to) = self.verdict(scale, node, false)?;
         let Scale { level, .. } = self.scales[scale];
@@ -226,7 +232,7 @@ impl Detector {
         let (low, high) = (node.saturating_sub(1) * bins.size, (node + 2) * bins.size);
         let guess = if bins.gap() == 1 { bins.tau[node] } else { 0.5 * (bins.tau[node - 1] + bins.tau[node]) };
         let placed = self.place(level, (from * bins.size, to * bins.size), (low, high), guess)?;
-        // a knot that runs away from its node belongs to something else
+        // a knot that leaves its node belongs to another transition
         if !(low.saturating_sub(bins.size)..=high + bins.size).contains(&placed.next) {
             return None;
         }
@@ -243,7 +249,7 @@ impl Detector {
         let freedom = (3 * (last - first).saturating_sub(5)).max(1) as f64;
         match (kink, jump) {
             (Some((kink, bent)), Some((jump, stepped))) if bent - stepped > JUMP * (stepped / freedom).max(1.0) => {
-                // between which samples only the samples themselves tell
+                // bins do not tell between which samples it jumps
                 let near = (jump.next.saturating_sub(2) * size, (jump.next + 2) * size);
                 Some(self.samples().jump(from, to, near).map_or(kink, |exact| exact.0))
             }
@@ -255,8 +261,7 @@ impl Detector {
         self.part(0).0
     }
 
-    /// The bins that a window of a level is fitted by, and how many samples each holds: as many bins to a window as are
-    /// needed to place a knot.
+    /// The bins by which a knot in a window of a level is placed, finer than those of the level, and the samples in each.
     fn part(&self, level: usize) -> (Part<'_>, usize) {
         let bins = &self.levels[level.saturating_sub(FINER)];
         let share = (bins.size as f64).sqrt();
@@ -264,12 +269,12 @@ impl Detector {
         (Part { tau: &bins.tau, channels, sigma: self.sigma.map(|s| s / share) }, bins.size)
     }
 
-    /// A kink that was placed by bins, with the number of the sample after it.
+    /// A kink that was placed by bins, with the index of the sample after it.
     fn counted(&self, kink: Placed) -> Placed {
         Placed { next: self.levels[0].tau.partition_point(|t| *t <= kink.tau), ..kink }
     }
 
-    /// Whether half the window would have shown what this one shows, had it been a kink or a jump.
+    /// Whether half the window would have found this candidate, were it a kink or a jump.
     fn should_have_been_found(&self, scale: usize, node: usize, verdict: &Verdict) -> bool {
         let Scale { level, half, .. } = self.scales[scale];
         let (finer, halved) = if level == 0 { (0, half / 2) } else { (level - 1, half) };
@@ -283,7 +288,7 @@ impl Detector {
             return false;
         }
         let gap = self.levels[finer].gap();
-        let basis = &self.bases[((gap * SIDES) + halved - FEWEST) * SIDES + halved - FEWEST];
+        let basis = &self.bases[((gap * SIDES) + halved - FEWEST_BINS) * SIDES + halved - FEWEST_BINS];
         let expected: f64 = verdict
             .changes
             .iter()
@@ -293,7 +298,7 @@ impl Detector {
         expected > MISSED * shorter.six
     }
 
-    /// Masks a level where transitions are, but for one.
+    /// Masks the bins of a level at all transitions but one.
     fn mask(&mut self, level: usize, but: Option<usize>) {
         let bins = &mut self.levels[level];
         bins.unmask();
@@ -304,11 +309,11 @@ impl Detector {
         }
     }
 
-    /// Places each transition by the longest window that its neighbours and the noise allow, and drops, weakest first,
-    /// what no longer stands out between its neighbours.
+    /// Places each transition by the longest window that its neighbours and the noise allow, and drops, weakest first, those that
+    /// no longer stand out between their neighbours.
     fn settle(&mut self) {
         self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
-        // twice, for places change what is between neighbours, and then for neighbours of what was dropped
+        // twice: a new place changes the windows of the neighbours
         for _ in 0..2 {
             (0..self.taken.len()).for_each(|i| self.settle_one(i));
         }
@@ -325,9 +330,9 @@ impl Detector {
         self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
     }
 
-    /// Judges and places a transition anew, between its neighbours. Among windows that the noise allows, a longer one
-    /// is used as long as it agrees with all shorter ones (Lepski 1990): the curvature may break at a kink, too, and shift
-    /// the knot of a long window.
+    /// Judges and places a transition again, between its neighbours. Of the windows that the noise allows, a longer one is used if its
+    /// knot agrees with those of all shorter ones (Lepski 1990): the curvature may break at a kink, too, and shift the knot of
+    /// a long window.
     fn settle_one(&mut self, i: usize) {
         let old = self.taken[i];
         let mut score = 0.0_f64;
@@ -338,7 +343,7 @@ impl Detector {
             self.mask(level, Some(i));
             let bins = &self.levels[level];
             let middle = old.placed.next / bins.size;
-            // the fit moved the transition, maybe into a bin beside the one that spoke for it
+            // the fit may have moved the transition into a bin beside the one that found it
             let judged = (middle.saturating_sub(1)..=middle + 1).filter_map(|node| {
                 let (verdict, from, to) = self.verdict(scale, node, false)?;
                 Some((self.passes(scale, &verdict)?, verdict.misfit, from * bins.size, to * bins.size))
@@ -378,6 +383,18 @@ fn guard(placed: &Placed, tau: &[f64], most: usize) -> (usize, usize) {
     let low = tau.partition_point(|t| *t < placed.tau - reach).max(placed.next.saturating_sub(most));
     let high = tau.partition_point(|t| *t <= placed.tau + reach).min(placed.next + most);
     (low.min(placed.next).saturating_sub(1), high.max(placed.next + 1).min(tau.len()))
+}
+
+/// Standard deviation of white noise with the same effect on means, for each channel, and at least the rounding of its largest
+/// value. Noise of negative correlation counts as white, because short windows see all of it.
+fn equivalents(noise: &[ChannelNoise; 3], channels: [&[f64]; 3]) -> [f64; 3] {
+    let mut sigma = [0.0; 3];
+    for ((sigma, noise), channel) in sigma.iter_mut().zip(noise).zip(channels) {
+        let largest = channel.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+        let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE.sqrt());
+        *sigma = (noise.sigma * noise.long_run.max(1.0).sqrt()).max(least);
+    }
+    sigma
 }
 
 impl From<Taken> for Kink {

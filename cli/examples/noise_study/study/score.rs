@@ -3,7 +3,7 @@
 use super::{Clean, MARGIN, STEP};
 use nalgebra::Matrix3;
 use std::collections::BTreeMap;
-use vibrissa::reconstruct::compare::{Confusion, KinkScore, signed_distance};
+use vibrissa::reconstruct::score::{Confusion, KinkScore, signed_distance};
 use vibrissa::reconstruct::{Assembly, Reconstruction, Touch, TraceKind, single};
 use vibrissa::{Label, Sample};
 

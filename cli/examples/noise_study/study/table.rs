@@ -1,7 +1,7 @@
 //! Scores as tables in Markdown, lengths in mm.
 
 use super::{Level, Noise, Score};
-use vibrissa::reconstruct::compare::Deviation;
+use vibrissa::reconstruct::score::Deviation;
 
 /// What a table tells of a score.
 type Columns = [(&'static str, fn(&Score) -> String)];

@@ -6,7 +6,7 @@ use crate::figure::palette::{FAINT, INK, MUTED, OTHERS, RGBColor};
 use crate::paper::naive::{Naive, STEP};
 use crate::paper::scans::{DISTANCES, OBJECTS};
 use vibrissa::reconstruct::NoiseModel;
-use vibrissa::reconstruct::compare::goodness_of_fit;
+use vibrissa::reconstruct::score::goodness_of_fit;
 use vibrissa::rod::Reactions;
 
 /// Noise of the sensor that stands in for the experiment: standard deviations, N, N, N m.

@@ -1,0 +1,23 @@
+//! A scan to be made with a sensor.
+
+use super::stage::StageSpec;
+use crate::{ReadOptions, Setup};
+use std::path::PathBuf;
+use vibrissa::{ClampPath, Rod};
+
+/// A scan to be made with a sensor.
+#[derive(Clone, Debug)]
+pub struct LiveScan {
+    /// The rod.
+    pub rod: Rod,
+    /// How the sensor is set up.
+    pub setup: Setup,
+    /// How the clamp moves; none where the samples tell.
+    pub stage: Option<StageSpec>,
+    /// Its path, which a constant speed needs.
+    pub path: Option<ClampPath>,
+    /// How the table of a stage is written.
+    pub read: ReadOptions,
+    /// Files that are read, which are not to be overwritten.
+    pub inputs: Vec<PathBuf>,
+}

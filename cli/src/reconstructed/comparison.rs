@@ -1,0 +1,63 @@
+//! How near a reconstruction is to the truth.
+
+use crate::Scene;
+use std::path::PathBuf;
+use vibrissa::contact::{EventKind, Stop};
+use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore};
+use vibrissa::{Label, Pose};
+
+/// Why there is no comparison.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: no sample is on the path of the scene {scene}, expected the scene that the recording is of", file.display())]
+pub struct TruthError {
+    /// The recording.
+    pub file: PathBuf,
+    /// Name of the scene.
+    pub scene: String,
+}
+
+/// A change of label in the scene, and where it was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// The label before.
+    pub from: Label,
+    /// The label after.
+    pub to: Label,
+    /// What happened.
+    pub kind: EventKind,
+    /// The clamp there.
+    pub pose: Pose,
+    /// How far beyond it, along the path of the clamp, the labels change: m, or rad where the clamp only turns. None
+    /// where no such change was found nearby.
+    pub error: Option<f64>,
+}
+
+/// How near a reconstruction is to the truth.
+#[derive(Debug)]
+pub struct Comparison {
+    /// The scene.
+    pub scene: Scene,
+    /// Why its sweep stopped before the end of the path, if it did: samples beyond are compared with nothing.
+    pub stop: Option<Stop>,
+    /// Samples that are not on the path of the scene.
+    pub off_path: usize,
+    /// Phases; of samples on the path.
+    pub confusion: Confusion,
+    /// Wrong labels within 1e-4 rod lengths of a transition, where they may be either.
+    pub either: u64,
+    /// Distance from the contour of the points of samples with a single contact.
+    pub single: Option<Deviation>,
+    /// Of the first contacts of samples with several.
+    pub first: Option<Deviation>,
+    /// Of the second ones.
+    pub second: Option<Deviation>,
+    /// Of the points that samples with several contacts would have if they had a single one.
+    pub naive: Option<Deviation>,
+    /// Kinks within 1 mm (or mrad) of transitions that make one: all changes of phase but A -> B, and snaps. For
+    /// recall.
+    pub kinks: KinkScore,
+    /// Kinks within 1 mm (or mrad) of anything that happened, A -> B and borders of pieces included. For precision.
+    pub kinks_of_events: KinkScore,
+    /// Changes of label.
+    pub transitions: Vec<Transition>,
+}

@@ -1,0 +1,52 @@
+//! The files of a reconstruction.
+
+use super::points::PointRecord;
+use super::report::ReportRecord;
+use super::result::Reconstructed;
+use crate::output::{pretty_json, write_csv};
+use crate::{Error, Staged, figure};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Columns of contour.csv.
+const COLUMNS: [&str; 6] = ["stretch", "kind", "x", "y", "alpha", "sigma"];
+
+impl Reconstructed {
+    /// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg.
+    ///
+    /// # Errors
+    /// [`Error::Output`], [`Error::Figure`].
+    pub fn write(&self, staged: &Staged) -> Result<(), Error> {
+        staged.write(Path::new("points.jsonl"), |file| self.write_points(file))?;
+        staged.write(Path::new("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
+        staged.write(Path::new("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;
+        for (name, figure) in [("contour.svg", figure::reconstruction(self)?), ("phases.svg", figure::reactions(self)?)]
+        {
+            staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
+        }
+        Ok(())
+    }
+
+    /// One row of the recording a line, in order, as JSON.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_points(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut line = Vec::new();
+        let mut sample = 0;
+        for row in &self.recording.rows {
+            let record = match row {
+                Ok(_) => {
+                    sample += 1;
+                    PointRecord::of_sample(self, sample - 1)
+                }
+                Err(fault) => PointRecord::of_fault(fault),
+            };
+            line.clear();
+            serde_json::to_writer(&mut line, &record)?;
+            line.push(b'\n');
+            out.write_all(&line)?;
+        }
+        Ok(())
+    }
+}

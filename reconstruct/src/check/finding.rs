@@ -1,0 +1,171 @@
+//! A conclusion of the check by the physics.
+
+use super::shares::Shares;
+use std::fmt;
+
+/// Relative difference of the stiffness from which on the recording does not fit the rod.
+const MISFIT_STIFFNESS: f64 = 0.1;
+/// Relative difference of the length from which on the recording does not fit the rod. Larger than that of the stiffness: samples with
+/// several contacts may look like contacts of the tip at another length.
+const MISFIT_LENGTH: f64 = 0.2;
+/// Intercept, relative to the largest m0z^2, or offset of the moment, relative to the largest moment, from which on the recording does
+/// not fit the rod.
+const MISFIT_SHIFT: f64 = 0.1;
+
+/// Units by the power of ten that they give the slope.
+pub(super) const UNITS: [(i32, &str); 8] = [
+    (-6, "forces are in uN, or moments in kN mm or N km"),
+    (-3, "forces are in mN"),
+    (3, "moments are in N mm and forces in mN"),
+    (4, "moments are in N cm"),
+    (6, "moments are in N mm (or mN m)"),
+    (8, "moments are in mN cm and forces in N"),
+    (9, "moments are in mN mm and forces in mN"),
+    (12, "moments are in mN mm"),
+];
+
+/// A conclusion of the check by the physics. Displays as a sentence without its full stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// The rod is always free.
+    NoContact,
+    /// The samples of tangential contacts are on no line.
+    NoLine,
+    /// The slope is negative.
+    Sign,
+    /// The slope is about the stiffness times a power of ten.
+    Units {
+        /// Slope over bending stiffness.
+        ratio: f64,
+        /// The power.
+        power: i32,
+    },
+    /// The slope is that of another stiffness.
+    Stiffness {
+        /// That of the rod, N m^2.
+        given: f64,
+        /// That of the recording, N m^2, in the units that it seems to be in.
+        suggested: f64,
+        /// Its standard error, N m^2.
+        sigma: f64,
+    },
+    /// The line does not go through the origin.
+    Intercept {
+        /// The intercept, in parts of the largest m0z^2.
+        part: f64,
+        /// The force to be subtracted from the load f0y sin phi0 + f0x cos phi0, N.
+        force: f64,
+    },
+    /// The moment has an offset.
+    MomentOffset {
+        /// The offset, N m.
+        moment: f64,
+        /// Its standard error, N m.
+        sigma: f64,
+        /// In parts of the largest moment.
+        part: f64,
+    },
+    /// The moment has the wrong sign.
+    MomentSign,
+    /// Contacts of the tip are all at another arc length than the rod's.
+    Length {
+        /// That of the rod, m.
+        given: f64,
+        /// That of the recording, m.
+        suggested: f64,
+    },
+    /// The angle of the clamp exceeds a turn.
+    Angle {
+        /// The largest, radians.
+        largest: f64,
+    },
+    /// The path of the clamp is very long.
+    Way {
+        /// In lengths of the rod.
+        lengths: f64,
+    },
+    /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
+    Unexplained {
+        /// The shares of what a single contact explains or not.
+        shares: Shares,
+        /// Whether these are shares of the samples on the line. Without a line they are of all samples in contact, of which some may have
+        /// several contacts.
+        tangential: bool,
+    },
+}
+
+impl Finding {
+    /// Whether recording, units and rod do not fit together.
+    pub fn is_misfit(&self) -> bool {
+        match self {
+            Self::NoContact | Self::NoLine | Self::Angle { .. } | Self::Way { .. } => false,
+            Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT_STIFFNESS,
+            Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
+            Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
+            Self::Unexplained { tangential, .. } => *tangential,
+            Self::Sign | Self::Units { .. } | Self::MomentSign => true,
+        }
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NoContact => f.write_str("the rod touches nothing: there is nothing to check"),
+            Self::NoLine => f.write_str(
+                "m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) follows no straight line: too few tangential contacts, too \
+                 much noise, or angles in another unit than radians",
+            ),
+            Self::Sign => f.write_str(
+                "the slope of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) is negative: f0x and f0y have the wrong sign, as \
+                 loads on the sensor have instead of reactions of the clamp, or phi0 points the other way",
+            ),
+            Self::Units { ratio, power } => {
+                let what = UNITS.iter().find(|unit| unit.0 == power).map_or("units are mixed up", |unit| unit.1);
+                write!(
+                    f,
+                    "the slope of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) is {ratio:.3e} times the bending stiffness, \
+                     as if {what}; expected N and N m"
+                )
+            }
+            Self::Stiffness { given, suggested, sigma } => write!(
+                f,
+                "the bending stiffness is {given:.4e} N m^2, the recording suggests {suggested:.4e} +- {sigma:.1e} N m^2"
+            ),
+            Self::Intercept { part, force } => write!(
+                f,
+                "m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) misses the origin by {:.1} % of the largest m0z^2: forces not \
+                 tared ({force:.3e} N too much), or moments about another point than the clamp",
+                100.0 * part
+            ),
+            Self::MomentOffset { moment, sigma, part } => write!(
+                f,
+                "m0z seems to be too large by {moment:.3e} +- {sigma:.1e} N m, {:.1} % of its largest: not tared, or about \
+                 another point than the clamp",
+                100.0 * part
+            ),
+            Self::MomentSign => f.write_str("m0z has the wrong sign: with the other one, contacts are on the rod"),
+            Self::Length { given, suggested } => write!(
+                f,
+                "the rod is {given:.5} m long, but contacts of its tip are {suggested:.5} m from the clamp"
+            ),
+            Self::Angle { largest } => {
+                write!(f, "phi0 is up to {largest:.4} rad in size: is it in degrees? Expected radians")
+            }
+            Self::Way { lengths } => {
+                write!(f, "the clamp goes {lengths:.3e} lengths of the rod: are x0, y0 in another unit? Expected m")
+            }
+            Self::Unexplained { shares: Shares { beyond_tip, pulling, no_moment_zero, .. }, tangential } => write!(
+                f,
+                "of the {} no single contact on this rod explains {:.0} %: {:.0} % would be beyond the tip, {:.0} % \
+                 would have to pull, in {:.0} % the moment vanishes nowhere",
+                if tangential { "tangential contacts" } else { "scan in contact" },
+                100.0 * (beyond_tip + pulling + no_moment_zero),
+                100.0 * beyond_tip,
+                100.0 * pulling,
+                100.0 * no_moment_zero
+            ),
+        }
+    }
+}

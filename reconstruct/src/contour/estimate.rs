@@ -1,0 +1,47 @@
+//! The contour as one scan, or several, determine it.
+
+use super::gap::Gap;
+use super::trace::{Trace, TraceKind};
+
+/// The parts of a contour that are known, and the gaps between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ContourEstimate {
+    /// Stretches that were followed: those of single contacts, then those of first and of second contacts, each in the
+    /// order of the samples.
+    pub traces: Vec<Trace>,
+    /// Parts of the scan without points of a single contact, in the order of the samples.
+    pub gaps: Vec<Gap>,
+}
+
+/// A point of a trace as a line of a table, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TraceRow {
+    /// Number of the trace, from 0.
+    pub stretch: usize,
+    /// Which contacts it is made of.
+    pub kind: TraceKind,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Tangent angle, radians.
+    pub alpha: f64,
+    /// Standard deviation across the contour, m.
+    pub sigma: f64,
+}
+
+impl ContourEstimate {
+    /// The traces of one kind.
+    pub fn of_kind(&self, kind: TraceKind) -> impl Iterator<Item = &Trace> {
+        self.traces.iter().filter(move |trace| trace.kind == kind)
+    }
+
+    /// All points, with the number and the kind of their trace: the columns `stretch,kind,x,y,alpha,sigma`.
+    pub fn rows(&self) -> impl Iterator<Item = TraceRow> {
+        self.traces.iter().enumerate().flat_map(|(stretch, trace)| {
+            let kind = trace.kind;
+            trace.points.iter().map(move |p| TraceRow { stretch, kind, x: p.x, y: p.y, alpha: p.alpha, sigma: p.sigma })
+        })
+    }
+}

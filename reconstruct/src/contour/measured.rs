@@ -1,0 +1,62 @@
+//! A sample as contours are assembled from it.
+
+use super::point::Point;
+use crate::phase::Label;
+use crate::point::Touch;
+
+/// One sample of a scan as contours are assembled from it: its contact phase and its contact points.
+///
+/// A sample with several contacts has its first contact, or the first and the second; a sample with one contact has that one; a
+/// sample without contact points has the reason, if there is one.
+///
+/// ```
+/// use rod_reconstruct::{Label, Measured};
+/// let lost = Measured { reason: Some("the rod is shorter than that"), ..Measured::new(Label::B, &[]) };
+/// assert!(lost.touches.is_empty() && Measured::free().label == Label::Free);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Measured<'a> {
+    /// The contact phase.
+    pub label: Label,
+    /// The contact points, from the clamp on.
+    pub touches: &'a [Touch],
+    /// Why there is none, where there is none.
+    pub reason: Option<&'a str>,
+    /// Number of neighbouring samples that share the noise of the points: 1 where each has its own, the length of the window where
+    /// the points come from fits through many samples.
+    pub shared: usize,
+}
+
+impl<'a> Measured<'a> {
+    /// A sample of a rod that touches nothing.
+    pub fn free() -> Self {
+        Self { label: Label::Free, touches: &[], reason: None, shared: 1 }
+    }
+
+    /// A sample with its contacts.
+    pub fn new(label: Label, touches: &'a [Touch]) -> Self {
+        Self { label, touches, reason: None, shared: 1 }
+    }
+
+    /// What the sample says of the contour.
+    pub(super) fn says(&self, sample: usize) -> Says {
+        let point = |index: usize| self.touches.get(index).and_then(|touch| Point::of(sample, touch, self.shared));
+        match self.label {
+            Label::Free => Says::Free,
+            label if label.several() => Says::Several(point(0), point(1)),
+            _ => match point(0) {
+                Some(point) => Says::Single(point),
+                None if self.touches.is_empty() => Says::Nothing(self.reason.unwrap_or("no contact point").to_owned()),
+                None => Says::Nothing("the contact point is not finite".to_owned()),
+            },
+        }
+    }
+}
+
+/// What a sample says of the contour.
+pub(super) enum Says {
+    Single(Point),
+    Several(Option<Point>, Option<Point>),
+    Free,
+    Nothing(String),
+}

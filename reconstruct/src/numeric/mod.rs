@@ -1,0 +1,27 @@
+//! Numerical methods that more than one room of this crate needs. Nothing here knows a rod or a contact.
+
+#[cfg(feature = "std")]
+mod angle;
+#[cfg(feature = "std")]
+pub(crate) mod chi_squared;
+mod covariance;
+#[cfg(feature = "std")]
+mod gram_schmidt;
+#[cfg(feature = "std")]
+pub(crate) mod legendre;
+#[cfg(feature = "std")]
+mod normal_equations;
+mod number;
+#[cfg(test)]
+pub(crate) mod seeded;
+
+#[cfg(feature = "std")]
+pub(crate) use angle::wrapped;
+pub(crate) use covariance::propagated;
+#[cfg(feature = "std")]
+pub(crate) use covariance::{inverse, squared_distance, variance};
+#[cfg(feature = "std")]
+pub(crate) use gram_schmidt::{dot, orthonormalise, subtract};
+#[cfg(feature = "std")]
+pub(crate) use normal_equations::NormalEquations;
+pub use number::Number;

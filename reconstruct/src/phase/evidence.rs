@@ -1,0 +1,187 @@
+//! The evidence for each phase at a place of a scan.
+
+use super::basis::Basis;
+use super::label::Label;
+use super::quantity::Quantity;
+use crate::point::{Clamp, MomentZero, NoContact};
+use crate::scan::Estimate;
+use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
+
+/// Error of the criterion, the arc length and the reactions (dimensionless) that solvers and rounding leave. Smaller: exact samples
+/// contradict their own phase.
+const FLOOR: f64 = 1e-9;
+/// Sine of the angle between the motion of the point and its tangent that counts as zero: the error of rates of noise-free data
+/// where the reactions are steep.
+const SINE: f64 = 1e-6;
+/// Standard deviation of the arc length (rod lengths), and relative standard deviation of the force, from which on the length and
+/// the tangent criterion are not used: they are not linear in the noise any more.
+const BLUR: f64 = 0.05;
+/// Standard deviation of a reaction (dimensionless) below which only the noise of its rate enters the tangent criterion.
+const NOISY: f64 = 1e-7;
+/// Smallest log-likelihood of a phase at one place, so that one bad place does not outweigh all others.
+const UNLIKELIEST: f64 = -40.0;
+/// Share of single contacts that stand still, as at a vertex.
+const STANDING: f64 = 0.3;
+/// Standard deviation of the speed of the others along the contour, per path length of the clamp.
+const MOVING: f64 = 1.0;
+/// Largest log-likelihood of standing still, for the reason of `UNLIKELIEST`.
+const MOST_STILL: f64 = 30.0;
+/// Standard deviations of the quantities about 0 in the phases that do not require them to vanish: forces, criterion, arc length and
+/// normal speed, dimensionless. Larger: noise counts more in favour of the phase that requires 0.
+const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
+
+/// The criteria at one place of a scan, dimensionless (lengths in L, forces in EI/L^2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evidence {
+    /// The reactions f0x, f0y, m0z: all 0 where the rod is free.
+    pub force: [Quantity; 3],
+    /// Phase criterion K = m0z^2 - 2 (f0y sin phi0 + f0x cos phi0): 0 where the last contact is tangential (Merker et al.
+    /// 2020, eq. 20), negative where it is at the tip.
+    pub criterion: Quantity,
+    /// Length criterion: arc length at which the moment vanishes, less 1: 0 where the tip alone is in contact.
+    pub length: Quantity,
+    /// Tangent criterion: speed, across its own tangent, of the point that a single contact would have, per path length of the
+    /// clamp: 0 where there is a single contact, also at a vertex, where the point stands still.
+    pub tangent: Quantity,
+    /// Speed of that point along its tangent, per path length of the clamp: 0 at a vertex or in a notch.
+    pub motion: Quantity,
+    /// Length, tangent criterion and motion of a later zero of the moment, where one is nearer to the tip than the first.
+    again: Option<[Quantity; 3]>,
+}
+
+impl Evidence {
+    /// The criteria at a place where the reactions and their rates are estimated.
+    pub(crate) fn of(estimate: &Estimate) -> Self {
+        let none = Vector3::zeros();
+        let found = MomentZero::of(&estimate.clamp, &Matrix3::zeros());
+        let speed = |found: &MomentZero, later| speed(estimate, found, later);
+        Self::new(&estimate.clamp, found, speed, |gradient| estimate.variance(gradient, &none))
+    }
+
+    /// The criteria of one sample with noise of this variance. Without rates there is no tangent criterion.
+    pub(crate) fn of_sample(clamp: &Clamp, variance: &Vector3<f64>) -> Self {
+        let found = MomentZero::of(clamp, &Matrix3::zeros());
+        Self::new(
+            clamp,
+            found,
+            |_, _| [Quantity::UNKNOWN; 2],
+            |gradient| gradient.component_mul(gradient).dot(variance),
+        )
+    }
+
+    fn new(
+        clamp: &Clamp,
+        found: Result<MomentZero, NoContact>,
+        speed: impl Fn(&MomentZero, bool) -> [Quantity; 2],
+        variance: impl Fn(&Vector3<f64>) -> f64,
+    ) -> Self {
+        let (k, by_reactions) = clamp.criterion();
+        let size = 1.0 + clamp.reactions.norm();
+        let length_of = |found: &MomentZero| {
+            Quantity::new(found.s - 1.0, variance(&found.s_by_reactions), FLOOR * (1.0 + 1.0 / found.force))
+        };
+        let length = match &found {
+            Ok(found) => length_of(found),
+            Err(NoContact::NoMomentZero) => Quantity { value: f64::INFINITY, sigma: 1.0 },
+            Err(_) => Quantity::UNKNOWN,
+        };
+        let [tangent, motion] = found.as_ref().map_or([Quantity::UNKNOWN; 2], |found| speed(found, false));
+        let unit = |c: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == c)));
+        let mut evidence = Self {
+            force: [0, 1, 2].map(|c| Quantity::new(clamp.reactions[c], variance(&unit(c)), FLOOR)),
+            criterion: Quantity::new(k, variance(&by_reactions), FLOOR * size),
+            length,
+            tangent,
+            motion,
+            again: found.as_ref().ok().and_then(|found| found.by_tip(clamp)).map(|found| {
+                let [tangent, motion] = speed(&found, true);
+                [length_of(&found), tangent, motion]
+            }),
+        };
+        let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
+        let size = force.norm();
+        if evidence.length.sigma > BLUR || variance(&(force / size)).sqrt() > BLUR * size {
+            evidence.length = Quantity::UNKNOWN;
+            (evidence.tangent, evidence.motion, evidence.again) = (Quantity::UNKNOWN, Quantity::UNKNOWN, None);
+        }
+        evidence
+    }
+
+    /// The log-likelihood of a label by each criterion, up to constants common to all labels.
+    fn terms(&self, label: Label) -> [(Basis, f64); 4] {
+        let [force, criterion, length, tangent] = SPREAD;
+        let (tip, touch) = (self.criterion.not_positive(), self.criterion.vanishes(criterion));
+        // A single contact moves along its tangent, or, at a vertex or in a notch, not at all. The point computed from two
+        // contacts does neither.
+        let single = |across: &Quantity, along: &Quantity| {
+            let standing = STANDING * along.vanishes(MOVING).min(MOST_STILL).exp();
+            across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
+        };
+        let [free, k, s, v] = match label {
+            Label::Free => [self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>(), 0.0, 0.0, 0.0],
+            Label::A => {
+                let [s, v, along] = self.again.unwrap_or([self.length, self.tangent, self.motion]);
+                [0.0, tip, s.vanishes(length), single(&v, &along)]
+            }
+            Label::B => [0.0, touch, self.length.not_positive(), single(&self.tangent, &self.motion)],
+            Label::BA => [0.0, tip, 0.0, 0.0],
+            Label::BB => [0.0, touch, 0.0, 0.0],
+        };
+        [(Basis::Force, free), (Basis::Criterion, k), (Basis::Length, s), (Basis::Tangent, v)]
+    }
+
+    /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.
+    pub(crate) fn scores(&self) -> [f64; 5] {
+        Label::ALL.map(|label| self.terms(label).iter().map(|term| term.1).sum::<f64>().max(UNLIKELIEST))
+    }
+
+    /// The criterion that decided for this label against the next best one; the diagram, where no criterion does.
+    pub fn basis(&self, label: Label) -> Basis {
+        let scores = self.scores();
+        let others = Label::ALL.into_iter().filter(|other| *other != label);
+        let Some(other) = others.max_by(|u, v| scores[*u as usize].total_cmp(&scores[*v as usize])) else {
+            return Basis::Diagram;
+        };
+        let gains = self.terms(label).into_iter().zip(self.terms(other)).map(|(own, their)| (own.0, own.1 - their.1));
+        match gains.max_by(|u, v| u.1.total_cmp(&v.1)) {
+            Some((basis, gain)) if gain > 1.0 && scores[label as usize] >= scores[other as usize] => basis,
+            _ => Basis::Diagram,
+        }
+    }
+}
+
+/// The speed of the moment zero across its tangent and along it, with standard deviations.
+fn speed(estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
+    let of = |clamp: &Clamp, found: &MomentZero| {
+        let (_, gradient) = clamp.gradient_at(found.s);
+        let rate = gradient.rate(&estimate.rate);
+        // the point slides along the rod such that the curvature there stays 0
+        let slide = -rate[3] / gradient.by_s[3];
+        let velocity = Vector2::new(rate[0] + gradient.by_s[0] * slide, rate[1] + gradient.by_s[1] * slide);
+        let normal = found.normal();
+        Vector2::new(normal.dot(&velocity), normal.y * velocity.x - normal.x * velocity.y)
+    };
+    let value = of(&estimate.clamp, found);
+    // The dependence on the reactions themselves matters in noise only: differences over one standard deviation.
+    let covariance = estimate.covariance();
+    let mut by_value = Matrix2x3::zeros();
+    for c in 0..3 {
+        let step = covariance[(c, c)].sqrt();
+        if step < NOISY {
+            continue;
+        }
+        let mut clamp = estimate.clamp;
+        clamp.reactions[c] += step;
+        let found = if later { MomentZero::of_tip(&clamp) } else { MomentZero::of(&clamp, &Matrix3::zeros()) };
+        let Ok(found) = found else { return [Quantity::UNKNOWN; 2] };
+        by_value.set_column(c, &((of(&clamp, &found) - value) / step));
+    }
+    let (normal, by_reactions) = (found.normal(), found.by_reactions.fixed_rows::<2>(0).into_owned());
+    let floor = FLOOR * (1.0 + 10.0 / found.force) + SINE * value.norm();
+    [(0, normal), (1, Vector2::new(normal.y, -normal.x))].map(|(row, direction)| {
+        let by_rate: Vector3<f64> = by_reactions.tr_mul(&direction);
+        let by_value = by_value.row(row).transpose();
+        let speed = Quantity::new(value[row], estimate.variance(&by_value, &by_rate), floor);
+        if speed.sigma.is_finite() { speed } else { Quantity::UNKNOWN }
+    })
+}

@@ -1,0 +1,115 @@
+//! The phases of a whole scan.
+
+use super::border::border;
+use super::diagram::Break;
+use super::evidence::Evidence;
+use super::label::Label;
+use super::trellis::{Place, Trellis};
+use crate::scan::{LocalCubic, Noise, Track};
+use std::ops::Range;
+
+/// Independent values of the evidence in a window: a cubic has four coefficients, hence three rates.
+const INDEPENDENT: f64 = 3.0;
+/// Places per window.
+const PLACES: usize = 8;
+/// Most samples of a window on one side of a place. Larger: less noise in slow scans, and more time.
+const WIDEST: usize = 2000;
+
+/// A place of a scan with the fit about it and its evidence.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub index: usize,
+    pub fit: LocalCubic,
+    pub evidence: Evidence,
+    pub place: Place,
+}
+
+impl Node {
+    /// At a sample, from samples of `part` only, at most `widest` on one side; none where these are too few.
+    pub fn about(track: &Track, index: usize, part: Range<usize>, noise: &Noise, widest: usize) -> Option<Self> {
+        let fit = LocalCubic::about(track, index, part, noise, widest)?;
+        let evidence = Evidence::of(&fit.at(track.tau[index]));
+        Some(Self { index, fit, evidence, place: Place { scores: [0.0; 5], between: None } })
+    }
+
+    /// As one of places that are `stride` samples apart, with the break before it. Overlapping windows contain the same samples: each
+    /// counts with its share.
+    pub fn placed(self, stride: usize, between: Option<Break>) -> Self {
+        let weight = (INDEPENDENT * stride as f64 / self.fit.window.len() as f64).min(1.0);
+        let place = Place { scores: self.evidence.scores().map(|score| weight * score), between };
+        Self { place, ..self }
+    }
+}
+
+/// The labels of a scan.
+#[derive(Clone, Debug)]
+pub(crate) struct Identified {
+    pub nodes: Vec<Node>,
+    /// Runs of samples with one label, in order, without gaps.
+    pub runs: Vec<(Range<usize>, Label)>,
+    /// The label of each node and its margin.
+    pub labels: Vec<(Label, f64)>,
+}
+
+/// The parts between breaks.
+fn parts(samples: usize, breaks: &[Break]) -> Vec<(Range<usize>, Option<Break>)> {
+    let mut parts = Vec::with_capacity(breaks.len() + 1);
+    let (mut start, mut before) = (0, None);
+    for &here in breaks {
+        if here.index > start && here.index < samples {
+            parts.push((start..here.index, before));
+            (start, before) = (here.index, Some(here));
+        }
+    }
+    parts.push((start..samples, before));
+    parts
+}
+
+/// The phases of a scan whose reactions break at `breaks`.
+pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identified {
+    let mut nodes = Vec::new();
+    for (part, before) in parts(track.tau.len(), breaks) {
+        let mut between = before;
+        let mut index = part.start;
+        // a part with too few samples for a fit has no node, and takes the label of its neighbours
+        while let Some(node) = Node::about(track, index, part.clone(), noise, WIDEST) {
+            let stride = (node.fit.window.len() / PLACES).max(1);
+            nodes.push(node.placed(stride, between.take()));
+            if index + 1 >= part.end {
+                break;
+            }
+            index = (index + stride).min(part.end - 1);
+        }
+    }
+    let labels = Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec();
+    let runs = runs(track, noise, &nodes, &labels);
+    Identified { nodes, runs, labels }
+}
+
+/// Runs of one label. They end at breaks, or, between A and B, at the border that fits the samples best.
+fn runs(track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -> Vec<(Range<usize>, Label)> {
+    let mut runs: Vec<(Range<usize>, Label)> = Vec::new();
+    let mut start = 0;
+    for k in 1..nodes.len() {
+        let (before, after) = (labels[k - 1].0, labels[k].0);
+        if before == after {
+            continue;
+        }
+        let border = match nodes[k].place.between {
+            Some(here) => here.index,
+            None => {
+                // the window of the fit may reach across the border: search beyond the two places
+                let reach = nodes[k].fit.window.len();
+                let from = nodes[k - 1].index.saturating_sub(reach).max(start);
+                let to = (nodes[k].index + reach).min(track.tau.len());
+                let stop = nodes[k..].iter().find(|node| node.place.between.is_some()).map_or(to, |node| node.index);
+                border(track, noise, from..to.min(stop), before == Label::A)
+            }
+        };
+        runs.push((start..border, before));
+        start = border;
+    }
+    let last = labels.last().map_or(Label::Free, |label| label.0);
+    runs.push((start..track.tau.len(), last));
+    runs
+}

@@ -1,0 +1,39 @@
+//! Contact phases from the reactions of a scan.
+//!
+//! `evidence` computes the criteria of each phase at places of the scan, `diagram` the transitions that are possible between them,
+//! and `trellis` the most likely sequence of both. `identify` does this for a whole scan, and `contact` gives the contact point of a
+//! sample whose phase is known.
+
+#[cfg(feature = "std")]
+mod basis;
+#[cfg(feature = "std")]
+mod border;
+#[cfg(feature = "std")]
+mod contact;
+#[cfg(feature = "std")]
+mod diagram;
+#[cfg(feature = "std")]
+mod evidence;
+#[cfg(feature = "std")]
+mod identify;
+mod label;
+#[cfg(feature = "std")]
+mod quantity;
+#[cfg(feature = "std")]
+mod trellis;
+
+#[cfg(feature = "std")]
+pub use basis::Basis;
+#[cfg(feature = "std")]
+pub(crate) use contact::contact;
+#[cfg(feature = "std")]
+pub(crate) use diagram::Break;
+#[cfg(feature = "std")]
+pub use evidence::Evidence;
+#[cfg(feature = "std")]
+pub(crate) use identify::{Identified, Node, identify};
+pub use label::Label;
+#[cfg(feature = "std")]
+pub use quantity::Quantity;
+#[cfg(feature = "std")]
+pub(crate) use trellis::{Trellis, forward};

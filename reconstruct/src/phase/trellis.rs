@@ -1,0 +1,160 @@
+//! The most likely sequence of phases.
+
+use super::diagram::{Break, passage};
+use super::label::Label;
+
+/// A place of a scan: the log-likelihood of each label there, and the break between it and the place before.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub scores: [f64; 5],
+    pub between: Option<Break>,
+}
+
+/// The most likely sequence of labels (Viterbi's algorithm) and the probability of each label (forward-backward algorithm). The
+/// memory is kept from one run to the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trellis {
+    steps: Vec<[u8; 5]>,
+    ahead: Vec<[f64; 5]>,
+    labels: Vec<(Label, f64)>,
+}
+
+impl Trellis {
+    /// With memory for this many places.
+    pub fn with_capacity(places: usize) -> Self {
+        let mut trellis = Self::default();
+        trellis.steps.reserve(places);
+        trellis.ahead.reserve(places);
+        trellis.labels.reserve(places);
+        trellis
+    }
+
+    /// The label of each place, and by how much its probability exceeds that of the next best label there. `before` are the scores of
+    /// the best sequences up to the first place for each label: equal where there are none.
+    pub fn run(
+        &mut self,
+        before: &[f64; 5],
+        places: impl DoubleEndedIterator<Item = Place> + Clone,
+    ) -> &[(Label, f64)] {
+        self.steps.clear();
+        self.labels.clear();
+        let mut best = *before;
+        for place in places.clone() {
+            let from;
+            (best, from) = forward(&best, &place);
+            self.steps.push(from);
+        }
+        let mut label = greatest(&best);
+        for step in self.steps.iter().rev() {
+            self.labels.push((Label::ALL[label], 0.0));
+            label = usize::from(step[label]);
+        }
+        self.labels.reverse();
+        self.margins(before, places);
+        &self.labels
+    }
+
+    fn margins(&mut self, before: &[f64; 5], places: impl DoubleEndedIterator<Item = Place> + Clone) {
+        self.ahead.clear();
+        let mut ahead = [0.0; 5];
+        for place in places.clone().rev() {
+            self.ahead.push(ahead);
+            let joined = std::array::from_fn(|i| ahead[i] + place.scores[i]);
+            ahead = carry(&joined, place.between, true);
+        }
+        let mut behind = *before;
+        for ((place, ahead), found) in places.zip(self.ahead.iter().rev()).zip(&mut self.labels) {
+            behind = carry(&behind, place.between, false);
+            behind = std::array::from_fn(|i| behind[i] + place.scores[i]);
+            let both: [f64; 5] = std::array::from_fn(|i| behind[i] + ahead[i]);
+            let total = sum(both);
+            let (own, mut other) = (found.0 as usize, f64::NEG_INFINITY);
+            for (k, score) in both.into_iter().enumerate() {
+                other = if k == own { other } else { other.max(score) };
+            }
+            found.1 = (both[own] - total).exp() - (other - total).exp();
+        }
+    }
+}
+
+/// One step of Viterbi's algorithm: the best score of a sequence that ends in each label, and the label before it.
+pub(crate) fn forward(before: &[f64; 5], place: &Place) -> ([f64; 5], [u8; 5]) {
+    let mut best = [f64::NEG_INFINITY; 5];
+    let mut from = [0; 5];
+    for (to, label) in Label::ALL.into_iter().enumerate() {
+        for (origin, start) in Label::ALL.into_iter().enumerate() {
+            let score = before[origin] + passage(start, label, place.between);
+            if score > best[to] {
+                (best[to], from[to]) = (score, origin as u8);
+            }
+        }
+        best[to] += place.scores[to];
+    }
+    (best, from)
+}
+
+fn greatest(scores: &[f64; 5]) -> usize {
+    (1..5).fold(0, |best, k| if scores[k] > scores[best] { k } else { best })
+}
+
+/// Scores carried over the transition between two places, forwards or (`back`) backwards.
+fn carry(scores: &[f64; 5], between: Option<Break>, back: bool) -> [f64; 5] {
+    std::array::from_fn(|to| {
+        sum(std::array::from_fn(|from| {
+            let (u, v) = if back { (to, from) } else { (from, to) };
+            scores[from] + passage(Label::ALL[u], Label::ALL[v], between)
+        }))
+    })
+}
+
+/// Log of a sum of exponentials.
+fn sum(scores: [f64; 5]) -> f64 {
+    let most = scores.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    most + scores.into_iter().map(|score| (score - most).exp()).sum::<f64>().ln()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(likely: Label, by: f64, between: Option<Break>) -> Place {
+        Place { scores: Label::ALL.map(|label| if label == likely { by } else { 0.0 }), between }
+    }
+
+    #[test]
+    fn one_doubtful_place_changes_nothing_and_a_break_lets_the_phase_change() {
+        let kink = Break { index: 5, jump: false, score: 200.0 };
+        let jump = Some(Break { jump: true, ..kink });
+        let kink = Some(kink);
+        let mut places = vec![place(Label::B, 8.0, None); 10];
+        places[3] = place(Label::BB, 20.0, None);
+        places.truncate(6);
+        places.extend((0..4).map(|k| place(Label::BB, 8.0, if k == 0 { kink } else { None })));
+        let mut trellis = Trellis::default();
+        let found = trellis.run(&[0.0; 5], places.iter().copied()).to_vec();
+        assert!(found[..6].iter().all(|f| f.0 == Label::B) && found[6..].iter().all(|f| f.0 == Label::BB), "{found:?}");
+        assert!(found[1].1 > 0.99 && found[3].1 > 0.9 && found.iter().all(|f| (-1.0..=1.0).contains(&f.1)));
+        // from A to BB no single contact comes or goes
+        let places = [place(Label::A, 9.0, None), place(Label::BB, 9.0, kink), place(Label::B, 7.0, None)];
+        assert_eq!(trellis.run(&[0.0; 5], places.iter().copied())[1].0, Label::B);
+        let places = [place(Label::A, 9.0, None), place(Label::BB, 9.0, jump)];
+        assert_eq!(trellis.run(&[0.0; 5], places.iter().copied())[1].0, Label::BB);
+    }
+
+    #[test]
+    fn parts_one_after_the_other_are_the_whole() {
+        let places: Vec<Place> = (0..40_u32)
+            .map(|k| {
+                place(
+                    Label::ALL[(k / 7) as usize % 5],
+                    3.0,
+                    (k % 7 == 0).then_some(Break { index: 0, jump: true, score: 99.0 }),
+                )
+            })
+            .collect();
+        let whole = Trellis::default().run(&[0.0; 5], places.iter().copied()).to_vec();
+        let before = places[..20].iter().fold([0.0; 5], |before, place| forward(&before, place).0);
+        let rest = Trellis::default().run(&before, places[20..].iter().copied()).to_vec();
+        assert!(whole[20..].iter().zip(&rest).all(|(u, v)| u.0 == v.0));
+    }
+}

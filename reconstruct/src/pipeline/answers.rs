@@ -1,0 +1,159 @@
+//! The answers to the samples of a scan whose phases are known.
+
+use super::nearest::Nearest;
+use super::reading::{Reading, Reason, sure};
+use super::settings::Settings;
+use crate::kink::Kink;
+use crate::phase::{Break, Identified, Label, contact};
+use crate::point::Touch;
+use crate::scan::{Noise, Track};
+use crate::two_contacts::{Limits, Neighbour, Piece, Unresolved, resolve};
+use rod_core::Units;
+use std::ops::Range;
+
+/// Samples at the border of two phases that are left out, besides those within the uncertainty of its kink.
+const MARGIN: usize = 3;
+/// The uncertainty of a kink in its standard deviations, which are rather too small: the curvature breaks at a kink, too.
+const SIGMAS: f64 = 4.0;
+/// Factors by which more samples are left out where no contacts agree with the rest.
+const WIDER: [usize; 2] = [3, 10];
+/// Chi-squared from which on a kink within a phase is real. Larger: a third contact that comes or goes is missed; smaller: false alarms
+/// divide a stretch.
+const SURE: f64 = 60.0;
+/// Largest standard deviation of one of several contacts across the contour, in rod lengths.
+const ACROSS: f64 = 5e-3;
+
+/// Whether the reactions jump before this sample.
+fn jumps(breaks: &[Break], index: usize) -> bool {
+    breaks.iter().any(|here| here.jump && here.index == index)
+}
+
+/// What the answers to the samples of a scan are computed from.
+pub(super) struct Answers<'a> {
+    pub track: &'a Track,
+    pub kinks: &'a [Kink],
+    pub noise: &'a Noise,
+    pub identified: &'a Identified,
+    pub units: Units,
+    pub settings: &'a Settings,
+}
+
+impl Answers<'_> {
+    /// The answers to all usable samples.
+    pub fn all(&self, breaks: &[Break]) -> Vec<Reading> {
+        let mut readings = Vec::with_capacity(self.track.len());
+        let runs = &self.identified.runs;
+        let mut next = 0;
+        while next < runs.len() {
+            if runs[next].1.several() {
+                let many = runs[next..].iter().take_while(|run| run.1.several()).count();
+                self.several(next..next + many, breaks, &mut readings);
+                next += many;
+            } else {
+                let (range, label) = runs[next].clone();
+                let mut nodes = Nearest::new(self.identified, label, range.start);
+                readings.extend(range.map(|index| self.single(&mut nodes, index, label)));
+                next += 1;
+            }
+        }
+        readings
+    }
+
+    /// The reading of a sample, with the margin of the nearest place of its label.
+    fn reading(&self, nodes: &mut Nearest<'_>, index: usize, label: Label, touch: Result<Touch, Reason>) -> Reading {
+        let place = nodes.of(index);
+        let margin = match self.identified.labels[place] {
+            (found, margin) if found == label => margin,
+            _ => 0.0,
+        };
+        Reading { label, margin, touch, second: None, place }
+    }
+
+    /// The answer to a sample with one contact or none.
+    fn single(&self, nodes: &mut Nearest<'_>, index: usize, label: Label) -> Reading {
+        if label == Label::Free {
+            return self.reading(nodes, index, label, Err(Reason::Free));
+        }
+        let fit = &self.identified.nodes[nodes.of(index)].fit;
+        let touch = contact(&self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
+        let touch = touch.map_err(Reason::NoContact).and_then(|touch| self.sure(touch));
+        self.reading(nodes, index, label, touch)
+    }
+
+    /// The point in SI units, if it is known well enough.
+    fn sure(&self, touch: Touch) -> Result<Touch, Reason> {
+        sure(touch, self.units, self.settings.largest_sigma)
+    }
+
+    /// By how many samples a border may be misplaced: by the uncertainty of its kink.
+    fn unsure(&self, border: usize) -> usize {
+        let track = self.track;
+        let kink = self.kinks.iter().find(|kink| kink.next == border);
+        let sigma = kink.map_or(0.0, |kink| SIGMAS * kink.sigma_tau);
+        let from = track.tau.get(border).map_or(border, |tau| track.tau.partition_point(|other| *other < tau - sigma));
+        (border - from.min(border)).min(track.len())
+    }
+
+    /// The answers to consecutive runs with several contacts. They are resolved in parts between jumps, and between kinks within a phase,
+    /// after which other contacts may be the first and the last.
+    fn several(&self, consecutive: Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
+        let runs = &self.identified.runs;
+        let single = |label: Label| label != Label::Free && !label.several();
+        let neighbour = |index: Option<usize>| {
+            let (range, label) = runs.get(index?).filter(|run| single(run.1))?;
+            Some(Neighbour { range: range.clone(), label: *label })
+        };
+        let mut before =
+            neighbour(consecutive.start.checked_sub(1)).filter(|_| !jumps(breaks, runs[consecutive.start].0.start));
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (range, label) in &runs[consecutive.clone()] {
+            let inside =
+                breaks.iter().filter(|here| here.score > SURE && range.start < here.index && here.index < range.end);
+            let mut start = range.start;
+            for end in inside.map(|here| here.index).chain([range.end]) {
+                if start > range.start || jumps(breaks, start) && !pieces.is_empty() {
+                    self.resolved(std::mem::take(&mut pieces), before.take(), None, readings);
+                }
+                pieces.push(Piece { range: start..end, label: *label });
+                start = end;
+            }
+        }
+        let after = neighbour(Some(consecutive.end)).filter(|_| !jumps(breaks, runs[consecutive.end - 1].0.end));
+        self.resolved(pieces, before, after, readings);
+    }
+
+    /// The answers to pieces that are joined without a jump.
+    fn resolved(
+        &self,
+        pieces: Vec<Piece>,
+        before: Option<Neighbour>,
+        after: Option<Neighbour>,
+        readings: &mut Vec<Reading>,
+    ) {
+        let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
+        let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
+        let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
+        let mut pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        for wider in WIDER {
+            // a border that is misplaced by more than the uncertainty of its kink makes all conditions fail: leave out more samples
+            if self.noise.is_clean() || pairs.iter().any(|pair| pair.first.is_ok()) {
+                break;
+            }
+            let limits = Limits { margin: margin * wider, ..limits };
+            pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        }
+        let sure = |found: Result<Touch, Unresolved>| match found {
+            Ok(touch) => self.sure(touch),
+            Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),
+            Err(reason) => Err(Reason::Several(reason)),
+        };
+        let mut pairs = pairs.into_iter();
+        for Piece { range, label } in pieces {
+            let mut nodes = Nearest::new(self.identified, label, range.start);
+            for (index, pair) in range.zip(pairs.by_ref()) {
+                let reading = self.reading(&mut nodes, index, label, sure(pair.first));
+                readings.push(Reading { second: Some(sure(pair.second)), ..reading });
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! From samples to labels, contact points and the contour: a whole scan at once, or sample by sample.
+//!
+//! [`reconstruct`] joins the rooms of this crate: kinks, phases, single and double contacts (`answers`). [`Live`] does the same as
+//! samples come, except for several contacts; [`LiveSession`] keeps the answers together with the samples that they are for.
+
+mod answers;
+mod live;
+mod live_settings;
+mod nearest;
+mod reading;
+mod reconstruct;
+mod reconstruction;
+mod session;
+mod settings;
+
+pub use live::Live;
+pub use live_settings::LiveSettings;
+pub use reading::{Reading, Reason};
+pub use reconstruct::reconstruct;
+pub use reconstruction::Reconstruction;
+pub use session::LiveSession;
+pub use settings::{ReconstructError, Settings};

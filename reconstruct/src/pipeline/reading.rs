@@ -1,0 +1,66 @@
+//! The answer to one sample.
+
+use crate::phase::Label;
+use crate::point::{NoContact, Touch};
+use crate::scan::Fault;
+use crate::two_contacts::Unresolved;
+use rod_core::Units;
+
+/// Why there is no contact point.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Reason {
+    /// The rod touches nothing.
+    #[error("the rod is free")]
+    Free,
+    /// The sample cannot be used.
+    #[error("{0}")]
+    Fault(#[from] Fault),
+    /// No single contact fits, though the label says there is one.
+    #[error("{0}")]
+    NoContact(#[from] NoContact),
+    /// The point is too uncertain.
+    #[error("the point is uncertain by {sigma:.1e} m")]
+    TooNoisy {
+        /// Standard deviation across the contour (or along it, where that is what is too large), m.
+        sigma: f64,
+    },
+    /// The sample has several contacts, which are resolved from a whole scan only.
+    #[error("several contacts, which are resolved from the whole scan only")]
+    Live,
+    /// This one of several contacts is not resolved.
+    #[error("several contacts: {0}")]
+    Several(#[from] Unresolved),
+}
+
+/// The answer to one sample, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// The phase.
+    pub label: Label,
+    /// By how much the probability of the label exceeds that of the next best one, 0 to 1.
+    pub margin: f64,
+    /// The contact, or the first of several.
+    pub touch: Result<Touch, Reason>,
+    /// The second of several; none where the label is of a single contact or none.
+    pub second: Option<Result<Touch, Reason>>,
+    /// Index of the place whose evidence decided.
+    pub(super) place: usize,
+}
+
+impl Reading {
+    /// A sample of this label that has no contact point.
+    pub(super) fn without(label: Label, reason: Reason) -> Self {
+        Self { label, margin: 0.0, touch: Err(reason), second: None, place: usize::MAX }
+    }
+}
+
+/// The point in SI units, if it is known well enough.
+pub(super) fn sure(touch: Touch, units: Units, largest_sigma: f64) -> Result<Touch, Reason> {
+    let sigma = touch.sigma_normal();
+    if sigma <= largest_sigma {
+        Ok(touch.in_units(units))
+    } else {
+        Err(Reason::TooNoisy { sigma: sigma * units.length })
+    }
+}

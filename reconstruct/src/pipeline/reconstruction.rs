@@ -1,0 +1,72 @@
+//! The result of a reconstruction.
+
+use super::reading::{Reading, Reason};
+use crate::contour::{Assembly, ContourEstimate, Measured};
+use crate::kink::Kink;
+use crate::phase::{Evidence, Label};
+use crate::point::Touch;
+use crate::scan::noise_estimate::ChannelNoise;
+use std::ops::Range;
+
+/// Number of independent values in a stretch with several contacts: its series have about as many significant terms. The samples of the
+/// stretch share their noise accordingly.
+const SERIES: usize = 8;
+
+/// The result of a reconstruction.
+#[derive(Clone, Debug)]
+pub struct Reconstruction {
+    /// One a sample, in order.
+    pub readings: Vec<Reading>,
+    /// Runs of samples with one label: the number of the first sample, and the label.
+    pub runs: Vec<(usize, Label)>,
+    /// Kinks and jumps of the reactions, SI units; `next` is the number of the first sample after each.
+    pub kinks: Vec<Kink>,
+    /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
+    pub noise: [ChannelNoise; 3],
+    pub(super) evidence: Vec<Evidence>,
+    /// Samples of each place's window; 1 where samples are used as they are.
+    pub(super) windows: Vec<usize>,
+}
+
+impl Reconstruction {
+    /// The contour: contact points assembled into stretches, and the gaps between them.
+    ///
+    /// In noise the points of neighbouring samples come from fits that overlap. Each point counts with its share of the window, so that
+    /// the standard deviations of the contour are those of the noise of the samples.
+    pub fn contour(&self, assembly: &Assembly) -> ContourEstimate {
+        let runs = self.runs.iter().map(|run| run.0).skip(1).chain([self.readings.len()]);
+        let mut lengths = self.runs.iter().zip(runs).map(|(run, end)| (end, end - run.0));
+        let mut run = lengths.next();
+        let mut touches: Vec<Touch> = Vec::with_capacity(self.readings.len());
+        let answers: Vec<(Range<usize>, Option<String>, usize)> = self
+            .readings
+            .iter()
+            .enumerate()
+            .map(|(sample, reading)| {
+                while run.is_some_and(|(end, _)| end <= sample) {
+                    run = lengths.next();
+                }
+                let window = match reading.second {
+                    Some(_) => run.map_or(1, |(_, length)| length / SERIES),
+                    None => self.windows.get(reading.place).copied().unwrap_or(1),
+                };
+                // the second contact is used with the first one only
+                let second = reading.second.filter(|_| reading.touch.is_ok());
+                let start = touches.len();
+                touches.extend(std::iter::once(reading.touch).chain(second).filter_map(Result::ok));
+                let reason = reading.touch.err().filter(|reason| *reason != Reason::Free);
+                (start..touches.len(), reason.map(|reason| reason.to_string()), window)
+            })
+            .collect();
+        assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (range, reason, shared))| Measured {
+            reason: reason.as_deref(),
+            shared: *shared,
+            ..Measured::new(reading.label, &touches[range.clone()])
+        }))
+    }
+
+    /// The criteria at the place nearest to a sample, dimensionless; none for a sample that cannot be used.
+    pub fn evidence(&self, sample: usize) -> Option<&Evidence> {
+        self.readings.get(sample).and_then(|reading| self.evidence.get(reading.place))
+    }
+}

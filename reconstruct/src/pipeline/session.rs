@@ -1,0 +1,105 @@
+//! A live scan with samples of which some cannot be used.
+
+use super::live::Live;
+use super::reading::Reading;
+use rod_core::Sample;
+use std::collections::VecDeque;
+
+/// [`Live`] for samples of type `S`, of which some may not be usable. Each sample is returned with its answer, in order; one that is not
+/// usable without an answer.
+///
+/// ```
+/// use rod_core::{Pose, Reactions, Rod};
+/// use rod_reconstruct::{Live, LiveSession, LiveSettings, Sample, noise_estimate::ChannelNoise};
+/// let rod = Rod::new(0.1, 6.3e-4)?;
+/// let settings = LiveSettings::new([1e-3, 1e-3, 2e-5].map(ChannelNoise::white), 2e-6);
+/// let mut session = LiveSession::new(Live::new(&rod, &settings)?);
+/// let mut answers = Vec::new();
+/// for k in 0..2000 {
+///     let sample = Sample::new(Pose { x: 2e-6 * f64::from(k), y: 0.0, phi: 1.5 }, Reactions::default());
+///     let usable = (k != 7).then_some(&sample); // the sensor was overloaded
+///     session.push(k, usable, |k, reading| answers.push((k, reading.is_some())));
+/// }
+/// session.finish(|k, reading| answers.push((k, reading.is_some())));
+/// assert!(answers.iter().enumerate().all(|(k, answer)| *answer == (k as i32, k != 7)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct LiveSession<S> {
+    live: Live,
+    /// Samples without an answer, and whether they are usable.
+    waiting: VecDeque<(S, bool)>,
+}
+
+impl<S> LiveSession<S> {
+    /// Before the first sample.
+    pub fn new(live: Live) -> Self {
+        let waiting = VecDeque::with_capacity(live.delay() + 1);
+        Self { live, waiting }
+    }
+
+    /// Takes a sample, with its pose and reactions if it is usable, and calls `answer` for each sample whose answer is due.
+    pub fn push(&mut self, sample: S, usable: Option<&Sample>, mut answer: impl FnMut(S, Option<Reading>)) {
+        self.waiting.push_back((sample, usable.is_some()));
+        if let Some(reading) = usable.and_then(|usable| self.live.push(usable)) {
+            self.settle(reading, &mut answer);
+        }
+        self.skip(&mut answer);
+    }
+
+    /// Ends the scan: calls `answer` for each of the remaining samples.
+    pub fn finish(&mut self, mut answer: impl FnMut(S, Option<Reading>)) {
+        while let Some(reading) = self.live.finish() {
+            self.settle(reading, &mut answer);
+        }
+        self.skip(&mut answer);
+    }
+
+    /// A reading is for the oldest usable sample; those before it have none.
+    fn settle(&mut self, reading: Reading, answer: &mut impl FnMut(S, Option<Reading>)) {
+        self.skip(answer);
+        if let Some((sample, _)) = self.waiting.pop_front() {
+            answer(sample, Some(reading));
+        }
+    }
+
+    /// Answers the oldest samples as long as they are not usable.
+    fn skip(&mut self, answer: &mut impl FnMut(S, Option<Reading>)) {
+        while self.waiting.front().is_some_and(|(_, usable)| !usable)
+            && let Some((sample, _)) = self.waiting.pop_front()
+        {
+            answer(sample, None);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::LiveSettings;
+    use crate::noise_estimate::ChannelNoise;
+    use rod_core::{Pose, Reactions, Rod};
+
+    #[test]
+    fn every_sample_is_answered_once_in_order() {
+        let rod = Rod::new(0.1, 6.3e-4).unwrap();
+        let noise = [1e-3, 1e-3, 2e-5].map(ChannelNoise::white);
+        let live = Live::new(&rod, &LiveSettings { half_window: 1e-4, ..LiveSettings::new(noise, 2e-6) }).unwrap();
+        let mut session = LiveSession::new(live);
+        let mut answers = Vec::new();
+        for k in 0..2000 {
+            let usable = !matches!(k, 0..3 | 500 | 1999);
+            // a clamp that turns back for one sample
+            let x = 2e-6 * f64::from(if k == 800 { 600 } else { k });
+            let sample = Sample::new(Pose { x, y: 0.0, phi: 1.5 }, Reactions::default());
+            session.push(k as usize, usable.then_some(&sample), |k, reading| answers.push((k, reading)));
+        }
+        session.finish(|k, reading| answers.push((k, reading)));
+        assert_eq!(answers.len(), 2000);
+        assert!(answers.iter().enumerate().all(|(k, answer)| answer.0 == k));
+        let without: Vec<usize> = (0..2000).filter(|&k| answers[k].1.is_none()).collect();
+        assert_eq!(without, [0, 1, 2, 500, 1999]);
+        let turned = answers[800].1.unwrap().touch.unwrap_err().to_string();
+        assert!(turned.contains("turns back"), "{turned}");
+    }
+}

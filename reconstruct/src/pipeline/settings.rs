@@ -1,0 +1,55 @@
+//! Settings of a reconstruction.
+
+use crate::kink::KinkOptions;
+use crate::scan::noise_estimate::ChannelNoise;
+
+/// Settings of a reconstruction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Noise of f0x, f0y (N) and m0z (N m), if it is known better than from the scan itself.
+    pub noise: Option<[ChannelNoise; 3]>,
+    /// Upper bound of the expected number of false alarms of the search for kinks, per scan.
+    pub false_alarms: f64,
+    /// Largest standard deviation of a contact point across the contour, in lengths of the rod. Less certain points are left out.
+    pub largest_sigma: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { noise: None, false_alarms: KinkOptions::default().false_alarms, largest_sigma: 0.02 }
+    }
+}
+
+/// Why a scan cannot be reconstructed at all.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReconstructError {
+    /// Too few samples.
+    #[error(
+        "{usable} usable samples of {samples}, expected at least {fewest}: along one path, each beyond the one before"
+    )]
+    TooFew {
+        /// How many of them can be used.
+        usable: usize,
+        /// How many there are.
+        samples: usize,
+        /// The smallest number.
+        fewest: usize,
+    },
+    /// A setting that is not possible.
+    #[error("{what} is {value}, expected a positive, finite number")]
+    Setting {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// Checks settings that must be positive, finite numbers.
+pub(super) fn positive(settings: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ReconstructError> {
+    match settings.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+        Some((what, value)) => Err(ReconstructError::Setting { what, value }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,98 @@
+//! The rod between its clamp and its first contact, which pose and reactions determine; dimensionless.
+
+use crate::numeric::Number;
+use nalgebra::{Matrix4x3, Vector3, Vector4};
+use rod_core::{Pose, Reactions, Section, Units, advance, advance_with_sensitivities};
+
+/// Clamp pose and reactions, dimensionless: x0, y0, phi0 and f0x, f0y, m0z; or their rates along the scan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Clamp<T = f64> {
+    pub pose: Vector3<T>,
+    pub reactions: Vector3<T>,
+}
+
+impl<T: Number> Clamp<T> {
+    pub fn new(units: Units<T>, pose: Pose<T>, reactions: Reactions<T>) -> Self {
+        Self {
+            pose: Vector3::new(pose.x / units.length, pose.y / units.length, pose.phi),
+            reactions: Vector3::new(
+                reactions.f0x / units.force,
+                reactions.f0y / units.force,
+                reactions.m0z / units.moment,
+            ),
+        }
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.pose.iter().chain(&self.reactions).all(|v| v.is_finite())
+    }
+
+    /// The cross-section at the clamp: kappa(0) = -m0z.
+    pub fn section(&self) -> Section<T> {
+        Section { x: self.pose.x, y: self.pose.y, phi: self.pose.z, kappa: -self.reactions.z }
+    }
+
+    /// The force (A, B) = (f0y, -f0x) that the rod carries next to the clamp.
+    pub fn force(&self) -> [T; 2] {
+        [self.reactions.y, -self.reactions.x]
+    }
+
+    pub fn at(&self, s: T) -> Section<T> {
+        let [a, b] = self.force();
+        advance(&self.section(), a, b, s)
+    }
+
+    /// [`Self::gradient_at`] with zeros in place of the derivatives by the clamp's pose and reactions: a third of the work.
+    pub fn slide_at(&self, s: T) -> (Section<T>, Gradient<T>) {
+        let ([a, b], end) = (self.force(), self.at(s));
+        let (sin, cos) = end.phi.sin_cos();
+        let by_s = Vector4::new(cos, sin, end.kappa, a * cos + b * sin);
+        let gradient = Gradient {
+            by_reactions: Matrix4x3::zeros(),
+            #[cfg(feature = "std")]
+            by_phi0: Vector4::zeros(),
+            by_s,
+        };
+        (end, gradient)
+    }
+
+    /// The section at arc length s, with its derivatives.
+    pub fn gradient_at(&self, s: T) -> (Section<T>, Gradient<T>) {
+        let [a, b] = self.force();
+        let (end, by) = advance_with_sensitivities(&self.section(), a, b, s);
+        let column = |c: [T; 4]| Vector4::from(c);
+        let by_reactions = Matrix4x3::from_columns(&[-column(by.by_b), column(by.by_a), -column(by.by_kappa)]);
+        let gradient = Gradient {
+            by_reactions,
+            #[cfg(feature = "std")]
+            by_phi0: column(by.by_phi),
+            by_s: column(by.by_s),
+        };
+        (end, gradient)
+    }
+
+    /// The phase criterion K and its derivatives by the reactions.
+    pub fn criterion(&self) -> (T, Vector3<T>) {
+        let (two, (sin, cos)) = (T::from_f64(2.0), self.pose.z.sin_cos());
+        let r = &self.reactions;
+        (r.z * r.z - two * (r.y * sin + r.x * cos), Vector3::new(-two * cos, -two * sin, two * r.z))
+    }
+}
+
+/// Derivatives of a section (x, y, phi, kappa) of the rod. Those by x0 and y0 are trivial: the rod moves along.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gradient<T = f64> {
+    pub by_reactions: Matrix4x3<T>,
+    #[cfg(feature = "std")]
+    pub by_phi0: Vector4<T>,
+    pub by_s: Vector4<T>,
+}
+
+#[cfg(feature = "std")]
+impl Gradient {
+    /// Rate of the section at a fixed arc length where the clamp and its reactions change at this rate.
+    pub fn rate(&self, rate: &Clamp) -> Vector4<f64> {
+        let carried = Vector4::new(rate.pose.x, rate.pose.y, 0.0, 0.0);
+        carried + self.by_phi0 * rate.pose.z + self.by_reactions * rate.reactions
+    }
+}

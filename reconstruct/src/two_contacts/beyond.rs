@@ -1,0 +1,61 @@
+//! The rod beyond its first contact.
+
+use crate::point::Clamp;
+use rod_core::{Section, advance_with_sensitivities, inflection};
+
+/// Most steps of Newton's method, which converges in 4 to 8 or not at all.
+const STEPS: usize = 30;
+/// Relative change of the force below which Newton's method has converged: rounding.
+const SETTLED: f64 = 1e-14;
+
+/// The rod beyond its first contact: the section there, and the force (A, B) next to the clamp.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beyond {
+    pub s1: f64,
+    pub first: Section,
+    pub force: [f64; 2],
+}
+
+impl Beyond {
+    pub fn new(clamp: &Clamp, s1: f64) -> Self {
+        Self { s1, first: clamp.at(s1), force: clamp.force() }
+    }
+
+    /// The force (A, B) beyond the first contact, which pushes with `f1` from the side of a solid to the left of the rod
+    /// (negative: to its right).
+    pub fn left(&self, f1: f64) -> [f64; 2] {
+        let (sin, cos) = self.first.phi.sin_cos();
+        [self.force[0] - f1 * cos, self.force[1] - f1 * sin]
+    }
+
+    /// Curvature at the tip and its derivative by f1.
+    pub fn tip(&self, f1: f64) -> (Section, f64) {
+        let [a, b] = self.left(f1);
+        let (end, by) = advance_with_sensitivities(&self.first, a, b, 1.0 - self.s1);
+        let (sin, cos) = self.first.phi.sin_cos();
+        (end, -by.by_a[3] * cos - by.by_b[3] * sin)
+    }
+
+    /// The f1 for which the moment at the tip vanishes, by Newton's method from a guess.
+    pub fn force_of_tip(&self, guess: f64) -> Option<f64> {
+        let mut f = guess;
+        for _ in 0..STEPS {
+            let (end, by) = self.tip(f);
+            let step = end.kappa / by;
+            f -= step;
+            if !f.is_finite() {
+                return None;
+            }
+            if step.abs() < SETTLED * (1.0 + f.abs()) {
+                return Some(f);
+            }
+        }
+        None
+    }
+
+    /// Arc length of the next section without moment: the second contact, if that is tangential.
+    pub fn second(&self, f1: f64) -> Option<f64> {
+        let [a, b] = self.left(f1);
+        Some(self.s1 + inflection(&self.first, a, b)?)
+    }
+}

@@ -1,0 +1,34 @@
+//! What is known at the ends of a run with two contacts.
+
+use nalgebra::Vector2;
+
+/// What is assumed at an end of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum End {
+    /// Nothing.
+    Open,
+    /// The second contact goes on as the neighbour's single contact: a point of the contour, its normal and its standard
+    /// deviation across the contour; the path length of the clamp to there.
+    Last { place: Vector2<f64>, normal: Vector2<f64>, sigma: f64, way: f64 },
+    /// The first contact goes on as the neighbour's single contact, at this arc length; the path length of the clamp to there.
+    First { s: f64, way: f64 },
+}
+
+/// A neighbour's single contact next to the run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    /// The end, if the second contact goes on.
+    pub last: End,
+    /// Arc length of the contact and its standard deviation.
+    pub s: f64,
+    pub sigma_s: f64,
+    /// Path length of the clamp between the neighbour's samples and those of the run.
+    pub way: f64,
+}
+
+impl Beside {
+    /// The end, if the first contact goes on.
+    pub fn first(&self) -> End {
+        End::First { s: self.s, way: self.way }
+    }
+}

@@ -1,0 +1,158 @@
+//! A run of stretches with two contacts: from the trails of the first contact to the least-squares solution.
+
+use super::choice::{Choice, choices};
+use super::ends::{Beside, End};
+use super::guess::guess;
+use super::part::Part;
+use super::series::Series;
+use super::signs::are_right;
+use super::system::{Solution, System};
+use super::trail::{Trail, trails};
+use super::unknowns::Unknown;
+use super::unresolved::Unresolved;
+use super::weights::Tolerance;
+use nalgebra::DVector;
+
+/// Terms of arc lengths and forces in the first solution.
+const FEW_TERMS: usize = 4;
+/// By how many terms arc lengths and forces exceed the reactions later: they vary more, because they depend on rates.
+const MORE_TERMS: usize = 2;
+/// How tightly the conditions are kept in the first, the second and the last solution.
+const ROUGH: Tolerance = Tolerance { share: 1.0, floor: 1e-2, steps: 20 };
+const MIDDLE: Tolerance = Tolerance { share: 0.5, floor: 1e-3, steps: 20 };
+const FINE: Tolerance = Tolerance { share: 0.2, floor: 1e-9, steps: 40 };
+/// Most terms of the reactions in the first and the second solution.
+const SHORT: [usize; 2] = [8, 14];
+/// Smallest standard deviation of a reaction's mean in the first and the second solution, relative to 1 + the force.
+const BLURS: [f64; 2] = [3e-4, 1e-5];
+/// Steps from the second to the last solution where one is too long: the blur as above, and the floor of the tolerance.
+const SHORTER_STEPS: [(f64, f64); 4] = [(1e-6, 1e-4), (1e-7, 1e-6), (1e-9, 1e-7), (0.0, 1e-9)];
+/// Choices of trails that go on from the first solution to the second, best first.
+const REFINED: usize = 3;
+/// Largest sum of weighted squares per measured coefficient of a solution; noise gives 1. Larger: contradictory conditions pass.
+const MOST_MISFIT: f64 = 2.0;
+
+/// Both contacts of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Resolved {
+    pub parts: Vec<Part>,
+    pub solution: Solution,
+    /// Factor on the covariance: the sum of weighted squares per measured coefficient, at least 1.
+    pub excess: f64,
+}
+
+/// Both contacts along a run of stretches; `true` marks a stretch whose second contact is at the tip.
+///
+/// The least squares start from a trail of the first contact and are solved three times: with few terms, loose conditions and blurred
+/// reactions; with more of each; and as they are.
+pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2]) -> Result<Resolved, Unresolved> {
+    let last = stretches.len() - 1;
+    let ends = |k: usize| [beside[0].filter(|_| k == 0), beside[1].filter(|_| k == last)].map(|b| b.map(|b| b.s));
+    let found: Vec<Vec<Trail>> = stretches.iter().enumerate().map(|(k, (series, _))| trails(series, ends(k))).collect();
+    let mut choices = choices(&found, beside);
+    if choices.is_empty() {
+        return Err(Unresolved::NoTouch);
+    }
+    // the force is determined where the moment at the tip vanishes, or at an end of the run where the first contact comes or goes
+    let anchored = |choice: &Choice| choice.ends.iter().any(|end| matches!(end, End::Last { .. }));
+    if !stretches.iter().any(|(_, tip)| *tip) {
+        choices.retain(anchored);
+    }
+    if choices.is_empty() {
+        return Err(Unresolved::NoAnchor);
+    }
+    let mut rough: Vec<(Choice, Vec<Part>, Solution)> = choices
+        .into_iter()
+        .filter_map(|choice| {
+            let parts = blurred(parts(&stretches, SHORT[0], |_| FEW_TERMS), BLURS[0]);
+            let guess = guess(&parts, &choice)?;
+            let system = System { parts: &parts, ends: choice.ends, tolerance: ROUGH };
+            let solution = system.solve(guess)?;
+            Some((choice, parts, solution))
+        })
+        .collect();
+    rough.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
+    let mut middle: Vec<(Choice, Vec<Part>, Solution)> = rough
+        .into_iter()
+        .take(REFINED)
+        .filter_map(|(choice, few, rough)| {
+            let parts = blurred(parts(&stretches, SHORT[1], |series| series.terms() + MORE_TERMS), BLURS[1]);
+            let system = System { parts: &parts, ends: choice.ends, tolerance: MIDDLE };
+            let solution = system.solve(longer(&few, &parts, &rough.x))?;
+            Some((choice, parts, solution))
+        })
+        .collect();
+    middle.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
+    let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE_TERMS);
+    let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
+    let judged = |parts: &[Part], solution: Solution| {
+        let excess = solution.cost / measured as f64;
+        let good = excess < MOST_MISFIT && parts.iter().all(|part| are_right(part, &solution));
+        good.then(|| Resolved { parts: parts.to_vec(), solution, excess: excess.max(1.0) })
+    };
+    for (choice, short, middle) in middle {
+        let mut x = longer(&short, &parts, &middle.x);
+        let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
+        if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&parts, solution)) {
+            return Ok(found);
+        }
+        // If the choice is right, the last step was too long for the least squares: go there in shorter steps, and keep the
+        // last one that succeeds.
+        if middle.cost > MOST_MISFIT * measured as f64 {
+            continue;
+        }
+        let mut best = None;
+        for (blur, floor) in SHORTER_STEPS {
+            let parts = blurred(parts.clone(), blur);
+            let system = System { parts: &parts, ends: choice.ends, tolerance: Tolerance { floor, ..FINE } };
+            let Some(solution) = system.solve(x.clone()) else { break };
+            x = solution.x.clone();
+            let Some(found) = judged(&parts, solution) else { break };
+            best = Some(found);
+        }
+        if let Some(found) = best {
+            return Ok(found);
+        }
+    }
+    Err(Unresolved::Inconsistent)
+}
+
+/// The stretches with series of the reactions of at most `short` terms, and so many terms of the others.
+fn parts(stretches: &[(Series, bool)], short: usize, terms: impl Fn(&Series) -> usize) -> Vec<Part> {
+    let mut start = 0;
+    let place = |(series, tip): &(Series, bool)| {
+        let series = series.shortened(short);
+        let part = Part { terms: terms(&series), series, tip: *tip, start };
+        start += part.width();
+        part
+    };
+    stretches.iter().map(place).collect()
+}
+
+/// The same with reactions of at least this standard deviation (relative to 1 + the force): with blurred reactions the least squares
+/// converge from a distant start.
+fn blurred(mut parts: Vec<Part>, blur: f64) -> Vec<Part> {
+    for part in &mut parts {
+        let series = &mut part.series;
+        let size = 1.0 + series.reactions[(0, 0)].hypot(series.reactions[(0, 1)]);
+        let least = (blur * size).powi(2) * series.normal[(0, 0)];
+        series.variance.apply(|v| *v = v.max(least));
+    }
+    parts
+}
+
+/// The coefficients x of `from` in the longer series of `to`; new terms of the reactions are as measured, others 0.
+fn longer(from: &[Part], to: &[Part], x: &DVector<f64>) -> DVector<f64> {
+    let mut out = DVector::zeros(to.iter().map(Part::width).sum());
+    for (a, b) in from.iter().zip(to) {
+        for unknown in Unknown::REACTIONS {
+            let (at, terms) = b.columns(unknown);
+            out.rows_mut(at, terms).copy_from(&b.series.reactions.column(unknown as usize));
+        }
+        for unknown in Unknown::ALL {
+            let ((source, terms), (at, _)) = (a.columns(unknown), b.columns(unknown));
+            out.rows_mut(at, terms).copy_from(&x.rows(source, terms));
+        }
+    }
+    out
+}

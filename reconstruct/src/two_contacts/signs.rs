@@ -1,0 +1,57 @@
+//! Whether the contacts of a solution push, and from the side of the solid.
+
+use super::beyond::Beyond;
+use super::envelope::NormalSpeed;
+use super::part::Part;
+use super::system::Solution;
+use super::unknowns::{Unknown, Unknowns};
+use crate::point::Clamp;
+use crate::scan::Estimate;
+use nalgebra::Vector3;
+
+/// Instants of a stretch that are checked, and the largest t among them: at the ends of a series its rates are uncertain.
+const INSTANTS: usize = 13;
+const WITHIN: f64 = 0.95;
+/// Share of the instants at which the signs must be right. Larger: noise at single instants rejects right solutions.
+const MOSTLY: f64 = 0.75;
+/// A force below this share of the reactions has no certain sign.
+const SMALL: f64 = 0.05;
+/// Largest arc length of the second contact, rod lengths: the tip and its noise.
+const FARTHEST: f64 = 1.05;
+/// Error of the mean of (side of the first contact) times (slope of the normal speed) that is noise, dimensionless.
+const SIDE: f64 = 0.1;
+/// The same in standard deviations of the contact's speed.
+const DOUBT: f64 = 2.0;
+
+/// Whether the forces push and the first contact is on the side of the solid.
+///
+/// The side of a moving contact follows from the slope of the normal speed along the rod, which is the speed of the contact times
+/// the difference of the curvatures of contour and rod.
+pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
+    let place = |k: usize| -WITHIN + 2.0 * WITHIN * k as f64 / (INSTANTS - 1) as f64;
+    let (mut good, mut side, mut doubt) = (0, 0.0, 0.0);
+    for k in 0..INSTANTS {
+        let local = part.local(&solution.x, place(k));
+        let Unknowns([f0x, f0y, m0z, s1, f1, s2]) = local.values;
+        let clamp = |i: usize, v: &Unknowns| Clamp {
+            pose: local.pose[i],
+            reactions: Vector3::from(Unknown::REACTIONS.map(|unknown| v[unknown])),
+        };
+        let estimate = Estimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
+        let speed = NormalSpeed::at(&estimate, s1);
+        let (_, gradient) = estimate.clamp.gradient_at(s1);
+        let velocity = gradient.rate(&estimate.rate);
+        let (sin, cos) = speed.section.phi.sin_cos();
+        let along = cos * velocity[0] + sin * velocity[1] + local.rates[Unknown::S1];
+        let small = SMALL * (f0x.hypot(f0y) + m0z.abs());
+        if f1.abs() > small {
+            side += f1.signum() * speed.by_s * along / INSTANTS as f64;
+            doubt += speed.by_s.abs() * part.sigma_of_rate(&local, &solution.covariance) / INSTANTS as f64;
+        }
+        let beyond = Beyond::new(&estimate.clamp, s1);
+        let ([a, b], phi) = (beyond.left(f1), beyond.tip(f1).0.phi);
+        let pushes = !part.tip || a * phi.sin() - b * phi.cos() >= -small;
+        good += usize::from(pushes && s1 > 0.0 && s1 < s2 && s2 < FARTHEST);
+    }
+    good as f64 >= MOSTLY * INSTANTS as f64 && side > -SIDE - DOUBT * doubt
+}

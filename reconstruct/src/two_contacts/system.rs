@@ -1,0 +1,219 @@
+//! Least squares over a whole run: reactions, arc lengths and forces as series that fulfil the conditions of two contacts.
+
+use super::chord::Chord;
+use super::conditions::{Condition, ContourPoint, TANGENTIAL, WITH_TIP, conditions, second};
+use super::ends::End;
+use super::normal::Normal;
+use super::part::Part;
+use super::unknowns::{Gradient, Unknown, Unknowns};
+use super::weights::{self, Tolerance};
+use nalgebra::{DMatrix, DVector};
+use rod_core::Dual;
+
+/// Damping of the Levenberg-Marquardt steps at first, relative to the diagonal of the equations.
+const DAMPING: f64 = 1e-3;
+/// Factor on the damping after a step that was rejected; its inverse after one that was accepted.
+const DAMPED: f64 = 10.0;
+/// Smallest damping, and the smallest after a rejected step.
+const LEAST_DAMPING: (f64, f64) = (1e-14, 1e-4);
+/// Most attempts of a step.
+const ATTEMPTS: usize = 10;
+/// Relative increase of the cost that is rounding: near the solution of a noise-free scan the cost itself is.
+const COST_ROUNDING: f64 = 1e-9;
+/// Predicted relative decrease of the cost below which the iteration has converged. The weights are updated once then.
+const CONVERGED: f64 = 1e-6;
+
+/// A run of stretches, and how its unknowns are weighted.
+pub(super) struct System<'a> {
+    pub parts: &'a [Part],
+    pub ends: [End; 2],
+    pub tolerance: Tolerance,
+}
+
+/// The least-squares solution: the coefficients, their covariance, and the sum of weighted squares.
+#[derive(Clone, Debug)]
+pub(super) struct Solution {
+    pub x: DVector<f64>,
+    pub covariance: DMatrix<f64>,
+    pub cost: f64,
+}
+
+impl System<'_> {
+    /// Weights of the conditions at all instants, from their noise at x.
+    fn weights(&self, x: &DVector<f64>) -> Vec<f64> {
+        let Tolerance { share, floor, .. } = self.tolerance;
+        let of = |part: &Part, t: f64| -> Vec<f64> {
+            let local = part.local(x, t);
+            let weight = |c: &Condition| 1.0 / (floor * floor + share * share * part.noise(&local, &c.gradient));
+            conditions(&local.pose, &local.values, &local.rates, part.tip).iter().map(weight).collect()
+        };
+        self.parts.iter().flat_map(|part| part.instants().flat_map(move |t| of(part, t))).collect()
+    }
+
+    fn normal(&self, x: &DVector<f64>, weights: &[f64]) -> Normal {
+        let mut normal = Normal::empty(x.len());
+        let mut weight = weights.iter();
+        let mut row = Vec::new();
+        for part in self.parts {
+            self.measured(part, x, &mut normal);
+            Self::smooth(part, x, &mut normal);
+            Self::slid(part, x, &mut normal);
+            let (width, each) = (part.width(), if part.tip { WITH_TIP } else { TANGENTIAL });
+            let instants: Vec<f64> = part.instants().collect();
+            let mut jacobian = DMatrix::<f64>::zeros(width, each * instants.len());
+            let mut residual = DVector::<f64>::zeros(each * instants.len());
+            for (k, t) in instants.into_iter().enumerate() {
+                let local = part.local(x, t);
+                let conditions = conditions(&local.pose, &local.values, &local.rates, part.tip);
+                for (i, (condition, weight)) in conditions.iter().zip(&mut weight).enumerate() {
+                    let (at, scale) = (each * k + i, weight.sqrt());
+                    row.clear();
+                    part.spread(&local, &condition.gradient, &mut row);
+                    let mut column = jacobian.column_mut(at);
+                    row.iter().for_each(|&(j, by)| column[j - part.start] = scale * by);
+                    residual[at] = scale * condition.value;
+                }
+            }
+            normal.cost += residual.norm_squared();
+            normal.gradient.rows_mut(part.start, width).gemv(1.0, &jacobian, &residual, 1.0);
+            let transposed = jacobian.transpose();
+            normal.matrix.view_mut((part.start, part.start), (width, width)).gemm(1.0, &jacobian, &transposed, 1.0);
+        }
+        for pair in self.parts.windows(2) {
+            self.joint(&pair[0], &pair[1], x, &mut normal);
+        }
+        if let (Some(first), Some(last)) = (self.parts.first(), self.parts.last()) {
+            self.end(first, -1.0, self.ends[0], x, &mut normal);
+            self.end(last, 1.0, self.ends[1], x, &mut normal);
+        }
+        normal
+    }
+
+    /// The reactions are as they were measured.
+    fn measured(&self, part: &Part, x: &DVector<f64>, normal: &mut Normal) {
+        let series = &part.series;
+        for unknown in Unknown::REACTIONS {
+            let (from, n) = part.columns(unknown);
+            let weight = &series.normal / series.variance[unknown as usize];
+            let off = x.rows(from, n) - series.reactions.column(unknown as usize);
+            let pull = &weight * &off;
+            normal.cost += off.dot(&pull);
+            let mut gradient = normal.gradient.rows_mut(from, n);
+            gradient += pull;
+            let mut block = normal.matrix.view_mut((from, from), (n, n));
+            block += weight;
+        }
+    }
+
+    /// Arc lengths and the first force are smooth.
+    fn smooth(part: &Part, x: &DVector<f64>, normal: &mut Normal) {
+        let [f0x, f0y] = [Unknown::F0x, Unknown::F0y].map(|u| part.series.reactions[(0, u as usize)]);
+        let at_clamp = f0x.hypot(f0y);
+        for unknown in Unknown::CONTACTS {
+            let (from, n) = part.columns(unknown);
+            for j in 0..n {
+                let (mean, sigma) = match unknown {
+                    Unknown::F1 => (0.0, weights::force_term(j, at_clamp)),
+                    _ if j == 0 => (weights::MEAN_ARC_LENGTH, weights::arc_length_term(j)),
+                    _ => (0.0, weights::arc_length_term(j)),
+                };
+                normal.add(&[(from + j, 1.0)], x[from + j] - mean, sigma);
+            }
+        }
+    }
+
+    /// The rod slides past both contacts by nearly the same length.
+    fn slid(part: &Part, x: &DVector<f64>, normal: &mut Normal) {
+        if !part.tip {
+            let [a, b] = [Unknown::S1, Unknown::S2].map(|u| part.columns(u).0 + 1);
+            normal.add(&[(a, -1.0), (b, 1.0)], x[b] - x[a], weights::SLIDING);
+        }
+    }
+
+    /// Both contacts and the first force go on from one part to the next.
+    fn joint(&self, from: &Part, to: &Part, x: &DVector<f64>, normal: &mut Normal) {
+        let (before, after) = (from.series.interval, to.series.interval);
+        let way = (after.centre - after.half) - (before.centre + before.half);
+        let floor = self.tolerance.floor;
+        let (a, b) = (from.local(x, 1.0), to.local(x, -1.0));
+        let steps =
+            [(Unknown::S1, weights::arc_length_step(way, floor)), (Unknown::F1, weights::force_step(way, floor))];
+        for (unknown, sigma) in steps {
+            let mut row = Vec::new();
+            let unit = Unknowns::unit(unknown);
+            from.spread(&a, &Gradient::of_values(Unknowns(unit.0.map(|u| -u))), &mut row);
+            to.spread(&b, &Gradient::of_values(unit), &mut row);
+            normal.add(&row, b.values[unknown] - a.values[unknown], sigma);
+        }
+        let (p, q) = (second(&a.pose[0], &a.values, from.tip), second(&b.pose[0], &b.values, to.tip));
+        let Chord { across, by: [by_p, by_q] } = Chord::between(&p, &q);
+        let mut row = Vec::new();
+        from.spread(&a, &by_p, &mut row);
+        to.spread(&b, &by_q, &mut row);
+        normal.add(&row, across, weights::chord(way, weights::PLACE_SHARE * floor));
+    }
+
+    /// The neighbour's single contact goes on as the first or the second one.
+    fn end(&self, part: &Part, t: f64, end: End, x: &DVector<f64>, normal: &mut Normal) {
+        let (local, floor) = (part.local(x, t), self.tolerance.floor);
+        let mut row = Vec::new();
+        match end {
+            End::Open => {}
+            End::Last { place, normal: there, sigma, way } => {
+                let second = second(&local.pose[0], &local.values, part.tip);
+                let [x, y, nx, ny] = [place.x, place.y, there.x, there.y].map(Dual::constant);
+                let Chord { across, by: [_, by] } = Chord::between(&ContourPoint { x, y, normal: [nx, ny] }, &second);
+                part.spread(&local, &by, &mut row);
+                normal.add(&row, across, weights::chord(way, sigma.hypot(weights::PLACE_SHARE * floor)));
+            }
+            End::First { s, way } => {
+                part.spread(&local, &Gradient::of_values(Unknowns::unit(Unknown::S1)), &mut row);
+                normal.add(&row, local.values[Unknown::S1] - s, weights::arc_length_step(way, floor));
+            }
+        }
+    }
+
+    /// The solution from a first guess x, by the Levenberg-Marquardt method; none where it fails.
+    pub fn solve(&self, mut x: DVector<f64>) -> Option<Solution> {
+        let mut damping = DAMPING;
+        let mut weights = self.weights(&x);
+        let mut now = self.normal(&x, &weights);
+        let mut settled = 0;
+        for _ in 0..self.tolerance.steps {
+            if !now.cost.is_finite() {
+                return None;
+            }
+            let (mut next, mut step) = (None, 0.0);
+            for _ in 0..ATTEMPTS {
+                let (scale, mut scaled) = now.scaled();
+                scaled.set_diagonal(&DVector::repeat(x.len(), 1.0 + damping));
+                let found = scaled.cholesky().map(|c| c.solve(&now.gradient.component_mul(&scale)));
+                if let Some(move_by) = found {
+                    let there = &x - move_by.component_mul(&scale);
+                    let normal = self.normal(&there, &weights);
+                    if normal.cost <= now.cost * (1.0 + COST_ROUNDING) {
+                        step = move_by.dot(&now.gradient.component_mul(&scale)) / (1.0 + now.cost);
+                        next = Some((there, normal));
+                        damping = (damping * DAMPED.recip()).max(LEAST_DAMPING.0);
+                        break;
+                    }
+                }
+                damping = (damping * DAMPED).max(LEAST_DAMPING.1);
+            }
+            let Some((there, normal)) = next else { break };
+            (x, now) = (there, normal);
+            if step < CONVERGED {
+                settled += 1;
+                if settled > 1 {
+                    break;
+                }
+                weights = self.weights(&x);
+                now = self.normal(&x, &weights);
+            }
+        }
+        let (scale, scaled) = now.scaled();
+        let inverse = scaled.cholesky()?.inverse();
+        let covariance = DMatrix::from_fn(x.len(), x.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]);
+        Some(Solution { x, covariance, cost: now.cost })
+    }
+}

@@ -1,0 +1,33 @@
+//! Why one of several contacts is not resolved.
+
+/// Why a contact of a sample with several contacts is not known. This is an answer, not a failure.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unresolved {
+    /// The stretch has too few samples to determine rates.
+    #[error("the stretch has {samples} samples, {least} are needed")]
+    TooShort {
+        /// Samples of the stretch, without the margins at its ends.
+        samples: usize,
+        /// How many are needed.
+        least: usize,
+    },
+    /// The shapes of the rod along the scan have no envelope that touches the rod.
+    #[error("the rod's arcs touch no envelope")]
+    NoTouch,
+    /// The force of the second contact is within its noise of zero, so that its place is not defined.
+    #[error("the force of the second contact is within its noise of zero")]
+    ForceVanishes,
+    /// The force of the first contact is known at neither end of the stretch.
+    #[error("the force of the first contact is known at no end of the stretch")]
+    NoAnchor,
+    /// The standard deviation of the position exceeds the limit.
+    #[error("the position is uncertain by {sigma} lengths of the rod")]
+    TooNoisy {
+        /// Standard deviation across the contour or, where that decided, along it, in lengths of the rod.
+        sigma: f64,
+    },
+    /// The conditions of two contacts contradict each other or the signs of their forces.
+    #[error("no two contacts agree with the reactions")]
+    Inconsistent,
+}
