@@ -30,7 +30,7 @@ const NAP: Duration = Duration::from_millis(1);
 /// };
 /// let transport = ReadWrite::reopened(open)?;
 /// let settings = LinkSettings { deadline: 0.05, ..LinkSettings::default() };
-/// let mut link = Link::new(transport, Framed::new(Bota::default()), HostClock::new(), settings);
+/// let mut link = Link::new(transport, Framed::new(Bota), HostClock::new(), settings);
 /// assert!(matches!(link.next(), Some(Err(LinkError::Timeout { .. })))); // it sends nothing
 /// # Ok::<(), std::io::Error>(())
 /// ```

@@ -2,12 +2,11 @@
 
 use rod_core::Pose;
 use rod_fake_sensor::{FakeRdt, FakeRdtAccount, FakeRdtSettings, RdtFault};
-use rod_hw::device::rdt::{OnRobotFilter, Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings, read_scaling};
+use rod_hw::device::rdt::{Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings, read_scaling};
 use rod_hw::{
     Calibration, FnStage, Frame, HostClock, Link, LinkCounters, LinkError, LinkSettings, Mounting, Quality, RawSample,
     SignalChain, Tare, TareLimits, TareWindow, TransportError, Udp, Wrench, WrenchChain, Zero, spawn,
 };
-use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
 
 type Sensor = Link<Udp, Rdt, HostClock>;
@@ -324,7 +323,7 @@ fn status_of_each_family() {
         (RdtProfile::OnRobot, 0x0000_0010, 0x0100_0000, 0x0000_2000),
     ] {
         let faults = vec![bits(20, of_saturated), bits(22, of_warning), bits(24, of_error)];
-        let settings = FakeRdtSettings { faults, profile, ..FakeRdtSettings::default() };
+        let settings = FakeRdtSettings { faults, ..FakeRdtSettings::default() };
         let fake = FakeRdt::start(settings, counts(30)).unwrap();
         let mut link = link(&fake, RdtSettings { profile, ..net_ft() });
         let samples = drain(&mut link, &fake);
@@ -364,33 +363,6 @@ fn gone_and_back_at_the_same_port() {
     assert_eq!((first.channels[0], first.quality), (0.0, Quality::RESTARTED | GAP));
     assert_eq!(drain(&mut link, &again).len(), 99);
     assert_eq!((link.counters().restarts, link.counters().lost), (1, 0));
-}
-
-#[test]
-fn several_records_a_datagram() {
-    let faults = vec![
-        (25, RdtFault::Drop(1)),
-        (45, RdtFault::Repeat(1)),
-        (65, RdtFault::Cut(100)),
-        (82, RdtFault::Status { bits: 0x8002_0000, count: 1 }),
-        (85, RdtFault::Overtaken(10)),
-    ];
-    let settings = FakeRdtSettings { faults, records_per_datagram: 10, ..FakeRdtSettings::default() };
-    let fake = FakeRdt::start(settings, counts(125)).unwrap();
-    let mut link = link(&fake, RdtSettings { buffered: true, ..net_ft() });
-    let samples = drain(&mut link, &fake);
-    let left_out = |i: &i32| [2, 6, 8].contains(&(i / 10));
-    assert_eq!(came(&samples), (0..125).filter(|i| !left_out(i)).collect::<Vec<_>>());
-    assert_eq!(flagged(&samples, GAP), [30, 70, 90]);
-    let account = fake.account();
-    assert_eq!((account.dropped, account.repeated, account.damaged, account.overtaken), (10, 10, 10, 10));
-    // a repeated datagram brings nine records that are late by their numbers, and one that is repeated
-    let counters = link.counters();
-    assert_same(
-        LinkCounters { reordered: counters.reordered - 9, repeated: counters.repeated + 9, ..counters },
-        account,
-        0,
-    );
 }
 
 #[test]
@@ -442,18 +414,6 @@ fn a_busy_consumer_loses_nothing() {
         std::thread::sleep(Duration::from_millis(1));
     }
     assert_eq!(fake.account().stops, 1);
-}
-
-#[test]
-fn on_robot_is_told_its_period_and_filter_before_the_start() {
-    let settings = FakeRdtSettings { profile: RdtProfile::OnRobot, rate: Some(1.0), ..FakeRdtSettings::default() };
-    let fake = FakeRdt::start(settings, counts(100)).unwrap();
-    let period = NonZeroU8::new(1);
-    let asked = RdtSettings { filter: Some(OnRobotFilter::Hz150), period, profile: RdtProfile::OnRobot, ..net_ft() };
-    let mut link = link(&fake, asked);
-    // at one a second this would take more than a minute
-    assert_eq!(drain(&mut link, &fake).len(), 100);
-    assert!(fake.account().others >= 2 && fake.account().unknown == 0);
 }
 
 #[test]

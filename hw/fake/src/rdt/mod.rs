@@ -73,9 +73,8 @@ impl FakeRdt {
         let mut servers = Vec::new();
         servers.push({
             let (shared, socket) = (Arc::clone(&shared), socket.try_clone()?);
-            let profile = settings.profile;
             thread::Builder::new().name("fake RDT requests".into()).spawn(move || {
-                requests::serve_udp(&shared, &socket, profile);
+                requests::serve_udp(&shared, &socket);
             })?
         });
         // dropped on the way out, it takes along what runs already
