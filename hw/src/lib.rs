@@ -11,7 +11,7 @@
 //!   calibration, the tare, a [`StageSource`] for where the clamp is, the mounting.
 //! - [`link`]: bytes to raw samples. A [`Protocol`] has no input or output of its own, a [`Transport`] brings bytes there and back,
 //!   a [`Link`] joins them, with a deadline and [`LinkCounters`]; `spawn` does so in a thread of its own. Transports: `Udp`
-//!   (feature `rdt`), `SerialPort` (feature `serial`), `ReadWrite`.
+//!   (feature `rdt`), `SerialPort` (feature `serial`).
 //! - [`device`]: the protocols that sensors speak. [`device::rdt`] over UDP, [`device::framed`] on a serial line.
 //! - `recording`: tables of text (feature `recordings`), files of LabVIEW and NI-DAQmx (`tdms`), of ROS (`mcap`).
 //!
@@ -40,8 +40,8 @@ pub use calibrate::{AtiCalibration, AtiFile, AtiFileError};
 #[cfg(feature = "std")]
 pub use chain::StageTable;
 pub use chain::{
-    ChainError, ConstantSpeed, Correction, FnStage, RailError, Rails, SensorError, SignalChain, StageError,
-    StageSource, Timekeeper, TimingError, Velocity, WrenchChain,
+    ChainError, ConstantSpeed, Rails, SensorError, SignalChain, StageError, StageSource, Timekeeper, Velocity,
+    WrenchChain,
 };
 #[cfg(feature = "std")]
 pub use device::SerialProfile;
@@ -57,7 +57,7 @@ pub use link::{
     SequenceStep, Transport,
 };
 #[cfg(feature = "std")]
-pub use link::{HostClock, ReadWrite, Spawned, TransportError, spawn};
+pub use link::{HostClock, Spawned, TransportError, spawn};
 pub use sample::{
     Channels, Component, Dimension, Number, OutOfPlane, Quality, QualityError, RawSample, RawSource, ReactionSample,
     Unit, UnitError, Wrench, WrenchSample, WrenchSource,

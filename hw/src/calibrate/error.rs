@@ -107,6 +107,16 @@ pub enum CalibrationDataError {
         /// How many.
         count: usize,
     },
+    /// A range whose lower end is not below the upper one.
+    #[error("channel {channel} reaches from {low} to {high}, expected the lower end first")]
+    Ends {
+        /// Which channel, from 1.
+        channel: usize,
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
     /// A calibration that compensates for temperature has a bias of no known temperature.
     #[error("the bias is of no known temperature, which this calibration compensates for; give it with the bias")]
     BiasTemperature,

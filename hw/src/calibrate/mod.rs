@@ -83,13 +83,13 @@ pub enum CalibrationError {
 }
 
 /// Refuses a sample of another number of channels.
-fn expect_channels(raw: &RawSample, expected: usize) -> Result<(), CalibrationError> {
+pub(crate) fn expect_channels(raw: &RawSample, expected: usize) -> Result<(), CalibrationError> {
     let found = raw.channels.len();
     if found == expected { Ok(()) } else { Err(CalibrationError::Channels { found, expected }) }
 }
 
 /// A channel, from 0, if it is a number.
-fn finite_channel(raw: &RawSample, channel: usize) -> Result<f64, CalibrationError> {
+pub(crate) fn finite_channel(raw: &RawSample, channel: usize) -> Result<f64, CalibrationError> {
     let value = raw.channels.get(channel).copied().unwrap_or(f64::NAN);
     if value.is_finite() { Ok(value) } else { Err(CalibrationError::NotFinite { channel: channel + 1, value }) }
 }
@@ -122,18 +122,5 @@ pub struct FnCalibration<F>(pub F);
 impl<T, F: Fn(&RawSample) -> Result<WrenchSample<T>, CalibrationError>> Calibration<T> for FnCalibration<F> {
     fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
         (self.0)(raw)
-    }
-}
-
-impl<T, C: Calibration<T> + ?Sized> Calibration<T> for &C {
-    fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        (**self).wrench(raw)
-    }
-}
-
-#[cfg(feature = "std")]
-impl<T, C: Calibration<T> + ?Sized> Calibration<T> for Box<C> {
-    fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        (**self).wrench(raw)
     }
 }

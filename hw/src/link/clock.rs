@@ -49,13 +49,3 @@ impl Clock for HostClock {
         }
     }
 }
-
-impl<C: Clock + ?Sized> Clock for &mut C {
-    fn now(&mut self) -> f64 {
-        (**self).now()
-    }
-
-    fn wait(&mut self, seconds: f64) {
-        (**self).wait(seconds);
-    }
-}

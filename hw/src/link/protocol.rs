@@ -39,24 +39,6 @@ pub trait Protocol {
     fn counters(&self) -> LinkCounters;
 }
 
-impl<P: Protocol + ?Sized> Protocol for &mut P {
-    fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
-        (**self).decode(bytes, now)
-    }
-    fn request(&mut self, now: f64) -> Option<Request> {
-        (**self).request(now)
-    }
-    fn farewell(&self) -> Option<Request> {
-        (**self).farewell()
-    }
-    fn reset(&mut self) {
-        (**self).reset();
-    }
-    fn counters(&self) -> LinkCounters {
-        (**self).counters()
-    }
-}
-
 #[cfg(feature = "std")]
 impl<P: Protocol + ?Sized> Protocol for Box<P> {
     fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {

@@ -119,15 +119,6 @@ impl<E> Spawned<E> {
     pub fn waiting(&self) -> usize {
         self.shared.waiting.load(Ordering::Relaxed)
     }
-
-    /// The next sample if one is waiting, without waiting for it.
-    pub fn try_next(&mut self) -> Option<Result<RawSample, LinkError<E>>> {
-        self.samples.try_recv().ok().inspect(|_| self.taken())
-    }
-
-    fn taken(&self) {
-        self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
-    }
 }
 
 impl<E> Iterator for Spawned<E> {
@@ -135,7 +126,9 @@ impl<E> Iterator for Spawned<E> {
 
     /// The next sample, which the link answers for within its deadline.
     fn next(&mut self) -> Option<Self::Item> {
-        self.samples.recv().ok().inspect(|_| self.taken())
+        let item = self.samples.recv().ok()?;
+        self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
+        Some(item)
     }
 }
 
@@ -213,7 +206,7 @@ mod tests {
         }
         let numbers: Vec<u64> = spawned.by_ref().map_while(|item| item.ok()?.sequence).collect();
         assert_eq!(numbers, (1..=1000).collect::<Vec<_>>());
-        assert_eq!((spawned.counters().untaken, spawned.next(), spawned.try_next()), (0, None, None));
+        assert_eq!((spawned.counters().untaken, spawned.next()), (0, None));
         assert_eq!(farewells.load(Ordering::SeqCst), 1);
     }
 
@@ -224,7 +217,7 @@ mod tests {
             std::thread::sleep(Duration::from_millis(1));
         }
         assert_eq!(spawned.waiting(), 4);
-        let taken: Vec<u64> = std::iter::from_fn(|| spawned.try_next()?.ok()?.sequence).collect();
+        let taken: Vec<u64> = spawned.by_ref().map_while(|item| item.ok()?.sequence).collect();
         assert_eq!((taken, spawned.counters().untaken), (vec![1, 2, 3, 4], 6));
         assert_eq!(spawned.waiting(), 0);
     }

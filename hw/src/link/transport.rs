@@ -31,36 +31,3 @@ pub trait Transport {
         0
     }
 }
-
-impl<T: Transport + ?Sized> Transport for &mut T {
-    type Error = T::Error;
-    fn send(&mut self, bytes: &[u8]) -> Result<(), Self::Error> {
-        (**self).send(bytes)
-    }
-    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error> {
-        (**self).receive(buffer, wait)
-    }
-    fn reconnect(&mut self) -> Result<(), Self::Error> {
-        (**self).reconnect()
-    }
-    fn foreign(&self) -> u64 {
-        (**self).foreign()
-    }
-}
-
-#[cfg(feature = "std")]
-impl<T: Transport + ?Sized> Transport for Box<T> {
-    type Error = T::Error;
-    fn send(&mut self, bytes: &[u8]) -> Result<(), Self::Error> {
-        (**self).send(bytes)
-    }
-    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error> {
-        (**self).receive(buffer, wait)
-    }
-    fn reconnect(&mut self) -> Result<(), Self::Error> {
-        (**self).reconnect()
-    }
-    fn foreign(&self) -> u64 {
-        (**self).foreign()
-    }
-}

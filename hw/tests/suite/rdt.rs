@@ -4,7 +4,7 @@ use rod_core::Pose;
 use rod_fake_sensor::{FakeRdt, FakeRdtAccount, FakeRdtSettings, RdtFault};
 use rod_hw::device::rdt::{Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings, read_scaling};
 use rod_hw::{
-    Calibration, FnStage, Frame, HostClock, Link, LinkCounters, LinkError, LinkSettings, Mounting, Quality, RawSample,
+    Calibration, Frame, HostClock, Link, LinkCounters, LinkError, LinkSettings, Mounting, Quality, RawSample,
     SignalChain, Tare, TareLimits, TareWindow, TransportError, Udp, Wrench, WrenchChain, Zero, spawn,
 };
 use std::time::{Duration, Instant};
@@ -234,8 +234,8 @@ fn a_restart_spoils_the_tare_of_the_chain() {
     let fake =
         FakeRdt::start(FakeRdtSettings { faults, first_sample: 1, ..FakeRdtSettings::default() }, loads).unwrap();
     let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
-    let stage = FnStage(|_| Ok(Pose { x: 0.08, y: -0.04, phi: 1.571 }));
-    let wrenches = WrenchChain::new(stage, Mounting::new(Frame::same())).with_tare(None);
+    let stage = |_| Ok(Pose { x: 0.08, y: -0.04, phi: 1.571 });
+    let wrenches = WrenchChain::new(stage, Mounting::new(Frame::same()));
     let mut chain = SignalChain::new(calibration, wrenches);
     let limits = TareLimits::new(1e-3, Wrench { force: [1e-3; 3], torque: [1e-3; 3] }).unwrap();
     let mut link = link(&fake, net_ft());
@@ -243,7 +243,7 @@ fn a_restart_spoils_the_tare_of_the_chain() {
     assert_eq!((samples.len(), link.counters().restarts), (299, 1));
 
     let (unloaded, rest) = samples.split_at(100);
-    let tare = |chain: &mut SignalChain<_, _, _>, samples: &[RawSample]| {
+    let tare = |chain: &mut SignalChain<_, _>, samples: &[RawSample]| {
         let mut window = TareWindow::new(limits);
         samples.iter().for_each(|raw| window.push(&chain.wrench(raw).unwrap()).unwrap());
         chain.wrenches().set_tare(Some(Tare::single(window.finish().unwrap())));

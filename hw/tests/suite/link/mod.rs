@@ -1,7 +1,6 @@
 //! Links, transports, counters.
 
 mod engine;
-mod read_write;
 mod sequence;
 #[cfg(feature = "rdt")]
 mod udp;
