@@ -59,6 +59,6 @@ pub use link::{
 #[cfg(feature = "std")]
 pub use link::{HostClock, Spawned, TransportError, spawn};
 pub use sample::{
-    Channels, Component, Dimension, Number, OutOfPlane, Quality, QualityError, RawSample, RawSource, ReactionSample,
-    Unit, UnitError, Wrench, WrenchSample, WrenchSource,
+    Channels, Component, Dimension, Number, OutOfPlane, Quality, RawSample, RawSource, ReactionSample, Unit, UnitError,
+    Wrench, WrenchSample, WrenchSource,
 };

@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use vibrissa::hw::recording::{About, Contents, RecordError, Recorder};
+use vibrissa::hw::recording::{About, Contents, Recorder};
 use vibrissa::hw::{LinkCounters, ReactionSample};
 
 /// recording.csv and points.jsonl.
@@ -17,7 +17,7 @@ pub(super) struct Record {
     directory: PathBuf,
     about: About,
     /// Made with the first sample, which tells how many channels there are.
-    recorder: Option<Recorder<BufWriter<File>, ReactionSample>>,
+    recorder: Option<Recorder<BufWriter<File>>>,
     points: BufWriter<File>,
     line: Vec<u8>,
 }
@@ -60,12 +60,7 @@ impl Record {
             }
         };
         let written = self.recorder.insert(recorder).write(sample);
-        written.map_err(|error| {
-            self.failed(RECORDING)(match error {
-                RecordError::Io(source) => source,
-                other => io::Error::other(other),
-            })
-        })
+        written.map_err(self.failed(RECORDING))
     }
 
     pub fn answer(&mut self, answer: &Answer) -> Result<(), OutputError> {

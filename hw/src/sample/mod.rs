@@ -12,7 +12,7 @@ mod wrench_sample;
 
 pub use component::Component;
 pub use number::Number;
-pub use quality::{Quality, QualityError};
+pub use quality::Quality;
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
 pub use source::{RawSource, WrenchSource};

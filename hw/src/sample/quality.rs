@@ -52,38 +52,28 @@ impl Quality {
         !self.intersects(Self::SATURATED | Self::DEVICE_ERROR | Self::SPIKE)
     }
 
+    /// The flags of their names, with commas or bars between them, as they are displayed; `good` where there are none.
+    ///
+    /// ```
+    /// use rod_hw::Quality;
+    /// assert_eq!(Quality::parse("saturated | gap before"), Some(Quality::SATURATED | Quality::GAP_BEFORE));
+    /// assert_eq!((Quality::parse("good"), Quality::parse("fine")), (Some(Quality::empty()), None));
+    /// ```
+    pub fn parse(text: &str) -> Option<Self> {
+        if text.trim() == "good" {
+            return Some(Self::empty());
+        }
+        text.split([',', '|']).map(str::trim).try_fold(Self::empty(), |flags, name| {
+            let bit = NAMES.iter().position(|known| *known == name)?;
+            Some(flags | Self::from_bits_truncate(1 << bit))
+        })
+    }
+
     /// The flags that are set, by name.
     pub fn names(self) -> impl Iterator<Item = &'static str> {
         NAMES.iter().enumerate().filter(move |(bit, _)| self.bits() >> bit & 1 == 1).map(|(_, name)| *name)
     }
 }
-
-impl core::str::FromStr for Quality {
-    type Err = QualityError;
-
-    /// The flags of their names, with commas or bars between them, as they are displayed; `good` where there are none.
-    ///
-    /// ```
-    /// use rod_hw::Quality;
-    /// assert_eq!("saturated | gap before".parse(), Ok(Quality::SATURATED | Quality::GAP_BEFORE));
-    /// assert_eq!("good".parse(), Ok(Quality::empty()));
-    /// assert!("fine".parse::<Quality>().is_err());
-    /// ```
-    fn from_str(text: &str) -> Result<Self, QualityError> {
-        if text.trim() == "good" {
-            return Ok(Self::empty());
-        }
-        text.split([',', '|']).map(str::trim).try_fold(Self::empty(), |flags, name| {
-            let bit = NAMES.iter().position(|known| *known == name).ok_or(QualityError)?;
-            Ok(flags | Self::from_bits_truncate(1 << bit))
-        })
-    }
-}
-
-/// Why a text is no flags.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected `good`, or names of flags with commas or bars between them, as `saturated, gap before`")]
-pub struct QualityError;
 
 impl core::fmt::Display for Quality {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -135,7 +135,7 @@ impl Columns {
         match row.cell(place.at) {
             Cell::Empty => row.check().map(|()| Quality::empty()),
             Cell::Number(value) => Err(no_flag(&value.to_string())),
-            Cell::Text(text) => text.parse().map_err(|_| no_flag(text)),
+            Cell::Text(text) => Quality::parse(text).ok_or_else(|| no_flag(text)),
         }
     }
 

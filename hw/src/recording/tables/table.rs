@@ -1,6 +1,6 @@
 //! Named columns of numbers, row by row.
 
-use super::error::TableError;
+use super::error::{TableError, TableProblem, listed};
 use super::fault::{RowFault, RowProblem};
 use super::heading::Column;
 use super::number::number;
@@ -117,7 +117,7 @@ impl Table {
         let mut tables = Self::parse_all(file, bytes, options)?;
         match (tables.len(), tables.pop()) {
             (1, Some(table)) => Ok(table),
-            (segments, _) => Err(TableError::Segments { file: file.to_owned(), segments }),
+            (segments, _) => Err(TableProblem::Segments { segments }.at(file, None)),
         }
     }
 
@@ -297,8 +297,8 @@ impl Table {
                 any = true;
             }
             if !any {
-                let found = super::listed(self.columns.iter().map(|column| column.heading.as_str()));
-                return Err(TableError::NoSuchColumn { file: self.file.clone(), column: name.clone(), found });
+                let found = listed(self.columns.iter().map(|column| column.heading.as_str()));
+                return Err(TableProblem::NoColumnOfUnit { column: name.clone(), found }.at(&self.file, None));
             }
         }
         Ok(())
@@ -334,7 +334,7 @@ fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {
-    let unreadable = |source| TableError::Unreadable { file: name.to_owned(), source };
+    let unreadable = |source| TableProblem::Unreadable(source).at(name, None);
     let mut bytes = Vec::new();
     let input = std::fs::File::open(file).map_err(unreadable)?;
     let length = input.metadata().map_or(0, |data| data.len());
@@ -344,7 +344,7 @@ fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, Tab
         input.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(unreadable)?;
     }
     if length > most || bytes.len() as u64 > most {
-        return Err(TableError::TooLong { file: name.to_owned(), most });
+        return Err(TableProblem::TooLong { most }.at(name, None));
     }
     Ok(bytes)
 }
