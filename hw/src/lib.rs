@@ -3,7 +3,7 @@
 //! - [`sample`]: what comes and goes. [`RawSample`], what a device said, counts or volts with its own time, sequence number and
 //!   status; [`WrenchSample`], force and torque at the sensor's origin; [`ReactionSample`], pose and reactions of the clamp;
 //!   [`Quality`], which travels with all of them. Any iterator of results is a [`RawSource`] or a [`WrenchSource`].
-//! - [`geometry`]: the [`Mounting`] of the sensor to the clamp, by a [`Frame`]; `fit_lever_arm` where it was not measured.
+//! - [`geometry`]: the [`Mounting`] of the sensor to the clamp, by a [`Frame`].
 //! - [`calibrate`]: raw values to a wrench by a [`Calibration`] ([`Scale`] of counts, [`GaugeMatrix`], and with the feature `cal`
 //!   `AtiCalibration` from a file of ATI), its zero by a [`TareWindow`] and a [`Tare`]. [`Accuracy`], [`RatedLoad`]: how far a
 //!   sensor can be trusted; [`SensorCheck`]: whether it suits a rod.
@@ -46,8 +46,6 @@ pub use chain::{
 #[cfg(feature = "std")]
 pub use device::SerialProfile;
 pub use geometry::{Axis, Frame, GeometryError, Mounting, Sense};
-#[cfg(feature = "std")]
-pub use geometry::{LeverArm, fit_lever_arm};
 #[cfg(feature = "serial")]
 pub use link::SerialPort;
 #[cfg(feature = "rdt")]

@@ -93,14 +93,6 @@ pub enum CalibrationDataError {
     /// Nothing is measured.
     #[error("no component is given, expected one at least")]
     Nothing,
-    /// A channel that the sample does not have, or one that is used twice.
-    #[error("channel {channel} is asked for, expected different channels from 1 to {count}")]
-    Channel {
-        /// Which one, from 1.
-        channel: usize,
-        /// How many a sample has.
-        count: usize,
-    },
     /// More channels than a sample can have.
     #[error("{count} channels, expected at most {most}", most = crate::sample::Channels::MOST)]
     Channels {

@@ -1,6 +1,6 @@
-//! Why there are no such axes, or no lever arm.
+//! Why there is no such frame or mounting.
 
-/// Why there are no such axes, or no lever arm.
+/// Why there is no such frame or mounting.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
@@ -33,24 +33,4 @@ pub enum GeometryError {
     /// A text that names no axis.
     #[error("no axis of this name, expected one of x, -x, y, -y, z, -z")]
     NoAxis,
-    /// Too few loads for a lever arm.
-    #[error("{found} loads, expected 2 or more in different directions")]
-    Few {
-        /// How many there are.
-        found: usize,
-    },
-    /// A load of a lever arm that is no number.
-    #[error("load {load} is not finite, expected finite numbers of N and N m")]
-    NotFinite {
-        /// Which one, from 1.
-        load: usize,
-    },
-    /// The arm along a force does nothing.
-    #[error(
-        "the forces differ by a sine of {spread:.3} only, expected 0.05 or more; hang weights in other directions, or turn the sensor"
-    )]
-    Parallel {
-        /// Sine by which they differ, root mean square.
-        spread: f64,
-    },
 }

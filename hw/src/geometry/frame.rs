@@ -1,4 +1,4 @@
-//! Axes and origin, and what a wrench is in others.
+//! Rigid transforms of wrenches between the sensor's frame and the scene's.
 
 use super::GeometryError;
 use crate::sample::{Number, Wrench};
@@ -134,11 +134,6 @@ impl<T: Number> Frame<T> {
         self.origin.into()
     }
 
-    /// Rotation matrix, row by row: from components in the old axes to those in the new ones.
-    pub fn rotation(&self) -> [[T; 3]; 3] {
-        self.rotation.transpose().into()
-    }
-
     /// A wrench in the old axes about the old origin, in the new axes about the new one.
     pub fn wrench(&self, old: &Wrench<T>) -> Wrench<T> {
         let Wrench { force, torque } = old.about(self.origin());
@@ -159,12 +154,6 @@ impl<T: Number> Frame<T> {
     pub fn inverse(&self) -> Self {
         let origin = (self.rotation * self.origin).map(|c| -c);
         Self { rotation: self.rotation.transpose(), origin }
-    }
-
-    /// This one and then the next: from sensor to flange and from flange to clamp is from sensor to clamp.
-    pub fn then(&self, next: &Self) -> Self {
-        let origin = self.origin + self.rotation.transpose() * next.origin;
-        Self { rotation: next.rotation * self.rotation, origin }
     }
 
     /// All of it turned by `angle` (rad) about the new z axis at the new origin.

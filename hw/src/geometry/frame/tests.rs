@@ -36,11 +36,6 @@ proptest! {
     }
 
     #[test]
-    fn two_hops_are_one(a in frames(), b in frames(), wrench in wrenches()) {
-        prop_assert!(close(&a.then(&b).wrench(&wrench), &b.wrench(&a.wrench(&wrench))));
-    }
-
-    #[test]
     fn what_stays(frame in frames(), wrench in wrenches()) {
         let new = frame.wrench(&wrench);
         prop_assert!((dot(new.force, new.force) - dot(wrench.force, wrench.force)).abs() < 1e-13);
@@ -59,11 +54,12 @@ proptest! {
 
     #[test]
     fn digits_that_were_cut(frame in frames()) {
-        let rounded = frame.rotation().map(|row| row.map(|c| (c * 1e4).round() / 1e4));
-        let rotation = Frame::from_matrix(rounded).unwrap().rotation();
+        let rows = |frame: Frame| -> [[f64; 3]; 3] { frame.rotation.transpose().into() };
+        let rounded = rows(frame).map(|row| row.map(|c| (c * 1e4).round() / 1e4));
+        let rotation = rows(Frame::from_matrix(rounded).unwrap());
         for i in 0..3 {
             for k in 0..3 {
-                prop_assert!((rotation[i][k] - frame.rotation()[i][k]).abs() < 2e-4);
+                prop_assert!((rotation[i][k] - rows(frame)[i][k]).abs() < 2e-4);
                 prop_assert!((dot(rotation[i], rotation[k]) - f64::from(u8::from(i == k))).abs() < 1e-15);
             }
         }
