@@ -32,8 +32,8 @@ pub mod recording;
 pub mod sample;
 
 pub use calibrate::{
-    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, FnCalibration, GaugeMatrix, RatedLoad,
-    Scale, SensorCheck, SensorFinding, Tare, TareError, TareLimits, TareWindow, WrenchUnits, Zero,
+    Accuracy, Calibration, CalibrationDataError, CalibrationError, Compensation, GaugeMatrix, RatedLoad, Scale,
+    SensorCheck, SensorFinding, Tare, TareError, TareLimits, TareWindow, WrenchUnits, Zero,
 };
 #[cfg(feature = "cal")]
 pub use calibrate::{AtiCalibration, AtiFile, AtiFileError};

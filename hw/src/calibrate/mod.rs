@@ -29,7 +29,19 @@ use crate::sample::{Component, Number, RawSample, Wrench, WrenchSample};
 
 /// From raw values to force and torque at the sensor's origin.
 ///
-/// For sensor authors: one method; a sensor that is not linear is a closure in an [`FnCalibration`].
+/// For sensor authors: one method; a closure is a calibration, too.
+///
+/// ```
+/// use rod_hw::{Calibration, CalibrationError, Channels, RawSample, Wrench, WrenchSample};
+/// // a base of three Hall sensors with a law of its own
+/// let calibration = |raw: &RawSample| -> Result<WrenchSample, CalibrationError> {
+///     let torque = [0.0, 0.0, 1e-3 * raw.channels[0].tanh()];
+///     Ok(WrenchSample::of(raw, Wrench { force: [0.0; 3], torque }))
+/// };
+/// let found = calibration.wrench(&RawSample::new(0.0, Channels::from([0.5, 0.0, 0.0])))?;
+/// assert_eq!(found.wrench.torque[2], 1e-3 * 0.5_f64.tanh());
+/// # Ok::<(), CalibrationError>(())
+/// ```
 pub trait Calibration<T = f64> {
     /// The wrench, with time, status and quality of the raw sample ([`WrenchSample::of`]), and what is known of its
     /// errors.
@@ -103,24 +115,9 @@ fn finished<T: Number>(raw: &RawSample, components: [T; 6]) -> Result<WrenchSamp
     }
 }
 
-/// A closure as a calibration.
-///
-/// ```
-/// use rod_hw::{Calibration, Channels, FnCalibration, RawSample, Wrench, WrenchSample};
-/// // a base of three Hall sensors with a law of its own
-/// let calibration = FnCalibration(|raw: &RawSample| {
-///     let torque = [0.0, 0.0, 1e-3 * raw.channels[0].tanh()];
-///     Ok(WrenchSample::<f64>::of(raw, Wrench { force: [0.0; 3], torque }))
-/// });
-/// let found = calibration.wrench(&RawSample::new(0.0, Channels::from([0.5, 0.0, 0.0])))?;
-/// assert_eq!(found.wrench.torque[2], 1e-3 * 0.5_f64.tanh());
-/// # Ok::<(), rod_hw::CalibrationError>(())
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct FnCalibration<F>(pub F);
-
-impl<T, F: Fn(&RawSample) -> Result<WrenchSample<T>, CalibrationError>> Calibration<T> for FnCalibration<F> {
+/// A closure of the raw sample is a calibration.
+impl<T, F: Fn(&RawSample) -> Result<WrenchSample<T>, CalibrationError>> Calibration<T> for F {
     fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        (self.0)(raw)
+        self(raw)
     }
 }

@@ -16,13 +16,13 @@ use rod_core::Pose;
 /// ```
 /// use rod_core::Pose;
 /// use rod_hw::{
-///     Channels, ConstantSpeed, FnCalibration, Frame, Mounting, Rails, RawSample, SignalChain, Timekeeper, Velocity, Wrench,
+///     Channels, ConstantSpeed, Frame, Mounting, Rails, RawSample, SignalChain, Timekeeper, Velocity, Wrench,
 ///     WrenchChain, WrenchSample,
 /// };
 /// // a base that tells the moment in steps of 10 uN m
-/// let calibration = FnCalibration(|raw: &RawSample| {
+/// let calibration = |raw: &RawSample| {
 ///     Ok(WrenchSample::<f64>::of(raw, Wrench { force: [0.0; 3], torque: [0.0, 0.0, 1e-5 * raw.channels[0]] }))
-/// });
+/// };
 /// let start = Pose { x: 0.08, y: -0.04, phi: 1.571 };
 /// let stage = ConstantSpeed::new(start, Velocity { x: -1e-3, ..Velocity::default() }, 0.0)?;
 /// let mut chain = SignalChain::new(calibration, WrenchChain::new(stage, Mounting::new(Frame::same())))

@@ -14,19 +14,9 @@ pub enum GeometryError {
         /// What was expected.
         expected: &'static str,
     },
-    /// Axes that are not of length 1, or not at right angles.
-    #[error(
-        "axes {a} and {b} have the product {product}, expected {} to within 1e-3; are these the columns or rows of a rotation?",
-        u8::from(.a == .b)
-    )]
-    NotOrthonormal {
-        /// The one, from 1.
-        a: usize,
-        /// The other.
-        b: usize,
-        /// Their scalar product.
-        product: f64,
-    },
+    /// Two axes along the same line.
+    #[error("two of the axes lie along the same line, expected one along each of x, y and z")]
+    SameAxis,
     /// A mirror image.
     #[error("the axes are left-handed, expected right-handed ones: x cross y is z; check the sign of one of them")]
     LeftHanded,

@@ -105,18 +105,6 @@ pub struct Request {
     count: usize,
 }
 
-impl Request {
-    /// How many bytes there can be.
-    pub const MOST: usize = 64;
-
-    /// These bytes; none where they are more than [`MOST`](Self::MOST).
-    pub fn new(bytes: &[u8]) -> Option<Self> {
-        let mut request = Self { bytes: [0; Self::MOST], count: bytes.len() };
-        request.bytes.get_mut(..bytes.len())?.copy_from_slice(bytes);
-        Some(request)
-    }
-}
-
 impl<const N: usize> From<[u8; N]> for Request {
     fn from(bytes: [u8; N]) -> Self {
         const { assert!(N <= 64, "at most 64 bytes") };

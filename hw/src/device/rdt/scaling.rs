@@ -17,8 +17,7 @@ use std::time::{Duration, Instant};
 /// ];
 /// let scaling = RdtScaling::from_bytes(&bytes)?;
 /// assert_eq!((scaling.force_unit.name, scaling.torque_unit.name), ("N", "N mm"));
-/// let factors = scaling.factors();
-/// assert_eq!((factors[0], factors[5]), (1e-3, 1e-4)); // N and N m a count
+/// assert_eq!((scaling.counts_per_force, scaling.counts_per_torque), (1000.0, 10.0));
 /// assert_eq!(scaling.to_bytes(), bytes);
 /// # Ok::<(), rod_hw::device::rdt::RdtError>(())
 /// ```
@@ -175,13 +174,6 @@ impl RdtScaling {
     /// [`CalibrationDataError`] where the fields were set to what is no scaling.
     pub fn calibration<T: Number>(&self) -> Result<Scale<T>, CalibrationDataError> {
         Scale::from_counts(self.counts_per_force, self.force_unit, self.counts_per_torque, self.torque_unit)
-    }
-
-    /// One count of Fx, Fy, Fz (N), Tx, Ty, Tz (N m).
-    pub fn factors(&self) -> [f64; 6] {
-        let force = self.force_unit.factor / self.counts_per_force;
-        let torque = self.torque_unit.factor / self.counts_per_torque;
-        [force, force, force, torque, torque, torque]
     }
 }
 
