@@ -6,7 +6,7 @@ use super::stage::StageSource;
 use super::timekeeper::Timekeeper;
 use crate::calibrate::{Calibration, Tare};
 use crate::geometry::Mounting;
-use crate::sample::{Number, Quality, RawSample, RawSource, ReactionSample, WrenchSample, WrenchSource};
+use crate::sample::{Number, Quality, RawSample, RawSource, ReactionSample, WrenchSample};
 use core::mem::take;
 use rod_core::Pose;
 
@@ -194,14 +194,6 @@ impl<S: StageSource, T: Number> WrenchChain<S, T> {
         let pose = Pose { x: T::from_f64(x), y: T::from_f64(y), phi: T::from_f64(phi) };
         self.last = sample.t;
         Ok(self.mounting.reactions(&tared, pose))
-    }
-
-    /// The reactions behind all wrenches of a source. After an error it may go on.
-    pub fn over<I: WrenchSource<T>>(
-        &mut self,
-        source: I,
-    ) -> impl Iterator<Item = Result<ReactionSample<T>, SensorError<<I as WrenchSource<T>>::Error>>> {
-        source.map(|sample| Ok(self.take(&sample.map_err(SensorError::Source)?)?))
     }
 }
 

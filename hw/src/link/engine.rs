@@ -145,16 +145,6 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
         }
     }
 
-    /// The protocol, to look at its state.
-    pub fn protocol(&self) -> &P {
-        &self.protocol
-    }
-
-    /// The clock that the samples' host times are of.
-    pub fn clock(&mut self) -> &mut C {
-        &mut self.clock
-    }
-
     /// Tells the device to stop.
     ///
     /// # Errors

@@ -38,11 +38,6 @@ impl SerialPort {
         Ok(port)
     }
 
-    /// Its path.
-    pub fn path(&self) -> &str {
-        &self.path
-    }
-
     fn with<T>(
         &mut self,
         f: impl FnOnce(&mut dyn serialport::SerialPort) -> io::Result<T>,

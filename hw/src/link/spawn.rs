@@ -7,7 +7,7 @@ use super::protocol::Protocol;
 use super::transport::Transport;
 use crate::sample::{Quality, RawSample};
 use std::io::Error;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
@@ -26,8 +26,6 @@ pub struct Spawned<E> {
 struct Shared {
     stop: AtomicBool,
     counters: Mutex<LinkCounters>,
-    /// Samples and errors that wait for the consumer.
-    waiting: AtomicUsize,
 }
 
 /// Reads a link in a thread of its own, so that a consumer who is busy at times loses nothing: up to `capacity` samples wait
@@ -84,13 +82,9 @@ where
         if let Ok(sample) = &mut item {
             sample.quality |= flags;
         }
-        shared.waiting.fetch_add(1, Ordering::Relaxed);
         let full = match sender.try_send(item) {
             Ok(()) => None,
-            Err(TrySendError::Full(item)) => {
-                shared.waiting.fetch_sub(1, Ordering::Relaxed);
-                Some(item)
-            }
+            Err(TrySendError::Full(item)) => Some(item),
             Err(TrySendError::Disconnected(_)) => break,
         };
         match full {
@@ -113,12 +107,6 @@ impl<E> Spawned<E> {
     pub fn counters(&self) -> LinkCounters {
         *self.shared.counters.lock().unwrap_or_else(PoisonError::into_inner)
     }
-
-    /// How many samples wait to be taken. Where they grow more and more the consumer is too slow for this device, and what it
-    /// takes is older and older.
-    pub fn waiting(&self) -> usize {
-        self.shared.waiting.load(Ordering::Relaxed)
-    }
 }
 
 impl<E> Iterator for Spawned<E> {
@@ -126,9 +114,7 @@ impl<E> Iterator for Spawned<E> {
 
     /// The next sample, which the link answers for within its deadline.
     fn next(&mut self) -> Option<Self::Item> {
-        let item = self.samples.recv().ok()?;
-        self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
-        Some(item)
+        self.samples.recv().ok()
     }
 }
 
@@ -216,10 +202,8 @@ mod tests {
         while !spawned.thread.as_ref().unwrap().is_finished() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        assert_eq!(spawned.waiting(), 4);
         let taken: Vec<u64> = spawned.by_ref().map_while(|item| item.ok()?.sequence).collect();
         assert_eq!((taken, spawned.counters().untaken), (vec![1, 2, 3, 4], 6));
-        assert_eq!(spawned.waiting(), 0);
     }
 
     #[test]

@@ -9,7 +9,6 @@ use rod_hw::{
     WrenchChain, WrenchSample, WrenchUnits, Zero,
 };
 use rod_reconstruct::{NoiseModel, noise_estimate};
-use std::convert::Infallible;
 
 const QUANTUM: Wrench = Wrench { force: [1e-4; 3], torque: [1e-6; 3] };
 
@@ -310,10 +309,10 @@ fn what_goes_wrong_is_named_and_the_next_sample_is_good() {
 
 #[test]
 fn wrenches_come_without_calibration() {
-    let samples = [0.0, 1.0, f64::NAN]
-        .map(|f| Ok::<_, Infallible>(WrenchSample::new(1.0, Wrench { force: [f, 0.0, 0.0], torque: [0.0; 3] })));
+    let samples =
+        [0.0, 1.0, f64::NAN].map(|f| WrenchSample::new(1.0, Wrench { force: [f, 0.0, 0.0], torque: [0.0; 3] }));
     let mut chain = WrenchChain::new(|_| Ok(start()), Mounting::new(Frame::same()).with_sense(Sense::Reaction));
-    let found: Vec<_> = chain.over(samples.into_iter()).collect();
+    let found = samples.map(|sample| chain.take(&sample));
     assert_eq!(found[1].unwrap().reactions.f0x, 1.0);
     assert_eq!(
         found[2].unwrap_err().to_string(),

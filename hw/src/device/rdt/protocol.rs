@@ -127,11 +127,6 @@ impl Rdt {
         }
     }
 
-    /// How the sensor is asked.
-    pub fn settings(&self) -> &RdtSettings {
-        &self.settings
-    }
-
     /// Whether the clock of the device went on with that of the host since the last sample, within 1 % and 50 ms: then its
     /// power was on all the time.
     fn clock_went_on(&self, ahead: i64, now: f64) -> bool {

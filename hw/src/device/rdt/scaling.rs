@@ -105,20 +105,6 @@ const TORQUE: [&str; 6] = ["lbf in", "lbf ft", "N m", "N mm", "kgf cm", "kN m"];
 const ANSWER: usize = 24;
 
 impl RdtScaling {
-    /// In units of these names.
-    ///
-    /// # Errors
-    /// [`RdtError`] where counts are not more than 0.
-    pub fn new(force: (Unit, f64), torque: (Unit, f64)) -> Result<Self, RdtError> {
-        for (dimension, counts) in [(Dimension::Force, force.1), (Dimension::Torque, torque.1)] {
-            if !(counts > 0.0 && counts.is_finite()) {
-                return Err(RdtError::Counts { dimension, counts });
-            }
-        }
-        let ((force_unit, counts_per_force), (torque_unit, counts_per_torque)) = (force, torque);
-        Ok(Self { force_unit, torque_unit, counts_per_force, counts_per_torque, scale: [1; 6] })
-    }
-
     /// That of the answer to the request for calibration info over TCP (command 1), 24 bytes.
     ///
     /// # Errors
@@ -139,10 +125,17 @@ impl RdtScaling {
             let name = names.get(usize::from(code) - 1);
             name.and_then(|name| Unit::find(name)).ok_or(RdtError::UnitCode { dimension, code })
         };
-        let force = (unit(2, Dimension::Force, FORCE)?, f64::from(be(4, 4)));
-        let torque = (unit(3, Dimension::Torque, TORQUE)?, f64::from(be(8, 4)));
-        let scale = core::array::from_fn(|i| be(12 + 2 * i, 2) as u16);
-        Ok(Self { scale, ..Self::new(force, torque)? })
+        let counts = |at: usize, dimension| match be(at, 4) {
+            0 => Err(RdtError::Counts { dimension, counts: 0.0 }),
+            counts => Ok(f64::from(counts)),
+        };
+        Ok(Self {
+            force_unit: unit(2, Dimension::Force, FORCE)?,
+            torque_unit: unit(3, Dimension::Torque, TORQUE)?,
+            counts_per_force: counts(4, Dimension::Force)?,
+            counts_per_torque: counts(8, Dimension::Torque)?,
+            scale: core::array::from_fn(|i| be(12 + 2 * i, 2) as u16),
+        })
     }
 
     /// As a sensor answers. A unit that it does not know is sent as 0, counts as whole numbers.

@@ -23,7 +23,6 @@ use std::fmt::Write;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnMap {
     assigned: Vec<(Role, String)>,
-    absent: Vec<Role>,
     channels: Option<Vec<String>>,
 }
 
@@ -51,13 +50,6 @@ impl ColumnMap {
         self
     }
 
-    /// The sensor does not measure this component: it is 0. Without a word, a wrench needs all six.
-    #[must_use]
-    pub fn without(mut self, role: Role) -> Self {
-        self.absent.push(role);
-        self
-    }
-
     /// Looks for columns: those that are needed, those that are welcome, and the channels.
     ///
     /// # Errors
@@ -67,10 +59,6 @@ impl ColumnMap {
         let mut missing = Vec::new();
         let of_both = needed.iter().map(|role| (*role, true)).chain(welcome.iter().map(|role| (*role, false)));
         for (role, is_needed) in of_both {
-            if self.absent.contains(&role) {
-                columns.set_absent(role);
-                continue;
-            }
             let assigned = self.assigned.iter().find(|(assigned, _)| *assigned == role);
             let candidate = match assigned {
                 Some((_, name)) => Some(self.named(table, name)?),

@@ -7,8 +7,8 @@ use super::error::{TableError, TableProblem};
 use super::heading::Column;
 use super::number::{has_fraction, number};
 use super::options::{Decimal, Delimiter, TableOptions};
-use super::split::{Lines, Splitter};
-use super::table::{MOST_COLUMNS, MOST_NOTES, Note, Table};
+use super::split::{Lines, MOST_COLUMNS, Splitter};
+use super::table::{MOST_NOTES, Note, Table};
 use std::iter::Peekable;
 use std::sync::Arc;
 
@@ -110,7 +110,7 @@ impl Format {
                 _ => {}
             }
             if notes.len() < MOST_NOTES {
-                notes.push(Note::new(line, key, value));
+                notes.push(Note::new(key, value));
             }
         }
         if !ended {
@@ -173,8 +173,8 @@ impl<'t> Reader<'_, 't> {
         let columns = header.columns(&names);
         let mut table = Table::new(self.file, columns, Some(line));
         table.share_notes(&self.format.notes);
-        for (line, key, value) in &header.pairs {
-            table.add_pair(*line, key, value);
+        for (_, key, value) in &header.pairs {
+            table.add_pair(key, value);
         }
         while let Some((line, text)) = self.lines.next_if(|(_, text)| !ends(text)) {
             table.add_row(line, &text, splitter, self.format.decimal, usize::from(commented));

@@ -4,8 +4,8 @@ use super::error::{TableError, TableProblem};
 use super::heading::{Column, bare_unit};
 use super::layout::{Layout, Line};
 use super::options::TableOptions;
-use super::split::{Lines, Splitter, comment};
-use super::table::{MOST_COLUMNS, Table};
+use super::split::{Lines, MOST_COLUMNS, Splitter, comment};
+use super::table::Table;
 
 /// Lines that are looked at to find out how a table is written.
 const SAMPLE: usize = 500;
@@ -32,7 +32,7 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
         if number >= first {
             table.add_line(number, &text, &mut splitter, decimal);
         } else if Some(number) != header && !text.trim().is_empty() {
-            table.add_note(number, comment(&text).unwrap_or(&text));
+            table.add_note(comment(&text).unwrap_or(&text));
         }
     }
     Ok(table)
