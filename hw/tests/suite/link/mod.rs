@@ -2,5 +2,6 @@
 
 mod engine;
 mod sequence;
+mod spawn;
 #[cfg(feature = "rdt")]
 mod udp;
