@@ -8,14 +8,15 @@ use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use vibrissa::hw::recording::{About, Contents, Recorder};
+use vibrissa::hw::recording::{Contents, Recorder};
 use vibrissa::hw::{LinkCounters, ReactionSample};
 
 /// recording.csv and points.jsonl.
 #[derive(Debug)]
 pub(super) struct Record {
     directory: PathBuf,
-    about: About,
+    /// What the recording says of itself.
+    notes: Vec<(&'static str, String)>,
     /// Made with the first sample, which tells how many channels there are.
     recorder: Option<Recorder<BufWriter<File>>>,
     points: BufWriter<File>,
@@ -38,11 +39,11 @@ struct LiveRecord {
 }
 
 impl Record {
-    pub fn new(directory: &Path, about: About) -> Result<Self, OutputError> {
+    pub fn new(directory: &Path, notes: Vec<(&'static str, String)>) -> Result<Self, OutputError> {
         fs::create_dir_all(directory)
             .map_err(|source| OutputError::Directory { directory: directory.to_path_buf(), source })?;
         let points = BufWriter::new(create(directory, POINTS)?);
-        Ok(Self { directory: directory.to_path_buf(), about, recorder: None, points, line: Vec::new() })
+        Ok(Self { directory: directory.to_path_buf(), notes, recorder: None, points, line: Vec::new() })
     }
 
     pub fn sample(&mut self, sample: &ReactionSample) -> Result<(), OutputError> {
@@ -56,7 +57,8 @@ impl Record {
                     out_of_plane: true,
                 };
                 let out = BufWriter::new(create(&self.directory, RECORDING)?);
-                Recorder::new(out, &self.about, contents).map_err(self.failed(RECORDING))?
+                let notes: Vec<(&str, &str)> = self.notes.iter().map(|(key, text)| (*key, text.as_str())).collect();
+                Recorder::new(out, &notes, contents).map_err(self.failed(RECORDING))?
             }
         };
         let written = self.recorder.insert(recorder).write(sample);

@@ -8,7 +8,6 @@ use super::summary::{End, LiveReport};
 use super::{Answer, Engine, LiveScan, Sensor};
 use crate::Error;
 use std::path::Path;
-use vibrissa::hw::recording::About;
 use vibrissa::hw::{ChainError, ReactionSample, StageError};
 use vibrissa::{Label, Live, LiveSettings};
 
@@ -44,9 +43,9 @@ pub(super) fn run(
         noise[2].sigma,
         live.delay()
     ));
-    let about =
-        About { sensor: sensor.name.clone(), tare, clock: "seconds from the first sample".into(), ..About::default() };
-    let mut recorded = Recorded { record: Record::new(out, about)?, report, label: None, told: 0.0, tell, fault: None };
+    let clock = "seconds from the first sample".to_owned();
+    let notes = vec![("sensor", sensor.name.clone()), ("tare", tare), ("clock", clock)];
+    let mut recorded = Recorded { record: Record::new(out, notes)?, report, label: None, told: 0.0, tell, fault: None };
     let mut engine = Engine::new(live);
     for sample in samples {
         recorded.sample(&sample);

@@ -10,6 +10,6 @@ pub mod tdms;
 
 #[cfg(feature = "recordings")]
 pub use tables::{
-    About, Cell, Column, ColumnMap, Columns, Contents, Decimal, Delimiter, Header, Recorded, Recorder, Role, Row,
-    RowFault, RowProblem, Table, TableError, TableOptions, TableProblem,
+    Cell, Column, ColumnMap, Columns, Contents, Decimal, Delimiter, Header, Recorded, Recorder, Role, Row, RowFault,
+    RowProblem, Table, TableError, TableOptions, TableProblem,
 };

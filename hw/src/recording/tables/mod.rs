@@ -31,6 +31,6 @@ pub use fault::{RowFault, RowProblem};
 pub use heading::Column;
 pub use options::{Decimal, Delimiter, Header, TableOptions};
 pub use recorded::Recorded;
-pub use recorder::{About, Contents, Recorder};
+pub use recorder::{Contents, Recorder};
 pub use role::Role;
 pub use table::{Cell, Row, Table};

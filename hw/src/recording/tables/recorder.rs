@@ -1,4 +1,4 @@
-//! Samples written as they come, in what the reader reads.
+//! Reactions written as they come, in what the reader reads.
 
 use super::role::{Role, si};
 use super::table::Table;
@@ -20,32 +20,14 @@ pub struct Contents {
     pub out_of_plane: bool,
 }
 
-/// What a recording is of, in words: one line each.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct About {
-    /// The sensor: type, number, range.
-    pub sensor: String,
-    /// Which calibration, or its file.
-    pub calibration: String,
-    /// When and how it was tared, or the values.
-    pub tare: String,
-    /// How the sensor sits under the clamp.
-    pub mounting: String,
-    /// What the times are of.
-    pub clock: String,
-    /// Anything else, with a name.
-    pub notes: Vec<(String, String)>,
-}
-
 /// Writes reactions as they come, as CSV with comments in front: SI units, numbers that survive a round trip bit by bit, flags by
 /// name. Nothing is kept: memory does not grow. Put a [`BufWriter`](std::io::BufWriter) in between where that matters.
 ///
 /// ```
 /// use rod_core::{Pose, Reactions};
-/// use rod_hw::recording::{About, ColumnMap, Contents, Recorder, Table, TableOptions};
+/// use rod_hw::recording::{ColumnMap, Contents, Recorder, Table, TableOptions};
 /// use rod_hw::{OutOfPlane, Quality, RawSample, ReactionSample};
-/// let about = About { sensor: "K3D40, no. 12".into(), ..About::default() };
-/// let mut recorder = Recorder::new(Vec::new(), &about, Contents::default())?;
+/// let mut recorder = Recorder::new(Vec::new(), &[("sensor", "K3D40, no. 12")], Contents::default())?;
 /// let sample = ReactionSample {
 ///     t: 0.1,
 ///     pose: Pose { x: 0.08, y: -0.04, phi: 1.5 },
@@ -80,24 +62,15 @@ const TITLE: &str = "# vibrissa recording 1";
 const END: &str = "end of the recording, samples";
 
 impl<W: Write> Recorder<W> {
-    /// Writes what stands in front.
+    /// Writes what stands in front: notes, each a name and a text (the sensor, its calibration, the tare, ...), then the columns.
     ///
     /// # Errors
     /// Where that cannot be written.
-    pub fn new(mut out: W, about: &About, contents: Contents) -> io::Result<Self> {
+    pub fn new(mut out: W, notes: &[(&str, &str)], contents: Contents) -> io::Result<Self> {
         let roles = roles(&contents);
         let channels = contents.raw;
         writeln!(out, "{TITLE}")?;
-        let About { sensor, calibration, tare, mounting, clock, notes } = about;
-        let named = [
-            ("sensor", sensor),
-            ("calibration", calibration),
-            ("tare", tare),
-            ("mounting", mounting),
-            ("clock", clock),
-        ];
-        let others = notes.iter().map(|(key, text)| (key.as_str(), text));
-        for (key, text) in named.into_iter().chain(others).filter(|(_, text)| !text.is_empty()) {
+        for (key, text) in notes.iter().filter(|(_, text)| !text.is_empty()) {
             writeln!(out, "# {}: {}", one_line(key).replace(':', " "), one_line(text))?;
         }
         let units = roles.iter().filter_map(|role| Some(format!("{role} {}", si(role.dimension()?))));

@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use rod_core::{Pose, Reactions};
-use rod_hw::recording::{About, Contents, Recorder, Table, TableOptions};
+use rod_hw::recording::{Contents, Recorder, Table, TableOptions};
 use rod_hw::{Channels, OutOfPlane, Quality, RawSample, ReactionSample};
 
 /// A header that takes half of the file, and as many segments as there is room for.
@@ -52,7 +52,7 @@ fn of_a_recorder() {
     };
     let record = |count| {
         let used = measure(|| {
-            let mut recorder = Recorder::new(std::io::sink(), &About::default(), contents).unwrap();
+            let mut recorder = Recorder::new(std::io::sink(), &[], contents).unwrap();
             (0..count).for_each(|k| recorder.write(&sample(k)).unwrap());
             recorder.finish(None).unwrap();
         });

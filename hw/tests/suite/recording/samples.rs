@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use rod_core::{Pose, Reactions};
-use rod_hw::recording::{About, ColumnMap, Contents, Recorded, Recorder, Role, Table, TableOptions};
+use rod_hw::recording::{ColumnMap, Contents, Recorded, Recorder, Role, Table, TableOptions};
 use rod_hw::{Channels, LinkCounters, OutOfPlane, Quality, RawSample, RawSource, ReactionSample, Wrench, WrenchSample};
 
 fn parse(text: &str) -> Table {
@@ -177,9 +177,8 @@ fn reactions() -> impl Strategy<Value = Reactions> {
 
 /// Writes the samples and reads them again.
 fn there_and_back(all: &[ReactionSample], contents: Contents) -> Vec<ReactionSample> {
-    let about =
-        About { sensor: "any: one, \"quoted\"".into(), notes: vec![("run".into(), "3".into())], ..About::default() };
-    let mut recorder = Recorder::new(Vec::new(), &about, contents).unwrap();
+    let notes = [("sensor", "any: one, \"quoted\""), ("run", "3"), ("tare", "")];
+    let mut recorder = Recorder::new(Vec::new(), &notes, contents).unwrap();
     for sample in all {
         recorder.write(sample).unwrap();
     }
@@ -241,7 +240,7 @@ fn what_is_not_in_the_contents_is_left_out() {
     let with_sigma = ReactionSample { sigma: Some(sample.reactions), ..sample };
     assert_eq!(there_and_back(&[with_sigma], Contents::default()), [sample]);
     let contents = Contents { raw: Some(2), ..Contents::default() };
-    let mut recorder = Recorder::new(Vec::new(), &About::default(), contents).unwrap();
+    let mut recorder = Recorder::new(Vec::new(), &[], contents).unwrap();
     let one = ReactionSample { raw: RawSample::new(0.0, Channels::from([1.0])), ..sample };
     let message = recorder.write(&one).unwrap_err().to_string();
     assert_eq!(message, "the sample has 1 channels, expected 2 as in the contents of the recording");
