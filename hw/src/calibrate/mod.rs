@@ -1,4 +1,4 @@
-//! From raw values to a wrench, and its zero.
+//! Calibration: from raw values to a wrench; the tare.
 
 mod accuracy;
 #[cfg(feature = "cal")]

@@ -1,4 +1,4 @@
-//! How much a sensor may be loaded.
+//! The rated load of a sensor.
 
 use super::CalibrationDataError;
 use super::wrench_units::WrenchUnits;

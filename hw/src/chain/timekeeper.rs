@@ -3,22 +3,22 @@
 use super::error::ChainError;
 use crate::sample::{Quality, RawSample};
 
-/// So much faster or slower than the device's clock does time run while it is corrected: it never stands still.
+/// Largest correction of the clock, as a share of the elapsed time: the corrected time never stands still.
 const SLEW: f64 = 0.01;
 
-/// The share of a period that a step of time keeps at least, whatever is corrected.
+/// Shortest step of time from sample to sample, as a share of the period, however large the correction is.
 const LEAST_STEP: f64 = 0.5;
 
-/// Samples before the fit knows how large residuals usually are.
+/// Number of samples after which the fit knows the usual size of residuals.
 const FAMILIAR: u32 = 32;
 
-/// Residuals beyond so many times their mean size count as so large only.
+/// Residuals are clipped at this multiple of their mean size.
 const CLIP: f64 = 5.0;
 
-/// The usual size of residuals, at least, in periods: without jitter every rounding would be an outlier.
+/// Smallest usual size of residuals, in periods: without jitter every rounding error would be an outlier.
 const QUIET: f64 = 0.02;
 
-/// So many outliers in a row by the same amount are samples that were lost. Those that come late in a heap are by less and
+/// This many outliers in a row by the same amount mean lost samples. Samples that arrive late together are late by less and
 /// less.
 const RUN: u32 = 32;
 
@@ -49,7 +49,7 @@ const RUN: u32 = 32;
 pub struct Timekeeper {
     way: Way,
     last: Option<f64>,
-    /// Mean square of what the host's stamps are off, and of how many.
+    /// Mean square of the residuals of the host's times, s^2, and their number.
     scatter: f64,
     count: u64,
     restarts: u64,

@@ -1,4 +1,4 @@
-//! Devices: the protocols that sensors speak.
+//! Protocols of sensors.
 
 pub mod framed;
 pub mod rdt;

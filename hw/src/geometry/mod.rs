@@ -1,4 +1,4 @@
-//! Axes and lever arms: how the sensor sits under the clamp.
+//! The mounting of the sensor: axes, lever arm, sense.
 
 mod error;
 mod frame;

@@ -3,7 +3,7 @@
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::{Duration, Instant};
 
-/// How long to go on trying to write a request before that is an error: what a link's deadline may be exceeded by.
+/// How long to try to write a request before that is an error: a link may exceed its deadline by this.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// How long to sleep between reads of what does not wait by itself.

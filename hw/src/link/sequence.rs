@@ -1,4 +1,4 @@
-//! Sequence numbers: what is missing, repeated, late.
+//! Sequence numbers: missing, repeated and late samples.
 
 /// Follows the counter of a device, which wraps.
 ///
@@ -22,7 +22,7 @@ pub struct Sequence {
     candidate: Option<u32>,
 }
 
-/// What a number says.
+/// What a number means beside the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SequenceStep {
     /// The first one.

@@ -1,4 +1,4 @@
-//! Samples read in a thread of their own.
+//! Samples read by a separate thread.
 
 use super::clock::Clock;
 use super::counters::LinkCounters;
@@ -12,7 +12,7 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
-/// Samples of a link that a thread of its own reads, as an iterator: made by [`spawn`].
+/// Samples of a link that a separate thread reads, as an iterator: made by [`spawn`].
 ///
 /// Dropped, it tells the device to stop and waits for the thread, for at most the deadline of the link.
 #[derive(Debug)]
@@ -28,11 +28,11 @@ struct Shared {
     counters: Mutex<LinkCounters>,
 }
 
-/// Reads a link in a thread of its own, so that a consumer who is busy at times loses nothing: up to `capacity` samples wait
+/// Reads a link in a separate thread, so that a consumer that is busy at times loses nothing: up to `capacity` samples wait
 /// for it. Their [`host_time`](RawSample::host_time) is that of their arrival.
 ///
-/// Where more would have to wait the newest are thrown away, counted as [`untaken`](LinkCounters::untaken), and the next one
-/// that is handed on has [`Quality::GAP_BEFORE`], and the flags that tell of a restart if one was among them. At 7000 samples a
+/// If more samples would have to wait, the newest are discarded and counted as [`untaken`](LinkCounters::untaken); the next
+/// sample has [`Quality::GAP_BEFORE`], and [`Quality::RESTARTED`] if a discarded one had it. At 7000 samples a
 /// second, 70 000 are 10 s and 18 MB at most.
 ///
 /// ```

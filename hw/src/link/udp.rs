@@ -7,7 +7,7 @@ use std::io::{Error, ErrorKind};
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
 use std::time::Instant;
 
-/// Asked for of the system as room for what arrives while nobody asks, bytes. Linux gives less unless told otherwise
+/// Size of the receive buffer that is requested from the system, bytes. Linux gives less unless told otherwise
 /// (`net.core.rmem_max`), and counts some 0.8 KiB for a small datagram.
 const ROOM: usize = 4 << 20;
 

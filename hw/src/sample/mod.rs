@@ -1,4 +1,4 @@
-//! What is handed on: raw values, wrenches, reactions, with their units and what speaks against them.
+//! Samples: raw values, wrenches and reactions, with units and quality flags.
 
 mod component;
 mod number;

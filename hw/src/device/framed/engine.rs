@@ -5,11 +5,10 @@ use super::scanner::Scanner;
 use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence, SequenceStep};
 use crate::sample::{Quality, RawSample};
 
-/// A request that is not answered is sent again after so long, s: longer than any of these devices takes.
+/// Time after which a request without answer is sent again, s: longer than any of these devices takes.
 const RETRY: f64 = 0.5;
 
-/// A device that was set up and sends nothing for so long, although asked for it, is set up again, s: it may have been switched
-/// off and on.
+/// Silence after which a device is set up again, s: it may have been switched off and on.
 const SILENCE: f64 = 2.0;
 
 /// A framed device as a [`Protocol`], for a [`Link`](crate::Link).

@@ -1,4 +1,4 @@
-//! What differs from device to device.
+//! What an author of a framed device implements.
 
 use crate::link::{FrameFault, Request};
 use crate::sample::{Channels, Quality};

@@ -1,4 +1,4 @@
-//! Frames out of bytes.
+//! Finds frames in a stream of bytes.
 
 use super::profile::{Framing, Head};
 use crate::link::FrameFault;

@@ -7,10 +7,10 @@ use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence};
 use crate::sample::{Channels, Quality, RawSample};
 use core::mem::take;
 
-/// Distance of the requests to start, s: datagrams get lost, these too.
+/// Interval of the requests to start, s: these datagrams can get lost, too.
 const RETRY: f64 = 0.1;
 
-/// A packet overtaken by more others than this is not a late one but of a device that counts anew.
+/// A packet that more than this many others overtook is not late: the device restarted its counter.
 const OVERTAKEN: i64 = 256;
 
 /// The second record after a restart is less than so many samples behind the first.

@@ -1,8 +1,8 @@
-//! What is asked of a sensor.
+//! Requests of RDT.
 
 use crate::link::Request;
 
-/// What is asked of a sensor, in 8 bytes.
+/// A request to a sensor, 8 bytes.
 ///
 /// ```
 /// use rod_hw::device::rdt::RdtRequest;

@@ -1,4 +1,4 @@
-//! What a count is in N and N m.
+//! The scale of the counts, from the sensor over TCP.
 
 use crate::calibrate::{CalibrationDataError, Scale};
 use crate::sample::{Dimension, Number, Unit};
@@ -6,8 +6,8 @@ use std::io::{Error, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
-/// What a count is in N and N m, as the sensor tells. There is none by default: sensors differ, and so do the units that
-/// are set in them.
+/// The scale of the counts, as the sensor reports it. It has no default: sensors differ, and so do the units that are set in
+/// them.
 ///
 /// ```
 /// use rod_hw::device::rdt::RdtScaling;

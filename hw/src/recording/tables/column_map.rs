@@ -1,4 +1,4 @@
-//! Which column means what, by name or as it is said.
+//! The meanings of the columns of a table, by name or as given by the caller.
 
 use super::columns::{Columns, Place};
 use super::error::{TableError, TableProblem, listed};

@@ -1,4 +1,4 @@
-//! How a table is written: found out from its first lines.
+//! Detects how a table is written, from its first lines.
 
 use super::error::{TableError, TableProblem};
 use super::fault::shown;

@@ -1,4 +1,4 @@
-//! What a column can mean.
+//! The meanings of columns.
 
 use crate::sample::Dimension;
 use std::fmt;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Named columns with their units, and rows of cells with their lines in the file.
 ///
 /// Read from text: CSV, TSV, separated by semicolons or blanks, or LabVIEW's LVM. What separates cells and fractions and which
-/// line names the columns is found out, or said in the [`TableOptions`]; what is ambiguous is refused.
+/// line names the columns is found out, or given in the [options](super::TableOptions); ambiguous files are refused.
 ///
 /// ```
 /// use rod_hw::recording::{Cell, Table, TableOptions};
