@@ -2,7 +2,7 @@
 //!
 //! - [`sample`]: the data. [`RawSample`] has the counts or volts of a device, with its time, sequence number and status word;
 //!   [`WrenchSample`] force and torque at the sensor's origin; [`ReactionSample`] pose and reactions of the clamp. All of them have
-//!   [`Quality`] flags. Any iterator of results is a [`RawSource`] or a [`WrenchSource`].
+//!   [`Quality`] flags. A source is any iterator of results of them.
 //! - [`geometry`]: the [`Mounting`] of the sensor at the clamp, by a [`Frame`].
 //! - [`calibrate`]: a [`Calibration`] converts raw values to a wrench: a [`Scale`] of counts, a [`GaugeMatrix`], a closure, and with
 //!   the feature `cal` a file of ATI (`AtiFile`). A [`TareWindow`] gives the zero of a [`Tare`]. [`Accuracy`] and [`RatedLoad`]
@@ -57,6 +57,6 @@ pub use link::{
 #[cfg(feature = "std")]
 pub use link::{HostClock, Spawned, TransportError, spawn};
 pub use sample::{
-    Channels, Component, Dimension, Number, OutOfPlane, Quality, RawSample, RawSource, ReactionSample, Unit, UnitError,
-    Wrench, WrenchSample, WrenchSource,
+    Channels, Component, Dimension, Number, OutOfPlane, Quality, RawSample, ReactionSample, Unit, UnitError, Wrench,
+    WrenchSample,
 };

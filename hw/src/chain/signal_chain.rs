@@ -6,7 +6,7 @@ use super::stage::StageSource;
 use super::timekeeper::Timekeeper;
 use crate::calibrate::{Calibration, Tare};
 use crate::geometry::Mounting;
-use crate::sample::{Number, Quality, RawSample, RawSource, ReactionSample, WrenchSample};
+use crate::sample::{Number, Quality, RawSample, ReactionSample, WrenchSample};
 use core::mem::take;
 use rod_core::Pose;
 
@@ -145,10 +145,10 @@ impl<C: Calibration<T>, S: StageSource, T: Number> SignalChain<C, S, T> {
     }
 
     /// The reactions behind all samples of a source. After an error it may go on.
-    pub fn over<I: RawSource>(
+    pub fn over<E>(
         &mut self,
-        source: I,
-    ) -> impl Iterator<Item = Result<ReactionSample<T>, SensorError<<I as RawSource>::Error>>> {
+        source: impl Iterator<Item = Result<RawSample, E>>,
+    ) -> impl Iterator<Item = Result<ReactionSample<T>, SensorError<E>>> {
         source.map(|raw| Ok(self.take(&raw.map_err(SensorError::Source)?)?))
     }
 }

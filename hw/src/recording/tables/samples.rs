@@ -9,8 +9,7 @@ use super::role::Role;
 use super::table::Table;
 
 impl Table {
-    /// The samples of this kind, row by row: an iterator of results, so that of raw samples a [`RawSource`](crate::RawSource) and
-    /// of wrenches a [`WrenchSource`](crate::WrenchSource).
+    /// The samples of this kind, row by row: a source for a [`SignalChain`](crate::SignalChain), if they are raw samples.
     ///
     /// A row that cannot be used is an error with its line; the rows after it follow. So is one whose time is not later than that
     /// of the sample before.

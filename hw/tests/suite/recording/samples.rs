@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rod_core::{Pose, Reactions};
 use rod_hw::recording::{ColumnMap, Contents, Recorded, Recorder, Role, Table, TableOptions};
-use rod_hw::{Channels, LinkCounters, OutOfPlane, Quality, RawSample, RawSource, ReactionSample, Wrench, WrenchSample};
+use rod_hw::{Channels, LinkCounters, OutOfPlane, Quality, RawSample, ReactionSample, Wrench, WrenchSample};
 
 fn parse(text: &str) -> Table {
     Table::parse("f.csv", text.as_bytes(), &TableOptions::default()).unwrap()
@@ -112,7 +112,7 @@ fn columns_by_name() {
 }
 
 /// Takes what any source gives.
-fn drain<S: RawSource>(source: S) -> (Vec<f64>, usize) {
+fn drain<E>(source: impl Iterator<Item = Result<RawSample, E>>) -> (Vec<f64>, usize) {
     let mut faults = 0;
     let times = source.filter_map(|sample| sample.map_err(|_| faults += 1).ok().map(|sample| sample.time())).collect();
     (times, faults)
