@@ -460,7 +460,7 @@ fn scaling_and_readings_over_tcp() {
 }
 
 /// 7000 samples a second for a minute, and how long each is on its way:
-/// `cargo test --release -p rod-hw --features rdt --test rdt -- --ignored --nocapture`
+/// `cargo test --release -p rod-hw --features rdt --test suite rdt -- --ignored --nocapture`
 #[test]
 #[ignore = "takes a minute, and measures"]
 fn seven_thousand_a_second() {
