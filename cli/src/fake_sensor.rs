@@ -7,7 +7,6 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 use vibrissa::contact::Stop;
-use vibrissa::hw::device::framed::GsvValues;
 use vibrissa::hw::device::rdt::{RdtRecord, RdtScaling};
 use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit};
 use vibrissa::rod::Reactions;
@@ -123,7 +122,6 @@ impl FakeScan {
             (FakeProtocol::Rdt, None) => scaling.calibration().unwrap_or_else(|_| Scale::si()),
             (FakeProtocol::Gsv8 | FakeProtocol::Bota, None) => Scale::si(),
         };
-        let profile = setup.profile;
         let (sender, receiver) = sync_channel(AHEAD);
         let maker = thread::spawn(move || make(&simulation, &setup, scale, &sender));
         let sent = match protocol {
@@ -133,16 +131,13 @@ impl FakeScan {
                     address: address(port),
                     // counts that the setup tells are not those of the record
                     scaling_address: told.is_none().then(|| address(scaling_port)),
-                    profile,
                     rate: Some(pace),
                     scaling,
                     ..FakeRdtSettings::default()
                 };
                 play_rdt(settings, receiver, &playing, tell, stopped)
             }
-            FakeProtocol::Gsv8 => {
-                play_pty(FakeGsv8::new(6, rate, GsvValues::F32), "gsv8", pace, receiver, &playing, tell, stopped)
-            }
+            FakeProtocol::Gsv8 => play_pty(FakeGsv8::new(6, rate), "gsv8", pace, receiver, &playing, tell, stopped),
             FakeProtocol::Bota => play_pty(FakeBota::new(rate), "bota", pace, receiver, &playing, tell, stopped),
         }?;
         // ended early, the maker finds nobody who listens

@@ -332,10 +332,10 @@ fn a_file_that_was_cut() {
 
 #[test]
 fn what_a_recorder_wrote() {
-    use vibrissa::hw::recording::{About, Contents, Recorder};
+    use vibrissa::hw::recording::{Contents, Recorder};
     use vibrissa::hw::{OutOfPlane, Quality, RawSample, ReactionSample};
     let contents = Contents { raw: Some(0), sigma: true, ..Contents::default() };
-    let mut recorder = Recorder::new(Vec::new(), &About::default(), contents).unwrap();
+    let mut recorder = Recorder::new(Vec::new(), &[], contents).unwrap();
     let sample = |k: i32| ReactionSample {
         t: 0.1 * f64::from(k),
         pose: Pose { x: 1e-3 * f64::from(k), y: -0.04, phi: 1.5 },

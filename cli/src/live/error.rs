@@ -1,7 +1,7 @@
 //! Why there is no live scan.
 
 use std::path::PathBuf;
-use vibrissa::hw::recording::{ColumnError, RowProblem, TableError};
+use vibrissa::hw::recording::{RowProblem, TableError};
 use vibrissa::hw::{StageError, TareError};
 
 /// Why there is no live scan, or none any more.
@@ -81,12 +81,9 @@ pub enum LiveError {
     /// The stage cannot move like this.
     #[error("the stage: {0}")]
     Stage(StageError),
-    /// A table cannot be read.
+    /// A table cannot be read, or lacks columns.
     #[error(transparent)]
     Table(TableError),
-    /// It lacks columns.
-    #[error(transparent)]
-    Columns(ColumnError),
     /// A row of the table of poses cannot be used.
     #[error("{}:{line}: {problem}", file.display())]
     StageRow {

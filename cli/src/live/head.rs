@@ -39,7 +39,7 @@ impl Calibration for Scaled<'_> {
     }
 }
 
-pub(super) type Chain<'a> = SignalChain<Scaled<'a>, Motion, Option<Tare>>;
+pub(super) type Chain<'a> = SignalChain<Scaled<'a>, Motion>;
 
 /// What was heard before the first answer.
 pub(super) struct Head<'a> {
@@ -76,7 +76,7 @@ pub(super) fn head<'a>(
             None => break,
             Some(Ok(Fed::Raw(raw))) => {
                 let chain = chain.get_or_insert_with(|| {
-                    let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting).with_tare(None);
+                    let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting);
                     SignalChain::new(scaled(), wrench_chain)
                         .with_rails(calibration.rails())
                         .with_timekeeper(timekeeper(scan, sensor, &raw))
@@ -105,7 +105,7 @@ pub(super) fn head<'a>(
     }
     let (Some(mut chain), Some(start)) = (chain, wrenches.first().map(|wrench| wrench.t)) else {
         // everything is done already: nothing is left for a chain to do
-        let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting).with_tare(None);
+        let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting);
         let chain = SignalChain::new(scaled(), wrench_chain);
         return Ok(Head { chain, samples, tare: "as recorded".into() });
     };

@@ -63,7 +63,7 @@ impl StageSource for Motion {
 fn table(file: &Path, how: &ReadOptions) -> Result<StageTable, LiveError> {
     let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let roles = [Role::Time, Role::X0, Role::Y0, Role::Phi0];
-    let columns = how.columns.find(&table, &roles, &[]).map_err(LiveError::Columns)?;
+    let columns = how.columns.find(&table, &roles, &[]).map_err(LiveError::Table)?;
     let rows: Result<Vec<(f64, Pose)>, _> = table
         .rows()
         .map(|row| {

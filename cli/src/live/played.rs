@@ -9,7 +9,7 @@ use std::fmt::Display;
 use std::path::Path;
 use vibrissa::hw::recording::mcap::{McapError, McapFile};
 use vibrissa::hw::recording::tdms::{self, TdmsError, TdmsFile, TdmsTime};
-use vibrissa::hw::recording::{ColumnError, ColumnMap, Recorded, Role, RowFault, Table};
+use vibrissa::hw::recording::{ColumnMap, Recorded, Role, RowFault, Table, TableError, TableProblem};
 use vibrissa::hw::{LinkCounters, RawSample, ReactionSample, Scale, WrenchSample};
 
 /// A recording, played back as fast as it is asked for.
@@ -135,23 +135,26 @@ fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Samples, LiveE
     }
     match rows::<RawSample>(&table, &map, Fed::Raw) {
         Ok(samples) => Ok((samples, Some(told(file, setup)?))),
-        Err(error) => Err(match complaint.unwrap_or(error) {
-            ColumnError::NoChannels { file, line, found } => LiveError::NoSamples { file, line, found },
-            error => LiveError::Columns(error),
-        }),
+        Err(error) => {
+            let TableError { file, line, problem } = complaint.unwrap_or(error);
+            Err(match problem {
+                TableProblem::NoChannels { found } => LiveError::NoSamples { file, line, found },
+                problem => LiveError::Table(TableError { file, line, problem }),
+            })
+        }
     }
 }
 
 /// An error that says more than that columns are missing, which is no error of a table of another kind.
-fn telling(error: ColumnError) -> Option<ColumnError> {
-    (!matches!(error, ColumnError::Missing { .. })).then_some(error)
+fn telling(error: TableError) -> Option<TableError> {
+    (!matches!(error.problem, TableProblem::Missing { .. })).then_some(error)
 }
 
 fn rows<S: Recorded>(
     table: &Table,
     map: &ColumnMap,
     fed: impl Fn(S) -> Fed,
-) -> Result<Vec<Result<Fed, Miss>>, ColumnError> {
+) -> Result<Vec<Result<Fed, Miss>>, TableError> {
     let fault = |error: RowFault| Miss::Fault(format!("{}: {error}", table.file()));
     Ok(table.samples::<S>(map)?.map(|row| row.map(&fed).map_err(fault)).collect())
 }

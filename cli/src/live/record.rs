@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use vibrissa::hw::recording::{About, Contents, RecordError, Recorder};
+use vibrissa::hw::recording::{Contents, Recorder};
 use vibrissa::hw::{LinkCounters, ReactionSample};
 use vibrissa::reconstruct::Reading;
 
@@ -15,9 +15,10 @@ use vibrissa::reconstruct::Reading;
 #[derive(Debug)]
 pub(super) struct Record {
     directory: PathBuf,
-    about: About,
+    /// What the recording says of itself.
+    notes: Vec<(&'static str, String)>,
     /// Made with the first sample, which tells how many channels there are.
-    recorder: Option<Recorder<BufWriter<File>, ReactionSample>>,
+    recorder: Option<Recorder<BufWriter<File>>>,
     points: BufWriter<File>,
     line: Vec<u8>,
 }
@@ -38,11 +39,11 @@ struct LiveRecord {
 }
 
 impl Record {
-    pub fn new(directory: &Path, about: About) -> Result<Self, OutputError> {
+    pub fn new(directory: &Path, notes: Vec<(&'static str, String)>) -> Result<Self, OutputError> {
         fs::create_dir_all(directory)
             .map_err(|source| OutputError::Directory { directory: directory.to_path_buf(), source })?;
         let points = BufWriter::new(create(directory, POINTS)?);
-        Ok(Self { directory: directory.to_path_buf(), about, recorder: None, points, line: Vec::new() })
+        Ok(Self { directory: directory.to_path_buf(), notes, recorder: None, points, line: Vec::new() })
     }
 
     pub fn sample(&mut self, sample: &ReactionSample) -> Result<(), OutputError> {
@@ -56,16 +57,12 @@ impl Record {
                     out_of_plane: true,
                 };
                 let out = BufWriter::new(create(&self.directory, RECORDING)?);
-                Recorder::new(out, &self.about, contents).map_err(self.failed(RECORDING))?
+                let notes: Vec<(&str, &str)> = self.notes.iter().map(|(key, text)| (*key, text.as_str())).collect();
+                Recorder::new(out, &notes, contents).map_err(self.failed(RECORDING))?
             }
         };
         let written = self.recorder.insert(recorder).write(sample);
-        written.map_err(|error| {
-            self.failed(RECORDING)(match error {
-                RecordError::Io(source) => source,
-                other => io::Error::other(other),
-            })
-        })
+        written.map_err(self.failed(RECORDING))
     }
 
     pub fn answer(&mut self, sample: &ReactionSample, reading: Option<&Reading>) -> Result<(), OutputError> {

@@ -12,7 +12,6 @@ use crate::Error;
 use std::path::Path;
 use vibrissa::Label;
 use vibrissa::Sample;
-use vibrissa::hw::recording::About;
 use vibrissa::hw::{ChainError, ReactionSample, StageError};
 use vibrissa::reconstruct::{Live, LiveSession, LiveSettings, Reading, ReconstructError};
 use vibrissa::rod::Reactions;
@@ -55,14 +54,10 @@ impl LiveScan {
             noise[2].sigma,
             live.delay()
         ));
-        let about = About {
-            sensor: sensor.name.clone(),
-            tare,
-            clock: "seconds from the first sample".into(),
-            ..About::default()
-        };
+        let clock = "seconds from the first sample".to_owned();
+        let notes = vec![("sensor", sensor.name.clone()), ("tare", tare), ("clock", clock)];
         let mut recorded =
-            Recorded { record: Record::new(out, about)?, report, label: None, told: 0.0, tell, fault: None };
+            Recorded { record: Record::new(out, notes)?, report, label: None, told: 0.0, tell, fault: None };
         let mut session = LiveSession::new(live);
         for sample in samples {
             recorded.sample(&sample);

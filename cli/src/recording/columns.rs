@@ -2,7 +2,7 @@
 
 use super::RecordingError;
 use std::path::Path;
-use vibrissa::hw::recording::{ColumnError, ColumnMap, Columns, Role, Table};
+use vibrissa::hw::recording::{ColumnMap, Columns, Role, Table, TableError, TableProblem};
 
 /// What a recording must have, for messages.
 pub(super) const EXPECTED: &str = "x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N m) in any order, perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m)";
@@ -13,15 +13,15 @@ pub(super) const SIGMAS: [Role; 3] = [Role::SigmaF0x, Role::SigmaF0y, Role::Sigm
 
 /// The columns of pose, reactions, standard deviations (all or none), time, flags.
 pub(super) fn find(file: &Path, table: &Table, map: &ColumnMap) -> Result<Columns, RecordingError> {
-    let of_table = |error: ColumnError| match error {
-        ColumnError::Missing { line, missing, found, hint, .. } => RecordingError::Missing {
+    let of_table = |error: TableError| match error.problem {
+        TableProblem::Missing { missing, found, hint } => RecordingError::Missing {
             file: file.to_path_buf(),
-            line: line.unwrap_or(1),
+            line: error.line.unwrap_or(1),
             missing: missing.iter().map(|role| role.name().to_owned()).collect(),
             found,
             hint,
         },
-        other => RecordingError::Columns(other),
+        problem => RecordingError::Table(TableError { problem, ..error }),
     };
     let mut needed = [POSE, REACTIONS].concat();
     let mut welcome = vec![Role::Time, Role::Quality];

@@ -3,7 +3,7 @@
 use super::RowFault;
 use super::columns::EXPECTED;
 use std::path::PathBuf;
-use vibrissa::hw::recording::{ColumnError, TableError};
+use vibrissa::hw::recording::TableError;
 
 /// Why a file is no recording.
 #[derive(Debug, thiserror::Error)]
@@ -37,12 +37,9 @@ pub enum RecordingError {
         /// What may have been meant, or nothing.
         hint: String,
     },
-    /// It is no table.
+    /// It is no table, or its columns are ambiguous or without a unit.
     #[error(transparent)]
     Table(TableError),
-    /// Columns are ambiguous, or without a unit.
-    #[error(transparent)]
-    Columns(ColumnError),
     /// Most rows cannot be used.
     #[error(
         "{}: {} of {rows} rows cannot be used, expected at most half of them; {}",

@@ -6,7 +6,7 @@ use super::{ReadOptions, Recording, RecordingError, Row};
 use crate::simulation::INCOMPLETE;
 use std::path::Path;
 use vibrissa::Rod;
-use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError};
+use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError, TableProblem};
 use vibrissa::reconstruct::{Halt, Travel};
 
 /// Fewer samples than this are no scan: a curve through them would leave nothing to judge it by.
@@ -52,10 +52,10 @@ impl Recording {
         how: &ReadOptions,
     ) -> Result<Self, RecordingError> {
         let file = file.to_path_buf();
-        let table = table.map_err(|error| match error {
-            TableError::Empty { .. } => RecordingError::Empty { file: file.clone() },
-            TableError::Unreadable { source, .. } => RecordingError::Unreadable { file: file.clone(), source },
-            other => RecordingError::Table(other),
+        let table = table.map_err(|error| match error.problem {
+            TableProblem::Empty => RecordingError::Empty { file: file.clone() },
+            TableProblem::Unreadable(source) => RecordingError::Unreadable { file: file.clone(), source },
+            problem => RecordingError::Table(TableError { problem, ..error }),
         })?;
         let columns = find(&file, &table, &how.columns)?;
         let mut rows: Vec<Row> = Vec::with_capacity(table.len());

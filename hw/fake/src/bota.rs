@@ -6,11 +6,8 @@ use rod_hw::Quality;
 
 /// X.25: polynomial 0x1021 reflected, begins with FFFF, inverted.
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_SDLC);
-/// Rate of a sinc filter of length 1, Hz: a longer one divides it.
-const SINC_RATE: f64 = 51_200.0;
 
-/// A Bota Systems sensor: it sends from the beginning, `C` makes it stop and hear settings, `R` makes it go on. Of the
-/// settings it does what the filter says, and says yes to the others. A command is what comes at a time.
+/// A Bota Systems sensor: it sends from the beginning, and hears nothing.
 ///
 /// ```
 /// use rod_hw::Quality;
@@ -22,7 +19,6 @@ const SINC_RATE: f64 = 51_200.0;
 #[derive(Clone, Debug)]
 pub struct FakeBota {
     rate: f64,
-    sending: bool,
     /// us.
     time: f64,
     temperature: f32,
@@ -31,7 +27,7 @@ pub struct FakeBota {
 impl FakeBota {
     /// A sensor of this rate (Hz), at 25 degrees Celsius, switched on now.
     pub fn new(rate: f64) -> Self {
-        Self { rate, sending: true, time: 0.0, temperature: 25.0 }
+        Self { rate, time: 0.0, temperature: 25.0 }
     }
 
     /// With its clock at so many us.
@@ -47,34 +43,10 @@ impl FakeBota {
         self.temperature = celsius;
         self
     }
-
-    /// Sets the filter; none where it is not one.
-    fn filter(&mut self, text: &[u8]) -> Option<()> {
-        let sinc: u16 = std::str::from_utf8(text).ok()?.split(',').nth(1)?.parse().ok()?;
-        (51..=8192).contains(&sinc).then(|| self.rate = SINC_RATE / f64::from(sinc))
-    }
 }
 
 impl FakeDevice for FakeBota {
-    fn hear(&mut self, bytes: &[u8], answers: &mut Vec<u8>) {
-        let Some(&command) = bytes.first() else { return };
-        let code = match command {
-            b'C' => {
-                self.sending = false;
-                b'0'
-            }
-            // it hears nothing else while it sends
-            _ if self.sending => return,
-            b'R' => {
-                self.sending = true;
-                b'0'
-            }
-            b'f' => self.filter(bytes).map_or(b'1', |()| b'0'),
-            b'b' | b'c' | b's' => b'0',
-            _ => b'1',
-        };
-        answers.extend([b'r', b',', b'0', b',', command, b',', code, b'\r', b'\n']);
-    }
+    fn hear(&mut self, _: &[u8], _: &mut Vec<u8>) {}
 
     fn measure(&mut self, values: &[f64], quality: Quality, frame: &mut Vec<u8>) {
         let flags = [(Quality::DEVICE_WARNING, 1), (Quality::SATURATED, 2), (Quality::DEVICE_ERROR, 4)];
@@ -91,11 +63,11 @@ impl FakeDevice for FakeBota {
     }
 
     fn restart(&mut self) {
-        (self.sending, self.time) = (true, 0.0);
+        self.time = 0.0;
     }
 
     fn is_sending(&self) -> bool {
-        self.sending
+        true
     }
 
     fn rate(&self) -> f64 {

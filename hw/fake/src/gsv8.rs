@@ -1,7 +1,7 @@
 //! A GSV-8 that is a program.
 
 use super::FakeDevice;
-use rod_hw::device::framed::{Framing, GsvValues, Head, Scanner};
+use rod_hw::device::framed::{Framing, Head, Scanner};
 use rod_hw::{FrameFault, Quality};
 
 /// Codes of its answers.
@@ -27,15 +27,14 @@ mod command {
 /// The most that the maker speaks of, Hz.
 const FASTEST: f32 = 12_000.0;
 
-/// A GSV-8 (or GSV-6) that waits to be started: start, stop, one value, rate (read and set), mode of values, zero. Values are
-/// in its unit, or counts where it sends integers.
+/// A GSV-8 (or GSV-6) that waits to be started: start, stop, one value, rate (read and set), values as f32, zero. Values are
+/// in its unit.
 ///
 /// ```
 /// use rod_hw::Quality;
 /// use rod_fake_sensor::{FakeDevice, FakeGsv8};
-/// use rod_hw::device::framed::{GsvValues, gsv};
-/// let (mut device, mut bytes) = (FakeGsv8::new(6, 100.0, GsvValues::F32), Vec::new());
-/// device.hear(&gsv::start(), &mut bytes);
+/// let (mut device, mut bytes) = (FakeGsv8::new(6, 100.0), Vec::new());
+/// device.hear(&[0xaa, 0x90, 0x24, 0x85], &mut bytes); // start
 /// assert!(device.is_sending() && bytes == [0xaa, 0x50, 0, 0x85]);
 /// bytes.clear();
 /// device.measure(&[0.1, -0.2, 0.3, 0.0, 0.0, 0.0125], Quality::empty(), &mut bytes);
@@ -43,7 +42,6 @@ const FASTEST: f32 = 12_000.0;
 /// ```
 #[derive(Clone, Debug)]
 pub struct FakeGsv8 {
-    values: GsvValues,
     rate: f32,
     sending: bool,
     single: bool,
@@ -53,11 +51,11 @@ pub struct FakeGsv8 {
 }
 
 impl FakeGsv8 {
-    /// A device of so many channels (1 to 16), rate (Hz) and values.
-    pub fn new(channels: usize, rate: f64, values: GsvValues) -> Self {
+    /// A device of so many channels (1 to 16), at a rate (Hz).
+    pub fn new(channels: usize, rate: f64) -> Self {
         let zero = vec![0.0; channels.clamp(1, 16)];
         let (rate, last) = (rate as f32, zero.clone());
-        Self { values, rate, sending: false, single: false, scanner: Scanner::default(), last, zero }
+        Self { rate, sending: false, single: false, scanner: Scanner::default(), last, zero }
     }
 
     /// What it does, and what it answers, if anything.
@@ -94,10 +92,7 @@ impl FakeGsv8 {
                     _ => BAD_ADDRESS,
                 }
             }
-            (command::SET_TX_MODE, [_, 0x00, 0x10]) => {
-                self.values = GsvValues::F32;
-                OK
-            }
+            (command::SET_TX_MODE, [_, 0x00, 0x10]) => OK,
             (command::SET_TX_MODE, [_, _, _]) => BAD_PARAMETER,
             (
                 command::START
@@ -129,12 +124,7 @@ impl FakeDevice for FakeGsv8 {
     }
 
     fn measure(&mut self, values: &[f64], quality: Quality, frame: &mut Vec<u8>) {
-        let code: u8 = match self.values {
-            GsvValues::I16 => 1,
-            GsvValues::I24 => 2,
-            GsvValues::F32 => 3,
-        };
-        let mut status = 0x80 | code << 4;
+        let mut status = 0xb0;
         if quality.contains(Quality::SATURATED) {
             status |= 1;
         }
@@ -144,16 +134,7 @@ impl FakeDevice for FakeGsv8 {
         frame.extend([0xaa, 0x10 | (self.zero.len() - 1) as u8, status]);
         for (i, (last, zero)) in self.last.iter_mut().zip(&self.zero).enumerate() {
             *last = values.get(i).copied().unwrap_or_default();
-            let value = *last - zero;
-            match self.values {
-                GsvValues::F32 => frame.extend((value as f32).to_be_bytes()),
-                // what is too much stays at the rail
-                GsvValues::I16 => frame.extend(((value.round() + 32_768.0) as u16).to_be_bytes()),
-                GsvValues::I24 => {
-                    let count = ((value.round() + 8_388_608.0) as u32).min(0x00ff_ffff);
-                    frame.extend(&count.to_be_bytes()[1..]);
-                }
-            }
+            frame.extend(((*last - zero) as f32).to_be_bytes());
         }
         frame.push(0x85);
     }
@@ -196,7 +177,10 @@ impl Framing for Requests {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rod_hw::device::framed::gsv;
+
+    fn rate(rate: f32) -> Vec<u8> {
+        [&[0xaa, 0x94, 0x8b][..], &rate.to_be_bytes(), &[0x85]].concat()
+    }
 
     fn answer(device: &mut FakeGsv8, request: &[u8]) -> Vec<u8> {
         let mut answers = Vec::new();
@@ -207,32 +191,29 @@ mod tests {
 
     #[test]
     fn answers() {
-        let mut device = FakeGsv8::new(2, 100.0, GsvValues::I24);
+        let mut device = FakeGsv8::new(2, 100.0);
         let told = |code| vec![0xaa, 0x50, code, 0x85];
-        assert_eq!(answer(&mut device, &gsv::set_rate(250.0)), told(OK));
+        assert_eq!(answer(&mut device, &rate(250.0)), told(OK));
         assert_eq!(answer(&mut device, &[0xaa, 0x90, 0x8a, 0x85]), [0xaa, 0x54, 0, 0x43, 0x7a, 0, 0, 0x85]);
-        assert_eq!(answer(&mut device, &gsv::set_rate(1e6)), told(TOO_BIG));
-        assert_eq!(answer(&mut device, &gsv::set_rate(f32::NAN)), told(TOO_SMALL));
-        assert_eq!(answer(&mut device, &gsv::set_zero(3)), told(BAD_ADDRESS));
+        assert_eq!(answer(&mut device, &rate(1e6)), told(TOO_BIG));
+        assert_eq!(answer(&mut device, &rate(f32::NAN)), told(TOO_SMALL));
+        assert_eq!(answer(&mut device, &[0xaa, 0x91, 0x0c, 3, 0x85]), told(BAD_ADDRESS));
         assert_eq!(answer(&mut device, &[0xaa, 0x91, 0x24, 0, 0x85]), told(WRONG_COUNT));
         assert_eq!(answer(&mut device, &[0xaa, 0x90, 0x77, 0x85]), told(UNKNOWN_COMMAND));
-        assert_eq!(answer(&mut device, &gsv::get_value()), []);
+        assert_eq!(answer(&mut device, &[0xaa, 0x90, 0x3b, 0x85]), []);
         assert!(device.take_single() && !device.take_single() && !device.is_sending());
     }
 
     #[test]
-    fn integers_zero_and_rails() {
-        let mut device = FakeGsv8::new(2, 100.0, GsvValues::I16);
+    fn values_and_zero() {
+        let mut device = FakeGsv8::new(2, 100.0);
         let mut frame = Vec::new();
-        device.measure(&[-3.0, 40_000.0], Quality::SATURATED, &mut frame);
-        assert_eq!(frame, [0xaa, 0x11, 0x91, 0x7f, 0xfd, 0xff, 0xff, 0x85]);
-        answer(&mut device, &gsv::set_zero(1));
+        device.measure(&[-3.0, 1.0], Quality::SATURATED, &mut frame);
+        assert_eq!(frame, [0xaa, 0x11, 0xb1, 0xc0, 0x40, 0, 0, 0x3f, 0x80, 0, 0, 0x85]);
+        assert_eq!(answer(&mut device, &[0xaa, 0x91, 0x0c, 1, 0x85]), [0xaa, 0x50, OK, 0x85]);
+        assert_eq!(answer(&mut device, &[0xaa, 0x93, 0x81, 1, 0, 0x10, 0x85]), [0xaa, 0x50, OK, 0x85]);
         frame.clear();
-        device.measure(&[-1.0], Quality::DEVICE_ERROR, &mut frame);
-        assert_eq!(frame, [0xaa, 0x11, 0x92, 0x80, 0x02, 0x80, 0x00, 0x85]);
-        answer(&mut device, &gsv::send_floats());
-        frame.clear();
-        device.measure(&[-3.0, 1.0], Quality::empty(), &mut frame);
-        assert_eq!(frame, [0xaa, 0x11, 0xb0, 0, 0, 0, 0, 0x3f, 0x80, 0, 0, 0x85]);
+        device.measure(&[-2.0], Quality::DEVICE_ERROR, &mut frame);
+        assert_eq!(frame, [0xaa, 0x11, 0xb2, 0x3f, 0x80, 0, 0, 0, 0, 0, 0, 0x85]);
     }
 }

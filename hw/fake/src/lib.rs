@@ -26,7 +26,6 @@ pub use robotiq::FakeRobotiq;
 pub use script::{Fault, Script};
 pub use sensor::{End, FakeSensor, Pace, Served};
 
-use rod_hw::device::framed::GsvValues;
 use rod_hw::{Quality, SerialProfile};
 
 /// The language of a device, seen from the device: bytes in, bytes out, no clock.
@@ -94,7 +93,7 @@ fn padded<const N: usize>(values: &[f64]) -> [f64; N] {
 /// A profile that is not known here gets a Robotiq FT 300.
 pub fn of_profile(profile: SerialProfile, rate: f64) -> Box<dyn FakeDevice + Send> {
     match profile {
-        SerialProfile::Gsv8 | SerialProfile::Gsv6 => Box::new(FakeGsv8::new(6, rate, GsvValues::F32)),
+        SerialProfile::Gsv8 | SerialProfile::Gsv6 => Box::new(FakeGsv8::new(6, rate)),
         SerialProfile::Bota => Box::new(FakeBota::new(rate)),
         SerialProfile::OptoForce => Box::new(FakeOptoForce::new(6)),
         _ => Box::new(FakeRobotiq::new()),

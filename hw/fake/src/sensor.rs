@@ -15,23 +15,26 @@ const BATCH: usize = 64;
 /// ```
 /// use rod_fake_sensor::{End, FakeBota, FakeSensor, Fault, Pace, Script};
 /// use rod_hw::device::framed::{Bota, Framed};
-/// use rod_hw::{HostClock, Link, LinkSettings, Quality, ReadWrite};
+/// use rod_hw::{Protocol, Quality};
+/// use std::io::Read;
 /// use std::net::{TcpListener, TcpStream};
 /// use std::time::Duration;
 /// let listener = TcpListener::bind("127.0.0.1:0")?;
-/// let host = TcpStream::connect(listener.local_addr()?)?;
+/// let mut host = TcpStream::connect(listener.local_addr()?)?;
 /// let (mut device, _) = listener.accept()?;
-/// for end in [&device, &host] {
-///     end.set_read_timeout(Some(Duration::from_millis(1)))?;
-/// }
+/// device.set_read_timeout(Some(Duration::from_millis(1)))?;
 /// let thread = std::thread::spawn(move || {
 ///     let source = (0..100).map(|i| [f64::from(i), 0.0, 0.0, 0.0, 0.0, 0.0]);
 ///     let script = Script::new().at(7, Fault::Report(Quality::SATURATED)).at(9, Fault::Flip(100));
 ///     let mut sensor = FakeSensor::new(FakeBota::new(200.0), source).with_script(script).with_pace(Pace::Unpaced);
 ///     sensor.serve(&mut device, |_| true)
 /// });
-/// let link = Link::new(ReadWrite::new(host), Framed::new(Bota::default()), HostClock::new(), LinkSettings::default());
-/// let samples: Vec<_> = link.map_while(Result::ok).collect();
+/// let (mut bytes, mut samples) = (Vec::new(), Vec::new());
+/// host.read_to_end(&mut bytes)?;
+/// let (mut protocol, mut rest) = (Framed::new(Bota), &bytes[..]);
+/// while let Some(told) = protocol.decode(&mut rest, 0.0) {
+///     samples.extend(told.ok());
+/// }
 /// assert_eq!(samples.len(), 99);
 /// assert_eq!(samples[7].quality, Quality::SATURATED);
 /// assert_eq!((samples[9].channels[0], samples[9].quality), (10.0, Quality::GAP_BEFORE));

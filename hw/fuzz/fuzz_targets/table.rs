@@ -42,8 +42,6 @@ fn read(data: &[u8], options: &TableOptions) {
         let first = table.columns().first().map(|column| column.heading.clone()).unwrap_or_default();
         let last = table.columns().last().map(|column| column.heading.clone()).unwrap_or_default();
         samples::<RawSample>(table, &map.clone().with(Role::Time, first).with_channels([last]));
-        let partial = [Role::Fy, Role::Fz, Role::Tx, Role::Ty, Role::Tz].into_iter().fold(map, ColumnMap::without);
-        samples::<WrenchSample>(table, &partial);
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::{Choices, is_same};
 use allocation_counter::measure;
 use rod_fake_sensor::FakeDevice;
-use rod_hw::device::framed::{Content, Counter, Framed, Framing, Head, LONGEST_FRAME, Profile, SetupStep};
+use rod_hw::device::framed::{Content, Framed, Framing, Head, LONGEST_FRAME, Profile, SetupStep};
 use rod_hw::{FrameFault, Protocol, Quality, RawSample, Request};
 use std::cell::Cell;
 
@@ -41,8 +41,8 @@ impl<P: Profile> Profile for Watched<P> {
     fn farewell(&self) -> Option<Request> {
         self.profile.farewell()
     }
-    fn counter(&self) -> Option<Counter> {
-        self.profile.counter()
+    fn counter_bits(&self) -> Option<u32> {
+        self.profile.counter_bits()
     }
 }
 

@@ -1,4 +1,4 @@
-//! How far a calibrated sensor can be trusted.
+//! Random and systematic errors of a calibrated sensor.
 
 use super::{CalibrationDataError, RatedLoad};
 use crate::sample::{Component, Number, Wrench, WrenchSample};

@@ -93,19 +93,21 @@ pub enum CalibrationDataError {
     /// Nothing is measured.
     #[error("no component is given, expected one at least")]
     Nothing,
-    /// A channel that the sample does not have, or one that is used twice.
-    #[error("channel {channel} is asked for, expected different channels from 1 to {count}")]
-    Channel {
-        /// Which one, from 1.
-        channel: usize,
-        /// How many a sample has.
-        count: usize,
-    },
     /// More channels than a sample can have.
     #[error("{count} channels, expected at most {most}", most = crate::sample::Channels::MOST)]
     Channels {
         /// How many.
         count: usize,
+    },
+    /// A range whose lower end is not below the upper one.
+    #[error("channel {channel} reaches from {low} to {high}, expected the lower end first")]
+    Ends {
+        /// Which channel, from 1.
+        channel: usize,
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
     },
     /// A calibration that compensates for temperature has a bias of no known temperature.
     #[error("the bias is of no known temperature, which this calibration compensates for; give it with the bias")]

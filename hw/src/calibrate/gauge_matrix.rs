@@ -32,13 +32,9 @@ const INDEPENDENT: f64 = 1e-4;
 pub struct GaugeMatrix<const N: usize, T = f64> {
     /// N and N m per raw unit.
     rows: [[T; N]; 6],
-    measured: [bool; 6],
     /// What the gauges read without load.
     bias: [f64; N],
     compensation: Option<Compensation<N>>,
-    /// Where the gauges are in a sample, and how many channels it has.
-    channels: [usize; N],
-    count: usize,
 }
 
 impl<const N: usize, T: Number> GaugeMatrix<N, T> {
@@ -71,22 +67,7 @@ impl<const N: usize, T: Number> GaugeMatrix<N, T> {
         if independent.is_nan() || independent < INDEPENDENT {
             return Err(CalibrationDataError::Dependent { component, independent, limit: INDEPENDENT });
         }
-        Ok(Self {
-            rows: si.map(|row| row.map(T::from_f64)),
-            measured,
-            bias: [0.0; N],
-            compensation: None,
-            channels: from_fn(|i| i),
-            count: N,
-        })
-    }
-
-    /// The rows of Fx, Fy, Fz, Tx, Ty, Tz, in these units per raw unit.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn of_six(rows: [[f64; N]; 6], units: WrenchUnits) -> Result<Self, CalibrationDataError> {
-        Self::new(&Component::ALL.map(|component| (component, rows[component.index()])), units)
+        Ok(Self { rows: si.map(|row| row.map(T::from_f64)), bias: [0.0; N], compensation: None })
     }
 
     /// The same with what the gauges read without load, raw.
@@ -98,42 +79,13 @@ impl<const N: usize, T: Number> GaugeMatrix<N, T> {
         Self { bias, ..self }.settled()
     }
 
-    /// The same, compensated for temperature: without a bias, which is left to the tare.
+    /// The same, compensated for temperature: without a bias, which is left to the tare. The thermometer is one more channel
+    /// after the gauges.
     ///
     /// # Errors
-    /// [`CalibrationDataError`] where there is a bias, or the thermometer is no channel of the
-    /// sample: tell the channels first.
+    /// [`CalibrationDataError::BiasTemperature`] where there is a bias.
     pub fn with_compensation(self, compensation: Compensation<N>) -> Result<Self, CalibrationDataError> {
         Self { compensation: Some(compensation), ..self }.settled()
-    }
-
-    /// The same with the gauges at other channels, from 0, of samples with `count` channels.
-    ///
-    /// ```
-    /// use rod_hw::{Calibration, Channels, Component, GaugeMatrix, RawSample, WrenchUnits};
-    /// let matrix = GaugeMatrix::<1>::new(&[(Component::Tz, [2.0])], WrenchUnits::SI)?.with_channels([5], 8)?;
-    /// let raw = RawSample::new(0.0, Channels::from([9.0, 9.0, 9.0, 9.0, 9.0, 0.5, 9.0, 9.0]));
-    /// assert_eq!(matrix.wrench(&raw)?.wrench.torque, [0.0, 0.0, 1.0]);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`CalibrationDataError`] where a channel is not of the sample or is used twice.
-    pub fn with_channels(self, channels: [usize; N], count: usize) -> Result<Self, CalibrationDataError> {
-        if count > Channels::MOST {
-            return Err(CalibrationDataError::Channels { count });
-        }
-        let mut used = [false; Channels::MOST];
-        for channel in channels {
-            let free = used.get_mut(channel).filter(|used| channel < count && !**used);
-            *free.ok_or(CalibrationDataError::Channel { channel: channel.saturating_add(1), count })? = true;
-        }
-        Self { channels, count, ..self }.settled()
-    }
-
-    /// Whether there is a row for a component.
-    pub fn measures(&self, component: Component) -> bool {
-        self.measured[component.index()]
     }
 
     /// N and N m per raw unit, a row for each component.
@@ -144,14 +96,8 @@ impl<const N: usize, T: Number> GaugeMatrix<N, T> {
     /// With all parts checked beside each other.
     fn settled(self) -> Result<Self, CalibrationDataError> {
         finite("a bias", &self.bias)?;
-        if let Some(compensation) = &self.compensation {
-            let channel = compensation.channel();
-            if channel >= self.count || self.channels.contains(&channel) {
-                return Err(CalibrationDataError::Channel { channel: channel.saturating_add(1), count: self.count });
-            }
-            if self.bias != [0.0; N] {
-                return Err(CalibrationDataError::BiasTemperature);
-            }
+        if self.compensation.is_some() && self.bias != [0.0; N] {
+            return Err(CalibrationDataError::BiasTemperature);
         }
         Ok(self)
     }
@@ -159,13 +105,13 @@ impl<const N: usize, T: Number> GaugeMatrix<N, T> {
 
 impl<const N: usize, T: Number> Calibration<T> for GaugeMatrix<N, T> {
     fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        super::expect_channels(raw, self.count)?;
+        super::expect_channels(raw, N + usize::from(self.compensation.is_some()))?;
         let mut gauges = [0.0; N];
-        for (gauge, &channel) in gauges.iter_mut().zip(&self.channels) {
+        for (channel, gauge) in gauges.iter_mut().enumerate() {
             *gauge = super::finite_channel(raw, channel)?;
         }
         if let Some(compensation) = &self.compensation {
-            gauges = compensation.at_reference(gauges, compensation.temperature(raw)?)?;
+            gauges = compensation.at_reference(gauges, super::finite_channel(raw, N)?)?;
         }
         // the bias may be much larger than what the load adds to it: it goes before the rounding to T
         let loads: [T; N] = from_fn(|i| T::from_f64(gauges[i] - self.bias[i]));

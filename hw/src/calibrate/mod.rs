@@ -1,4 +1,4 @@
-//! From raw values to a wrench, and its zero.
+//! Calibration: from raw values to a wrench; the tare.
 
 mod accuracy;
 #[cfg(feature = "cal")]
@@ -29,7 +29,19 @@ use crate::sample::{Component, Number, RawSample, Wrench, WrenchSample};
 
 /// From raw values to force and torque at the sensor's origin.
 ///
-/// For sensor authors: one method; a sensor that is not linear is a closure in an [`FnCalibration`].
+/// For sensor authors: one method; a closure is a calibration, too.
+///
+/// ```
+/// use rod_hw::{Calibration, CalibrationError, Channels, RawSample, Wrench, WrenchSample};
+/// // a base of three Hall sensors with a law of its own
+/// let calibration = |raw: &RawSample| -> Result<WrenchSample, CalibrationError> {
+///     let torque = [0.0, 0.0, 1e-3 * raw.channels[0].tanh()];
+///     Ok(WrenchSample::of(raw, Wrench { force: [0.0; 3], torque }))
+/// };
+/// let found = calibration.wrench(&RawSample::new(0.0, Channels::from([0.5, 0.0, 0.0])))?;
+/// assert_eq!(found.wrench.torque[2], 1e-3 * 0.5_f64.tanh());
+/// # Ok::<(), CalibrationError>(())
+/// ```
 pub trait Calibration<T = f64> {
     /// The wrench, with time, status and quality of the raw sample ([`WrenchSample::of`]), and what is known of its
     /// errors.
@@ -83,13 +95,13 @@ pub enum CalibrationError {
 }
 
 /// Refuses a sample of another number of channels.
-fn expect_channels(raw: &RawSample, expected: usize) -> Result<(), CalibrationError> {
+pub(crate) fn expect_channels(raw: &RawSample, expected: usize) -> Result<(), CalibrationError> {
     let found = raw.channels.len();
     if found == expected { Ok(()) } else { Err(CalibrationError::Channels { found, expected }) }
 }
 
 /// A channel, from 0, if it is a number.
-fn finite_channel(raw: &RawSample, channel: usize) -> Result<f64, CalibrationError> {
+pub(crate) fn finite_channel(raw: &RawSample, channel: usize) -> Result<f64, CalibrationError> {
     let value = raw.channels.get(channel).copied().unwrap_or(f64::NAN);
     if value.is_finite() { Ok(value) } else { Err(CalibrationError::NotFinite { channel: channel + 1, value }) }
 }
@@ -103,37 +115,9 @@ fn finished<T: Number>(raw: &RawSample, components: [T; 6]) -> Result<WrenchSamp
     }
 }
 
-/// A closure as a calibration.
-///
-/// ```
-/// use rod_hw::{Calibration, Channels, FnCalibration, RawSample, Wrench, WrenchSample};
-/// // a base of three Hall sensors with a law of its own
-/// let calibration = FnCalibration(|raw: &RawSample| {
-///     let torque = [0.0, 0.0, 1e-3 * raw.channels[0].tanh()];
-///     Ok(WrenchSample::<f64>::of(raw, Wrench { force: [0.0; 3], torque }))
-/// });
-/// let found = calibration.wrench(&RawSample::new(0.0, Channels::from([0.5, 0.0, 0.0])))?;
-/// assert_eq!(found.wrench.torque[2], 1e-3 * 0.5_f64.tanh());
-/// # Ok::<(), rod_hw::CalibrationError>(())
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct FnCalibration<F>(pub F);
-
-impl<T, F: Fn(&RawSample) -> Result<WrenchSample<T>, CalibrationError>> Calibration<T> for FnCalibration<F> {
+/// A closure of the raw sample is a calibration.
+impl<T, F: Fn(&RawSample) -> Result<WrenchSample<T>, CalibrationError>> Calibration<T> for F {
     fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        (self.0)(raw)
-    }
-}
-
-impl<T, C: Calibration<T> + ?Sized> Calibration<T> for &C {
-    fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        (**self).wrench(raw)
-    }
-}
-
-#[cfg(feature = "std")]
-impl<T, C: Calibration<T> + ?Sized> Calibration<T> for Box<C> {
-    fn wrench(&self, raw: &RawSample) -> Result<WrenchSample<T>, CalibrationError> {
-        (**self).wrench(raw)
+        self(raw)
     }
 }

@@ -1,4 +1,4 @@
-//! How much a sensor may be loaded.
+//! The rated load of a sensor.
 
 use super::CalibrationDataError;
 use super::wrench_units::WrenchUnits;
@@ -49,20 +49,13 @@ impl<T: Number> RatedLoad<T> {
         self.largest
     }
 
-    /// The first component beyond its rating, if any is.
-    pub fn exceeded(&self, wrench: &Wrench<T>) -> Option<Component> {
-        Component::ALL.into_iter().find(|c| c.of(wrench).to_f64().abs() > c.of(&self.largest).to_f64())
-    }
-
     /// The sample, flagged [`Quality::SATURATED`] where a component is beyond its rating: all six, because an overloaded
     /// gauge is part of each of them.
     #[must_use]
     pub fn flag(&self, sample: &WrenchSample<T>) -> WrenchSample<T> {
-        let mut flagged = *sample;
-        flagged.quality.set(
-            Quality::SATURATED,
-            sample.quality.contains(Quality::SATURATED) || self.exceeded(&sample.wrench).is_some(),
-        );
-        flagged
+        let size = |component: Component, wrench: &Wrench<T>| component.of(wrench).to_f64().abs();
+        let exceeded = Component::ALL.into_iter().any(|c| size(c, &sample.wrench) > size(c, &self.largest));
+        let flag = if exceeded { Quality::SATURATED } else { Quality::empty() };
+        WrenchSample { quality: sample.quality | flag, ..*sample }
     }
 }

@@ -121,11 +121,6 @@ impl<T: Number> Scale<T> {
         if scale.channels == [None; 6] { Err(CalibrationDataError::Nothing) } else { Ok(scale) }
     }
 
-    /// Which components there are channels for.
-    pub fn measures(&self, component: Component) -> bool {
-        self.channels[component.index()].is_some()
-    }
-
     /// What the device would send for a wrench, not rounded: the way back, for simulated sensors.
     pub fn channels(&self, wrench: &Wrench<T>) -> Channels {
         let mut values = [0.0; Channels::MOST];

@@ -1,15 +1,14 @@
 //! Compensation of gauges for their temperature.
 
 use super::wrench_units::finite;
-use super::{CalibrationDataError, CalibrationError, finite_channel};
-use crate::sample::RawSample;
+use super::{CalibrationDataError, CalibrationError};
 
 /// How gauges change with temperature: (v + bias_slope (T - T0)) / (1 - gain_slope (T - T0)) is what gauge v would read at
 /// T0 (ATI's DAQ F/T library). Slopes are per unit of the thermometer, in raw units and as parts.
 ///
 /// ```
-/// use rod_hw::{Compensation};
-/// let compensation = Compensation::new([0.002, 0.0], [0.0, 0.01], 25.0, 2)?;
+/// use rod_hw::Compensation;
+/// let compensation = Compensation::new([0.002, 0.0], [0.0, 0.01], 25.0)?;
 /// assert_eq!(compensation.at_reference([1.0, 2.0], 30.0)?, [1.0 + 0.002 * 5.0, 2.0 / 0.95]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -18,25 +17,19 @@ pub struct Compensation<const N: usize> {
     bias_slopes: [f64; N],
     gain_slopes: [f64; N],
     reference: f64,
-    channel: usize,
 }
 
 impl<const N: usize> Compensation<N> {
-    /// Of a slope of bias and one of gain for each gauge, the temperature T0 at which they read as calibrated, and the channel of
-    /// the thermometer, from 0, in its raw unit: thermistors are read as volts.
+    /// Of a slope of bias and one of gain for each gauge, and the temperature T0 at which they read as calibrated, in the raw unit
+    /// of the thermometer: thermistors are read as volts.
     ///
     /// # Errors
     /// [`CalibrationDataError::Number`] where one is not finite.
-    pub fn new(
-        bias_slopes: [f64; N],
-        gain_slopes: [f64; N],
-        reference: f64,
-        channel: usize,
-    ) -> Result<Self, CalibrationDataError> {
+    pub fn new(bias_slopes: [f64; N], gain_slopes: [f64; N], reference: f64) -> Result<Self, CalibrationDataError> {
         finite("a slope of bias", &bias_slopes)?;
         finite("a slope of gain", &gain_slopes)?;
         finite("the reference temperature", &[reference])?;
-        Ok(Self { bias_slopes, gain_slopes, reference, channel })
+        Ok(Self { bias_slopes, gain_slopes, reference })
     }
 
     /// What the gauges would read at the reference temperature, in their unit.
@@ -53,14 +46,5 @@ impl<const N: usize> Compensation<N> {
             *gauge = (*gauge + self.bias_slopes[i] * above) / divisor;
         }
         Ok(gauges)
-    }
-
-    /// The temperature of a sample.
-    pub(super) fn temperature(&self, raw: &RawSample) -> Result<f64, CalibrationError> {
-        finite_channel(raw, self.channel)
-    }
-
-    pub(super) fn channel(&self) -> usize {
-        self.channel
     }
 }

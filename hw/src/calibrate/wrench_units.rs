@@ -6,9 +6,9 @@ use crate::sample::{Component, Dimension, Unit, UnitError};
 /// A unit of force and one of torque.
 ///
 /// ```
-/// use rod_hw::WrenchUnits;
+/// use rod_hw::{Component, WrenchUnits};
 /// let units = WrenchUnits::parse("N", "N-mm")?;
-/// assert_eq!(units.torque().factor, 1e-3); // N m each
+/// assert_eq!(units.factor(Component::Tz), 1e-3); // N m each
 /// let error = WrenchUnits::parse("N", "mN").unwrap_err().to_string();
 /// assert!(error.starts_with("torque unit: `mN` is a unit of force, expected one of torque: N m, mN m"), "{error}");
 /// # Ok::<(), rod_hw::CalibrationDataError>(())
@@ -49,24 +49,9 @@ impl WrenchUnits {
         Ok(Self { force, torque: unit("torque unit", torque, Dimension::Torque)? })
     }
 
-    /// The unit of force.
-    pub fn force(&self) -> Unit {
-        self.force
-    }
-
-    /// The unit of torque.
-    pub fn torque(&self) -> Unit {
-        self.torque
-    }
-
     /// One unit of a component in SI, N or N m.
     pub fn factor(&self, component: Component) -> f64 {
-        self.of(component).factor
-    }
-
-    /// The unit of a component.
-    pub fn of(&self, component: Component) -> Unit {
-        if component.dimension() == Dimension::Force { self.force } else { self.torque }
+        if component.dimension() == Dimension::Force { self.force.factor } else { self.torque.factor }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Raw values at their rails.
 
+use crate::calibrate::{CalibrationDataError, CalibrationError, expect_channels, finite_channel};
 use crate::sample::{Channels, Quality, RawSample};
 
 /// The ends of the range of each channel, in raw units: counts or volts.
@@ -23,38 +24,6 @@ pub struct Rails {
     count: Option<usize>,
 }
 
-/// Why raw values cannot be judged, or go no further.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RailError {
-    /// Ends that are none.
-    #[error("channel {channel} reaches from {low} to {high}, expected the lower end first")]
-    Ends {
-        /// Which one, from 1.
-        channel: usize,
-        /// Lower end.
-        low: f64,
-        /// Upper end.
-        high: f64,
-    },
-    /// More channels than a sample can have, or another number of them.
-    #[error("{found} channels, expected {expected}")]
-    Channels {
-        /// How many there are.
-        found: usize,
-        /// How many there should be, or may be at most.
-        expected: usize,
-    },
-    /// A value that is none.
-    #[error("channel {channel} is {value}, expected a finite number")]
-    NotFinite {
-        /// Which one, from 1.
-        channel: usize,
-        /// Its value.
-        value: f64,
-    },
-}
-
 impl Rails {
     /// Channels without ends: only numbers that are none are found.
     pub fn none() -> Self {
@@ -69,19 +38,19 @@ impl Rails {
     /// let rails = Rails::new(&[(-10.0, 10.0), (0.0, 5.0)])?; // V
     /// assert_eq!(rails.check(&RawSample::new(0.0, Channels::from([9.9, 0.1])))?, Quality::empty());
     /// assert_eq!(rails.check(&RawSample::new(0.0, Channels::from([9.9, 0.0])))?, Quality::SATURATED);
-    /// # Ok::<(), rod_hw::RailError>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// [`RailError`] where there are more than [`Channels::MOST`], or an end is not below the other.
-    pub fn new(ends: &[(f64, f64)]) -> Result<Self, RailError> {
+    /// [`CalibrationDataError`] where there are more than [`Channels::MOST`], or an end is not below the other.
+    pub fn new(ends: &[(f64, f64)]) -> Result<Self, CalibrationDataError> {
         if ends.len() > Channels::MOST {
-            return Err(RailError::Channels { found: ends.len(), expected: Channels::MOST });
+            return Err(CalibrationDataError::Channels { count: ends.len() });
         }
         let mut rails = Self { count: Some(ends.len()), ..Self::none() };
         for (i, &(low, high)) in ends.iter().enumerate() {
             if low.is_nan() || high.is_nan() || low >= high {
-                return Err(RailError::Ends { channel: i + 1, low, high });
+                return Err(CalibrationDataError::Ends { channel: i + 1, low, high });
             }
             (rails.low[i], rails.high[i]) = (low, high);
         }
@@ -97,17 +66,12 @@ impl Rails {
     /// [`Quality::SATURATED`] where a channel is at an end of its range or beyond, nothing otherwise.
     ///
     /// # Errors
-    /// [`RailError`] where a value is no number, or there is another number of them.
-    pub fn check(&self, raw: &RawSample) -> Result<Quality, RailError> {
-        let found = raw.channels.len();
-        if let Some(expected) = self.count.filter(|count| *count != found) {
-            return Err(RailError::Channels { found, expected });
-        }
+    /// [`CalibrationError`] where a value is not finite, or there is another number of them.
+    pub fn check(&self, raw: &RawSample) -> Result<Quality, CalibrationError> {
+        self.count.map_or(Ok(()), |count| expect_channels(raw, count))?;
         let mut quality = Quality::empty();
-        for ((channel, &value), (&low, &high)) in (1..).zip(raw.channels.iter()).zip(self.low.iter().zip(&self.high)) {
-            if !value.is_finite() {
-                return Err(RailError::NotFinite { channel, value });
-            }
+        for (channel, (&low, &high)) in (0..raw.channels.len()).zip(self.low.iter().zip(&self.high)) {
+            let value = finite_channel(raw, channel)?;
             if value <= low || value >= high {
                 quality |= Quality::SATURATED;
             }

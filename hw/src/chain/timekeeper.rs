@@ -1,23 +1,24 @@
 //! When samples were taken.
 
+use super::error::ChainError;
 use crate::sample::{Quality, RawSample};
 
-/// So much faster or slower than the device's clock does time run while it is corrected: it never stands still.
+/// Largest correction of the clock, as a share of the elapsed time: the corrected time never stands still.
 const SLEW: f64 = 0.01;
 
-/// The share of a period that a step of time keeps at least, whatever is corrected.
+/// Shortest step of time from sample to sample, as a share of the period, however large the correction is.
 const LEAST_STEP: f64 = 0.5;
 
-/// Samples before the fit knows how large residuals usually are.
+/// Number of samples after which the fit knows the usual size of residuals.
 const FAMILIAR: u32 = 32;
 
-/// Residuals beyond so many times their mean size count as so large only.
+/// Residuals are clipped at this multiple of their mean size.
 const CLIP: f64 = 5.0;
 
-/// The usual size of residuals, at least, in periods: without jitter every rounding would be an outlier.
+/// Smallest usual size of residuals, in periods: without jitter every rounding error would be an outlier.
 const QUIET: f64 = 0.02;
 
-/// So many outliers in a row by the same amount are samples that were lost. Those that come late in a heap are by less and
+/// This many outliers in a row by the same amount mean lost samples. Samples that arrive late together are late by less and
 /// less.
 const RUN: u32 = 32;
 
@@ -48,7 +49,7 @@ const RUN: u32 = 32;
 pub struct Timekeeper {
     way: Way,
     last: Option<f64>,
-    /// Mean square of what the host's stamps are off, and of how many.
+    /// Mean square of the residuals of the host's times, s^2, and their number.
     scatter: f64,
     count: u64,
     restarts: u64,
@@ -60,33 +61,6 @@ enum Way {
     Device(Device),
     Counted(Counted),
     Paced(Paced),
-}
-
-/// Why a sample has no time.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TimingError {
-    /// The device has no clock of its own.
-    #[error("the sample has no time of the device, expected one; take the host's time, or count the samples")]
-    NoDeviceTime,
-    /// A time that is none.
-    #[error("the {clock} time is {value}, expected a finite number of seconds")]
-    NotFinite {
-        /// Whose time.
-        clock: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The host's time as it is, earlier than before.
-    #[error(
-        "the host's time is {t} s after one of {before} s, expected none that runs back; sort the recording, or leave the sample out"
-    )]
-    Backwards {
-        /// The time, s.
-        t: f64,
-        /// That of the sample before, s.
-        before: f64,
-    },
 }
 
 impl Timekeeper {
@@ -109,7 +83,7 @@ impl Timekeeper {
     /// assert_eq!(timekeeper.time(&raw(1000.0, 0.001))?, 0.001);
     /// let late = timekeeper.time(&raw(1000.002, 0.030))?;
     /// assert!((late - 0.003).abs() < 1e-12); // 2 ms after the one before, not 31
-    /// # Ok::<(), rod_hw::TimingError>(())
+    /// # Ok::<(), rod_hw::ChainError>(())
     /// ```
     pub fn device(window: f64) -> Self {
         Self::of(Way::Device(Device { window, ..Device::default() }))
@@ -147,17 +121,17 @@ impl Timekeeper {
     /// When this sample was taken, s.
     ///
     /// # Errors
-    /// [`TimingError`]; the sample then leaves no trace.
-    pub fn time(&mut self, raw: &RawSample) -> Result<f64, TimingError> {
+    /// [`ChainError`]; the sample then leaves no trace.
+    pub fn time(&mut self, raw: &RawSample) -> Result<f64, ChainError> {
         let host = number("host's", raw.host_time)?;
         let anew = raw.quality.contains(Quality::RESTARTED);
         let (time, residual, restarted) = match &mut self.way {
             Way::Host => match self.last {
-                Some(before) if host < before => return Err(TimingError::Backwards { t: host, before }),
+                Some(before) if host < before => return Err(ChainError::HostBackwards { t: host, before }),
                 _ => (host, 0.0, false),
             },
             Way::Device(device) => {
-                let own = number("device's", raw.device_time.ok_or(TimingError::NoDeviceTime)?)?;
+                let own = number("device's", raw.device_time.ok_or(ChainError::NoDeviceTime)?)?;
                 device.time(host, own, anew)
             }
             Way::Counted(counted) => counted.time(host, raw.sequence, anew),
@@ -191,8 +165,8 @@ impl Timekeeper {
     }
 }
 
-fn number(clock: &'static str, value: f64) -> Result<f64, TimingError> {
-    if value.is_finite() { Ok(value) } else { Err(TimingError::NotFinite { clock, value }) }
+fn number(clock: &'static str, value: f64) -> Result<f64, ChainError> {
+    if value.is_finite() { Ok(value) } else { Err(ChainError::Clock { clock, value }) }
 }
 
 /// The device's clock set to the host's.

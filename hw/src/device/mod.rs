@@ -1,11 +1,9 @@
-//! Devices: the protocols that sensors speak.
+//! Protocols of sensors.
 
 pub mod framed;
-mod onrobot_filter;
 pub mod rdt;
 #[cfg(feature = "std")]
 mod serial_profile;
 
-pub use onrobot_filter::OnRobotFilter;
 #[cfg(feature = "std")]
 pub use serial_profile::SerialProfile;

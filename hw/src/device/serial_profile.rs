@@ -81,9 +81,9 @@ impl SerialProfile {
     /// The protocol, for a [`Link`](crate::Link).
     pub fn protocol(self) -> Box<dyn Protocol + Send> {
         match self {
-            Self::Gsv8 | Self::Gsv6 => Box::new(Framed::new(Gsv::default())),
-            Self::Bota => Box::new(Framed::new(Bota::default())),
-            Self::OptoForce => Box::new(Framed::new(OptoForce::default())),
+            Self::Gsv8 | Self::Gsv6 => Box::new(Framed::new(Gsv)),
+            Self::Bota => Box::new(Framed::new(Bota)),
+            Self::OptoForce => Box::new(Framed::new(OptoForce)),
             Self::Robotiq => Box::new(Framed::new(Robotiq)),
         }
     }

@@ -1,6 +1,6 @@
-//! Why there are no such axes, or no lever arm.
+//! Why there is no such frame or mounting.
 
-/// Why there are no such axes, or no lever arm.
+/// Why there is no such frame or mounting.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
@@ -14,43 +14,13 @@ pub enum GeometryError {
         /// What was expected.
         expected: &'static str,
     },
-    /// Axes that are not of length 1, or not at right angles.
-    #[error(
-        "axes {a} and {b} have the product {product}, expected {} to within 1e-3; are these the columns or rows of a rotation?",
-        u8::from(.a == .b)
-    )]
-    NotOrthonormal {
-        /// The one, from 1.
-        a: usize,
-        /// The other.
-        b: usize,
-        /// Their scalar product.
-        product: f64,
-    },
+    /// Two axes along the same line.
+    #[error("two of the axes lie along the same line, expected one along each of x, y and z")]
+    SameAxis,
     /// A mirror image.
     #[error("the axes are left-handed, expected right-handed ones: x cross y is z; check the sign of one of them")]
     LeftHanded,
     /// A text that names no axis.
     #[error("no axis of this name, expected one of x, -x, y, -y, z, -z")]
     NoAxis,
-    /// Too few loads for a lever arm.
-    #[error("{found} loads, expected 2 or more in different directions")]
-    Few {
-        /// How many there are.
-        found: usize,
-    },
-    /// A load of a lever arm that is no number.
-    #[error("load {load} is not finite, expected finite numbers of N and N m")]
-    NotFinite {
-        /// Which one, from 1.
-        load: usize,
-    },
-    /// The arm along a force does nothing.
-    #[error(
-        "the forces differ by a sine of {spread:.3} only, expected 0.05 or more; hang weights in other directions, or turn the sensor"
-    )]
-    Parallel {
-        /// Sine by which they differ, root mean square.
-        spread: f64,
-    },
 }

@@ -1,13 +1,10 @@
-//! Axes and origin, and what a wrench is in others.
+//! Rigid transforms of wrenches between the sensor's frame and the scene's.
 
 use super::GeometryError;
 use crate::sample::{Number, Wrench};
 use core::array::from_fn;
 use core::str::FromStr;
 use nalgebra::{Matrix3, Vector3};
-
-/// Rotations as given, rounded to a few digits, may be so far from orthonormal; they are then made exact.
-const ORTHONORMAL: f64 = 1e-3;
 
 /// How axes and their origin lie to others: from the sensor's to those of the scene at the clamp, say.
 ///
@@ -76,46 +73,14 @@ impl<T: Number> Frame<T> {
     /// Old axes x, y, z that point along these new ones.
     ///
     /// # Errors
-    /// Where two point along the same, or they are left-handed.
+    /// [`GeometryError::SameAxis`], [`GeometryError::LeftHanded`].
     pub fn from_axes(axes: [Axis; 3]) -> Result<Self, GeometryError> {
-        let columns = axes.map(|axis| Vector3::from(axis.direction().map(T::from_f64)));
-        Self::of(Matrix3::from_columns(&columns))
-    }
-
-    /// From the rotation matrix R, row by row, that takes components in the old axes to those in the new ones.
-    ///
-    /// ```
-    /// use rod_hw::{Frame, GeometryError};
-    /// assert!(Frame::from_matrix([[0.7071, -0.7071, 0.0], [0.7071, 0.7071, 0.0], [0.0, 0.0, 1.0]]).is_ok());
-    /// assert_eq!(Frame::from_matrix([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), Err(GeometryError::LeftHanded));
-    /// ```
-    ///
-    /// # Errors
-    /// [`GeometryError`] where it is not orthonormal to 1e-3, or left-handed; within that, the nearest rotation is taken.
-    pub fn from_matrix(rows: [[T; 3]; 3]) -> Result<Self, GeometryError> {
-        // nalgebra takes the elements column by column
-        Self::of(Matrix3::from(rows).transpose())
-    }
-
-    fn of(rotation: Matrix3<T>) -> Result<Self, GeometryError> {
-        for entry in &rotation {
-            number("an entry of the rotation matrix", *entry)?;
+        let [x, y, z] = axes.map(|axis| Vector3::from(axis.direction()));
+        match x.cross(&y).dot(&z) {
+            0.0 => Err(GeometryError::SameAxis),
+            ..0.0 => Err(GeometryError::LeftHanded),
+            _ => Ok(Self { rotation: Matrix3::from_columns(&[x, y, z]).map(T::from_f64), ..Self::same() }),
         }
-        let gram = rotation * rotation.transpose();
-        for a in 0..3 {
-            for b in a..3 {
-                let product = gram[(a, b)].to_f64();
-                let expected = f64::from(u8::from(a == b));
-                if (product - expected).abs() > ORTHONORMAL {
-                    return Err(GeometryError::NotOrthonormal { a: a + 1, b: b + 1, product });
-                }
-            }
-        }
-        let [x, y, z] = [0, 1, 2].map(|i| rotation.column(i).into_owned());
-        if x.cross(&y).dot(&z).to_f64() < 0.0 {
-            return Err(GeometryError::LeftHanded);
-        }
-        Ok(Self { rotation: nearest_rotation(rotation), ..Self::same() })
     }
 
     /// With the new origin here, m, as seen from the old one and in the old axes: the lever arm.
@@ -132,11 +97,6 @@ impl<T: Number> Frame<T> {
     /// The new origin as seen from the old one, in the old axes, m.
     pub fn origin(&self) -> [T; 3] {
         self.origin.into()
-    }
-
-    /// Rotation matrix, row by row: from components in the old axes to those in the new ones.
-    pub fn rotation(&self) -> [[T; 3]; 3] {
-        self.rotation.transpose().into()
     }
 
     /// A wrench in the old axes about the old origin, in the new axes about the new one.
@@ -161,14 +121,8 @@ impl<T: Number> Frame<T> {
         Self { rotation: self.rotation.transpose(), origin }
     }
 
-    /// This one and then the next: from sensor to flange and from flange to clamp is from sensor to clamp.
-    pub fn then(&self, next: &Self) -> Self {
-        let origin = self.origin + self.rotation.transpose() * next.origin;
-        Self { rotation: next.rotation * self.rotation, origin }
-    }
-
     /// All of it turned by `angle` (rad) about the new z axis at the new origin.
-    pub fn turned(&self, angle: T) -> Self {
+    pub(super) fn turned(&self, angle: T) -> Self {
         let (sin, cos) = angle.sin_cos();
         let [x, y, z] = [0, 1, 2].map(|i| self.rotation.row(i).into_owned());
         Self { rotation: Matrix3::from_rows(&[x * cos - y * sin, x * sin + y * cos, z]), ..*self }
@@ -221,15 +175,6 @@ impl FromStr for Axis {
 pub(crate) fn number<T: Number>(what: &'static str, value: T) -> Result<(), GeometryError> {
     let value = value.to_f64();
     if value.is_finite() { Ok(()) } else { Err(GeometryError::Value { what, value, expected: "a finite number" }) }
-}
-
-/// The polar factor, by the iteration R (3 - R'R) / 2 of Newton and Schulz: 1e-3 becomes 1e-6, 1e-12, rounding.
-fn nearest_rotation<T: Number>(mut rotation: Matrix3<T>) -> Matrix3<T> {
-    let [half, three_halves] = [0.5, 1.5].map(T::from_f64);
-    for _ in 0..3 {
-        rotation = rotation * three_halves - rotation * rotation.transpose() * rotation * half;
-    }
-    rotation
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! How the sensor sits under the clamp.
+//! The mounting of the sensor at the clamp.
 
 use super::GeometryError;
 use super::frame::{Frame, number};

@@ -1,10 +1,10 @@
 //! The time of the host.
 
-/// A clock that can wait; a microcontroller has one of its own.
+/// A clock that can wait. A microcontroller needs its own implementation.
 pub trait Clock {
     /// Time, s, from any origin; never earlier than before.
     fn now(&mut self) -> f64;
-    /// Lets about so many seconds pass.
+    /// Waits for about this time, s.
     fn wait(&mut self, seconds: f64);
 }
 
@@ -47,15 +47,5 @@ impl Clock for HostClock {
         if let Ok(time) = std::time::Duration::try_from_secs_f64(seconds) {
             std::thread::sleep(time);
         }
-    }
-}
-
-impl<C: Clock + ?Sized> Clock for &mut C {
-    fn now(&mut self) -> f64 {
-        (**self).now()
-    }
-
-    fn wait(&mut self, seconds: f64) {
-        (**self).wait(seconds);
     }
 }

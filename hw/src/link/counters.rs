@@ -1,12 +1,12 @@
-//! What came over a link and what did not.
+//! Counters of a link.
 
-/// What came over a link and what did not. Every frame that came is exactly one of: handed on, repeated, reordered,
-/// malformed, of a bad checksum, an answer.
+/// Counters of a link. Every frame that arrives is counted as exactly one of: sample, repeated, reordered, malformed, bad
+/// checksum, answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LinkCounters {
-    /// Samples handed on.
+    /// Samples returned.
     pub samples: u64,
-    /// Samples missing by the device's own counter: never came, or came too late.
+    /// Samples missing by the device's own counter: never arrived, or arrived too late.
     pub lost: u64,
     /// Places where samples are missing.
     pub gaps: u64,
@@ -24,15 +24,15 @@ pub struct LinkCounters {
     pub foreign: u64,
     /// Bytes of a stream that belong to no good frame: those of damaged frames are among them.
     pub skipped_bytes: u64,
-    /// Samples handed on that the device calls wrong or saturated.
+    /// Samples returned that the device reports as wrong or saturated.
     pub device_errors: u64,
-    /// Times that the device's counter began anew.
+    /// Restarts of the device's counter.
     pub restarts: u64,
-    /// Samples handed on that the consumer did not take in time, thrown away.
+    /// Samples discarded because the consumer did not take them in time.
     pub untaken: u64,
     /// Requests sent.
     pub requests: u64,
-    /// Times that the connection was made anew.
+    /// Reconnections.
     pub reconnects: u64,
 }
 

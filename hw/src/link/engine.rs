@@ -7,24 +7,24 @@ use super::transport::Transport;
 use crate::sample::{Quality, RawSample};
 use core::time::Duration;
 
-/// Longer than any datagram of these devices, and so many frames of a stream at a time.
+/// Size of the buffer, bytes: longer than any datagram of these devices.
 const BUFFER: usize = 2048;
 
-/// Requests are due at this distance at most, s.
+/// Poll interval of requests, s.
 const TICK: f64 = 0.05;
 
-/// Less than that is no time to wait for, s: a clock of finite resolution may not move by it.
+/// Shortest time to wait for, s: a clock of finite resolution may not advance by less.
 const INSTANT: f64 = 1e-6;
 
-/// Between two tries to make a connection anew, at least, s.
+/// Shortest time between two attempts to reconnect, s.
 const BREATH: f64 = 1e-3;
 
-/// How a link behaves when nothing good comes.
+/// Deadline, limit of faults and reconnection of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkSettings {
     /// How long to wait for a sample before that is an error, s.
     pub deadline: f64,
-    /// So many faulty frames without a good one in between are an error.
+    /// Number of faulty frames in a row that is an error.
     pub storm: u32,
     /// What to do about a broken connection.
     pub reconnect: Reconnect,
@@ -35,11 +35,11 @@ pub struct LinkSettings {
 pub enum Reconnect {
     /// Report it and end.
     Never,
-    /// Try again, first after so many seconds, then after twice as many each time until samples come.
+    /// Reconnect after a pause that doubles with each failure until samples come.
     After {
-        /// Before the first try, s.
+        /// Pause before the first attempt, s.
         first: f64,
-        /// Most, s.
+        /// Longest pause, s.
         most: f64,
     },
 }
@@ -91,13 +91,13 @@ pub struct Link<T, P: Protocol, C> {
     clock: C,
     settings: LinkSettings,
     buffer: [u8; BUFFER],
-    /// What is not decoded of the buffer, and when it arrived.
+    /// The part of the buffer that is not decoded, and its time of arrival.
     rest: (usize, usize),
     arrived: f64,
     /// Faulty frames in a row.
     faults: u32,
     connection: Connection,
-    /// How long to wait before the next try to make the connection anew, s, where one failed or brought no sample.
+    /// Pause before the next attempt to reconnect, s, after one that failed or brought no sample.
     pause: Option<f64>,
     requests: u64,
     reconnects: u64,
@@ -143,16 +143,6 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
             foreign: self.transport.foreign(),
             ..self.protocol.counters()
         }
-    }
-
-    /// The protocol, to look at its state.
-    pub fn protocol(&self) -> &P {
-        &self.protocol
-    }
-
-    /// The clock that the samples' host times are of.
-    pub fn clock(&mut self) -> &mut C {
-        &mut self.clock
     }
 
     /// Tells the device to stop.

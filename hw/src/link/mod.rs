@@ -4,7 +4,7 @@ mod clock;
 mod counters;
 mod engine;
 mod protocol;
-#[cfg(feature = "std")]
+#[cfg(feature = "serial")]
 mod read_write;
 mod sequence;
 #[cfg(feature = "serial")]
@@ -23,8 +23,6 @@ pub use clock::HostClock;
 pub use counters::LinkCounters;
 pub use engine::{Link, LinkError, LinkSettings, Reconnect};
 pub use protocol::{FrameFault, Protocol, Request};
-#[cfg(feature = "std")]
-pub use read_write::ReadWrite;
 pub use sequence::{Sequence, SequenceStep};
 #[cfg(feature = "serial")]
 pub use serial_port::SerialPort;

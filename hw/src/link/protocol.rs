@@ -39,24 +39,6 @@ pub trait Protocol {
     fn counters(&self) -> LinkCounters;
 }
 
-impl<P: Protocol + ?Sized> Protocol for &mut P {
-    fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
-        (**self).decode(bytes, now)
-    }
-    fn request(&mut self, now: f64) -> Option<Request> {
-        (**self).request(now)
-    }
-    fn farewell(&self) -> Option<Request> {
-        (**self).farewell()
-    }
-    fn reset(&mut self) {
-        (**self).reset();
-    }
-    fn counters(&self) -> LinkCounters {
-        (**self).counters()
-    }
-}
-
 #[cfg(feature = "std")]
 impl<P: Protocol + ?Sized> Protocol for Box<P> {
     fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
@@ -121,18 +103,6 @@ pub enum FrameFault {
 pub struct Request {
     bytes: [u8; 64],
     count: usize,
-}
-
-impl Request {
-    /// How many bytes there can be.
-    pub const MOST: usize = 64;
-
-    /// These bytes; none where they are more than [`MOST`](Self::MOST).
-    pub fn new(bytes: &[u8]) -> Option<Self> {
-        let mut request = Self { bytes: [0; Self::MOST], count: bytes.len() };
-        request.bytes.get_mut(..bytes.len())?.copy_from_slice(bytes);
-        Some(request)
-    }
 }
 
 impl<const N: usize> From<[u8; N]> for Request {

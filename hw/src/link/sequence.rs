@@ -1,4 +1,4 @@
-//! Sequence numbers: what is missing, repeated, late.
+//! Sequence numbers: missing, repeated and late samples.
 
 /// Follows the counter of a device, which wraps.
 ///
@@ -7,7 +7,7 @@
 ///
 /// ```
 /// use rod_hw::{Sequence, SequenceStep};
-/// let mut sequence = Sequence::new(32, 1);
+/// let mut sequence = Sequence::new(32);
 /// let steps: Vec<SequenceStep> = [u32::MAX - 1, u32::MAX, 0, 3, 3, 2, 4].map(|n| sequence.step(n)).into();
 /// use SequenceStep::*;
 /// assert_eq!(steps, [First, Next, Next, Gap(2), Repeated, Late, Next]);
@@ -16,14 +16,13 @@
 #[derive(Clone, Copy, Debug)]
 pub struct Sequence {
     bits: u32,
-    stride: u32,
     last: Option<u32>,
     unwrapped: u64,
     /// The number that a restart would go on with.
     candidate: Option<u32>,
 }
 
-/// What a number says.
+/// What a number means beside the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SequenceStep {
     /// The first one.
@@ -41,9 +40,9 @@ pub enum SequenceStep {
 }
 
 impl Sequence {
-    /// A counter of so many bits (1 to 32) that grows by `stride` from sample to sample.
-    pub fn new(bits: u32, stride: u32) -> Self {
-        Self { bits: bits.clamp(1, 32), stride: stride.max(1), last: None, unwrapped: 0, candidate: None }
+    /// A counter of so many bits (1 to 32) that grows by 1 from sample to sample.
+    pub fn new(bits: u32) -> Self {
+        Self { bits: bits.clamp(1, 32), last: None, unwrapped: 0, candidate: None }
     }
 
     /// Takes the number of a sample.
@@ -61,15 +60,14 @@ impl Sequence {
         } else if ahead <= mask / 2 {
             self.last = Some(number);
             self.unwrapped += u64::from(ahead);
-            let missing = ahead.div_ceil(self.stride) - 1;
-            if missing == 0 { SequenceStep::Next } else { SequenceStep::Gap(missing) }
+            if ahead == 1 { SequenceStep::Next } else { SequenceStep::Gap(ahead - 1) }
         } else if candidate == Some(number) {
             self.last = Some(number);
             // goes on growing
             self.unwrapped += 1;
             SequenceStep::Restarted
         } else {
-            self.candidate = Some(number.wrapping_add(self.stride) & mask);
+            self.candidate = Some(number.wrapping_add(1) & mask);
             SequenceStep::Late
         }
     }
@@ -87,7 +85,7 @@ impl Sequence {
     ///
     /// ```
     /// use rod_hw::Sequence;
-    /// let mut sequence = Sequence::new(32, 1);
+    /// let mut sequence = Sequence::new(32);
     /// sequence.advance(1000);
     /// assert_eq!(sequence.ahead(997), Some(-3));
     /// sequence.advance(1); // the device started anew

@@ -15,7 +15,7 @@ use std::time::Duration;
 /// use rod_hw::device::framed::{Bota, Framed};
 /// use rod_hw::{HostClock, Link, LinkSettings, SerialPort, SerialProfile};
 /// let port = SerialPort::open("/dev/ttyUSB0", SerialProfile::Bota.baud())?;
-/// let link = Link::new(port, Framed::new(Bota::default()), HostClock::new(), LinkSettings::default());
+/// let link = Link::new(port, Framed::new(Bota), HostClock::new(), LinkSettings::default());
 /// for sample in link.take(1000) {
 ///     println!("{:?}", sample?.channels); // N and N m
 /// }
@@ -36,11 +36,6 @@ impl SerialPort {
         let mut port = Self { path: path.to_owned(), baud, port: None };
         port.reconnect()?;
         Ok(port)
-    }
-
-    /// Its path.
-    pub fn path(&self) -> &str {
-        &self.path
     }
 
     fn with<T>(

@@ -1,4 +1,4 @@
-//! Samples read in a thread of their own.
+//! Samples read by a separate thread.
 
 use super::clock::Clock;
 use super::counters::LinkCounters;
@@ -7,12 +7,12 @@ use super::protocol::Protocol;
 use super::transport::Transport;
 use crate::sample::{Quality, RawSample};
 use std::io::Error;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
-/// Samples of a link that a thread of its own reads, as an iterator: made by [`spawn`].
+/// Samples of a link that a separate thread reads, as an iterator: made by [`spawn`].
 ///
 /// Dropped, it tells the device to stop and waits for the thread, for at most the deadline of the link.
 #[derive(Debug)]
@@ -26,15 +26,13 @@ pub struct Spawned<E> {
 struct Shared {
     stop: AtomicBool,
     counters: Mutex<LinkCounters>,
-    /// Samples and errors that wait for the consumer.
-    waiting: AtomicUsize,
 }
 
-/// Reads a link in a thread of its own, so that a consumer who is busy at times loses nothing: up to `capacity` samples wait
+/// Reads a link in a separate thread, so that a consumer that is busy at times loses nothing: up to `capacity` samples wait
 /// for it. Their [`host_time`](RawSample::host_time) is that of their arrival.
 ///
-/// Where more would have to wait the newest are thrown away, counted as [`untaken`](LinkCounters::untaken), and the next one
-/// that is handed on has [`Quality::GAP_BEFORE`], and the flags that tell of a restart if one was among them. At 7000 samples a
+/// If more samples would have to wait, the newest are discarded and counted as [`untaken`](LinkCounters::untaken); the next
+/// sample has [`Quality::GAP_BEFORE`], and [`Quality::RESTARTED`] if a discarded one had it. At 7000 samples a
 /// second, 70 000 are 10 s and 18 MB at most.
 ///
 /// ```
@@ -84,13 +82,9 @@ where
         if let Ok(sample) = &mut item {
             sample.quality |= flags;
         }
-        shared.waiting.fetch_add(1, Ordering::Relaxed);
         let full = match sender.try_send(item) {
             Ok(()) => None,
-            Err(TrySendError::Full(item)) => {
-                shared.waiting.fetch_sub(1, Ordering::Relaxed);
-                Some(item)
-            }
+            Err(TrySendError::Full(item)) => Some(item),
             Err(TrySendError::Disconnected(_)) => break,
         };
         match full {
@@ -113,21 +107,6 @@ impl<E> Spawned<E> {
     pub fn counters(&self) -> LinkCounters {
         *self.shared.counters.lock().unwrap_or_else(PoisonError::into_inner)
     }
-
-    /// How many samples wait to be taken. Where they grow more and more the consumer is too slow for this device, and what it
-    /// takes is older and older.
-    pub fn waiting(&self) -> usize {
-        self.shared.waiting.load(Ordering::Relaxed)
-    }
-
-    /// The next sample if one is waiting, without waiting for it.
-    pub fn try_next(&mut self) -> Option<Result<RawSample, LinkError<E>>> {
-        self.samples.try_recv().ok().inspect(|_| self.taken())
-    }
-
-    fn taken(&self) {
-        self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
-    }
 }
 
 impl<E> Iterator for Spawned<E> {
@@ -135,7 +114,7 @@ impl<E> Iterator for Spawned<E> {
 
     /// The next sample, which the link answers for within its deadline.
     fn next(&mut self) -> Option<Self::Item> {
-        self.samples.recv().ok().inspect(|_| self.taken())
+        self.samples.recv().ok()
     }
 }
 
@@ -146,119 +125,5 @@ impl<E> Drop for Spawned<E> {
             // that it panicked has been told
             let _ = thread.join();
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::link::{FrameFault, HostClock, LinkSettings, Reconnect, Request};
-    use crate::sample::Channels;
-    use std::sync::atomic::AtomicU64;
-    use std::time::Duration;
-
-    /// So many samples at once, then broken.
-    struct Burst(u64, Arc<AtomicU64>);
-
-    impl Transport for Burst {
-        type Error = &'static str;
-        fn send(&mut self, bytes: &[u8]) -> Result<(), &'static str> {
-            self.1.fetch_add(u64::from(bytes == [9]), Ordering::SeqCst);
-            Ok(())
-        }
-        fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Result<Option<usize>, &'static str> {
-            self.0 = self.0.checked_sub(1).ok_or("end")?;
-            buffer[0] = 1;
-            Ok(Some(1))
-        }
-        fn reconnect(&mut self) -> Result<(), &'static str> {
-            Err("end")
-        }
-    }
-
-    /// Numbers what comes; the fifth one is the first after a restart.
-    #[derive(Default)]
-    struct Numbers(LinkCounters);
-
-    impl Protocol for Numbers {
-        fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
-            if core::mem::take(bytes).is_empty() {
-                return None;
-            }
-            self.0.samples += 1;
-            let quality = if self.0.samples == 5 { Quality::RESTARTED } else { Quality::empty() };
-            Some(Ok(RawSample { sequence: Some(self.0.samples), quality, ..RawSample::new(now, Channels::default()) }))
-        }
-        fn farewell(&self) -> Option<Request> {
-            Some([9].into())
-        }
-        fn reset(&mut self) {}
-        fn counters(&self) -> LinkCounters {
-            self.0
-        }
-    }
-
-    fn start(count: u64, capacity: usize) -> (Spawned<&'static str>, Arc<AtomicU64>) {
-        let farewells = Arc::new(AtomicU64::new(0));
-        let settings = LinkSettings { reconnect: Reconnect::Never, ..LinkSettings::default() };
-        let link = Link::new(Burst(count, Arc::clone(&farewells)), Numbers::default(), HostClock::new(), settings);
-        (spawn(link, capacity).unwrap(), farewells)
-    }
-
-    #[test]
-    fn nothing_lost_while_the_consumer_is_busy() {
-        let (mut spawned, farewells) = start(1000, 2000);
-        while spawned.counters().samples < 1000 {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        let numbers: Vec<u64> = spawned.by_ref().map_while(|item| item.ok()?.sequence).collect();
-        assert_eq!(numbers, (1..=1000).collect::<Vec<_>>());
-        assert_eq!((spawned.counters().untaken, spawned.next(), spawned.try_next()), (0, None, None));
-        assert_eq!(farewells.load(Ordering::SeqCst), 1);
-    }
-
-    #[test]
-    fn what_nobody_takes_is_counted_and_flagged() {
-        let (mut spawned, _) = start(10, 4);
-        while !spawned.thread.as_ref().unwrap().is_finished() {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        assert_eq!(spawned.waiting(), 4);
-        let taken: Vec<u64> = std::iter::from_fn(|| spawned.try_next()?.ok()?.sequence).collect();
-        assert_eq!((taken, spawned.counters().untaken), (vec![1, 2, 3, 4], 6));
-        assert_eq!(spawned.waiting(), 0);
-    }
-
-    #[test]
-    fn the_next_one_tells_of_the_gap() {
-        // the transport waits for the consumer after the tenth
-        struct Gate(Burst, std::sync::mpsc::Receiver<()>);
-        impl Transport for Gate {
-            type Error = &'static str;
-            fn send(&mut self, bytes: &[u8]) -> Result<(), &'static str> {
-                self.0.send(bytes)
-            }
-            fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, &'static str> {
-                if self.0.0 == 1 {
-                    self.1.recv().map_err(|_| "end")?;
-                }
-                self.0.receive(buffer, wait)
-            }
-            fn reconnect(&mut self) -> Result<(), &'static str> {
-                Err("end")
-            }
-        }
-        let (open, gate) = std::sync::mpsc::channel();
-        let settings = LinkSettings { reconnect: Reconnect::Never, ..LinkSettings::default() };
-        let transport = Gate(Burst(11, Arc::default()), gate);
-        let mut spawned = spawn(Link::new(transport, Numbers::default(), HostClock::new(), settings), 3).unwrap();
-        while spawned.counters().samples < 10 {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        assert_eq!(spawned.by_ref().take(3).count(), 3);
-        open.send(()).unwrap();
-        let next = spawned.next().unwrap().unwrap();
-        assert_eq!((next.sequence, next.quality), (Some(11), Quality::GAP_BEFORE | Quality::RESTARTED));
-        assert_eq!(spawned.counters().untaken, 7);
     }
 }

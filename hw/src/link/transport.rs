@@ -1,8 +1,8 @@
-//! Bytes there and back.
+//! Connections to a device.
 
 use core::time::Duration;
 
-/// Bytes there and back: datagrams (one a call), or a stream (as many as are there).
+/// A connection that sends and receives bytes: datagrams (one a call), or a stream (as many bytes as there are).
 pub trait Transport {
     /// Why it may fail.
     type Error;
@@ -20,47 +20,14 @@ pub trait Transport {
     /// Where the connection is broken, or ended by the other side.
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error>;
 
-    /// Makes a broken connection anew.
+    /// Reconnects.
     ///
     /// # Errors
     /// Where that does not work (yet), or not at all for this transport.
     fn reconnect(&mut self) -> Result<(), Self::Error>;
 
-    /// Datagrams left out because they came from elsewhere, or empty.
+    /// Number of datagrams that were ignored: from another address, or empty.
     fn foreign(&self) -> u64 {
         0
-    }
-}
-
-impl<T: Transport + ?Sized> Transport for &mut T {
-    type Error = T::Error;
-    fn send(&mut self, bytes: &[u8]) -> Result<(), Self::Error> {
-        (**self).send(bytes)
-    }
-    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error> {
-        (**self).receive(buffer, wait)
-    }
-    fn reconnect(&mut self) -> Result<(), Self::Error> {
-        (**self).reconnect()
-    }
-    fn foreign(&self) -> u64 {
-        (**self).foreign()
-    }
-}
-
-#[cfg(feature = "std")]
-impl<T: Transport + ?Sized> Transport for Box<T> {
-    type Error = T::Error;
-    fn send(&mut self, bytes: &[u8]) -> Result<(), Self::Error> {
-        (**self).send(bytes)
-    }
-    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error> {
-        (**self).receive(buffer, wait)
-    }
-    fn reconnect(&mut self) -> Result<(), Self::Error> {
-        (**self).reconnect()
-    }
-    fn foreign(&self) -> u64 {
-        (**self).foreign()
     }
 }

@@ -7,7 +7,7 @@ use std::io::{Error, ErrorKind};
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
 use std::time::Instant;
 
-/// Asked for of the system as room for what arrives while nobody asks, bytes. Linux gives less unless told otherwise
+/// Size of the receive buffer that is requested from the system, bytes. Linux gives less unless told otherwise
 /// (`net.core.rmem_max`), and counts some 0.8 KiB for a small datagram.
 const ROOM: usize = 4 << 20;
 
@@ -51,18 +51,12 @@ impl Udp {
         let addresses: Vec<SocketAddr> = host.to_socket_addrs().map_err(failed)?.collect();
         let version_4 = addresses.iter().find(|address| address.is_ipv4());
         match version_4.or(addresses.first()) {
-            Some(&peer) => Self::to(peer),
+            Some(&peer) => {
+                let socket = Self::socket(peer)?;
+                Ok(Self { socket, peer, foreign: 0, wait: None, datagram: vec![0; LONGEST].into() })
+            }
             None => Err(failed(ErrorKind::AddrNotAvailable.into())),
         }
-    }
-
-    /// To an address.
-    ///
-    /// # Errors
-    /// [`TransportError::Socket`].
-    pub fn to(peer: SocketAddr) -> Result<Self, TransportError> {
-        let socket = Self::socket(peer)?;
-        Ok(Self { socket, peer, foreign: 0, wait: None, datagram: vec![0; LONGEST].into() })
     }
 
     /// Not connected by the system, which would leave out what others send without counting.
@@ -80,14 +74,6 @@ impl Udp {
     /// The device.
     pub fn peer(&self) -> SocketAddr {
         self.peer
-    }
-
-    /// Room for what arrives while nobody asks, bytes, as the system counts them.
-    ///
-    /// # Errors
-    /// [`TransportError::UdpBroken`].
-    pub fn room(&self) -> Result<usize, TransportError> {
-        socket2::SockRef::from(&self.socket).recv_buffer_size().map_err(|cause| self.broken(cause))
     }
 
     fn broken(&self, cause: Error) -> TransportError {

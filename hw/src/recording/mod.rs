@@ -10,6 +10,6 @@ pub mod tdms;
 
 #[cfg(feature = "recordings")]
 pub use tables::{
-    About, Cell, Column, ColumnError, ColumnMap, Columns, Contents, Decimal, Delimiter, Header, Note, RecordError,
-    Recorded, Recorder, Role, Row, RowFault, RowProblem, Samples, Table, TableError, TableOptions,
+    Cell, Column, ColumnMap, Columns, Contents, Decimal, Delimiter, Header, Recorded, Recorder, Role, Row, RowFault,
+    RowProblem, Table, TableError, TableOptions, TableProblem,
 };

@@ -4,7 +4,7 @@ pub use tdms_file::*;
 
 use crate::sample::{Channels, Quality, RawSample};
 
-/// Channels of a group, at most 16, side by side: a [`RawSource`](crate::RawSource) of their scaled values, for the volts of a
+/// Channels of a group, at most 16, side by side: a source of their scaled values, for the volts of a
 /// calibration matrix, for instance.
 ///
 /// Counts of a card at their rail set [`Quality::SATURATED`]. What is wrong at the end, a channel that ends before the others or

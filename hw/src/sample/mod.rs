@@ -1,21 +1,19 @@
-//! What is handed on: raw values, wrenches, reactions, with their units and what speaks against them.
+//! Samples: raw values, wrenches and reactions, with units and quality flags.
 
 mod component;
 mod number;
 mod quality;
 mod raw;
 mod reaction_sample;
-mod source;
 mod unit;
 mod wrench;
 mod wrench_sample;
 
 pub use component::Component;
 pub use number::Number;
-pub use quality::{Quality, QualityError};
+pub use quality::Quality;
 pub use raw::{Channels, RawSample};
 pub use reaction_sample::{OutOfPlane, ReactionSample};
-pub use source::{RawSource, WrenchSource};
 pub use unit::{Dimension, Unit, UnitError};
 pub use wrench::Wrench;
 pub use wrench_sample::WrenchSample;

@@ -1,7 +1,7 @@
-//! What speaks against a sample.
+//! Quality flags of a sample.
 
 bitflags::bitflags! {
-    /// What speaks against a sample; nothing where it is good. Flags are added along the signal chain, never taken away.
+    /// Quality flags of a sample; empty if it is good. Flags are added along the signal chain and never removed.
     ///
     /// ```
     /// use rod_hw::Quality;
@@ -15,15 +15,15 @@ bitflags::bitflags! {
         const SATURATED = 1;
         /// The device warns.
         const DEVICE_WARNING = 1 << 1;
-        /// The device calls the sample wrong.
+        /// The device reports an error.
         const DEVICE_ERROR = 1 << 2;
         /// Samples before it are missing.
         const GAP_BEFORE = 1 << 3;
         /// The first one after the device or the connection started anew.
         const RESTARTED = 1 << 4;
-        /// Not measured but interpolated.
+        /// Interpolated, not measured.
         const INTERPOLATED = 1 << 5;
-        /// Sticks out of its neighbours.
+        /// An outlier among its neighbours.
         const SPIKE = 1 << 6;
         /// The tare is not that of this run of the device.
         const TARE_STALE = 1 << 7;
@@ -32,7 +32,7 @@ bitflags::bitflags! {
     }
 }
 
-/// What they are called, in the order of their bits.
+/// Names of the flags, in the order of their bits.
 const NAMES: [&str; 9] = [
     "saturated",
     "device warning",
@@ -46,10 +46,26 @@ const NAMES: [&str; 9] = [
 ];
 
 impl Quality {
-    /// Whether the values mean what they say: not where the sensor was saturated, called the sample wrong, or a spike came in
-    /// between.
+    /// Whether the values can be used: not if the sensor was saturated or reported an error, and not of a spike.
     pub fn is_usable(self) -> bool {
         !self.intersects(Self::SATURATED | Self::DEVICE_ERROR | Self::SPIKE)
+    }
+
+    /// The flags of their names, with commas or bars between them, as they are displayed; `good` where there are none.
+    ///
+    /// ```
+    /// use rod_hw::Quality;
+    /// assert_eq!(Quality::parse("saturated | gap before"), Some(Quality::SATURATED | Quality::GAP_BEFORE));
+    /// assert_eq!((Quality::parse("good"), Quality::parse("fine")), (Some(Quality::empty()), None));
+    /// ```
+    pub fn parse(text: &str) -> Option<Self> {
+        if text.trim() == "good" {
+            return Some(Self::empty());
+        }
+        text.split([',', '|']).map(str::trim).try_fold(Self::empty(), |flags, name| {
+            let bit = NAMES.iter().position(|known| *known == name)?;
+            Some(flags | Self::from_bits_truncate(1 << bit))
+        })
     }
 
     /// The flags that are set, by name.
@@ -57,33 +73,6 @@ impl Quality {
         NAMES.iter().enumerate().filter(move |(bit, _)| self.bits() >> bit & 1 == 1).map(|(_, name)| *name)
     }
 }
-
-impl core::str::FromStr for Quality {
-    type Err = QualityError;
-
-    /// The flags of their names, with commas or bars between them, as they are displayed; `good` where there are none.
-    ///
-    /// ```
-    /// use rod_hw::Quality;
-    /// assert_eq!("saturated | gap before".parse(), Ok(Quality::SATURATED | Quality::GAP_BEFORE));
-    /// assert_eq!("good".parse(), Ok(Quality::empty()));
-    /// assert!("fine".parse::<Quality>().is_err());
-    /// ```
-    fn from_str(text: &str) -> Result<Self, QualityError> {
-        if text.trim() == "good" {
-            return Ok(Self::empty());
-        }
-        text.split([',', '|']).map(str::trim).try_fold(Self::empty(), |flags, name| {
-            let bit = NAMES.iter().position(|known| *known == name).ok_or(QualityError)?;
-            Ok(flags | Self::from_bits_truncate(1 << bit))
-        })
-    }
-}
-
-/// Why a text is no flags.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected `good`, or names of flags with commas or bars between them, as `saturated, gap before`")]
-pub struct QualityError;
 
 impl core::fmt::Display for Quality {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -1,9 +1,9 @@
-//! What a device said.
+//! Raw samples.
 
 use super::quality::Quality;
 use core::ops::Deref;
 
-/// What a device said at one instant, as it said it.
+/// The values that a device sent for one instant, unchanged.
 ///
 /// ```
 /// use rod_hw::{Channels, RawSample};
@@ -25,7 +25,7 @@ pub struct RawSample {
     pub temperature: Option<f64>,
     /// Counts, volts or whatever the device sends, in its order. Counts up to 2^53 are exact.
     pub channels: Channels,
-    /// What speaks against it, as far as the device and the link tell.
+    /// Quality flags, as far as the device and the link know.
     pub quality: Quality,
 }
 

@@ -1,4 +1,4 @@
-//! What the clamp felt, and where it was.
+//! Reactions at the clamp.
 
 use super::quality::Quality;
 use super::raw::RawSample;
@@ -19,9 +19,9 @@ pub struct ReactionSample<T = f64> {
     pub systematic: Option<Reactions<T>>,
     /// What a planar rod cannot cause.
     pub out_of_plane: OutOfPlane<T>,
-    /// What speaks against it.
+    /// Quality flags.
     pub quality: Quality,
-    /// What the device said.
+    /// The raw sample.
     pub raw: RawSample,
 }
 

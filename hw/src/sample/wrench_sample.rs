@@ -1,4 +1,4 @@
-//! What a sensor measured.
+//! Wrenches at the sensor.
 
 use super::number::Number;
 use super::quality::Quality;
@@ -22,9 +22,9 @@ pub struct WrenchSample<T = f64> {
     pub sigma: Option<Wrench<T>>,
     /// Bounds of the systematic error (gain, linearity, crosstalk, hysteresis), N and N m, where they are known.
     pub systematic: Option<Wrench<T>>,
-    /// What speaks against it.
+    /// Quality flags.
     pub quality: Quality,
-    /// What the device said.
+    /// The raw sample.
     pub raw: RawSample,
 }
 

@@ -4,9 +4,10 @@ use super::TdmsFile;
 use super::contents::ChannelContents;
 use super::data_type::DataType;
 use super::error::TdmsError;
-use super::property::{TdmsProperties, TdmsTimestamp, TdmsValue};
+use super::property::{TdmsProperties, TdmsValue};
 use super::run::Series;
 use super::scaling::Scaling;
+use super::timestamp::TdmsTimestamp;
 
 /// A channel of a file.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! What values are of.
 
-use super::property::TdmsTimestamp;
+use super::timestamp::TdmsTimestamp;
 use crate::bytes::Order;
 
 /// What the values of a channel are of.

@@ -21,12 +21,14 @@ mod rows;
 mod run;
 mod scaling;
 mod segments;
+mod timestamp;
 
 pub use channel::{TdmsChannel, TdmsValues, TimeAxis};
 pub use data_type::DataType;
 pub use error::{TdmsError, TdmsFault};
-pub use property::{TdmsProperties, TdmsTimestamp, TdmsValue};
+pub use property::{TdmsProperties, TdmsValue};
 pub use rows::{TdmsRow, TdmsRows, TdmsTime};
+pub use timestamp::TdmsTimestamp;
 
 use contents::{Contents, GroupContents};
 use std::borrow::Cow;

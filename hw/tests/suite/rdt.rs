@@ -2,12 +2,11 @@
 
 use rod_core::Pose;
 use rod_fake_sensor::{FakeRdt, FakeRdtAccount, FakeRdtSettings, RdtFault};
-use rod_hw::device::rdt::{OnRobotFilter, Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings, read_scaling};
+use rod_hw::device::rdt::{Rdt, RdtProfile, RdtRecord, RdtRequest, RdtSettings, read_scaling};
 use rod_hw::{
-    Calibration, FnStage, Frame, HostClock, Link, LinkCounters, LinkError, LinkSettings, Mounting, Quality, RawSample,
+    Calibration, Frame, HostClock, Link, LinkCounters, LinkError, LinkSettings, Mounting, Quality, RawSample,
     SignalChain, Tare, TareLimits, TareWindow, TransportError, Udp, Wrench, WrenchChain, Zero, spawn,
 };
-use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
 
 type Sensor = Link<Udp, Rdt, HostClock>;
@@ -235,8 +234,8 @@ fn a_restart_spoils_the_tare_of_the_chain() {
     let fake =
         FakeRdt::start(FakeRdtSettings { faults, first_sample: 1, ..FakeRdtSettings::default() }, loads).unwrap();
     let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
-    let stage = FnStage(|_| Ok(Pose { x: 0.08, y: -0.04, phi: 1.571 }));
-    let wrenches = WrenchChain::new(stage, Mounting::new(Frame::same())).with_tare(None);
+    let stage = |_| Ok(Pose { x: 0.08, y: -0.04, phi: 1.571 });
+    let wrenches = WrenchChain::new(stage, Mounting::new(Frame::same()));
     let mut chain = SignalChain::new(calibration, wrenches);
     let limits = TareLimits::new(1e-3, Wrench { force: [1e-3; 3], torque: [1e-3; 3] }).unwrap();
     let mut link = link(&fake, net_ft());
@@ -244,7 +243,7 @@ fn a_restart_spoils_the_tare_of_the_chain() {
     assert_eq!((samples.len(), link.counters().restarts), (299, 1));
 
     let (unloaded, rest) = samples.split_at(100);
-    let tare = |chain: &mut SignalChain<_, _, _>, samples: &[RawSample]| {
+    let tare = |chain: &mut SignalChain<_, _>, samples: &[RawSample]| {
         let mut window = TareWindow::new(limits);
         samples.iter().for_each(|raw| window.push(&chain.wrench(raw).unwrap()).unwrap());
         chain.wrenches().set_tare(Some(Tare::single(window.finish().unwrap())));
@@ -324,7 +323,7 @@ fn status_of_each_family() {
         (RdtProfile::OnRobot, 0x0000_0010, 0x0100_0000, 0x0000_2000),
     ] {
         let faults = vec![bits(20, of_saturated), bits(22, of_warning), bits(24, of_error)];
-        let settings = FakeRdtSettings { faults, profile, ..FakeRdtSettings::default() };
+        let settings = FakeRdtSettings { faults, ..FakeRdtSettings::default() };
         let fake = FakeRdt::start(settings, counts(30)).unwrap();
         let mut link = link(&fake, RdtSettings { profile, ..net_ft() });
         let samples = drain(&mut link, &fake);
@@ -364,33 +363,6 @@ fn gone_and_back_at_the_same_port() {
     assert_eq!((first.channels[0], first.quality), (0.0, Quality::RESTARTED | GAP));
     assert_eq!(drain(&mut link, &again).len(), 99);
     assert_eq!((link.counters().restarts, link.counters().lost), (1, 0));
-}
-
-#[test]
-fn several_records_a_datagram() {
-    let faults = vec![
-        (25, RdtFault::Drop(1)),
-        (45, RdtFault::Repeat(1)),
-        (65, RdtFault::Cut(100)),
-        (82, RdtFault::Status { bits: 0x8002_0000, count: 1 }),
-        (85, RdtFault::Overtaken(10)),
-    ];
-    let settings = FakeRdtSettings { faults, records_per_datagram: 10, ..FakeRdtSettings::default() };
-    let fake = FakeRdt::start(settings, counts(125)).unwrap();
-    let mut link = link(&fake, RdtSettings { buffered: true, ..net_ft() });
-    let samples = drain(&mut link, &fake);
-    let left_out = |i: &i32| [2, 6, 8].contains(&(i / 10));
-    assert_eq!(came(&samples), (0..125).filter(|i| !left_out(i)).collect::<Vec<_>>());
-    assert_eq!(flagged(&samples, GAP), [30, 70, 90]);
-    let account = fake.account();
-    assert_eq!((account.dropped, account.repeated, account.damaged, account.overtaken), (10, 10, 10, 10));
-    // a repeated datagram brings nine records that are late by their numbers, and one that is repeated
-    let counters = link.counters();
-    assert_same(
-        LinkCounters { reordered: counters.reordered - 9, repeated: counters.repeated + 9, ..counters },
-        account,
-        0,
-    );
 }
 
 #[test]
@@ -445,18 +417,6 @@ fn a_busy_consumer_loses_nothing() {
 }
 
 #[test]
-fn on_robot_is_told_its_period_and_filter_before_the_start() {
-    let settings = FakeRdtSettings { profile: RdtProfile::OnRobot, rate: Some(1.0), ..FakeRdtSettings::default() };
-    let fake = FakeRdt::start(settings, counts(100)).unwrap();
-    let period = NonZeroU8::new(1);
-    let asked = RdtSettings { filter: Some(OnRobotFilter::Hz150), period, profile: RdtProfile::OnRobot, ..net_ft() };
-    let mut link = link(&fake, asked);
-    // at one a second this would take more than a minute
-    assert_eq!(drain(&mut link, &fake).len(), 100);
-    assert!(fake.account().others >= 2 && fake.account().unknown == 0);
-}
-
-#[test]
 fn so_many_as_asked_for_and_status_from_the_source() {
     let records = (0..100).map(|i| RdtRecord { status: i, ..RdtRecord::from([7; 6]) });
     let fake = FakeRdt::start(FakeRdtSettings::default(), records).unwrap();
@@ -500,7 +460,7 @@ fn scaling_and_readings_over_tcp() {
 }
 
 /// 7000 samples a second for a minute, and how long each is on its way:
-/// `cargo test --release -p rod-hw --features rdt --test rdt -- --ignored --nocapture`
+/// `cargo test --release -p rod-hw --features rdt --test suite rdt -- --ignored --nocapture`
 #[test]
 #[ignore = "takes a minute, and measures"]
 fn seven_thousand_a_second() {

@@ -37,10 +37,8 @@ pub struct FakeRdtAccount {
     pub ignored: u64,
     /// Requests to stop.
     pub stops: u64,
-    /// Requests for a new zero, or the old one.
+    /// Requests for a new zero.
     pub biases: u64,
-    /// All other requests that are known.
-    pub others: u64,
     /// Requests that are not known.
     pub unknown: u64,
     /// Answers over TCP.
@@ -63,14 +61,10 @@ pub(super) struct State {
     pub(super) client: Option<SocketAddr>,
     /// So many records are still to be sent.
     pub(super) left: Option<u32>,
-    /// Whether several a datagram.
-    pub(super) buffered: bool,
     /// Number of the start.
     pub(super) start: u64,
     /// Without power.
     pub(super) off: bool,
-    /// Between records, s.
-    pub(super) period: f64,
     /// Requests to start that are still to be lost.
     pub(super) to_ignore: u32,
     /// The record sent last.
@@ -80,14 +74,11 @@ pub(super) struct State {
 
 impl Shared {
     pub(super) fn new(settings: &FakeRdtSettings) -> Self {
-        let period = settings.rate.filter(|rate| *rate > 0.0).map_or(0.0, f64::recip);
         let state = State {
             client: None,
             left: None,
-            buffered: false,
             start: 0,
             off: false,
-            period,
             to_ignore: settings.ignored_starts,
             last: RdtRecord::default(),
             account: FakeRdtAccount::default(),

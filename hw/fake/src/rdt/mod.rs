@@ -35,7 +35,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// let fake = FakeRdt::start(settings, (0..50).map(|i| [i, -i, 300, 10, -20, 30]))?;
 ///
 /// let scaling = read_scaling(&fake.scaling_address().ok_or("no TCP")?.to_string(), std::time::Duration::from_secs(5))?;
-/// assert_eq!(scaling.factors()[0], 1e-6);
+/// assert_eq!(scaling.counts_per_force, 1e6);
 /// let udp = Udp::connect(&fake.address().to_string())?;
 /// let link = Link::new(udp, Rdt::new(RdtSettings::new(RdtProfile::NetFt)), HostClock::new(), LinkSettings::default());
 /// let samples = link.take(5).collect::<Result<Vec<_>, _>>()?;
@@ -73,9 +73,8 @@ impl FakeRdt {
         let mut servers = Vec::new();
         servers.push({
             let (shared, socket) = (Arc::clone(&shared), socket.try_clone()?);
-            let profile = settings.profile;
             thread::Builder::new().name("fake RDT requests".into()).spawn(move || {
-                requests::serve_udp(&shared, &socket, profile);
+                requests::serve_udp(&shared, &socket);
             })?
         });
         // dropped on the way out, it takes along what runs already

@@ -25,9 +25,8 @@ impl Pace {
     }
 
     /// How long until the next step is due.
-    pub(super) fn left(&mut self, period: f64) -> Duration {
-        if period != self.period || self.steps == u32::MAX {
-            self.period = period;
+    pub(super) fn left(&mut self) -> Duration {
+        if self.steps == u32::MAX {
             self.delay(0.0);
         }
         let due = self.from + Duration::try_from_secs_f64(self.period * f64::from(self.steps)).unwrap_or_default();
@@ -51,15 +50,15 @@ mod tests {
     #[test]
     fn steady_and_made_up_for() {
         let mut pace = Pace::new(10.0);
-        assert_eq!(pace.left(10.0), Duration::ZERO);
+        assert_eq!(pace.left(), Duration::ZERO);
         pace.step();
-        let left = pace.left(10.0).as_secs_f64();
+        let left = pace.left().as_secs_f64();
         assert!(left > 5.0 && left <= 10.0, "{left}");
         pace.delay(100.0);
-        assert!(pace.left(10.0).as_secs_f64() > 50.0);
+        assert!(pace.left().as_secs_f64() > 50.0);
         // no pace at all
         let mut pace = Pace::new(0.0);
         pace.step();
-        assert_eq!(pace.left(0.0), Duration::ZERO);
+        assert_eq!(pace.left(), Duration::ZERO);
     }
 }

@@ -1,7 +1,7 @@
 //! What a fake sensor is asked.
 
 use super::account::{Shared, State};
-use rod_hw::device::rdt::{RdtProfile, RdtRequest, RdtScaling};
+use rod_hw::device::rdt::{RdtRequest, RdtScaling};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::sync::atomic::Ordering;
@@ -15,7 +15,7 @@ const TICK: Duration = Duration::from_millis(20);
 const IDLE: Duration = Duration::from_secs(1);
 
 /// Listens for requests until told to end.
-pub(super) fn serve_udp(shared: &Shared, socket: &UdpSocket, profile: RdtProfile) {
+pub(super) fn serve_udp(shared: &Shared, socket: &UdpSocket) {
     let mut bytes = [0; 64];
     while !shared.stop.load(Ordering::Relaxed) {
         // without a time limit it would never look up: then rather none of it
@@ -23,42 +23,34 @@ pub(super) fn serve_udp(shared: &Shared, socket: &UdpSocket, profile: RdtProfile
             return;
         }
         let Ok((count, from)) = socket.recv_from(&mut bytes) else { continue };
-        shared.lock().answer(RdtRequest::from_bytes(&bytes[..count]), from, profile);
+        shared.lock().answer(RdtRequest::from_bytes(&bytes[..count]), from);
         shared.changed.notify_all();
     }
 }
 
 impl State {
     /// Does what it is asked.
-    fn answer(&mut self, request: Option<RdtRequest>, from: SocketAddr, profile: RdtProfile) {
-        use RdtRequest::{Bias, ClearBias, Filter, Period, ResetLatch, Start, StartBuffered, Stop};
-        let on_robot = profile == RdtProfile::OnRobot;
+    fn answer(&mut self, request: Option<RdtRequest>, from: SocketAddr) {
+        use RdtRequest::{Bias, Start, Stop};
         let account = &mut self.account;
         match request {
             _ if self.off => account.ignored += 1,
-            Some(Start { .. } | StartBuffered { .. }) if self.to_ignore > 0 => {
+            Some(Start { .. }) if self.to_ignore > 0 => {
                 self.to_ignore -= 1;
                 account.ignored += 1;
             }
-            Some(Start { count } | StartBuffered { count }) => {
+            Some(Start { count }) => {
                 account.starts += 1;
                 self.start += 1;
                 self.client = Some(from);
                 self.left = Some(count).filter(|count| *count > 0);
-                self.buffered = matches!(request, Some(StartBuffered { .. }));
             }
             Some(Stop) => {
                 account.stops += 1;
                 self.client = None;
             }
-            Some(Bias | ClearBias) => account.biases += 1,
-            Some(Period(period)) if on_robot => {
-                account.others += 1;
-                self.period = f64::from(period.get()) * 1e-3;
-            }
-            Some(Filter(_)) if on_robot => account.others += 1,
-            Some(ResetLatch) => account.others += 1,
-            _ => account.unknown += 1,
+            Some(Bias) => account.biases += 1,
+            None => account.unknown += 1,
         }
     }
 }

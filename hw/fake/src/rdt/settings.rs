@@ -1,6 +1,6 @@
 //! What a fake sensor is to be.
 
-use rod_hw::device::rdt::{RdtProfile, RdtScaling};
+use rod_hw::device::rdt::RdtScaling;
 use rod_hw::{Dimension, Unit};
 use std::net::{Ipv4Addr, SocketAddr};
 
@@ -11,8 +11,6 @@ pub struct FakeRdtSettings {
     pub address: SocketAddr,
     /// Where it tells its scaling over TCP, if at all; port 0 takes any that is free.
     pub scaling_address: Option<SocketAddr>,
-    /// Its family: only OnRobot's understand filter and period.
-    pub profile: RdtProfile,
     /// Records a second; none means as fast as possible.
     pub rate: Option<f64>,
     /// What its counts are.
@@ -23,8 +21,6 @@ pub struct FakeRdtSettings {
     pub first_sample: u32,
     /// How far the number of the sample goes from record to record: rate of its own clock over that of the records.
     pub stride: u32,
-    /// Records a datagram, where asked for several.
-    pub records_per_datagram: usize,
     /// So many requests to start get lost.
     pub ignored_starts: u32,
     /// From the first start to the first record, s.
@@ -41,7 +37,6 @@ impl Default for FakeRdtSettings {
         Self {
             address: any,
             scaling_address: Some(any),
-            profile: RdtProfile::NetFt,
             rate: Some(1000.0),
             scaling: RdtScaling {
                 force_unit: unit("N", Dimension::Force, 1.0),
@@ -53,7 +48,6 @@ impl Default for FakeRdtSettings {
             first_packet: 1,
             first_sample: 1,
             stride: 1,
-            records_per_datagram: 40,
             ignored_starts: 0,
             start_delay: 0.0,
             faults: Vec::new(),
@@ -61,7 +55,7 @@ impl Default for FakeRdtSettings {
     }
 }
 
-/// What goes wrong at one record. Where a datagram holds several records, what happens to one happens to all of them.
+/// What goes wrong at one record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RdtFault {
     /// It and those after it, so many in all, are never sent.

@@ -24,7 +24,6 @@ pub(super) struct Stream<'a> {
     first_packet: u32,
     first_sample: u32,
     stride: u32,
-    records_per_datagram: usize,
     start_delay: f64,
     /// Number of the start that the packets are counted from.
     start: u64,
@@ -57,7 +56,7 @@ impl<'a> Stream<'a> {
     pub(super) fn new(shared: &'a Shared, settings: &FakeRdtSettings, socket: UdpSocket, foreign: UdpSocket) -> Self {
         let mut faults = settings.faults.clone();
         faults.sort_by_key(|(at, _)| *at);
-        let period = shared.lock().period;
+        let period = settings.rate.filter(|rate| *rate > 0.0).map_or(0.0, f64::recip);
         Self {
             shared,
             socket,
@@ -67,7 +66,6 @@ impl<'a> Stream<'a> {
             first_packet: settings.first_packet,
             first_sample: settings.first_sample,
             stride: settings.stride,
-            records_per_datagram: settings.records_per_datagram.max(1),
             start_delay: settings.start_delay,
             start: 0,
             packet: settings.first_packet,
@@ -84,16 +82,16 @@ impl<'a> Stream<'a> {
     pub(super) fn run(mut self, samples: impl Iterator<Item = RdtRecord>) {
         let mut samples = samples.fuse();
         let mut number = 0;
-        while let Some((client, buffered)) = self.due() {
+        while let Some(client) = self.due() {
             while self.faults.front().is_some_and(|(at, _)| *at <= number) {
                 if let Some((_, fault)) = self.faults.pop_front() {
-                    self.go_wrong(fault, client, buffered);
+                    self.go_wrong(fault, client);
                 }
             }
             // without power, or it took time
-            let Some((client, buffered)) = self.due() else { return };
+            let Some(client) = self.due() else { return };
             let Some(sample) = samples.next() else { break };
-            self.put(sample, client, buffered);
+            self.put(sample, client);
             number += 1;
         }
         let client = self.shared.lock().client;
@@ -107,8 +105,8 @@ impl<'a> Stream<'a> {
         self.shared.stop.load(Ordering::Relaxed)
     }
 
-    /// Waits until a record is due: whom it is for, and whether several go into a datagram. None at the end of all.
-    fn due(&mut self) -> Option<(SocketAddr, bool)> {
+    /// Waits until a record is due, and returns whom it is for. None at the end of all.
+    fn due(&mut self) -> Option<SocketAddr> {
         loop {
             if self.stopped() {
                 return None;
@@ -121,7 +119,7 @@ impl<'a> Stream<'a> {
                 self.pace.delay(0.0);
                 continue;
             };
-            let (start, buffered, period) = (state.start, state.buffered, state.period);
+            let start = state.start;
             drop(state);
             if self.start != start {
                 if self.start == 0 {
@@ -130,15 +128,15 @@ impl<'a> Stream<'a> {
                 self.start = start;
                 self.packet = self.first_packet;
             }
-            match self.pace.left(period) {
-                Duration::ZERO => return Some((client, buffered)),
+            match self.pace.left() {
+                Duration::ZERO => return Some(client),
                 left => thread::sleep(left.min(TICK)),
             }
         }
     }
 
     /// What is to happen at the next record.
-    fn go_wrong(&mut self, fault: RdtFault, client: SocketAddr, buffered: bool) {
+    fn go_wrong(&mut self, fault: RdtFault, client: SocketAddr) {
         match fault {
             RdtFault::Drop(count) => self.to_drop = count,
             RdtFault::Repeat(count) => self.datagram.repeat += count,
@@ -147,7 +145,7 @@ impl<'a> Stream<'a> {
                 for _ in 0..count {
                     self.shared.lock().account.stalled += 1;
                     self.sample = self.sample.wrapping_sub(self.stride);
-                    self.put(self.last, client, buffered);
+                    self.put(self.last, client);
                 }
             }
             RdtFault::Pause(seconds) => self.pace.delay(seconds),
@@ -186,8 +184,8 @@ impl<'a> Stream<'a> {
         }
     }
 
-    /// Makes a record and sends its datagram once that is full.
-    fn put(&mut self, mut record: RdtRecord, client: SocketAddr, buffered: bool) {
+    /// Makes a record and sends it.
+    fn put(&mut self, mut record: RdtRecord, client: SocketAddr) {
         if self.status.1 > 0 {
             self.status.1 -= 1;
             record.status |= self.status.0;
@@ -204,21 +202,15 @@ impl<'a> Stream<'a> {
         self.datagram.bytes.extend(record.to_bytes());
         self.datagram.records += 1;
         self.datagram.flagged += u64::from(record.status != 0);
-        let last = {
-            let mut state = self.shared.lock();
-            state.last = record;
-            state.account.records += 1;
-            let left = state.left.map(|left| left.saturating_sub(1));
-            state.left = left;
-            if left == Some(0) {
-                state.client = None;
-            }
-            left == Some(0)
-        };
-        let full = if buffered { self.records_per_datagram } else { 1 };
-        if last || self.datagram.records >= full as u64 {
-            self.flush(client);
+        let mut state = self.shared.lock();
+        state.last = record;
+        state.account.records += 1;
+        state.left = state.left.map(|left| left.saturating_sub(1));
+        if state.left == Some(0) {
+            state.client = None;
         }
+        drop(state);
+        self.flush(client);
     }
 
     /// The datagram goes its way, and those that it overtakes the last.

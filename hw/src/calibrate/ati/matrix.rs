@@ -5,6 +5,7 @@ use super::{AtiFileError, CalibrationDataError};
 use crate::calibrate::WrenchUnits;
 use crate::sample::{Channels, Component, Dimension, Wrench};
 use core::array::from_fn;
+use nalgebra::{Rotation3, Vector3};
 
 type Row = [f64; Channels::MOST];
 /// Rows, and the largest loads.
@@ -121,18 +122,14 @@ impl Transform {
 
     /// Forces R F, torques R (M - d x F).
     fn applied(&self, rows: [Row; 6]) -> [Row; 6] {
-        let moved = about(rows, self.shift);
-        let [(sx, cx), (sy, cy), (sz, cz)] = self.turn.map(f64::sin_cos);
-        let turn = [
-            [cy * cz, sx * sy * cz + cx * sz, sx * sz - cx * sy * cz],
-            [-cy * sz, cx * cz - sx * sy * sz, sx * cz + cx * sy * sz],
-            [sy, -sx * cy, cx * cy],
-        ];
-        from_fn(|i| {
-            let part = 3 * (i / 3);
-            let [a, b, c] = turn[i % 3];
-            from_fn(|j| a * moved[part][j] + b * moved[part + 1][j] + c * moved[part + 2][j])
-        })
+        let [x, y, z] = self.turn.map(|angle| -angle);
+        let turn = Rotation3::from_euler_angles(x, y, z);
+        let columns: [[f64; 6]; Channels::MOST] = from_fn(|j| {
+            let Wrench { force, torque } = Wrench::from_components(rows.map(|row| row[j])).about(self.shift);
+            let [force, torque] = [force, torque].map(|vector| (turn * Vector3::from(vector)).into());
+            Wrench { force, torque }.components()
+        });
+        from_fn(|i| columns.map(|column| column[i]))
     }
 
     /// How far a row may be off, in SI, where the rows before are rounded to so much in their units.
@@ -147,10 +144,4 @@ impl Transform {
         let lever: f64 = self.shift.iter().map(|d| d.abs()).sum();
         if component.dimension() == Dimension::Torque { alike + lever * of(Dimension::Force) } else { alike }
     }
-}
-
-/// Rows in SI with torques about a point at d (m) from the origin.
-fn about<const N: usize>(rows: [[f64; N]; 6], d: [f64; 3]) -> [[f64; N]; 6] {
-    let columns: [[f64; 6]; N] = from_fn(|j| Wrench::from_components(rows.map(|row| row[j])).about(d).components());
-    from_fn(|i| columns.map(|column| column[i]))
 }

@@ -171,8 +171,8 @@ impl AtiCalibration {
         let matrix = self.without_temperature()?;
         let Some(slopes) = &self.slopes else { return Ok(matrix) };
         let of = |slopes: &[f64]| from_fn(|i| slopes.get(i).copied().unwrap_or_default());
-        Compensation::new(of(&slopes.bias), of(&slopes.gain), slopes.thermistor, N)
-            .and_then(|compensation| matrix.with_channels(from_fn(|i| i), N + 1)?.with_compensation(compensation))
+        Compensation::new(of(&slopes.bias), of(&slopes.gain), slopes.thermistor)
+            .and_then(|compensation| matrix.with_compensation(compensation))
             .map_err(|error| AtiFileError::Data { line: self.line, error })
     }
 

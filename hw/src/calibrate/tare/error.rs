@@ -103,22 +103,14 @@ pub enum TareError {
         /// The largest change accepted.
         limit: f64,
     },
-    /// A limit is none.
-    #[error("{field} is {value}, expected a positive number")]
-    Limit {
+    /// A number of the limits or of a known zero is out of its range.
+    #[error("{field} is {value}, expected {expected}")]
+    Number {
         /// Which one.
         field: &'static str,
         /// Its value.
         value: f64,
-    },
-    /// A zero is none.
-    #[error(
-        "{field} of the zero is {value}, expected a finite number, in order of time and not negative for deviations"
-    )]
-    Zero {
-        /// Which number.
-        field: &'static str,
-        /// Its value.
-        value: f64,
+        /// What it should be.
+        expected: &'static str,
     },
 }

@@ -3,6 +3,8 @@
 use super::TareError;
 use crate::sample::{Component, Wrench};
 
+const POSITIVE: &str = "a positive number";
+
 /// What a tare window must be like to give a zero.
 ///
 /// ```
@@ -22,10 +24,10 @@ impl TareLimits {
     /// where it does not matter): by drift, by a step, or there and back. Choose what is small beside the rod's reactions.
     ///
     /// # Errors
-    /// [`TareError::Limit`] where a limit is not positive.
+    /// [`TareError::Number`] where a limit is not positive.
     pub fn new(shortest: f64, change: Wrench) -> Result<Self, TareError> {
         if !(shortest > 0.0 && shortest.is_finite()) {
-            return Err(TareError::Limit { field: "the shortest tare window", value: shortest });
+            return Err(TareError::Number { field: "the shortest tare window", value: shortest, expected: POSITIVE });
         }
         positive("the largest change within a tare window", &change)?;
         Ok(Self { shortest, change })
@@ -44,7 +46,7 @@ impl TareLimits {
 
 fn positive(field: &'static str, limits: &Wrench) -> Result<(), TareError> {
     match Component::ALL.map(|c| c.of(limits)).into_iter().find(|limit| limit.is_nan() || *limit <= 0.0) {
-        Some(value) => Err(TareError::Limit { field, value }),
+        Some(value) => Err(TareError::Number { field, value, expected: POSITIVE }),
         None => Ok(()),
     }
 }

@@ -1,4 +1,4 @@
-//! What the sensor reads without load, taken off.
+//! The tare: the reading without load, subtracted.
 
 mod batches;
 mod error;
@@ -13,8 +13,8 @@ pub use zero::Zero;
 
 use crate::sample::{Number, Quality, WrenchSample};
 
-/// The error of a zero is that of all samples it is taken off of: averaging them does not make it smaller. So many of its
-/// standard deviations are its bound.
+/// Bound of the error of a zero, in its standard deviations. The error is the same for all samples, so averaging does not reduce
+/// it.
 const BOUND: f64 = 3.0;
 
 /// A zero, to take off all samples.

@@ -7,9 +7,9 @@ use core::array::from_fn;
 use core::marker::PhantomData;
 use rod_core::Scalar;
 
-/// Fewer samples give no batches to speak of.
+/// Fewest samples of a window: fewer do not give enough batches.
 const FEWEST: usize = 32;
-/// Slopes of so many standard errors are no noise (two in a thousand at 14 degrees of freedom), if they matter at all.
+/// A slope of more standard errors is a drift. Noise exceeds this in two of a thousand windows (14 degrees of freedom).
 const SLOPE: f64 = 4.0;
 /// Of stretches that differ from the rest by so many standard deviations, estimated from 15 differences at least and the
 /// largest of all stretches taken, one or two in a thousand are noise.

@@ -28,23 +28,19 @@ impl<T: Number> Zero<T> {
     /// the clock of the host and of the samples alike.
     ///
     /// # Errors
-    /// [`TareError::Zero`] where a number is not finite, a deviation negative, or the end before the beginning.
+    /// [`TareError::Number`] where a number is not finite, a deviation negative, or the end before the beginning.
     pub fn known(wrench: Wrench<T>, sigma: Wrench<T>, from: f64, to: f64) -> Result<Self, TareError> {
+        let check = |is_good: bool, field, value, expected| {
+            if is_good { Ok(()) } else { Err(TareError::Number { field, value, expected }) }
+        };
         for component in Component::ALL {
             let [value, deviation] = [wrench, sigma].map(|w| component.of(&w).to_f64());
-            if !value.is_finite() {
-                return Err(TareError::Zero { field: "a component", value });
-            }
-            if !(deviation >= 0.0 && deviation.is_finite()) {
-                return Err(TareError::Zero { field: "a standard deviation", value: deviation });
-            }
+            check(value.is_finite(), "a component of the zero", value, "a finite number")?;
+            let is_good = deviation >= 0.0 && deviation.is_finite();
+            check(is_good, "a standard deviation of the zero", deviation, "a finite number, 0 or more")?;
         }
-        if !from.is_finite() {
-            return Err(TareError::Zero { field: "the beginning", value: from });
-        }
-        if !(to >= from && to.is_finite()) {
-            return Err(TareError::Zero { field: "the end", value: to });
-        }
+        check(from.is_finite(), "the beginning of the zero", from, "a finite number of seconds")?;
+        check(to >= from && to.is_finite(), "the end of the zero", to, "a finite time, not before its beginning")?;
         Ok(Self { wrench, sigma, noise: None, count: 0, from, to, arrived: from })
     }
 

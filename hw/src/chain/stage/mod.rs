@@ -10,7 +10,15 @@ pub use table::StageTable;
 
 use rod_core::Pose;
 
-/// A source of clamp poses: where the stage has the clamp at a time.
+/// A source of clamp poses: where the stage has the clamp at a time. A closure of the time is one.
+///
+/// ```
+/// use rod_core::Pose;
+/// use rod_hw::StageSource;
+/// let mut stage = |t: f64| Ok(Pose { x: 0.08 - 1e-3 * t, y: -0.04, phi: 1.5 + 0.01 * t.sin() });
+/// assert_eq!(stage.pose_at(10.0)?.x, 0.07);
+/// # Ok::<(), rod_hw::StageError>(())
+/// ```
 pub trait StageSource {
     /// Pose of the clamp (m, m, rad) at time `t` (s, on the clock of the samples).
     ///
@@ -93,33 +101,9 @@ fn finite(t: f64, pose: &Pose) -> Result<(), StageError> {
     if good { Ok(()) } else { Err(StageError::NotFinite { t }) }
 }
 
-/// A closure of the time (s) as a stage.
-///
-/// ```
-/// use rod_core::Pose;
-/// use rod_hw::{FnStage, StageSource};
-/// let mut stage = FnStage(|t: f64| Ok(Pose { x: 0.08 - 1e-3 * t, y: -0.04, phi: 1.5 + 0.01 * t.sin() }));
-/// assert_eq!(stage.pose_at(10.0)?.x, 0.07);
-/// # Ok::<(), rod_hw::StageError>(())
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct FnStage<F>(pub F);
-
-impl<F: FnMut(f64) -> Result<Pose, StageError>> StageSource for FnStage<F> {
+/// A closure of the time (s) is a stage.
+impl<F: FnMut(f64) -> Result<Pose, StageError>> StageSource for F {
     fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
-        (self.0)(t)
-    }
-}
-
-impl<S: StageSource + ?Sized> StageSource for &mut S {
-    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
-        (**self).pose_at(t)
-    }
-}
-
-#[cfg(feature = "std")]
-impl<S: StageSource + ?Sized> StageSource for Box<S> {
-    fn pose_at(&mut self, t: f64) -> Result<Pose, StageError> {
-        (**self).pose_at(t)
+        self(t)
     }
 }

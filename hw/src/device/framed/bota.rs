@@ -1,7 +1,7 @@
 //! Bota Systems SensONE, Rokubi.
 
-use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
-use super::{double_at, word_at};
+use super::profile::{Content, Framing, Head, Profile, Reading};
+use super::{checked, part};
 use crate::link::FrameFault;
 use crate::sample::Quality;
 use crc::{CRC_16_IBM_SDLC, Crc};
@@ -10,7 +10,7 @@ use crc::{CRC_16_IBM_SDLC, Crc};
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_SDLC);
 
 /// Bytes of a frame.
-pub(crate) const LENGTH: usize = 37;
+const LENGTH: usize = 37;
 
 /// Frames of a Bota Systems sensor with a serial line, 460,800 baud:
 ///
@@ -21,80 +21,23 @@ pub(crate) const LENGTH: usize = 37;
 ///
 /// Channels: N and N m. Device time: unwrapped. Overrange is [`Quality::SATURATED`]; invalid and uncalibrated are
 /// [`Quality::DEVICE_ERROR`]; anything else, a warning. There is no counter: samples that are missing show in the device
-/// time. See [`Framed`](super::Framed) for an example.
-///
-/// By [`Default`] it listens to what the sensor sends by itself. With a filter, it sets that up first (nothing is stored in
-/// the sensor).
+/// time. The sensor sends by itself; nothing is set up. See [`Framed`](super::Framed) for an example.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Bota {
-    /// The filter to set, if any.
-    pub filter: Option<BotaFilter>,
-}
-
-/// The filter of a Bota sensor, which gives its rate.
-///
-/// ```
-/// use rod_hw::device::framed::BotaFilter;
-/// assert_eq!(BotaFilter { sinc: 512, ..BotaFilter::default() }.rate(), 100.0); // Hz
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BotaFilter {
-    /// Length of the sinc filter, 51 to 8192.
-    pub sinc: u16,
-    /// Chopping, against offsets.
-    pub chop: bool,
-    /// Fast settling.
-    pub fast: bool,
-    /// The FIR filter behind it.
-    pub fir: bool,
-}
-
-impl BotaFilter {
-    /// Rate, Hz.
-    pub fn rate(&self) -> f64 {
-        51_200.0 / f64::from(self.sinc.max(1))
-    }
-}
-
-impl Default for BotaFilter {
-    /// 200 Hz, nothing else.
-    fn default() -> Self {
-        Self { sinc: 256, chop: false, fast: false, fir: false }
-    }
-}
-
-/// The check of a frame's bytes between header and check.
-pub(crate) fn checksum(bytes: &[u8]) -> u16 {
-    CRC.checksum(bytes)
-}
+pub struct Bota;
 
 impl Framing for Bota {
     fn head(&self, bytes: &[u8]) -> Head {
-        // an answer: r,0,<command>,<code>
-        let is_answer = bytes.iter().zip(b"r,0,").all(|(a, b)| a == b) && bytes.get(5).is_none_or(|byte| *byte == b',');
-        match bytes {
-            [0xaa, ..] => Head::Length(LENGTH),
-            _ if is_answer && bytes.len() < 6 => Head::Open,
-            _ if is_answer => Head::Length(7),
-            _ => Head::Other,
-        }
+        if bytes.first() == Some(&0xaa) { Head::Length(LENGTH) } else { Head::Other }
     }
 
     fn check(&self, frame: &[u8]) -> Result<(), FrameFault> {
-        if frame.len() < LENGTH {
-            return Ok(());
-        }
-        let (found, expected) = (u16::from_le_bytes(word_at(frame, 35)), checksum(&frame[1..35]));
-        if found == expected { Ok(()) } else { Err(FrameFault::Checksum { found, expected }) }
+        checked(&frame[1..], u16::from_le_bytes, |bytes| CRC.checksum(bytes))
     }
 }
 
 impl Profile for Bota {
     fn content(&self, frame: &[u8]) -> Content {
-        if frame.len() < LENGTH {
-            return if frame[6] == b'0' { Content::Answer } else { Content::Refusal(frame[6]) };
-        }
-        let status = u16::from_le_bytes(word_at(frame, 1));
+        let status = u16::from_le_bytes(part(frame, 1));
         let mut quality = Quality::empty();
         quality.set(Quality::SATURATED, status & 0b10 != 0);
         quality.set(Quality::DEVICE_ERROR, status & 0b1100 != 0);
@@ -103,25 +46,9 @@ impl Profile for Bota {
         Content::Sample(Reading {
             status: status.into(),
             quality,
-            temperature: Some(float(double_at(frame, 31))).filter(|celsius| celsius.is_finite()),
-            microseconds: Some(u32::from_le_bytes(double_at(frame, 27))),
-            ..Reading::new(super::channels(super::doubles(&frame[3..27]).map(float)))
-        })
-    }
-
-    fn setup(&self, step: usize) -> Option<SetupStep> {
-        let filter = self.filter?;
-        let BotaFilter { sinc, chop, fast, fir } = filter;
-        let [chop, fast, no_fir] = [chop, fast, !fir].map(u8::from);
-        Some(match step {
-            0 => SetupStep { request: [b'C'].into(), command: b'C', until: Await::Answer },
-            1 => SetupStep {
-                request: super::text(format_args!("f,{sinc},{chop},{fast},{no_fir}")),
-                command: b'f',
-                until: Await::Answer,
-            },
-            2 => SetupStep { request: [b'R'].into(), command: b'R', until: Await::Sample },
-            _ => return None,
+            temperature: Some(float(part(frame, 31))).filter(|celsius| celsius.is_finite()),
+            microseconds: Some(u32::from_le_bytes(part(frame, 27))),
+            ..Reading::new(super::channels(frame[3..27].as_chunks().0.iter().copied().map(float)))
         })
     }
 }
@@ -134,7 +61,7 @@ mod tests {
 
     #[test]
     fn checksum_is_x25() {
-        assert_eq!(checksum(b"123456789"), 0x906e);
+        assert_eq!(CRC.checksum(b"123456789"), 0x906e);
     }
 
     fn frame(status: u16, microseconds: u32) -> [u8; LENGTH] {
@@ -142,14 +69,14 @@ mod tests {
         frame[0] = 0xaa;
         frame[1..3].copy_from_slice(&status.to_le_bytes());
         frame[27..31].copy_from_slice(&microseconds.to_le_bytes());
-        let check = checksum(&frame[1..35]);
+        let check = CRC.checksum(&frame[1..35]);
         frame[35..].copy_from_slice(&check.to_le_bytes());
         frame
     }
 
     #[test]
     fn status_and_time() {
-        let mut protocol = Framed::new(Bota::default());
+        let mut protocol = Framed::new(Bota);
         let mut told = |status, microseconds| {
             let sample = protocol.decode(&mut &frame(status, microseconds)[..], 0.0).unwrap().unwrap();
             (sample.device_time.unwrap(), sample.quality)
@@ -166,19 +93,5 @@ mod tests {
         assert!((time - from - 5.5e-3).abs() < 1e-9, "{time}");
         assert_eq!(quality, Quality::GAP_BEFORE | Quality::RESTARTED, "switched off and on");
         assert_eq!((protocol.counters().restarts, protocol.counters().device_errors), (1, 3));
-    }
-
-    #[test]
-    fn set_up() {
-        let mut protocol = Framed::new(Bota { filter: Some(BotaFilter { sinc: 512, ..BotaFilter::default() }) });
-        assert_eq!(*protocol.request(0.0).unwrap(), *b"C");
-        assert_eq!(protocol.decode(&mut &b"App Init\r\nr,0,C,0\r\n"[..], 0.0), None);
-        assert_eq!(*protocol.request(0.1).unwrap(), *b"f,512,0,0,1");
-        let refused = protocol.decode(&mut &b"r,0,f,1"[..], 0.1);
-        assert_eq!(refused, Some(Err(FrameFault::Refused { request: b'f', code: b'1' })));
-        assert_eq!(protocol.decode(&mut &b"r,0,f,0"[..], 0.1), None);
-        assert_eq!(*protocol.request(0.2).unwrap(), *b"R");
-        assert_eq!(protocol.counters().answers, 3);
-        assert_eq!(protocol.counters().skipped_bytes, 12);
     }
 }

@@ -5,11 +5,10 @@ use super::scanner::Scanner;
 use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence, SequenceStep};
 use crate::sample::{Quality, RawSample};
 
-/// A request that is not answered is sent again after so long, s: longer than any of these devices takes.
+/// Time after which a request without answer is sent again, s: longer than any of these devices takes.
 const RETRY: f64 = 0.5;
 
-/// A device that was set up and sends nothing for so long, although asked for it, is set up again, s: it may have been switched
-/// off and on.
+/// Silence after which a device is set up again, s: it may have been switched off and on.
 const SILENCE: f64 = 2.0;
 
 /// A framed device as a [`Protocol`], for a [`Link`](crate::Link).
@@ -21,7 +20,7 @@ const SILENCE: f64 = 2.0;
 /// ```
 /// use rod_hw::Protocol;
 /// use rod_hw::device::framed::{Bota, Framed};
-/// let mut protocol = Framed::new(Bota::default());
+/// let mut protocol = Framed::new(Bota);
 /// let mut bytes: &[u8] = &[
 ///     0xaa, 0, 0, 0, 0, 0x80, 0x3f, 0, 0, 0, 0xc0, 0, 0, 0, 0x3f, 0x0a, 0xd7, 0x23, 0x3c, 0x0a, 0xd7, 0xa3, 0xbc, 0xa6, 0x9b,
 ///     0x44, 0x3b, 0x40, 0xe2, 1, 0, 0, 0, 0xfc, 0x41, 0xd2, 0xd3,
@@ -148,8 +147,6 @@ impl<P: Profile> Framed<P> {
             }
             let number = self.base + sequence.unwrapped();
             self.number = Some(number);
-            let tick = self.profile.counter().and_then(|counter| counter.tick);
-            device_time = tick.map(|tick| tick * number as f64);
         } else if self.counters.samples > 0 && self.scanner.skipped() > self.skipped {
             self.flags |= Quality::GAP_BEFORE;
         }
@@ -191,7 +188,7 @@ impl<P: Profile> Framed<P> {
 }
 
 fn sequence(profile: &impl Profile) -> Option<Sequence> {
-    profile.counter().map(|counter| Sequence::new(counter.bits, counter.stride))
+    profile.counter_bits().map(Sequence::new)
 }
 
 impl<P: Profile> Protocol for Framed<P> {

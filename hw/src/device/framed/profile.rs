@@ -1,4 +1,4 @@
-//! What differs from device to device.
+//! What an author of a framed device implements.
 
 use crate::link::{FrameFault, Request};
 use crate::sample::{Channels, Quality};
@@ -74,8 +74,8 @@ pub trait Profile: Framing {
         None
     }
 
-    /// How its samples are numbered, where they are.
-    fn counter(&self) -> Option<Counter> {
+    /// How many bits the counter of its samples has, where it has one that grows by 1 from sample to sample.
+    fn counter_bits(&self) -> Option<u32> {
         None
     }
 }
@@ -102,7 +102,7 @@ pub struct Reading {
     pub quality: Quality,
     /// Temperature, degrees Celsius.
     pub temperature: Option<f64>,
-    /// Number by the device's counter, which wraps as [`Counter`] says.
+    /// Number by the device's counter, which wraps as [`Profile::counter_bits`] says.
     pub number: Option<u32>,
     /// Time by the device's clock, us, which wraps at 2^32.
     pub microseconds: Option<u32>,
@@ -113,17 +113,6 @@ impl Reading {
     pub fn new(channels: Channels) -> Self {
         Self { channels, ..Self::default() }
     }
-}
-
-/// How samples are numbered.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Counter {
-    /// How many bits the number has.
-    pub bits: u32,
-    /// By how much it grows from sample to sample.
-    pub stride: u32,
-    /// How long a count of 1 is, s, where that is known.
-    pub tick: Option<f64>,
 }
 
 /// A request, and what shows that it was heard.

@@ -1,7 +1,7 @@
 //! Robotiq FT 300 and FT 150.
 
+use super::checked;
 use super::profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
-use super::word_at;
 use crate::link::{FrameFault, Request};
 use crc::{CRC_16_MODBUS, Crc};
 
@@ -38,11 +38,6 @@ impl Robotiq {
     pub const SCALES: [f64; 6] = [1e-2, 1e-2, 1e-2, 1e-3, 1e-3, 1e-3];
 }
 
-/// The check of bytes.
-pub(crate) fn checksum(bytes: &[u8]) -> u16 {
-    CRC.checksum(bytes)
-}
-
 impl Framing for Robotiq {
     fn head(&self, bytes: &[u8]) -> Head {
         match *bytes {
@@ -56,9 +51,7 @@ impl Framing for Robotiq {
     }
 
     fn check(&self, frame: &[u8]) -> Result<(), FrameFault> {
-        let end = frame.len() - 2;
-        let (found, expected) = (u16::from_le_bytes(word_at(frame, end)), checksum(&frame[..end]));
-        if found == expected { Ok(()) } else { Err(FrameFault::Checksum { found, expected }) }
+        checked(frame, u16::from_le_bytes, |bytes| CRC.checksum(bytes))
     }
 }
 
@@ -66,7 +59,7 @@ impl Profile for Robotiq {
     fn content(&self, frame: &[u8]) -> Content {
         match frame[1] {
             0x4e => {
-                let counts = super::words(&frame[2..14]).map(|word| i16::from_le_bytes(word).into());
+                let counts = frame[2..14].as_chunks().0.iter().map(|word| i16::from_le_bytes(*word).into());
                 Content::Sample(Reading::new(super::channels(counts)))
             }
             0x90 => Content::Refusal(frame[2]),
@@ -94,7 +87,7 @@ mod tests {
 
     #[test]
     fn checksum_is_modbus() {
-        assert_eq!(checksum(b"123456789"), 0x4b37);
-        assert_eq!(checksum(&START[..9]).to_le_bytes(), START[9..]);
+        assert_eq!(CRC.checksum(b"123456789"), 0x4b37);
+        assert_eq!(CRC.checksum(&START[..9]).to_le_bytes(), START[9..]);
     }
 }

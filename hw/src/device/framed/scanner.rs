@@ -1,4 +1,4 @@
-//! Frames out of bytes.
+//! Finds frames in a stream of bytes.
 
 use super::profile::{Framing, Head};
 use crate::link::FrameFault;
@@ -12,11 +12,13 @@ pub const LONGEST_FRAME: usize = 128;
 /// Every byte is one of: of a good frame, skipped, still held.
 ///
 /// ```
-/// use rod_hw::device::framed::{Bota, Scanner};
-/// let (mut scanner, mut bytes) = (Scanner::default(), &b"noise r,0,C,0 r,0,R"[..]);
-/// assert_eq!(scanner.next(&mut bytes, &Bota::default()), Some(Ok(&b"r,0,C,0"[..])));
-/// assert_eq!(scanner.next(&mut bytes, &Bota::default()), None);
-/// assert_eq!((scanner.skipped(), scanner.held()), (7, 5));
+/// use rod_hw::device::framed::{Gsv, Scanner};
+/// let answer = [0xaa, 0x50, 0x00, 0x85];
+/// let stream = [&[7, 7, 7][..], &answer, &[7, 0xaa, 0x50]].concat();
+/// let (mut scanner, mut bytes) = (Scanner::default(), &stream[..]);
+/// assert_eq!(scanner.next(&mut bytes, &Gsv), Some(Ok(&answer[..])));
+/// assert_eq!(scanner.next(&mut bytes, &Gsv), None);
+/// assert_eq!((scanner.skipped(), scanner.held()), (4, 2));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scanner {

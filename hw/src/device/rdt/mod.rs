@@ -12,7 +12,6 @@ mod request;
 #[cfg(feature = "rdt")]
 mod scaling;
 
-pub use crate::device::onrobot_filter::OnRobotFilter;
 pub use profile::RdtProfile;
 pub use protocol::{Rdt, RdtSettings};
 pub use record::RdtRecord;

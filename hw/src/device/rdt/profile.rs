@@ -1,4 +1,4 @@
-//! What a status word means.
+//! Status words of RDT sensors.
 
 use crate::sample::Quality;
 

@@ -3,16 +3,14 @@
 use super::profile::RdtProfile;
 use super::record::RdtRecord;
 use super::request::RdtRequest;
-use crate::device::onrobot_filter::OnRobotFilter;
 use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence};
 use crate::sample::{Channels, Quality, RawSample};
 use core::mem::take;
-use core::num::NonZeroU8;
 
-/// Distance of the requests to start, s: datagrams get lost, these too.
+/// Interval of the requests to start, s: these datagrams can get lost, too.
 const RETRY: f64 = 0.1;
 
-/// A packet overtaken by more others than this is not a late one but of a device that counts anew.
+/// A packet that more than this many others overtook is not late: the device restarted its counter.
 const OVERTAKEN: i64 = 256;
 
 /// The second record after a restart is less than so many samples behind the first.
@@ -26,21 +24,15 @@ pub struct RdtSettings {
     /// Rate of its own clock, Hz, if it is to tell the time of the samples: that of `ft_sequence`, 7000 for most Net F/T (its
     /// `netftapi2.xml` calls it `runrate`), which may be more than the rate of the records.
     pub clock_rate: Option<f64>,
-    /// Whether to ask for several records a datagram.
-    pub buffered: bool,
     /// So long without a datagram, s, and it is asked to start again, as after its power was off. More than twice the distance
     /// of its records.
     pub silence: f64,
-    /// Filter to set, OnRobot only: it forgets it without power.
-    pub filter: Option<OnRobotFilter>,
-    /// Distance of the records to set, ms, OnRobot only: it forgets it without power.
-    pub period: Option<NonZeroU8>,
 }
 
 impl RdtSettings {
-    /// One record a datagram, started again after 1 s, time by the host.
+    /// Started again after 1 s, time by the host.
     pub fn new(profile: RdtProfile) -> Self {
-        Self { profile, clock_rate: None, buffered: false, silence: 1.0, filter: None, period: None }
+        Self { profile, clock_rate: None, silence: 1.0 }
     }
 }
 
@@ -56,8 +48,6 @@ impl RdtSettings {
 ///   packets, are a restart. The first of them is left out;
 /// - after a silence, or where the connection is made anew, the first sample is [`Quality::RESTARTED`], unless the clock of the
 ///   device went on with that of the host (`clock_rate`): without power it has lost its zero.
-///
-/// All records of a datagram have the same time of arrival.
 ///
 /// ```
 /// use rod_hw::{Protocol, device::rdt::{Rdt, RdtProfile, RdtRecord, RdtSettings}};
@@ -95,8 +85,8 @@ pub struct Rdt {
 
 #[derive(Clone, Copy, Debug)]
 enum Stream {
-    /// To be asked for: which request is next, and when the last start was sent.
-    Waiting { next: usize, started: Option<f64> },
+    /// To be asked for; when that was done last.
+    Waiting { started: Option<f64> },
     /// Records come; since when there are none although asked for.
     Running { quiet: Option<f64> },
 }
@@ -117,9 +107,9 @@ impl Rdt {
     pub fn new(settings: RdtSettings) -> Self {
         Self {
             settings,
-            stream: Stream::Waiting { next: 0, started: None },
-            packets: Sequence::new(32, 1),
-            samples: Sequence::new(Self::sample_bits(settings.profile), 1),
+            stream: Stream::Waiting { started: None },
+            packets: Sequence::new(32),
+            samples: Sequence::new(Self::sample_bits(settings.profile)),
             stride: None,
             candidate: None,
             flags: Quality::empty(),
@@ -135,22 +125,6 @@ impl Rdt {
             RdtProfile::NetFt | RdtProfile::Axia => 32,
             RdtProfile::OnRobot => 16,
         }
-    }
-
-    /// How the sensor is asked.
-    pub fn settings(&self) -> &RdtSettings {
-        &self.settings
-    }
-
-    /// What to ask one after the other, the start at the end.
-    fn start(&self) -> [Option<RdtRequest>; 3] {
-        let RdtSettings { profile, buffered, filter, period, .. } = self.settings;
-        let on_robot = profile == RdtProfile::OnRobot;
-        [
-            filter.filter(|_| on_robot).map(RdtRequest::Filter),
-            period.filter(|_| on_robot).map(RdtRequest::Period),
-            Some(if buffered { RdtRequest::StartBuffered { count: 0 } } else { RdtRequest::Start { count: 0 } }),
-        ]
     }
 
     /// Whether the clock of the device went on with that of the host since the last sample, within 1 % and 50 ms: then its
@@ -275,21 +249,15 @@ impl Rdt {
 
 impl Protocol for Rdt {
     fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>> {
-        while !bytes.is_empty() {
-            let found = bytes.len();
-            let whole =
-                if self.settings.buffered { found.is_multiple_of(RdtRecord::BYTES) } else { found == RdtRecord::BYTES };
-            let Some((record, rest)) = bytes.split_first_chunk().filter(|_| whole) else {
-                *bytes = &[];
-                self.counters.malformed += 1;
-                return Some(Err(FrameFault::Length { found, expected: RdtRecord::BYTES }));
-            };
-            *bytes = rest;
-            if let Some(sample) = self.sample(RdtRecord::from_bytes(record), now) {
-                return Some(Ok(sample));
-            }
+        let datagram = take(bytes);
+        if datagram.is_empty() {
+            return None;
         }
-        None
+        let Ok(record) = datagram.try_into() else {
+            self.counters.malformed += 1;
+            return Some(Err(FrameFault::Length { found: datagram.len(), expected: RdtRecord::BYTES }));
+        };
+        self.sample(RdtRecord::from_bytes(record), now).map(Ok)
     }
 
     fn request(&mut self, now: f64) -> Option<Request> {
@@ -300,19 +268,10 @@ impl Protocol for Rdt {
                 return None;
             }
             Stream::Running { quiet: Some(since) } if now - *since < self.settings.silence => return None,
-            Stream::Running { .. } => self.stream = Stream::Waiting { next: 0, started: None },
-            Stream::Waiting { started: Some(at), .. } if now - *at < RETRY => return None,
-            Stream::Waiting { .. } => {}
+            Stream::Waiting { started: Some(at) } if now - *at < RETRY => return None,
+            _ => self.stream = Stream::Waiting { started: Some(now) },
         }
-        let requests = self.start();
-        let Stream::Waiting { next, started } = &mut self.stream else { return None };
-        let (place, request) = requests.iter().enumerate().skip(*next).find_map(|(i, r)| r.map(|r| (i, r)))?;
-        if place + 1 == requests.len() {
-            (*next, *started) = (0, Some(now));
-        } else {
-            (*next, *started) = (place + 1, None);
-        }
-        Some(request.into())
+        Some(RdtRequest::Start { count: 0 }.into())
     }
 
     fn farewell(&self) -> Option<Request> {
@@ -320,7 +279,7 @@ impl Protocol for Rdt {
     }
 
     fn reset(&mut self) {
-        self.stream = Stream::Waiting { next: 0, started: None };
+        self.stream = Stream::Waiting { started: None };
         self.candidate = None;
     }
 

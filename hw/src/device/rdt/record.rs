@@ -1,4 +1,4 @@
-//! What a sensor sends.
+//! Records of RDT.
 
 /// One record of a sensor, 36 bytes.
 ///

@@ -1,10 +1,8 @@
-//! What is asked of a sensor.
+//! Requests of RDT.
 
-use crate::device::onrobot_filter::OnRobotFilter;
 use crate::link::Request;
-use core::num::NonZeroU8;
 
-/// What is asked of a sensor, in 8 bytes.
+/// A request to a sensor, 8 bytes.
 ///
 /// ```
 /// use rod_hw::device::rdt::RdtRequest;
@@ -21,21 +19,8 @@ pub enum RdtRequest {
         /// How many.
         count: u32,
     },
-    /// Send so many records, several a datagram; 0 means until stopped. Not of OnRobot.
-    StartBuffered {
-        /// How many.
-        count: u32,
-    },
-    /// Forget that a monitored condition was met. Not of OnRobot.
-    ResetLatch,
     /// Take the load of now for zero.
     Bias,
-    /// Forget the zero of [`Bias`](Self::Bias). OnRobot only: an ATI sensor would take it for another [`Bias`](Self::Bias).
-    ClearBias,
-    /// Filter so much. OnRobot only.
-    Filter(OnRobotFilter),
-    /// Send at this distance, ms. OnRobot only.
-    Period(NonZeroU8),
 }
 
 impl RdtRequest {
@@ -44,13 +29,8 @@ impl RdtRequest {
         match self {
             Self::Stop => (0x0000, 0),
             Self::Start { count } => (0x0002, count),
-            Self::StartBuffered { count } => (0x0003, count),
-            Self::ResetLatch => (0x0041, 0),
-            // ATI sensors do not look at the number
+            // ATI sensors do not look at the number; OnRobot's take 0 for the way back to the old zero
             Self::Bias => (0x0042, 255),
-            Self::ClearBias => (0x0042, 0),
-            Self::Filter(filter) => (0x0081, filter as u32),
-            Self::Period(period) => (0x0082, period.get() as u32),
         }
     }
 
@@ -68,12 +48,7 @@ impl RdtRequest {
         Some(match u16::from_be_bytes([c, d]) {
             0x0000 => Self::Stop,
             0x0002 => Self::Start { count },
-            0x0003 => Self::StartBuffered { count },
-            0x0041 => Self::ResetLatch,
-            0x0042 if count == 0 => Self::ClearBias,
             0x0042 => Self::Bias,
-            0x0081 => Self::Filter(*OnRobotFilter::ALL.get(usize::try_from(count).ok()?)?),
-            0x0082 => Self::Period(NonZeroU8::new(u8::try_from(count).ok()?)?),
             _ => return None,
         })
     }

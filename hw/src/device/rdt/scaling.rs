@@ -1,4 +1,4 @@
-//! What a count is in N and N m.
+//! The scale of the counts, from the sensor over TCP.
 
 use crate::calibrate::{CalibrationDataError, Scale};
 use crate::sample::{Dimension, Number, Unit};
@@ -6,8 +6,8 @@ use std::io::{Error, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
-/// What a count is in N and N m, as the sensor tells. There is none by default: sensors differ, and so do the units that
-/// are set in them.
+/// The scale of the counts, as the sensor reports it. It has no default: sensors differ, and so do the units that are set in
+/// them.
 ///
 /// ```
 /// use rod_hw::device::rdt::RdtScaling;
@@ -17,8 +17,7 @@ use std::time::{Duration, Instant};
 /// ];
 /// let scaling = RdtScaling::from_bytes(&bytes)?;
 /// assert_eq!((scaling.force_unit.name, scaling.torque_unit.name), ("N", "N mm"));
-/// let factors = scaling.factors();
-/// assert_eq!((factors[0], factors[5]), (1e-3, 1e-4)); // N and N m a count
+/// assert_eq!((scaling.counts_per_force, scaling.counts_per_torque), (1000.0, 10.0));
 /// assert_eq!(scaling.to_bytes(), bytes);
 /// # Ok::<(), rod_hw::device::rdt::RdtError>(())
 /// ```
@@ -106,20 +105,6 @@ const TORQUE: [&str; 6] = ["lbf in", "lbf ft", "N m", "N mm", "kgf cm", "kN m"];
 const ANSWER: usize = 24;
 
 impl RdtScaling {
-    /// In units of these names.
-    ///
-    /// # Errors
-    /// [`RdtError`] where counts are not more than 0.
-    pub fn new(force: (Unit, f64), torque: (Unit, f64)) -> Result<Self, RdtError> {
-        for (dimension, counts) in [(Dimension::Force, force.1), (Dimension::Torque, torque.1)] {
-            if !(counts > 0.0 && counts.is_finite()) {
-                return Err(RdtError::Counts { dimension, counts });
-            }
-        }
-        let ((force_unit, counts_per_force), (torque_unit, counts_per_torque)) = (force, torque);
-        Ok(Self { force_unit, torque_unit, counts_per_force, counts_per_torque, scale: [1; 6] })
-    }
-
     /// That of the answer to the request for calibration info over TCP (command 1), 24 bytes.
     ///
     /// # Errors
@@ -140,10 +125,17 @@ impl RdtScaling {
             let name = names.get(usize::from(code) - 1);
             name.and_then(|name| Unit::find(name)).ok_or(RdtError::UnitCode { dimension, code })
         };
-        let force = (unit(2, Dimension::Force, FORCE)?, f64::from(be(4, 4)));
-        let torque = (unit(3, Dimension::Torque, TORQUE)?, f64::from(be(8, 4)));
-        let scale = core::array::from_fn(|i| be(12 + 2 * i, 2) as u16);
-        Ok(Self { scale, ..Self::new(force, torque)? })
+        let counts = |at: usize, dimension| match be(at, 4) {
+            0 => Err(RdtError::Counts { dimension, counts: 0.0 }),
+            counts => Ok(f64::from(counts)),
+        };
+        Ok(Self {
+            force_unit: unit(2, Dimension::Force, FORCE)?,
+            torque_unit: unit(3, Dimension::Torque, TORQUE)?,
+            counts_per_force: counts(4, Dimension::Force)?,
+            counts_per_torque: counts(8, Dimension::Torque)?,
+            scale: core::array::from_fn(|i| be(12 + 2 * i, 2) as u16),
+        })
     }
 
     /// As a sensor answers. A unit that it does not know is sent as 0, counts as whole numbers.
@@ -175,13 +167,6 @@ impl RdtScaling {
     /// [`CalibrationDataError`] where the fields were set to what is no scaling.
     pub fn calibration<T: Number>(&self) -> Result<Scale<T>, CalibrationDataError> {
         Scale::from_counts(self.counts_per_force, self.force_unit, self.counts_per_torque, self.torque_unit)
-    }
-
-    /// One count of Fx, Fy, Fz (N), Tx, Ty, Tz (N m).
-    pub fn factors(&self) -> [f64; 6] {
-        let force = self.force_unit.factor / self.counts_per_force;
-        let torque = self.torque_unit.factor / self.counts_per_torque;
-        [force, force, force, torque, torque, torque]
     }
 }
 

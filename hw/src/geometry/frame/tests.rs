@@ -15,9 +15,8 @@ pub(crate) fn frames() -> impl Strategy<Value = Frame> {
         let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
         (norm > 0.1).then(|| UnitQuaternion::from_quaternion(Quaternion::from(q)))
     });
-    let rows = |q: UnitQuaternion<f64>| q.to_rotation_matrix().matrix().transpose().into();
     (quaternion, proptest::array::uniform3(-0.1..0.1))
-        .prop_map(move |(q, d)| Frame::from_matrix(rows(q)).unwrap().with_origin(d).unwrap())
+        .prop_map(|(q, d)| Frame { rotation: *q.to_rotation_matrix().matrix(), origin: d.into() })
 }
 
 pub(crate) fn wrenches() -> impl Strategy<Value = Wrench> {
@@ -36,11 +35,6 @@ proptest! {
     }
 
     #[test]
-    fn two_hops_are_one(a in frames(), b in frames(), wrench in wrenches()) {
-        prop_assert!(close(&a.then(&b).wrench(&wrench), &b.wrench(&a.wrench(&wrench))));
-    }
-
-    #[test]
     fn what_stays(frame in frames(), wrench in wrenches()) {
         let new = frame.wrench(&wrench);
         prop_assert!((dot(new.force, new.force) - dot(wrench.force, wrench.force)).abs() < 1e-13);
@@ -56,18 +50,6 @@ proptest! {
         let new = frame.wrench(&Wrench { force, torque: cross(frame.origin(), force) });
         prop_assert!(new.torque.iter().all(|c| c.abs() < 1e-14));
     }
-
-    #[test]
-    fn digits_that_were_cut(frame in frames()) {
-        let rounded = frame.rotation().map(|row| row.map(|c| (c * 1e4).round() / 1e4));
-        let rotation = Frame::from_matrix(rounded).unwrap().rotation();
-        for i in 0..3 {
-            for k in 0..3 {
-                prop_assert!((rotation[i][k] - frame.rotation()[i][k]).abs() < 2e-4);
-                prop_assert!((dot(rotation[i], rotation[k]) - f64::from(u8::from(i == k))).abs() < 1e-15);
-            }
-        }
-    }
 }
 
 #[test]
@@ -80,17 +62,9 @@ fn the_tool_transform_of_the_plane() {
 
 #[test]
 fn refuses() {
-    let message = |rows| Frame::from_matrix(rows).unwrap_err().to_string();
-    assert_eq!(
-        message([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]),
-        "axes 2 and 2 have the product 4, expected 1 to within 1e-3; are these the columns or rows of a rotation?"
-    );
-    assert_eq!(
-        message([[1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 1.0]]),
-        "an entry of the rotation matrix is NaN, expected a finite number"
-    );
     assert_eq!(Frame::<f64>::from_axes([Axis::X, Axis::MinusY, Axis::Z]), Err(GeometryError::LeftHanded));
-    assert!(Frame::<f64>::from_axes([Axis::X, Axis::X, Axis::Z]).is_err());
+    assert_eq!(Frame::<f64>::from_axes([Axis::X, Axis::MinusX, Axis::Z]), Err(GeometryError::SameAxis));
+    assert!(Frame::<f32>::from_axes([Axis::MinusZ, Axis::MinusY, Axis::MinusX]).is_ok());
     assert!(Frame::planar(f64::INFINITY).is_err());
     assert!(Frame::same().with_origin([0.0, f64::NAN, 0.0]).is_err());
     assert_eq!("X".parse::<Axis>(), Err(GeometryError::NoAxis));

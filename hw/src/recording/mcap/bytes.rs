@@ -2,31 +2,14 @@
 
 /// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Order {
+pub(super) enum Order {
     Little,
     Big,
 }
 
-/// Defines a number from its bytes at a place; none where they are not all there.
-macro_rules! numbers {
-    ($($name:ident $number:ty),*) => {
-        impl Order {
-            $(pub fn $name(self, bytes: &[u8], at: usize) -> Option<$number> {
-                const SIZE: usize = size_of::<$number>();
-                let bytes: [u8; SIZE] = bytes.get(at..at.checked_add(SIZE)?)?.try_into().ok()?;
-                Some(match self {
-                    Order::Little => <$number>::from_le_bytes(bytes),
-                    Order::Big => <$number>::from_be_bytes(bytes),
-                })
-            })*
-        }
-    };
-}
-numbers!(u16 u16, u32 u32, u64 u64, i32 i32, f64 f64);
-
 /// A place in the bytes that moves on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cursor<'a> {
+pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
     order: Order,
@@ -34,7 +17,24 @@ pub(crate) struct Cursor<'a> {
 
 /// Where the bytes end too early.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct End(pub usize);
+pub(super) struct End(pub usize);
+
+/// Defines the methods that read a number.
+macro_rules! numbers {
+    ($($number:ident)*) => {
+        impl Cursor<'_> {
+            $(pub fn $number(&mut self) -> Result<$number, End> {
+                let found = self.bytes.get(self.at..).and_then(|rest| rest.first_chunk()).ok_or(End(self.at))?;
+                self.at += found.len();
+                Ok(match self.order {
+                    Order::Little => $number::from_le_bytes(*found),
+                    Order::Big => $number::from_be_bytes(*found),
+                })
+            })*
+        }
+    };
+}
+numbers!(u16 u32 u64 i32 f64);
 
 impl<'a> Cursor<'a> {
     /// From a place on, up to the end of the bytes.
@@ -50,51 +50,20 @@ impl<'a> Cursor<'a> {
         self.bytes.len().saturating_sub(self.at)
     }
 
-    pub fn u16(&mut self) -> Result<u16, End> {
-        let found = self.order.u16(self.bytes, self.at);
-        self.advance(found, 2)
-    }
-
-    pub fn u32(&mut self) -> Result<u32, End> {
-        let found = self.order.u32(self.bytes, self.at);
-        self.advance(found, 4)
-    }
-
-    pub fn u64(&mut self) -> Result<u64, End> {
-        let found = self.order.u64(self.bytes, self.at);
-        self.advance(found, 8)
-    }
-
-    pub fn i32(&mut self) -> Result<i32, End> {
-        let found = self.order.i32(self.bytes, self.at);
-        self.advance(found, 4)
-    }
-
-    pub fn f64(&mut self) -> Result<f64, End> {
-        let found = self.order.f64(self.bytes, self.at);
-        self.advance(found, 8)
-    }
-
     /// On to the next multiple of `size` from the byte `base` on.
     pub fn align(&mut self, base: usize, size: usize) {
-        let beyond = self.at.saturating_sub(base) % size.max(1);
-        self.at += if beyond == 0 { 0 } else { size - beyond };
+        self.at = base + self.at.saturating_sub(base).next_multiple_of(size);
     }
 
     pub fn take(&mut self, count: usize) -> Result<&'a [u8], End> {
-        let found = self.at.checked_add(count).and_then(|end| self.bytes.get(self.at..end));
-        self.advance(found, count)
+        let found = self.bytes.get(self.at..).and_then(|rest| rest.get(..count)).ok_or(End(self.at))?;
+        self.at += count;
+        Ok(found)
     }
 
     /// A text after its length; what is not UTF-8 is replaced.
     pub fn text(&mut self) -> Result<String, End> {
         let length = self.u32()? as usize;
         Ok(String::from_utf8_lossy(self.take(length)?).into_owned())
-    }
-
-    fn advance<T>(&mut self, found: Option<T>, count: usize) -> Result<T, End> {
-        let found = found.ok_or(End(self.at))?;
-        self.at += count;
-        Ok(found)
     }
 }

@@ -40,8 +40,10 @@ impl<'a> Fields<'a> {
         if is_ros1 {
             return Ok(Self { cursor: Cursor::new(bytes, 0, Order::Little), length, is_ros1 });
         }
-        let kind = Order::Big.u16(bytes, 0).filter(|_| length >= ENCAPSULATION);
-        let order = match kind.ok_or(McapFault::End { end: length, at: 0 })? {
+        let Some(&[high, low, _, _]) = bytes.first_chunk() else {
+            return Err(McapFault::End { end: length, at: 0 });
+        };
+        let order = match u16::from_be_bytes([high, low]) {
             0 => Order::Big,
             1 => Order::Little,
             other => return Err(McapFault::Encapsulation(other)),

@@ -117,7 +117,7 @@ impl<'a> McapFile<'a> {
         self.origin
     }
 
-    /// The wrenches of a topic, in the order they were logged: a [`WrenchSource`](crate::WrenchSource), N and N m as ROS has them.
+    /// The wrenches of a topic, in the order they were logged, N and N m as ROS has them.
     /// Their time is that of the header where it has one, that of the log otherwise; the host's time is that of the log. It goes
     /// on after a message that is wrong; why the file breaks off, if it does, comes last.
     ///

@@ -3,7 +3,8 @@
 use super::bytes::{Cursor, End, Order};
 use super::error::McapFault;
 use core::iter::from_fn;
-use mcap::records::{ChunkHeader, MessageHeader, op};
+use crc::{CRC_32_ISO_HDLC, Crc};
+use mcap::records::{MessageHeader, op};
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use std::borrow::Cow;
 
@@ -32,6 +33,12 @@ const KNOWN: &str = if cfg!(feature = "mcap-compression") {
     "none (`lz4` and `zstd` with the feature `mcap-compression`)"
 };
 
+/// Of the records in a chunk.
+const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+/// Events in order; a fault is the last one.
+type Events<'a> = Box<dyn Iterator<Item = Result<Event<'a>, McapFault>> + 'a>;
+
 /// Opcode and length in front of a record.
 const HEAD: usize = 9;
 
@@ -50,7 +57,7 @@ impl<'a> Records<'a> {
 
     /// All events, those in chunks, too.
     pub fn events(mut self) -> impl Iterator<Item = Result<Event<'a>, McapFault>> + use<'a> {
-        let mut chunk: Option<Box<dyn Iterator<Item = Result<Event<'a>, McapFault>> + 'a>> = None;
+        let mut chunk: Option<Events<'a>> = None;
         from_fn(move || {
             loop {
                 if let Some(events) = &mut chunk {
@@ -94,7 +101,7 @@ impl<'a> Records<'a> {
         if code == op::CHUNK {
             self.at = at.saturating_add(HEAD).saturating_add(usize::try_from(length).unwrap_or(end));
             let record = rest.get(..HEAD + whole.unwrap_or(body).len()).unwrap_or(rest);
-            return chunk(at, record, whole.is_none().then_some(truncated));
+            return chunk(at, record, whole.is_none().then_some(truncated)).map(Step::Chunk);
         }
         let body = whole.ok_or(truncated)?;
         self.at = at + HEAD + body.len();
@@ -108,7 +115,7 @@ impl<'a> Records<'a> {
 
 enum Step<'a> {
     Event(Event<'a>),
-    Chunk(Box<dyn Iterator<Item = Result<Event<'a>, McapFault>> + 'a>),
+    Chunk(Events<'a>),
     Other,
     End,
 }
@@ -163,32 +170,97 @@ fn bad(at: usize, error: &mcap::McapError) -> McapFault {
 }
 
 /// The events of a chunk, of which the end may be missing; then the fault of that.
-fn chunk<'a>(at: usize, record: &'a [u8], cut: Option<McapFault>) -> Result<Step<'a>, McapFault> {
-    let Some((header, data)) = record.get(HEAD..).and_then(chunk_header) else {
+fn chunk<'a>(at: usize, record: &'a [u8], cut: Option<McapFault>) -> Result<Events<'a>, McapFault> {
+    let Some((header, data)) = record.get(HEAD..).and_then(Chunk::of) else {
         let what = "the chunk is shorter than its header".to_owned();
         return Err(cut.unwrap_or(McapFault::Record { at, what }));
     };
-    let size = usize::try_from(header.compressed_size).unwrap_or(usize::MAX);
+    let size = usize::try_from(header.size).unwrap_or(usize::MAX);
     if cut.is_none() && size > data.len() {
         let what = format!("the chunk has {} bytes of records, expected {size}", data.len());
         return Err(McapFault::Record { at, what });
     }
-    let data = data.get(..size).unwrap_or(data);
-    let is_plain = header.compression.is_empty();
-    // The crate takes for granted that records end where their chunk does. Where all is well, it checks the checksum.
-    if is_plain && (cut.is_some() || !is_sound(data)) {
-        let what = "a record in the chunk is not what it should be".to_owned();
-        return Ok(Step::Chunk(plain(at, data, cut.unwrap_or(McapFault::Record { at, what }))));
+    // the crate takes for granted that records end where their chunk does
+    if header.compression.is_empty() {
+        return Ok(plain(at, data.get(..size).unwrap_or(data), header.crc, cut));
     }
-    let format = header.compression;
+    Ok(compressed(at, record, header.compression, cut))
+}
+
+/// What the header of a chunk says.
+struct Chunk {
+    compression: String,
+    /// Of the records where they are not compressed; 0 where it is not known.
+    crc: u32,
+    /// Bytes of the records, compressed.
+    size: u64,
+}
+
+impl Chunk {
+    /// Header and records of a chunk, also where these are not all there.
+    fn of(body: &[u8]) -> Option<(Self, &[u8])> {
+        // two times and the size without compression come first
+        let mut cursor = Cursor::new(body, 24, Order::Little);
+        let crc = cursor.u32().ok()?;
+        let compression = cursor.text().ok()?;
+        let size = cursor.u64().ok()?;
+        Some((Self { compression, crc, size }, cursor.take(cursor.left()).ok()?))
+    }
+}
+
+/// The events of records that are not compressed, up to one that is not all there; then the fault that the end is missing, or
+/// that the checksum differs.
+fn plain<'a>(at: usize, data: &'a [u8], crc: u32, mut cut: Option<McapFault>) -> Events<'a> {
+    let (mut rest, mut is_done) = (data, false);
+    Box::new(from_fn(move || {
+        while !is_done {
+            let record = head(rest).and_then(|(code, length)| {
+                Some((code, rest.get(HEAD..)?.split_at_checked(usize::try_from(length).ok()?)?))
+            });
+            let Some((code, (body, later))) = record else { break };
+            rest = later;
+            match event(at, code, body) {
+                Ok(Step::Event(event)) => return Some(Ok(event)),
+                Ok(_) => {}
+                Err(fault) => {
+                    is_done = true;
+                    return Some(Err(fault));
+                }
+            }
+        }
+        if std::mem::replace(&mut is_done, true) {
+            return None;
+        }
+        cut.take().or_else(|| end_of_records(at, rest, data, crc)).map(Err)
+    }))
+}
+
+/// What is wrong at the end of the records of a chunk.
+fn end_of_records(at: usize, rest: &[u8], data: &[u8], saved: u32) -> Option<McapFault> {
+    let calculated = CRC.checksum(data);
+    if !rest.is_empty() {
+        let what = "a record in the chunk is not what it should be".to_owned();
+        Some(McapFault::Record { at, what })
+    } else if saved != 0 && saved != calculated {
+        Some(bad(at, &mcap::McapError::BadChunkCrc { saved, calculated }))
+    } else {
+        None
+    }
+}
+
+/// Most bytes of a record in a compressed chunk, which says itself how long it is.
+const MOST: usize = 1 << 26;
+
+/// The events of a chunk that is compressed, by the crate.
+fn compressed<'a>(at: usize, record: &'a [u8], format: String, mut cut: Option<McapFault>) -> Events<'a> {
     let options = LinearReaderOptions::default()
         .with_skip_start_magic(true)
         .with_skip_end_magic(true)
         .with_validate_chunk_crcs(true)
         .with_record_length_limit(MOST);
     let mut reader = LinearReader::new_with_options(options);
-    let (mut rest, mut cut, mut is_done) = (record, cut, false);
-    Ok(Step::Chunk(Box::new(from_fn(move || {
+    let (mut rest, mut is_done) = (record, false);
+    Box::new(from_fn(move || {
         while !is_done {
             let fault = match reader.next_event() {
                 Some(Ok(LinearReadEvent::ReadRequest(need))) => {
@@ -213,69 +285,5 @@ fn chunk<'a>(at: usize, record: &'a [u8], cut: Option<McapFault>) -> Result<Step
             return fault.map(Err);
         }
         None
-    }))))
-}
-
-/// Most bytes of a record in a compressed chunk, which says itself how long it is.
-const MOST: usize = 1 << 26;
-
-/// Header and records of a chunk, also where these are not all there.
-fn chunk_header(body: &[u8]) -> Option<(ChunkHeader, &[u8])> {
-    let number =
-        |at: usize| body.get(at..).and_then(|rest| rest.first_chunk::<8>()).map(|bytes| u64::from_le_bytes(*bytes));
-    let short =
-        |at: usize| body.get(at..).and_then(|rest| rest.first_chunk::<4>()).map(|bytes| u32::from_le_bytes(*bytes));
-    let data = 32_usize.checked_add(usize::try_from(short(28)?).ok()?)?;
-    let compression = String::from_utf8_lossy(body.get(32..data)?).into_owned();
-    let header = ChunkHeader {
-        message_start_time: number(0)?,
-        message_end_time: number(8)?,
-        uncompressed_size: number(16)?,
-        uncompressed_crc: short(24)?,
-        compression,
-        compressed_size: number(data)?,
-    };
-    Some((header, body.get(data + 8..)?))
-}
-
-/// Whether a chunk has records that can be read, and nothing else.
-fn is_sound(mut data: &[u8]) -> bool {
-    while !data.is_empty() {
-        let record = head(data).and_then(|(code, length)| {
-            let (body, rest) = data.get(HEAD..)?.split_at_checked(usize::try_from(length).ok()?)?;
-            decode(code, body).ok()??;
-            Some(rest)
-        });
-        let Some(rest) = record else { return false };
-        data = rest;
-    }
-    true
-}
-
-/// The events of records that are not compressed, up to one that is not all there.
-fn plain<'a>(
-    at: usize,
-    mut data: &'a [u8],
-    fault: McapFault,
-) -> Box<dyn Iterator<Item = Result<Event<'a>, McapFault>> + 'a> {
-    let mut fault = Some(fault);
-    Box::new(from_fn(move || {
-        loop {
-            fault.as_ref()?;
-            let record = head(data).and_then(|(code, length)| {
-                let length = usize::try_from(length).ok()?;
-                Some((code, data.get(HEAD..)?.split_at_checked(length)?))
-            });
-            let Some((code, (body, rest))) = record else { return fault.take().map(Err) };
-            data = rest;
-            match event(at, code, body) {
-                Ok(Step::Event(event)) => return Some(Ok(event)),
-                Ok(_) => {}
-                Err(found) => {
-                    fault = None;
-                    return Some(Err(found));
-                }
-            }
-        }
     }))
 }

@@ -1,11 +1,11 @@
-//! Which column means what, by name or as it is said.
+//! The meanings of the columns of a table, by name or as given by the caller.
 
 use super::columns::{Columns, Place};
+use super::error::{TableError, TableProblem, listed};
 use super::heading::Column;
-use super::listed;
 use super::role::{Role, si};
 use super::table::Table;
-use crate::sample::{Channels, Dimension, Unit, UnitError};
+use crate::sample::{Channels, Unit};
 use std::fmt::Write;
 
 /// Which column means what. Without a word, columns are found by the names of roles; what is said here goes before.
@@ -23,132 +23,7 @@ use std::fmt::Write;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnMap {
     assigned: Vec<(Role, String)>,
-    absent: Vec<Role>,
     channels: Option<Vec<String>>,
-}
-
-/// Why the columns of a table do not mean what is needed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ColumnError {
-    /// There are no columns for these.
-    #[error("{file}{}: no column {}, found {found}{hint}", Line(*.line), listed(missing.iter().map(|role| role.name())))]
-    Missing {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// For what.
-        missing: Vec<Role>,
-        /// All columns there are.
-        found: String,
-        /// What may have been meant, or nothing.
-        hint: String,
-    },
-    /// No column of a name that was said.
-    #[error("{file}{}: no column `{name}`, found {found}", Line(*.line))]
-    NoSuch {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// Its name.
-        name: String,
-        /// All columns there are.
-        found: String,
-    },
-    /// Two columns for the same.
-    #[error("{file}{}: two columns are named {name}{}, expected one; say which in the column map, or rename one", Line(*.line), Other(name, other))]
-    Twice {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// Name of the first.
-        name: String,
-        /// Name of the second.
-        other: String,
-    },
-    /// A unit that is none, or of something else.
-    #[error("{file}{}: the unit of {column}: {source}", Line(*.line))]
-    Unit {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// Which column.
-        column: String,
-        /// What is wrong with it.
-        source: Box<UnitError>,
-    },
-    /// No unit.
-    #[error("{file}{}: no unit of {column}, expected one of {dimension}, as in `{column} [{}]`; write it there, or give it in the options; only a column named {role} is in {} without a word", Line(*.line), si(*.dimension), si(*.dimension))]
-    NoUnit {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// Which column.
-        column: String,
-        /// What it means.
-        role: Role,
-        /// What it is measured in.
-        dimension: Dimension,
-    },
-    /// No raw values.
-    #[error("{file}{}: no channels, found {found}; name them in the column map, expected 1 to {} columns", Line(*.line), Channels::MOST)]
-    NoChannels {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// All columns there are.
-        found: String,
-    },
-    /// More raw values than a sample holds.
-    #[error("{file}{}: {count} channels, expected at most {}; name those that are needed in the column map", Line(*.line), Channels::MOST)]
-    TooManyChannels {
-        /// Which file.
-        file: String,
-        /// Line of the names.
-        line: Option<u64>,
-        /// How many.
-        count: usize,
-    },
-    /// Channels with times of their own that differ.
-    #[error(
-        "{file}:{line}: `{column}` is {value}, `{first}` {expected}, expected the same times for all channels; read them one by one, or resample"
-    )]
-    OtherTimes {
-        /// Which file.
-        file: String,
-        /// The first line where they differ.
-        line: u64,
-        /// A column of times.
-        column: String,
-        /// The time there.
-        value: f64,
-        /// The first column of times.
-        first: String,
-        /// The time there.
-        expected: f64,
-    },
-}
-
-struct Line(Option<u64>);
-
-impl std::fmt::Display for Line {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.map_or(Ok(()), |line| write!(f, ":{line}"))
-    }
-}
-
-struct Other<'e>(&'e str, &'e str);
-
-impl std::fmt::Display for Other<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        if self.0 == self.1 { Ok(()) } else { write!(f, " and {}, which mean the same", self.1) }
-    }
 }
 
 /// A column that may be meant, and its unit.
@@ -175,26 +50,15 @@ impl ColumnMap {
         self
     }
 
-    /// The sensor does not measure this component: it is 0. Without a word, a wrench needs all six.
-    #[must_use]
-    pub fn without(mut self, role: Role) -> Self {
-        self.absent.push(role);
-        self
-    }
-
     /// Looks for columns: those that are needed, those that are welcome, and the channels.
     ///
     /// # Errors
-    /// [`ColumnError`]. A column that is welcome, but goes by another than its own name and has no unit, is left out.
-    pub fn find(&self, table: &Table, needed: &[Role], welcome: &[Role]) -> Result<Columns, ColumnError> {
+    /// [`TableError`]. A column that is welcome, but goes by another than its own name and has no unit, is left out.
+    pub fn find(&self, table: &Table, needed: &[Role], welcome: &[Role]) -> Result<Columns, TableError> {
         let mut columns = Columns::new(table.columns().len());
         let mut missing = Vec::new();
         let of_both = needed.iter().map(|role| (*role, true)).chain(welcome.iter().map(|role| (*role, false)));
         for (role, is_needed) in of_both {
-            if self.absent.contains(&role) {
-                columns.set_absent(role);
-                continue;
-            }
             let assigned = self.assigned.iter().find(|(assigned, _)| *assigned == role);
             let candidate = match assigned {
                 Some((_, name)) => Some(self.named(table, name)?),
@@ -212,15 +76,14 @@ impl ColumnMap {
             }
         }
         if !missing.is_empty() {
-            let (file, line, found) = site(table);
-            let hint = hint(table, &missing);
-            return Err(ColumnError::Missing { file, line, missing, found, hint });
+            let (found, hint) = (found(table), hint(table, &missing));
+            return Err(of(table, TableProblem::Missing { missing, found, hint }));
         }
         columns.channels = self.find_channels(table)?;
         Ok(columns)
     }
 
-    fn named<'t>(&self, table: &'t Table, name: &str) -> Result<Candidate<'t>, ColumnError> {
+    fn named<'t>(&self, table: &'t Table, name: &str) -> Result<Candidate<'t>, TableError> {
         let all = table.columns();
         // the whole heading tells columns apart whose names are the same without units
         let whole = |column: &Column| column.heading == name;
@@ -230,14 +93,11 @@ impl ColumnMap {
         match (matching.next(), matching.next()) {
             (Some((at, column)), None) => Ok((at, column.unit.as_deref())),
             (Some((_, first)), Some((_, second))) => Err(twice(table, first, second)),
-            (None, _) => {
-                let (file, line, found) = site(table);
-                Err(ColumnError::NoSuch { file, line, name: name.to_owned(), found })
-            }
+            (None, _) => Err(of(table, TableProblem::NoSuchColumn { name: name.to_owned(), found: found(table) })),
         }
     }
 
-    fn find_channels(&self, table: &Table) -> Result<Vec<usize>, ColumnError> {
+    fn find_channels(&self, table: &Table) -> Result<Vec<usize>, TableError> {
         let channels: Vec<usize> = match &self.channels {
             Some(names) => {
                 names.iter().map(|name| self.named(table, name).map(|(at, _)| at)).collect::<Result<_, _>>()?
@@ -248,25 +108,28 @@ impl ColumnMap {
             }
         };
         if channels.len() > Channels::MOST {
-            let (file, line, _) = site(table);
-            return Err(ColumnError::TooManyChannels { file, line, count: channels.len() });
+            return Err(of(table, TableProblem::TooManyChannels { count: channels.len() }));
         }
         Ok(channels)
     }
 }
 
-fn site(table: &Table) -> (String, Option<u64>, String) {
-    let found = listed(table.columns().iter().map(|column| column.heading.as_str()));
-    (table.file().to_owned(), table.header_line(), found)
+/// All columns there are.
+pub(super) fn found(table: &Table) -> String {
+    listed(table.columns().iter().map(|column| column.heading.as_str()))
 }
 
-fn twice(table: &Table, first: &Column, second: &Column) -> ColumnError {
-    let (file, line, _) = site(table);
-    ColumnError::Twice { file, line, name: first.heading.clone(), other: second.heading.clone() }
+/// At the line of the names.
+pub(super) fn of(table: &Table, problem: TableProblem) -> TableError {
+    problem.at(table.file(), table.header_line())
+}
+
+fn twice(table: &Table, first: &Column, second: &Column) -> TableError {
+    of(table, TableProblem::Twice { name: first.heading.clone(), other: second.heading.clone() })
 }
 
 /// The column that goes by the role's own name, or else by one of the others; also with a unit after it, as `Fx_mN`.
-fn by_names(table: &Table, role: Role) -> Result<Option<Candidate<'_>>, ColumnError> {
+fn by_names(table: &Table, role: Role) -> Result<Option<Candidate<'_>>, TableError> {
     for names in [std::slice::from_ref(&role.name()), role.aliases()] {
         let mut matching = table.columns().iter().enumerate().filter_map(|(at, column)| {
             let unit = names.iter().find_map(|name| {
@@ -291,22 +154,21 @@ fn by_names(table: &Table, role: Role) -> Result<Option<Candidate<'_>>, ColumnEr
 }
 
 /// The column with the factor of its unit; none where it is better left out.
-fn place(table: &Table, role: Role, candidate: Candidate<'_>, strict: bool) -> Result<Option<Place>, ColumnError> {
+fn place(table: &Table, role: Role, candidate: Candidate<'_>, strict: bool) -> Result<Option<Place>, TableError> {
     let (at, unit) = candidate;
     let Some(dimension) = role.dimension() else {
         return Ok(Some(Place { at, factor: 1.0 }));
     };
     let column = &table.columns()[at];
     let own = column.name == role.name();
-    let (file, line, _) = site(table);
     match unit {
         None if own => Ok(Some(Place { at, factor: 1.0 })),
-        None if strict => Err(ColumnError::NoUnit { file, line, column: column.heading.clone(), role, dimension }),
+        None if strict => Err(of(table, TableProblem::NoUnit { column: column.heading.clone(), role, dimension })),
         None => Ok(None),
         Some(unit) => match Unit::parse(unit, dimension) {
             Ok(unit) => Ok(Some(Place { at, factor: unit.factor })),
             Err(source) if strict || own => {
-                Err(ColumnError::Unit { file, line, column: column.heading.clone(), source: Box::new(source) })
+                Err(of(table, TableProblem::Unit { column: column.heading.clone(), source: Box::new(source) }))
             }
             Err(_) => Ok(None),
         },

@@ -16,7 +16,6 @@ pub(super) struct Place {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Columns {
     places: [Option<Place>; Role::COUNT],
-    absent: Vec<Role>,
     pub(super) channels: Vec<usize>,
     width: usize,
 }
@@ -26,15 +25,11 @@ const MOST_COUNT: f64 = 9_007_199_254_740_992.0;
 
 impl Columns {
     pub(super) fn new(width: usize) -> Self {
-        Self { places: [None; Role::COUNT], absent: Vec::new(), channels: Vec::new(), width }
+        Self { places: [None; Role::COUNT], channels: Vec::new(), width }
     }
 
     pub(super) fn set(&mut self, role: Role, place: Place) {
         self.places[role as usize] = Some(place);
-    }
-
-    pub(super) fn set_absent(&mut self, role: Role) {
-        self.absent.push(role);
     }
 
     /// Whether there is a column for this.
@@ -55,14 +50,14 @@ impl Columns {
         table.columns().iter().zip(used).filter(|(_, used)| !used).map(|(column, _)| column.heading.as_str())
     }
 
-    /// The value in SI units; none where there is no such column, or nothing in it. Where the sensor is said not to measure it, 0.
+    /// The value in SI units; none where there is no such column, or nothing in it.
     ///
     /// # Errors
     /// [`RowProblem`]: the row has a wrong number of cells, or there is something else than a finite number, or a negative one
     /// of a standard deviation or bound.
     pub fn value(&self, row: &Row<'_>, role: Role) -> Result<Option<f64>, RowProblem> {
         let Some(place) = self.places[role as usize] else {
-            return Ok(self.absent.contains(&role).then_some(0.0));
+            return Ok(None);
         };
         match row.cell(place.at) {
             Cell::Number(value) => {
@@ -135,7 +130,7 @@ impl Columns {
         match row.cell(place.at) {
             Cell::Empty => row.check().map(|()| Quality::empty()),
             Cell::Number(value) => Err(no_flag(&value.to_string())),
-            Cell::Text(text) => text.parse().map_err(|_| no_flag(text)),
+            Cell::Text(text) => Quality::parse(text).ok_or_else(|| no_flag(text)),
         }
     }
 

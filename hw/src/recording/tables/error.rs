@@ -1,84 +1,81 @@
-//! Why a file is no table.
+//! Why a file is no table, or a table without the columns that are needed.
 
 use super::options::Delimiter;
+use super::role::{Role, si};
+use crate::sample::{Channels, Dimension, UnitError};
+use std::fmt;
 
-/// Why a file is no table.
+/// Why a file is no table, or a table without the columns that are needed. Displays as `file:line: problem`.
+#[derive(Debug)]
+pub struct TableError {
+    /// Which file.
+    pub file: String,
+    /// Its line, from 1, where one is to blame: mostly that of the names.
+    pub line: Option<u64>,
+    /// What is wrong.
+    pub problem: TableProblem,
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, line, problem } = self;
+        match (problem, line) {
+            (TableProblem::Unreadable(source), _) => write!(f, "cannot read {file}: {source}"),
+            (_, Some(line)) => write!(f, "{file}:{line}: {problem}"),
+            (_, None) => write!(f, "{file}: {problem}"),
+        }
+    }
+}
+
+impl std::error::Error for TableError {}
+
+/// What is wrong with a table.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum TableError {
+pub enum TableProblem {
     /// The file cannot be read.
-    #[error("cannot read {file}: {source}")]
-    Unreadable {
-        /// Which file.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error("{0}")]
+    Unreadable(std::io::Error),
     /// The file is longer than allowed.
-    #[error("{file}: longer than {most} bytes, expected no more; cut it, or allow more in the options")]
+    #[error("longer than {most} bytes, expected no more; cut it, or allow more in the options")]
     TooLong {
-        /// Which file.
-        file: String,
         /// What is allowed.
         most: u64,
     },
     /// There is nothing in it.
-    #[error("{file}: no line that names columns, expected one, and rows of numbers below it")]
-    Empty {
-        /// Which file.
-        file: String,
-    },
+    #[error("no line that names columns, expected one, and rows of numbers below it")]
+    Empty,
     /// The first line of the table holds numbers.
     #[error(
-        "{file}:{line}: the first line holds numbers, expected the names of the columns above them; add such a line, or give the names in the options"
+        "the first line holds numbers, expected the names of the columns above them; add such a line, or give the names in the options"
     )]
-    NoHeader {
-        /// Which file.
-        file: String,
-        /// Its first line of numbers.
-        line: u64,
-    },
+    NoHeader,
     /// The line asked for is not there.
-    #[error(
-        "{file}: no line {line} with names of columns, expected one as the options say; the file has {lines} lines"
-    )]
+    #[error("no line {line} with names of columns, expected one as the options say; the file has {lines} lines")]
     NoSuchLine {
-        /// Which file.
-        file: String,
         /// The line asked for.
         line: u64,
         /// How many there are.
         lines: u64,
     },
     /// The names do not fit the rows.
-    #[error(
-        "{file}:{line}: {names} names, but {cells} cells in most rows ({delimiter} between them), expected as many; {}",
-        Missing(*line, hint.as_deref())
-    )]
+    #[error("{names} names, but {cells} cells in most rows ({delimiter} between them), expected as many; {remedy}")]
     HeaderWidth {
-        /// Which file.
-        file: String,
-        /// Line of the names, or of the first row where the names are given.
-        line: u64,
         /// How many names.
         names: usize,
         /// How many cells most rows have.
         cells: usize,
         /// What is between them.
         delimiter: Delimiter,
-        /// A heading that may be two.
-        hint: Option<String>,
+        /// What to do.
+        remedy: String,
     },
     /// Commas between numbers or in them.
     #[error(
-        "{file}:{line}: `{text}` could be numbers with decimal commas or numbers separated by commas ({cells} of them, under {names} names); say which in the options: either the decimal mark (and the delimiter), or delimiter comma and the names of all columns"
+        "`{text}` could be numbers with decimal commas or numbers separated by commas ({cells} of them, under {names} names); say which in the options: either the decimal mark (and the delimiter), or delimiter comma and the names of all columns"
     )]
     AmbiguousComma {
-        /// Which file.
-        file: String,
-        /// A line that shows it.
-        line: u64,
-        /// Its beginning.
+        /// The beginning of a line that shows it.
         text: String,
         /// How many names there are.
         names: usize,
@@ -87,11 +84,9 @@ pub enum TableError {
     },
     /// Both decimal marks.
     #[error(
-        "{file}: `{point}` in line {point_line} has a decimal point, `{comma}` in line {comma_line} a decimal comma, expected the same in all columns; say which in the options"
+        "`{point}` in line {point_line} has a decimal point, `{comma}` in line {comma_line} a decimal comma, expected the same in all columns; say which in the options"
     )]
     MixedDecimals {
-        /// Which file.
-        file: String,
         /// A cell with a point.
         point: String,
         /// Its line.
@@ -102,57 +97,128 @@ pub enum TableError {
         comma_line: u64,
     },
     /// More columns than any sensor has.
-    #[error("{file}:{line}: more than {most} columns, expected no more; is this a table?")]
+    #[error("more than {most} columns, expected no more; is this a table?")]
     TooManyColumns {
-        /// Which file.
-        file: String,
-        /// Which line.
-        line: u64,
         /// How many there may be.
         most: usize,
     },
-    /// A unit for a column that is not there.
-    #[error("{file}: no column `{column}`, for which the options give a unit; found {found}")]
-    NoSuchColumn {
-        /// Which file.
-        file: String,
-        /// The name.
-        column: String,
-        /// All there are.
-        found: String,
-    },
     /// Something is wrong with the headers of an LVM file.
-    #[error("{file}:{line}: {what}, expected {expected}")]
+    #[error("{what}, expected {expected}")]
     Lvm {
-        /// Which file.
-        file: String,
-        /// Which line.
-        line: u64,
         /// What.
         what: String,
         /// What is expected there.
         expected: &'static str,
     },
     /// Several tables in one file.
-    #[error("{file}: {segments} segments, expected one; say which in the options, or read all")]
+    #[error("{segments} segments, expected one; say which in the options, or read all")]
     Segments {
-        /// Which file.
-        file: String,
         /// How many.
         segments: usize,
     },
+    /// A unit for a column that is not there.
+    #[error("no column `{column}`, for which the options give a unit; found {found}")]
+    NoColumnOfUnit {
+        /// The name.
+        column: String,
+        /// All columns there are.
+        found: String,
+    },
+    /// There are no columns for these.
+    #[error("no column {}, found {found}{hint}", listed(missing.iter().map(|role| role.name())))]
+    Missing {
+        /// For what.
+        missing: Vec<Role>,
+        /// All columns there are.
+        found: String,
+        /// What may have been meant, or nothing.
+        hint: String,
+    },
+    /// No column of a name that was said.
+    #[error("no column `{name}`, found {found}")]
+    NoSuchColumn {
+        /// The name.
+        name: String,
+        /// All columns there are.
+        found: String,
+    },
+    /// Two columns for the same.
+    #[error(
+        "two columns are named {name}{}, expected one; say which in the column map, or rename one",
+        Other(name, other)
+    )]
+    Twice {
+        /// Name of the first.
+        name: String,
+        /// Name of the second.
+        other: String,
+    },
+    /// A unit that is none, or of something else.
+    #[error("the unit of {column}: {source}")]
+    Unit {
+        /// Which column.
+        column: String,
+        /// What is wrong with it.
+        source: Box<UnitError>,
+    },
+    /// No unit.
+    #[error("no unit of {column}, expected one of {dimension}, as in `{column} [{}]`; write it there, or give it in the options; only a column named {role} is in {} without a word", si(*.dimension), si(*.dimension))]
+    NoUnit {
+        /// Which column.
+        column: String,
+        /// What it means.
+        role: Role,
+        /// What it is measured in.
+        dimension: Dimension,
+    },
+    /// No raw values.
+    #[error("no channels, found {found}; name them in the column map, expected 1 to {} columns", Channels::MOST)]
+    NoChannels {
+        /// All columns there are.
+        found: String,
+    },
+    /// More raw values than a sample holds.
+    #[error("{count} channels, expected at most {}; name those that are needed in the column map", Channels::MOST)]
+    TooManyChannels {
+        /// How many.
+        count: usize,
+    },
+    /// Channels with times of their own that differ.
+    #[error(
+        "`{column}` is {value}, `{first}` {expected}, expected the same times for all channels; read them one by one, or resample"
+    )]
+    OtherTimes {
+        /// A column of times.
+        column: String,
+        /// The time there.
+        value: f64,
+        /// The first column of times.
+        first: String,
+        /// The time there.
+        expected: f64,
+    },
 }
 
-/// What to do about names that do not fit.
-struct Missing<'e>(u64, Option<&'e str>);
-
-impl std::fmt::Display for Missing<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.1 {
-            Some(hint) => {
-                write!(f, "a delimiter is missing in `{hint}`; mend line {}, or give the names in the options", self.0)
-            }
-            None => write!(f, "mend line {}, or give the names or the delimiter in the options", self.0),
-        }
+impl TableProblem {
+    /// In this file, at this line of it.
+    pub(super) fn at(self, file: &str, line: impl Into<Option<u64>>) -> TableError {
+        TableError { file: file.to_owned(), line: line.into(), problem: self }
     }
+}
+
+struct Other<'e>(&'e str, &'e str);
+
+impl fmt::Display for Other<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 == self.1 { Ok(()) } else { write!(f, " and {}, which mean the same", self.1) }
+    }
+}
+
+/// Most columns that are named in a message.
+const MOST_NAMES: usize = 20;
+
+pub(super) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    let names: Vec<&str> = names.collect();
+    let more = if names.len() > MOST_NAMES { format!(" and {} more", names.len() - MOST_NAMES) } else { String::new() };
+    names[..names.len().min(MOST_NAMES)].join(", ") + &more
 }

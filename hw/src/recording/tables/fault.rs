@@ -1,4 +1,4 @@
-//! What is wrong with single rows.
+//! Faults of single rows.
 
 use std::fmt;
 

@@ -1,6 +1,6 @@
-//! How a table is written: found out from its first lines.
+//! Detects how a table is written, from its first lines.
 
-use super::error::TableError;
+use super::error::{TableError, TableProblem};
 use super::fault::shown;
 use super::heading::is_unit;
 use super::number::{has_fraction, number};
@@ -109,20 +109,20 @@ impl Layout {
             Header::Line(wanted) => {
                 let last = lines.last().map_or(0, |line| line.number);
                 let at = rows.iter().position(|row| row.line == *wanted && !row.names().is_empty());
-                Some(at.ok_or(TableError::NoSuchLine { file: file.to_owned(), line: *wanted, lines: last })?)
+                Some(at.ok_or(TableProblem::NoSuchLine { line: *wanted, lines: last }.at(file, None))?)
             }
             Header::None | Header::Names(_) => None,
         };
         if names.is_none() {
             // the first row, below whatever there is
             let Some(row) = first.map(|first| &rows[first]) else {
-                return Err(TableError::Empty { file: file.to_owned() });
+                return Err(TableProblem::Empty.at(file, None));
             };
             self.first = row.line;
             self.headings = match header {
                 Header::Names(names) => names.clone(),
                 Header::None => (1..=row.cells.len()).map(|i| i.to_string()).collect(),
-                _ => return Err(TableError::NoHeader { file: file.to_owned(), line: row.line }),
+                _ => return Err(TableProblem::NoHeader.at(file, row.line)),
             };
         }
         let mut below = first.unwrap_or(rows.len());
@@ -152,15 +152,19 @@ impl Layout {
         let Some(misfit) = misfits.next().filter(|_| 2 * count > data.len()) else {
             return Ok(());
         };
-        let file = file.to_owned();
         let points = data.iter().any(|row| row.cells.iter().any(|cell| has_fraction(cell, Decimal::Point)));
         if guessed && self.delimiter == Delimiter::Comma && cells > names && !points {
             let text = lines.iter().find(|line| line.number == misfit.line).map_or("", |line| &line.text);
-            return Err(TableError::AmbiguousComma { file, line: misfit.line, text: shown(text), names, cells });
+            return Err(TableProblem::AmbiguousComma { text: shown(text), names, cells }.at(file, misfit.line));
         }
-        let hint = self.headings.iter().find(|name| cells > names && parted(name).is_some()).cloned();
         let line = self.header.unwrap_or(misfit.line);
-        Err(TableError::HeaderWidth { file, line, names, cells, delimiter: self.delimiter, hint })
+        let remedy = match self.headings.iter().find(|name| cells > names && parted(name).is_some()) {
+            Some(two) => {
+                format!("a delimiter is missing in `{two}`; mend line {line}, or give the names in the options")
+            }
+            None => format!("mend line {line}, or give the names or the delimiter in the options"),
+        };
+        Err(TableProblem::HeaderWidth { names, cells, delimiter: self.delimiter, remedy }.at(file, line))
     }
 }
 
@@ -260,13 +264,10 @@ fn mark(file: &str, lines: &[Line<'_>], cells: &[Vec<String>]) -> Result<Decimal
         }
     }
     match found {
-        [Some((point_line, point)), Some((comma_line, comma))] => Err(TableError::MixedDecimals {
-            file: file.to_owned(),
-            point: shown(point),
-            point_line,
-            comma: shown(comma),
-            comma_line,
-        }),
+        [Some((point_line, point)), Some((comma_line, comma))] => {
+            let (point, comma) = (shown(point), shown(comma));
+            Err(TableProblem::MixedDecimals { point, point_line, comma, comma_line }.at(file, None))
+        }
         [None, Some(_)] => Ok(Decimal::Comma),
         _ => Ok(Decimal::Point),
     }

@@ -3,12 +3,12 @@
 //! A header of the file and headers of segments, `key<separator>value...`, each ended by `***End_of_Header***`; then a line of names
 //! and rows up to a blank line (National Instruments, "Specification for the LabVIEW Measurement File").
 
-use super::error::TableError;
+use super::error::{TableError, TableProblem};
 use super::heading::Column;
 use super::number::{has_fraction, number};
 use super::options::{Decimal, Delimiter, TableOptions};
-use super::split::{Lines, Splitter};
-use super::table::{MOST_COLUMNS, MOST_NOTES, Note, Table};
+use super::split::{Lines, MOST_COLUMNS, Splitter};
+use super::table::{MOST_NOTES, Note, Table};
 use std::iter::Peekable;
 use std::sync::Arc;
 
@@ -63,14 +63,14 @@ pub(super) fn tables(file: &str, bytes: &[u8], options: &TableOptions) -> Result
         tables.push(table);
     }
     if tables.is_empty() {
-        return Err(TableError::Empty { file: file.to_owned() });
+        return Err(TableProblem::Empty.at(file, None));
     }
     let Some(wanted) = options.segment else {
         return Ok(tables);
     };
     let count = tables.len();
     let table = wanted.checked_sub(1).and_then(|i| tables.into_iter().nth(i));
-    table.map(|table| vec![table]).ok_or(TableError::Segments { file: file.to_owned(), segments: count })
+    table.map(|table| vec![table]).ok_or_else(|| TableProblem::Segments { segments: count }.at(file, None))
 }
 
 impl Format {
@@ -110,12 +110,12 @@ impl Format {
                 _ => {}
             }
             if notes.len() < MOST_NOTES {
-                notes.push(Note::new(line, key, value));
+                notes.push(Note::new(key, value));
             }
         }
         if !ended {
-            let (file, what) = (file.to_owned(), format!("the file ends without `{END}`"));
-            return Err(TableError::Lvm { file, line: last, what, expected: "the end of the header of the file" });
+            let what = format!("the file ends without `{END}`");
+            return Err(TableProblem::Lvm { what, expected: "the end of the header of the file" }.at(file, last));
         }
         let delimiter = options.delimiter.or(separator).unwrap_or(Delimiter::Tab);
         let decimal =
@@ -152,12 +152,11 @@ impl<'t> Reader<'_, 't> {
             }
         }
         match header.pairs.last() {
-            Some((line, key, _)) => Err(TableError::Lvm {
-                file: self.file.to_owned(),
-                line: *line,
-                what: format!("the file ends in the header of a segment, after `{key}`"),
-                expected: "a line that starts with X_Value and names the columns",
-            }),
+            Some((line, key, _)) => {
+                let what = format!("the file ends in the header of a segment, after `{key}`");
+                let expected = "a line that starts with X_Value and names the columns";
+                Err(TableProblem::Lvm { what, expected }.at(self.file, *line))
+            }
             None => Ok(None),
         }
     }
@@ -168,14 +167,14 @@ impl<'t> Reader<'_, 't> {
             names.pop();
         }
         if names.len() > MOST_COLUMNS {
-            return Err(TableError::TooManyColumns { file: self.file.to_owned(), line, most: MOST_COLUMNS });
+            return Err(TableProblem::TooManyColumns { most: MOST_COLUMNS }.at(self.file, line));
         }
         let commented = names.last().is_some_and(|name| name == COMMENT);
         let columns = header.columns(&names);
         let mut table = Table::new(self.file, columns, Some(line));
         table.share_notes(&self.format.notes);
-        for (line, key, value) in &header.pairs {
-            table.add_pair(*line, key, value);
+        for (_, key, value) in &header.pairs {
+            table.add_pair(key, value);
         }
         while let Some((line, text)) = self.lines.next_if(|(_, text)| !ends(text)) {
             table.add_row(line, &text, splitter, self.format.decimal, usize::from(commented));
@@ -240,12 +239,8 @@ impl Segment {
 
     /// `X0` and `Delta_X`, which all channels must share where there is no column of x.
     fn spacing(&self, file: &str, line: u64, channels: usize) -> Result<(f64, f64), TableError> {
-        let wrong = |what: String| TableError::Lvm {
-            file: file.to_owned(),
-            line,
-            what,
-            expected: "X0 and Delta_X above, the same for all channels, for there is no column of x",
-        };
+        let expected = "X0 and Delta_X above, the same for all channels, for there is no column of x";
+        let wrong = |what: String| TableProblem::Lvm { what, expected }.at(file, line);
         let shared = |key: &str, values: &[f64]| match values.first() {
             Some(first) if first.is_finite() => {
                 let other = values.iter().take(channels).find(|value| *value != first);

@@ -1,4 +1,4 @@
-//! What the reader of tables is told, and what it finds out by itself.
+//! How a table is written: given by the caller, or detected.
 
 use std::fmt;
 

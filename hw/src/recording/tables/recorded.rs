@@ -1,20 +1,21 @@
-//! Samples as rows: which columns they have, and there and back.
+//! Samples from rows.
 
 use super::columns::Columns;
 use super::fault::RowProblem;
-use super::recorder::Contents;
 use super::role::Role;
 use super::table::Row;
 use crate::sample::{OutOfPlane, Quality, RawSample, ReactionSample, Wrench, WrenchSample};
-use rod_core::{Pose, Reactions, Sample};
+use rod_core::{Pose, Reactions};
 
-/// A sample that tables are read into and recorders write: [`RawSample`], [`WrenchSample`], [`ReactionSample`].
+/// A sample that tables are read into: [`RawSample`], [`WrenchSample`], [`ReactionSample`].
 ///
 /// Needed of a row are, besides a time: of a raw sample its channels, of a wrench all six components, of reactions x0, y0, phi0,
 /// f0x, f0y, m0z. Whatever else a table has of a sample is read, too.
 pub trait Recorded: Sized + sealed::Sealed {
     /// Columns that must be there.
     const NEEDED: &'static [Role];
+    /// Columns that are read where they are there.
+    const WELCOME: &'static [Role];
     /// Whether the raw values must be there.
     const CHANNELS: bool = false;
 
@@ -26,18 +27,6 @@ pub trait Recorded: Sized + sealed::Sealed {
 
     /// Time, s.
     fn time(&self) -> f64;
-
-    /// What is written, in order, the raw values aside; of everything, what is read where it is there.
-    fn roles(contents: &Contents) -> Vec<Role>;
-
-    /// A number in SI units, where it is known.
-    fn value(&self, role: Role) -> Option<f64>;
-
-    /// Flags.
-    fn quality(&self) -> Quality;
-
-    /// What the device said.
-    fn raw(&self) -> &RawSample;
 }
 
 mod sealed {
@@ -47,10 +36,7 @@ mod sealed {
     impl Sealed for crate::sample::ReactionSample {}
 }
 
-/// Of a raw sample, the channels aside.
-const RAW: [Role; 6] =
-    [Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::RawQuality];
-const REACTIONS: [Role; 7] = [Role::Time, Role::X0, Role::Y0, Role::Phi0, Role::F0x, Role::F0y, Role::M0z];
+const WRENCH: [Role; 6] = [Role::Fx, Role::Fy, Role::Fz, Role::Tx, Role::Ty, Role::Tz];
 const SIGMA: [Role; 3] = [Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z];
 const SYSTEMATIC: [Role; 3] = [Role::SystematicF0x, Role::SystematicF0y, Role::SystematicM0z];
 const ACROSS: [Role; 3] = [Role::F0z, Role::M0x, Role::M0y];
@@ -74,19 +60,10 @@ fn raw(row: &Row<'_>, columns: &Columns, t: Option<f64>, quality: Quality) -> Re
     })
 }
 
-fn of_raw(raw: &RawSample, role: Role) -> Option<f64> {
-    match role {
-        Role::HostTime => Some(raw.host_time),
-        Role::DeviceTime => raw.device_time,
-        Role::Sequence => raw.sequence.map(|n| n as f64),
-        Role::Status => Some(f64::from(raw.status)),
-        Role::Temperature => raw.temperature,
-        _ => None,
-    }
-}
-
 impl Recorded for RawSample {
     const NEEDED: &'static [Role] = &[];
+    const WELCOME: &'static [Role] =
+        &[Role::Time, Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::Quality];
     const CHANNELS: bool = true;
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
@@ -97,79 +74,56 @@ impl Recorded for RawSample {
     fn time(&self) -> f64 {
         Self::time(self)
     }
-
-    fn roles(_: &Contents) -> Vec<Role> {
-        [Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::Quality].to_vec()
-    }
-
-    fn value(&self, role: Role) -> Option<f64> {
-        of_raw(self, role)
-    }
-
-    fn quality(&self) -> Quality {
-        self.quality
-    }
-
-    fn raw(&self) -> &RawSample {
-        self
-    }
 }
 
 impl Recorded for WrenchSample {
     const NEEDED: &'static [Role] = &[Role::Time, Role::Fx, Role::Fy, Role::Fz, Role::Tx, Role::Ty, Role::Tz];
+    const WELCOME: &'static [Role] = &[
+        Role::Quality,
+        Role::HostTime,
+        Role::DeviceTime,
+        Role::Sequence,
+        Role::Status,
+        Role::Temperature,
+        Role::RawQuality,
+    ];
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
         let t = columns.needed(row, Role::Time)?;
         let quality = columns.quality(row, Role::Quality)?;
         let mut wrench = [0.0; 6];
-        for (value, role) in wrench.iter_mut().zip(Role::WRENCH) {
+        for (value, role) in wrench.iter_mut().zip(WRENCH) {
             *value = columns.needed(row, role)?;
         }
-        Ok(Self {
-            t,
-            wrench: Wrench::from_components(wrench),
-            sigma: columns.all(row, Role::SIGMAS)?.map(Wrench::from_components),
-            systematic: columns.all(row, Role::SYSTEMATICS)?.map(Wrench::from_components),
-            quality,
-            raw: raw(row, columns, Some(t), quality)?,
-        })
+        let raw = raw(row, columns, Some(t), quality)?;
+        Ok(Self { quality, raw, ..Self::new(t, Wrench::from_components(wrench)) })
     }
 
     fn time(&self) -> f64 {
         self.t
     }
-
-    fn roles(contents: &Contents) -> Vec<Role> {
-        let mut roles = vec![Role::Time];
-        roles.extend(Role::WRENCH);
-        roles.extend(contents.sigma.then_some(Role::SIGMAS).into_iter().flatten());
-        roles.extend(contents.systematic.then_some(Role::SYSTEMATICS).into_iter().flatten());
-        roles.push(Role::Quality);
-        roles.extend(contents.raw.is_some().then_some(RAW).into_iter().flatten());
-        roles
-    }
-
-    fn value(&self, role: Role) -> Option<f64> {
-        let of = |roles: [Role; 6], wrench: Option<Wrench>| {
-            let at = roles.iter().position(|known| *known == role)?;
-            wrench?.components().get(at).copied()
-        };
-        let own = of(Role::WRENCH, Some(self.wrench)).or_else(|| of(Role::SIGMAS, self.sigma));
-        let own = own.or_else(|| of(Role::SYSTEMATICS, self.systematic));
-        own.or_else(|| if role == Role::Time { Some(self.t) } else { of_raw(&self.raw, role) })
-    }
-
-    fn quality(&self) -> Quality {
-        self.quality
-    }
-
-    fn raw(&self) -> &RawSample {
-        &self.raw
-    }
 }
 
 impl Recorded for ReactionSample {
-    const NEEDED: &'static [Role] = &REACTIONS;
+    const NEEDED: &'static [Role] = &[Role::Time, Role::X0, Role::Y0, Role::Phi0, Role::F0x, Role::F0y, Role::M0z];
+    const WELCOME: &'static [Role] = &[
+        Role::SigmaF0x,
+        Role::SigmaF0y,
+        Role::SigmaM0z,
+        Role::SystematicF0x,
+        Role::SystematicF0y,
+        Role::SystematicM0z,
+        Role::F0z,
+        Role::M0x,
+        Role::M0y,
+        Role::Quality,
+        Role::HostTime,
+        Role::DeviceTime,
+        Role::Sequence,
+        Role::Status,
+        Role::Temperature,
+        Role::RawQuality,
+    ];
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
         let need = |role| columns.needed(row, role);
@@ -191,47 +145,5 @@ impl Recorded for ReactionSample {
 
     fn time(&self) -> f64 {
         self.t
-    }
-
-    fn roles(contents: &Contents) -> Vec<Role> {
-        let mut roles = REACTIONS.to_vec();
-        roles.extend(contents.sigma.then_some(SIGMA).into_iter().flatten());
-        roles.extend(contents.systematic.then_some(SYSTEMATIC).into_iter().flatten());
-        roles.extend(contents.out_of_plane.then_some(ACROSS).into_iter().flatten());
-        roles.push(Role::Quality);
-        roles.extend(contents.raw.is_some().then_some(RAW).into_iter().flatten());
-        roles
-    }
-
-    fn value(&self, role: Role) -> Option<f64> {
-        let Sample { pose: Pose { x, y, phi }, reactions: Reactions { f0x, f0y, m0z }, .. } = self.sample();
-        let OutOfPlane { f0z, m0x, m0y } = self.out_of_plane;
-        match role {
-            Role::Time => Some(self.t),
-            Role::X0 => Some(x),
-            Role::Y0 => Some(y),
-            Role::Phi0 => Some(phi),
-            Role::F0x => Some(f0x),
-            Role::F0y => Some(f0y),
-            Role::M0z => Some(m0z),
-            Role::SigmaF0x => self.sigma.map(|sigma| sigma.f0x),
-            Role::SigmaF0y => self.sigma.map(|sigma| sigma.f0y),
-            Role::SigmaM0z => self.sigma.map(|sigma| sigma.m0z),
-            Role::SystematicF0x => self.systematic.map(|bound| bound.f0x),
-            Role::SystematicF0y => self.systematic.map(|bound| bound.f0y),
-            Role::SystematicM0z => self.systematic.map(|bound| bound.m0z),
-            Role::F0z => Some(f0z),
-            Role::M0x => Some(m0x),
-            Role::M0y => Some(m0y),
-            _ => of_raw(&self.raw, role),
-        }
-    }
-
-    fn quality(&self) -> Quality {
-        self.quality
-    }
-
-    fn raw(&self) -> &RawSample {
-        &self.raw
     }
 }

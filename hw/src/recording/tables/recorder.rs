@@ -1,108 +1,59 @@
-//! Samples written as they come, in what the reader reads.
+//! Reactions written as they come, in what the reader reads.
 
-use super::recorded::Recorded;
 use super::role::{Role, si};
 use super::table::Table;
 use crate::link::LinkCounters;
-use crate::sample::Quality;
+use crate::sample::{OutOfPlane, Quality, RawSample, ReactionSample};
+use rod_core::{Pose, Reactions};
 use std::io::{self, Write};
-use std::marker::PhantomData;
 
-/// Which columns a recording has besides what every sample of its kind has.
+/// Which columns a recording has besides time, pose, reactions and flags.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Contents {
-    /// The raw sample, with so many channels. A recording of raw samples needs it.
+    /// The raw sample, with so many channels.
     pub raw: Option<usize>,
     /// Standard deviations.
     pub sigma: bool,
     /// Bounds of the systematic errors.
     pub systematic: bool,
-    /// Of reactions: force and moments out of the plane.
+    /// Force and moments out of the plane.
     pub out_of_plane: bool,
 }
 
-impl Contents {
-    /// All columns there may be; how many channels matters to nobody who only asks for these.
-    pub(super) const EVERYTHING: Self = Self { raw: Some(0), sigma: true, systematic: true, out_of_plane: true };
-}
-
-/// What a recording is of, in words: one line each.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct About {
-    /// The sensor: type, number, range.
-    pub sensor: String,
-    /// Which calibration, or its file.
-    pub calibration: String,
-    /// When and how it was tared, or the values.
-    pub tare: String,
-    /// How the sensor sits under the clamp.
-    pub mounting: String,
-    /// What the times are of.
-    pub clock: String,
-    /// Anything else, with a name.
-    pub notes: Vec<(String, String)>,
-}
-
-impl About {
-    /// What is said in front of a recording.
-    pub fn of(table: &Table) -> Self {
-        let note = |key: &str| table.note(key).unwrap_or_default().to_owned();
-        let first = table.header_line().unwrap_or(u64::MAX);
-        let known = ["sensor", "calibration", "tare", "mounting", "clock", "units", ""];
-        let others = table.notes().filter(|note| note.line < first && !known.contains(&note.key.as_str()));
-        Self {
-            sensor: note("sensor"),
-            calibration: note("calibration"),
-            tare: note("tare"),
-            mounting: note("mounting"),
-            clock: note("clock"),
-            notes: others.map(|note| (note.key.clone(), note.text.clone())).collect(),
-        }
-    }
-}
-
-/// Why a sample is not written.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum RecordError {
-    /// The file cannot be written.
-    #[error("cannot write the recording: {0}")]
-    Io(#[from] io::Error),
-    /// Another number of raw values than there are columns.
-    #[error("the sample has {found} channels, expected {expected} as in the contents of the recording")]
-    Channels {
-        /// How many it has.
-        found: usize,
-        /// How many columns there are.
-        expected: usize,
-    },
-}
-
-/// Writes samples as they come, as CSV with comments in front: SI units, numbers that survive a round trip bit by bit, flags by
+/// Writes reactions as they come, as CSV with comments in front: SI units, numbers that survive a round trip bit by bit, flags by
 /// name. Nothing is kept: memory does not grow. Put a [`BufWriter`](std::io::BufWriter) in between where that matters.
 ///
 /// ```
-/// use rod_hw::recording::{About, ColumnMap, Contents, Recorder, Table, TableOptions};
-/// use rod_hw::{Channels, Quality, RawSample};
-/// let about = About { sensor: "K3D40, no. 12".into(), ..About::default() };
-/// let mut recorder = Recorder::new(Vec::new(), &about, Contents { raw: Some(2), ..Contents::default() })?;
-/// let sample = RawSample { quality: Quality::GAP_BEFORE, ..RawSample::new(0.1, Channels::from([1e-7, 0.1 + 0.2])) };
+/// use rod_core::{Pose, Reactions};
+/// use rod_hw::recording::{ColumnMap, Contents, Recorder, Table, TableOptions};
+/// use rod_hw::{OutOfPlane, Quality, RawSample, ReactionSample};
+/// let mut recorder = Recorder::new(Vec::new(), &[("sensor", "K3D40, no. 12")], Contents::default())?;
+/// let sample = ReactionSample {
+///     t: 0.1,
+///     pose: Pose { x: 0.08, y: -0.04, phi: 1.5 },
+///     reactions: Reactions { f0x: 1e-7, f0y: 0.1 + 0.2, m0z: -1e-3 },
+///     sigma: None,
+///     systematic: None,
+///     out_of_plane: OutOfPlane::default(),
+///     quality: Quality::GAP_BEFORE,
+///     raw: RawSample::default(),
+/// };
 /// recorder.write(&sample)?;
 /// let file = recorder.finish(None)?;
 ///
-/// let table = Table::parse("raw.csv", &file, &TableOptions::default())?;
-/// let samples = table.samples::<RawSample>(&ColumnMap::new())?.collect::<Result<Vec<_>, _>>()?;
-/// assert_eq!((samples, About::of(&table).sensor), (vec![sample], about.sensor));
+/// let table = Table::parse("scan.csv", &file, &TableOptions::default())?;
+/// let read = table.samples::<ReactionSample>(&ColumnMap::new())?.next().ok_or("empty")??;
+/// assert_eq!((read.reactions, read.quality), (sample.reactions, sample.quality));
+/// assert_eq!(table.note("sensor"), Some("K3D40, no. 12"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Recorder<W, S> {
+pub struct Recorder<W> {
     out: W,
     roles: Vec<Role>,
     channels: Option<usize>,
     samples: u64,
     flagged: u64,
-    kind: PhantomData<fn(&S)>,
 }
 
 /// What the first line says.
@@ -110,25 +61,16 @@ const TITLE: &str = "# vibrissa recording 1";
 /// The key of the last line.
 const END: &str = "end of the recording, samples";
 
-impl<W: Write, S: Recorded> Recorder<W, S> {
-    /// Writes what stands in front.
+impl<W: Write> Recorder<W> {
+    /// Writes what stands in front: notes, each a name and a text (the sensor, its calibration, the tare, ...), then the columns.
     ///
     /// # Errors
     /// Where that cannot be written.
-    pub fn new(mut out: W, about: &About, contents: Contents) -> io::Result<Self> {
-        let roles = S::roles(&contents);
-        let channels = if S::CHANNELS { Some(contents.raw.unwrap_or_default()) } else { contents.raw };
+    pub fn new(mut out: W, notes: &[(&str, &str)], contents: Contents) -> io::Result<Self> {
+        let roles = roles(&contents);
+        let channels = contents.raw;
         writeln!(out, "{TITLE}")?;
-        let About { sensor, calibration, tare, mounting, clock, notes } = about;
-        let named = [
-            ("sensor", sensor),
-            ("calibration", calibration),
-            ("tare", tare),
-            ("mounting", mounting),
-            ("clock", clock),
-        ];
-        let others = notes.iter().map(|(key, text)| (key.as_str(), text));
-        for (key, text) in named.into_iter().chain(others).filter(|(_, text)| !text.is_empty()) {
+        for (key, text) in notes.iter().filter(|(_, text)| !text.is_empty()) {
             writeln!(out, "# {}: {}", one_line(key).replace(':', " "), one_line(text))?;
         }
         let units = roles.iter().filter_map(|role| Some(format!("{role} {}", si(role.dimension()?))));
@@ -136,17 +78,21 @@ impl<W: Write, S: Recorded> Recorder<W, S> {
         let numbered = (1..=channels.unwrap_or_default()).map(|i| format!("channel{i}"));
         let names: Vec<String> = roles.iter().map(Role::to_string).chain(numbered).collect();
         writeln!(out, "{}", names.join(","))?;
-        Ok(Self { out, roles, channels, samples: 0, flagged: 0, kind: PhantomData })
+        Ok(Self { out, roles, channels, samples: 0, flagged: 0 })
     }
 
     /// Writes a sample. What its contents do not tell of is left out.
     ///
     /// # Errors
-    /// [`RecordError`]; of a sample with a wrong number of channels nothing is written.
-    pub fn write(&mut self, sample: &S) -> Result<(), RecordError> {
-        let raw = sample.raw();
+    /// Where it cannot be written, or has another number of channels than the contents say; then nothing is written of it.
+    pub fn write(&mut self, sample: &ReactionSample) -> io::Result<()> {
+        let raw = &sample.raw;
         if let Some(expected) = self.channels.filter(|expected| *expected != raw.channels.len()) {
-            return Err(RecordError::Channels { found: raw.channels.len(), expected });
+            let found = raw.channels.len();
+            return Err(io::Error::new(
+                io::ErrorKind::InvalidInput,
+                format!("the sample has {found} channels, expected {expected} as in the contents of the recording"),
+            ));
         }
         let out = &mut self.out;
         for (i, role) in self.roles.iter().enumerate() {
@@ -154,12 +100,12 @@ impl<W: Write, S: Recorded> Recorder<W, S> {
                 out.write_all(b",")?;
             }
             match role {
-                Role::Quality => flags(out, sample.quality())?,
+                Role::Quality => flags(out, sample.quality)?,
                 Role::RawQuality => flags(out, raw.quality)?,
                 Role::Status => write!(out, "{}", raw.status)?,
                 Role::Sequence => raw.sequence.map_or(Ok(()), |number| write!(out, "{number}"))?,
                 // the shortest text that is read as the same number
-                _ => sample.value(*role).map_or(Ok(()), |value| write!(out, "{value:?}"))?,
+                _ => value(sample, *role).map_or(Ok(()), |value| write!(out, "{value:?}"))?,
             }
         }
         if self.channels.is_some() {
@@ -169,7 +115,7 @@ impl<W: Write, S: Recorded> Recorder<W, S> {
         }
         out.write_all(b"\n")?;
         self.samples += 1;
-        self.flagged += u64::from(!sample.quality().is_empty());
+        self.flagged += u64::from(!sample.quality.is_empty());
         Ok(())
     }
 
@@ -200,6 +146,56 @@ impl Table {
         let title = comment_of(TITLE);
         let ours = self.notes().any(|note| note.key.is_empty() && note.text == title);
         ours.then(|| self.note(END).and_then(|count| count.parse().ok()) == Some(self.len()))
+    }
+}
+
+/// The columns in order, the raw values aside.
+fn roles(contents: &Contents) -> Vec<Role> {
+    let mut roles = vec![Role::Time, Role::X0, Role::Y0, Role::Phi0, Role::F0x, Role::F0y, Role::M0z];
+    if contents.sigma {
+        roles.extend([Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z]);
+    }
+    if contents.systematic {
+        roles.extend([Role::SystematicF0x, Role::SystematicF0y, Role::SystematicM0z]);
+    }
+    if contents.out_of_plane {
+        roles.extend([Role::F0z, Role::M0x, Role::M0y]);
+    }
+    roles.push(Role::Quality);
+    if contents.raw.is_some() {
+        let raw = [Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::RawQuality];
+        roles.extend(raw);
+    }
+    roles
+}
+
+/// A number in SI units, where it is known.
+fn value(sample: &ReactionSample, role: Role) -> Option<f64> {
+    let ReactionSample { t, pose: Pose { x, y, phi }, reactions, sigma, systematic, .. } = *sample;
+    let Reactions { f0x, f0y, m0z } = reactions;
+    let OutOfPlane { f0z, m0x, m0y } = sample.out_of_plane;
+    let RawSample { host_time, device_time, temperature, .. } = sample.raw;
+    match role {
+        Role::Time => Some(t),
+        Role::X0 => Some(x),
+        Role::Y0 => Some(y),
+        Role::Phi0 => Some(phi),
+        Role::F0x => Some(f0x),
+        Role::F0y => Some(f0y),
+        Role::M0z => Some(m0z),
+        Role::SigmaF0x => sigma.map(|sigma| sigma.f0x),
+        Role::SigmaF0y => sigma.map(|sigma| sigma.f0y),
+        Role::SigmaM0z => sigma.map(|sigma| sigma.m0z),
+        Role::SystematicF0x => systematic.map(|bound| bound.f0x),
+        Role::SystematicF0y => systematic.map(|bound| bound.f0y),
+        Role::SystematicM0z => systematic.map(|bound| bound.m0z),
+        Role::F0z => Some(f0z),
+        Role::M0x => Some(m0x),
+        Role::M0y => Some(m0y),
+        Role::HostTime => Some(host_time),
+        Role::DeviceTime => device_time,
+        Role::Temperature => temperature,
+        _ => None,
     }
 }
 

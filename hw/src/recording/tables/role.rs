@@ -1,4 +1,4 @@
-//! What a column can mean.
+//! The meanings of columns.
 
 use crate::sample::Dimension;
 use std::fmt;
@@ -66,30 +66,6 @@ pub enum Role {
     Ty,
     /// Torque on the sensor, about its origin.
     Tz,
-    /// Standard deviation.
-    SigmaFx,
-    /// Standard deviation.
-    SigmaFy,
-    /// Standard deviation.
-    SigmaFz,
-    /// Standard deviation.
-    SigmaTx,
-    /// Standard deviation.
-    SigmaTy,
-    /// Standard deviation.
-    SigmaTz,
-    /// Bound of the systematic error.
-    SystematicFx,
-    /// Bound of the systematic error.
-    SystematicFy,
-    /// Bound of the systematic error.
-    SystematicFz,
-    /// Bound of the systematic error.
-    SystematicTx,
-    /// Bound of the systematic error.
-    SystematicTy,
-    /// Bound of the systematic error.
-    SystematicTz,
 }
 
 use Dimension::{Angle, Force, Length, Temperature, Time, Torque};
@@ -148,36 +124,10 @@ const ROLES: [Line; Role::COUNT] = [
         Some(Torque),
         &["Tz", "TZ", "T_z", "Mz", "mz", "MZ", "M_z", "Torque Z", "torque_z", "torque.z", "wrench.torque.z"],
     ),
-    (Role::SigmaFx, "sigma_fx", Some(Force), &[]),
-    (Role::SigmaFy, "sigma_fy", Some(Force), &[]),
-    (Role::SigmaFz, "sigma_fz", Some(Force), &[]),
-    (Role::SigmaTx, "sigma_tx", Some(Torque), &[]),
-    (Role::SigmaTy, "sigma_ty", Some(Torque), &[]),
-    (Role::SigmaTz, "sigma_tz", Some(Torque), &[]),
-    (Role::SystematicFx, "systematic_fx", Some(Force), &[]),
-    (Role::SystematicFy, "systematic_fy", Some(Force), &[]),
-    (Role::SystematicFz, "systematic_fz", Some(Force), &[]),
-    (Role::SystematicTx, "systematic_tx", Some(Torque), &[]),
-    (Role::SystematicTy, "systematic_ty", Some(Torque), &[]),
-    (Role::SystematicTz, "systematic_tz", Some(Torque), &[]),
 ];
 
 impl Role {
-    pub(super) const COUNT: usize = 41;
-    /// Standard deviations of a wrench, component by component.
-    pub(super) const SIGMAS: [Self; 6] =
-        [Self::SigmaFx, Self::SigmaFy, Self::SigmaFz, Self::SigmaTx, Self::SigmaTy, Self::SigmaTz];
-    /// Bounds of its systematic error.
-    pub(super) const SYSTEMATICS: [Self; 6] = [
-        Self::SystematicFx,
-        Self::SystematicFy,
-        Self::SystematicFz,
-        Self::SystematicTx,
-        Self::SystematicTy,
-        Self::SystematicTz,
-    ];
-    /// The wrench.
-    pub(super) const WRENCH: [Self; 6] = [Self::Fx, Self::Fy, Self::Fz, Self::Tx, Self::Ty, Self::Tz];
+    pub(super) const COUNT: usize = 29;
 
     /// Its own name, which stands for SI units.
     pub fn name(self) -> &'static str {
@@ -200,7 +150,7 @@ impl Role {
     }
 
     /// Other names, which need a unit.
-    pub fn aliases(self) -> &'static [&'static str] {
+    pub(super) fn aliases(self) -> &'static [&'static str] {
         ROLES[self as usize].3
     }
 
@@ -253,6 +203,6 @@ mod tests {
         assert_eq!(parted("FzTx"), Some(("Fz", "Tx")));
         assert_eq!(parted("x0y0"), Some(("x0", "y0")));
         assert_eq!(parted("Force"), None);
-        assert!(Role::SigmaTz.is_spread() && !Role::Sequence.is_spread() && Role::SystematicF0x.is_spread());
+        assert!(Role::SigmaM0z.is_spread() && !Role::Sequence.is_spread() && Role::SystematicF0x.is_spread());
     }
 }

@@ -1,10 +1,12 @@
 //! From text to lines, and from lines to cells.
 
 use super::options::Delimiter;
-use super::table::MOST_COLUMNS;
 use csv_core::ReadRecordResult;
 use std::borrow::Cow;
 use std::io::BufRead;
+
+/// Columns there may be.
+pub(super) const MOST_COLUMNS: usize = 4096;
 
 /// Lines with their numbers, from 1, as an editor counts them. A file without any line feed has carriage returns.
 #[derive(Clone, Debug)]

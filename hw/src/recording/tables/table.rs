@@ -1,21 +1,16 @@
 //! Named columns of numbers, row by row.
 
-use super::error::TableError;
 use super::fault::{RowFault, RowProblem};
 use super::heading::Column;
 use super::number::number;
-use super::options::{Decimal, TableOptions};
+use super::options::Decimal;
 use super::split::{Splitter, comment};
-use super::{lvm, text};
-use std::borrow::Cow;
-use std::io::Read;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Named columns with their units, and rows of cells with their lines in the file.
 ///
 /// Read from text: CSV, TSV, separated by semicolons or blanks, or LabVIEW's LVM. What separates cells and fractions and which
-/// line names the columns is found out, or said in the [`TableOptions`]; what is ambiguous is refused.
+/// line names the columns is found out, or given in the [options](super::TableOptions); ambiguous files are refused.
 ///
 /// ```
 /// use rod_hw::recording::{Cell, Table, TableOptions};
@@ -44,9 +39,7 @@ pub struct Table {
 
 /// A line beside the table: `key: value` of a comment or of a header.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
-    /// Its line, from 1.
-    pub line: u64,
+pub(super) struct Note {
     /// What it is about; empty where that is not said.
     pub key: String,
     /// What it says.
@@ -54,8 +47,8 @@ pub struct Note {
 }
 
 impl Note {
-    pub(super) fn new(line: u64, key: &str, text: &str) -> Self {
-        Self { line, key: key.trim().to_owned(), text: text.trim().to_owned() }
+    pub fn new(key: &str, text: &str) -> Self {
+        Self { key: key.trim().to_owned(), text: text.trim().to_owned() }
     }
 }
 
@@ -94,61 +87,10 @@ pub struct Row<'t> {
     head: Head,
 }
 
-/// Columns there may be.
-pub(super) const MOST_COLUMNS: usize = 4096;
 /// Notes that are kept; so many lines say nothing to a person.
 pub(super) const MOST_NOTES: usize = 4096;
 
 impl Table {
-    /// The table in a file.
-    ///
-    /// # Errors
-    /// [`TableError`]; also where an LVM file has several segments and the options do not say which.
-    pub fn read(file: &Path, options: &TableOptions) -> Result<Self, TableError> {
-        let name = file.display().to_string();
-        Self::parse(&name, &bytes(file, &name, options)?, options)
-    }
-
-    /// The table in a text. `file` names it in messages; it is not opened.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    pub fn parse(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Self, TableError> {
-        let mut tables = Self::parse_all(file, bytes, options)?;
-        match (tables.len(), tables.pop()) {
-            (1, Some(table)) => Ok(table),
-            (segments, _) => Err(TableError::Segments { file: file.to_owned(), segments }),
-        }
-    }
-
-    /// All tables in a file: the segments of an LVM file, or the only one.
-    ///
-    /// # Errors
-    /// [`TableError`].
-    pub fn read_all(file: &Path, options: &TableOptions) -> Result<Vec<Self>, TableError> {
-        let name = file.display().to_string();
-        Self::parse_all(&name, &bytes(file, &name, options)?, options)
-    }
-
-    /// All tables in a text.
-    ///
-    /// # Errors
-    /// As [`read_all`](Self::read_all).
-    pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
-        let bytes = &*utf8(bytes);
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let mut tables = if lvm::is_lvm(bytes) {
-            lvm::tables(file, bytes, options)?
-        } else {
-            vec![text::table(file, bytes, options)?]
-        };
-        for table in &mut tables {
-            table.cut = !bytes.ends_with(b"\n") && !bytes.ends_with(b"\r");
-            table.take_units(&options.units)?;
-        }
-        Ok(tables)
-    }
-
     pub(super) fn new(file: &str, columns: Vec<Column>, header_line: Option<u64>) -> Self {
         Self {
             file: file.to_owned(),
@@ -199,18 +141,13 @@ impl Table {
     }
 
     /// Comments, and what headers say, in order.
-    pub fn notes(&self) -> impl Iterator<Item = &Note> + Clone {
+    pub(super) fn notes(&self) -> impl Iterator<Item = &Note> + Clone {
         self.common.iter().chain(&self.notes)
     }
 
     /// What is said of this, the first time that it is.
     pub fn note(&self, key: &str) -> Option<&str> {
         self.notes().find(|note| note.key == key).map(|note| note.text.as_str())
-    }
-
-    /// Whether the last line has no end, as where a file was cut: the last number may lack digits.
-    pub fn is_cut(&self) -> bool {
-        self.cut
     }
 
     /// What is wrong with rows of a wrong number of cells.
@@ -230,21 +167,21 @@ impl Table {
         self.cells.reserve(rows.saturating_mul(self.columns.len()).min(bytes / 2));
     }
 
-    pub(super) fn add_note(&mut self, line: u64, text: &str) {
+    pub(super) fn add_note(&mut self, text: &str) {
         let (key, text) = text.split_once(": ").unwrap_or(("", text));
-        self.add_pair(line, key, text);
+        self.add_pair(key, text);
     }
 
-    pub(super) fn add_pair(&mut self, line: u64, key: &str, text: &str) {
+    pub(super) fn add_pair(&mut self, key: &str, text: &str) {
         if self.notes.len() < MOST_NOTES {
-            self.notes.push(Note::new(line, key, text));
+            self.notes.push(Note::new(key, text));
         }
     }
 
     /// Adds rows of a text, comments and blank lines aside.
     pub(super) fn add_line(&mut self, line: u64, text: &str, splitter: &mut Splitter, decimal: Decimal) {
         if let Some(comment) = comment(text) {
-            self.add_note(line, comment);
+            self.add_note(comment);
         } else if !text.trim().is_empty() {
             self.add_row(line, text, splitter, decimal, 0);
         }
@@ -288,21 +225,6 @@ impl Table {
             }
         }
     }
-
-    fn take_units(&mut self, units: &[(String, String)]) -> Result<(), TableError> {
-        for (name, unit) in units {
-            let mut any = false;
-            for column in self.columns.iter_mut().filter(|column| column.is(name)) {
-                column.unit = Some(unit.clone());
-                any = true;
-            }
-            if !any {
-                let found = super::listed(self.columns.iter().map(|column| column.heading.as_str()));
-                return Err(TableError::NoSuchColumn { file: self.file.clone(), column: name.clone(), found });
-            }
-        }
-        Ok(())
-    }
 }
 
 fn stored(texts: &mut Vec<Box<str>>, cell: &str, decimal: Decimal) -> Stored {
@@ -318,35 +240,6 @@ fn stored(texts: &mut Vec<Box<str>>, cell: &str, decimal: Decimal) -> Stored {
     }
     // more than 2^32 texts are not in a file of 4 GiB
     Stored::Text(u32::try_from(texts.len() - 1).unwrap_or(u32::MAX))
-}
-
-/// The text in UTF-8 where its mark says that it has two bytes a letter, as spreadsheets write it.
-fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
-    let (letters, letter): (_, fn([u8; 2]) -> u16) = match bytes {
-        [0xff, 0xfe, letters @ ..] => (letters, u16::from_le_bytes),
-        [0xfe, 0xff, letters @ ..] => (letters, u16::from_be_bytes),
-        _ => return Cow::Borrowed(bytes),
-    };
-    let letters = letters.chunks_exact(2).map(|pair| letter([pair[0], pair[1]]));
-    let text: String =
-        char::decode_utf16(letters).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
-    Cow::Owned(text.into_bytes())
-}
-
-fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {
-    let unreadable = |source| TableError::Unreadable { file: name.to_owned(), source };
-    let mut bytes = Vec::new();
-    let input = std::fs::File::open(file).map_err(unreadable)?;
-    let length = input.metadata().map_or(0, |data| data.len());
-    // what may be read, and one more byte to see that there is more
-    let most = options.most_bytes;
-    if length <= most {
-        input.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(unreadable)?;
-    }
-    if length > most || bytes.len() as u64 > most {
-        return Err(TableError::TooLong { file: name.to_owned(), most });
-    }
-    Ok(bytes)
 }
 
 impl<'t> Row<'t> {

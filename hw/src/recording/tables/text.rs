@@ -1,11 +1,11 @@
 //! Tables of text: names above rows of numbers, with anything before them.
 
-use super::error::TableError;
+use super::error::{TableError, TableProblem};
 use super::heading::{Column, bare_unit};
 use super::layout::{Layout, Line};
 use super::options::TableOptions;
-use super::split::{Lines, Splitter, comment};
-use super::table::{MOST_COLUMNS, Table};
+use super::split::{Lines, MOST_COLUMNS, Splitter, comment};
+use super::table::Table;
 
 /// Lines that are looked at to find out how a table is written.
 const SAMPLE: usize = 500;
@@ -16,8 +16,7 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
     let Layout { delimiter, decimal, header, headings, units, first } = Layout::find(file, &sample, options)?;
 
     if headings.len() > MOST_COLUMNS {
-        let (file, line) = (file.to_owned(), header.unwrap_or(first));
-        return Err(TableError::TooManyColumns { file, line, most: MOST_COLUMNS });
+        return Err(TableProblem::TooManyColumns { most: MOST_COLUMNS }.at(file, header.unwrap_or(first)));
     }
     let mut columns: Vec<Column> = headings.iter().map(|heading| Column::new(heading)).collect();
     for (column, unit) in columns.iter_mut().zip(units.iter().flatten().map(|unit| bare_unit(unit))) {
@@ -33,7 +32,7 @@ pub(super) fn table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<
         if number >= first {
             table.add_line(number, &text, &mut splitter, decimal);
         } else if Some(number) != header && !text.trim().is_empty() {
-            table.add_note(number, comment(&text).unwrap_or(&text));
+            table.add_note(comment(&text).unwrap_or(&text));
         }
     }
     Ok(table)

@@ -9,10 +9,13 @@ fn refuses() {
         "channel 2 reaches from 1 to -1, expected the lower end first"
     );
     assert!(Rails::new(&[(0.0, f64::NAN)]).is_err());
-    assert_eq!(Rails::new(&[(0.0, 1.0); 17]).unwrap_err(), RailError::Channels { found: 17, expected: Channels::MOST });
+    assert_eq!(Rails::new(&[(0.0, 1.0); 17]).unwrap_err(), CalibrationDataError::Channels { count: 17 });
     assert!(Rails::of_bits(1, 6).is_none() && Rails::of_bits(54, 6).is_none() && Rails::of_bits(16, 17).is_none());
     let two = RawSample::new(0.0, Channels::from([0.0, 0.0]));
-    assert_eq!(Rails::of_bits(16, 6).unwrap().check(&two).unwrap_err(), RailError::Channels { found: 2, expected: 6 });
+    assert_eq!(
+        Rails::of_bits(16, 6).unwrap().check(&two).unwrap_err(),
+        CalibrationError::Channels { found: 2, expected: 6 }
+    );
 }
 
 #[test]

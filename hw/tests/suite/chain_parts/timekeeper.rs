@@ -20,7 +20,7 @@ fn scattered(n: u32) -> f64 {
 fn the_hosts_time_never_runs_back() {
     let mut timekeeper = Timekeeper::host();
     let times = [0.0, 1.0, 0.9, 1.0, 1.1].map(|host| timekeeper.time(&stamped(host)));
-    assert_eq!(times, [Ok(0.0), Ok(1.0), Err(TimingError::Backwards { t: 0.9, before: 1.0 }), Ok(1.0), Ok(1.1)]);
+    assert_eq!(times, [Ok(0.0), Ok(1.0), Err(ChainError::HostBackwards { t: 0.9, before: 1.0 }), Ok(1.0), Ok(1.1)]);
     assert_eq!((timekeeper.jitter(), timekeeper.period()), (0.0, None));
 }
 
@@ -152,14 +152,14 @@ fn refuses() {
     let message = |mut timekeeper: Timekeeper, raw| timekeeper.time(&raw).unwrap_err().to_string();
     assert_eq!(
         message(Timekeeper::device(1.0), stamped(0.0)),
-        "the sample has no time of the device, expected one; take the host's time, or count the samples"
+        "time: the sample has no time of the device, expected one; take the host's time, or count the samples"
     );
     assert_eq!(
         message(Timekeeper::host(), stamped(f64::NAN)),
-        "the host's time is NaN, expected a finite number of seconds"
+        "time: the host's time is NaN, expected a finite number of seconds"
     );
     let own = RawSample { device_time: Some(f64::INFINITY), ..stamped(0.0) };
-    assert!(message(Timekeeper::device(1.0), own).starts_with("the device's time is inf"));
+    assert!(message(Timekeeper::device(1.0), own).starts_with("time: the device's time is inf"));
 }
 
 proptest! {

@@ -3,7 +3,6 @@
 use proptest::prelude::*;
 use rod_hw::device::rdt::*;
 use rod_hw::*;
-use std::num::NonZeroU8;
 
 /// A stream that is running, and what it makes of packet and sample numbers at 1 ms.
 struct Bench(Rdt, f64);
@@ -99,15 +98,12 @@ fn counters_wrap() {
 
 #[test]
 fn started_until_data_comes_and_after_a_silence() {
-    let settings = RdtSettings { filter: Some(OnRobotFilter::None), period: NonZeroU8::new(2), ..net_ft() };
-    let mut rdt = Rdt::new(RdtSettings { profile: RdtProfile::OnRobot, ..settings });
     let commands = |rdt: &mut Rdt, from: f64, to: f64| -> Vec<u8> {
         let times = (0..).map(|i| from + 0.01 * f64::from(i)).take_while(|t| *t < to);
         times.filter_map(|t| rdt.request(t)).map(|request| request[3]).collect()
     };
-    assert_eq!(commands(&mut rdt, 0.0, 0.28), [0x81, 0x82, 2, 0x81, 0x82, 2, 0x81, 0x82, 2]);
-    // not of OnRobot: the start alone, at 0, 0.1, 0.2 s
-    let mut bench = Bench::new(settings);
+    // at 0, 0.1, 0.2 s
+    let mut bench = Bench::new(net_ft());
     assert_eq!(commands(&mut bench.0, 0.0, 0.25), [2, 2]);
     bench.all(&[(1, 1)]);
     assert!(commands(&mut bench.0, 0.3, 1.25).is_empty());
@@ -139,31 +135,18 @@ fn a_clock_that_went_on_vouches_for_the_zero() {
 }
 
 #[test]
-fn several_records_a_datagram() {
-    let settings = RdtSettings { buffered: true, ..net_ft() };
-    let mut rdt = Rdt::new(settings);
-    assert_eq!(rdt.request(0.0).as_deref(), Some(&RdtRequest::StartBuffered { count: 0 }.to_bytes()[..]));
-    let record = |packet| RdtRecord { packet, sample: packet, ..RdtRecord::default() }.to_bytes();
-    let datagram: Vec<u8> = [1, 2, 2, 4].into_iter().flat_map(record).collect();
-    let mut bytes = &datagram[..];
-    let mut numbers = Vec::new();
-    while let Some(sample) = rdt.decode(&mut bytes, 0.0) {
-        numbers.push(sample.unwrap().sequence.unwrap());
-    }
-    assert_eq!(numbers, [1, 2, 4]);
-    // a datagram with a part of a record is not trusted at all
-    let mut bytes = &datagram[..143];
-    assert_eq!(rdt.decode(&mut bytes, 0.0), Some(Err(FrameFault::Length { found: 143, expected: 36 })));
-    assert!(bytes.is_empty());
-    // without having asked for it
+fn several_records_in_a_datagram_are_a_fault() {
     let mut rdt = Rdt::new(net_ft());
-    assert!(rdt.decode(&mut &datagram[..72], 0.0).unwrap().is_err());
+    let datagram = [RdtRecord::default().to_bytes(); 2].concat();
+    let mut bytes = &datagram[..];
+    assert_eq!(rdt.decode(&mut bytes, 0.0), Some(Err(FrameFault::Length { found: 72, expected: 36 })));
+    assert!(bytes.is_empty());
 }
 
 proptest! {
     #[test]
-    fn any_bytes(datagrams in proptest::collection::vec(proptest::collection::vec(any::<u8>(), 0..200), 0..20), buffered: bool) {
-        let mut rdt = Rdt::new(RdtSettings { buffered, ..net_ft() });
+    fn any_bytes(datagrams in proptest::collection::vec(proptest::collection::vec(any::<u8>(), 0..200), 0..20)) {
+        let mut rdt = Rdt::new(net_ft());
         let mut records = 0;
         for datagram in &datagrams {
             let mut bytes = &datagram[..];
@@ -172,8 +155,7 @@ proptest! {
                 let decoded = rdt.decode(&mut bytes, 0.0);
                 prop_assert!(bytes.len() < before || decoded.is_none());
             }
-            let whole = if buffered { datagram.len().is_multiple_of(36) } else { datagram.len() == 36 };
-            records += if whole { datagram.len() / 36 } else { usize::from(!datagram.is_empty()) };
+            records += usize::from(!datagram.is_empty());
         }
         let counters = rdt.counters();
         let accounted = counters.samples + counters.repeated + counters.reordered + counters.malformed;

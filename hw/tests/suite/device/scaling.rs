@@ -1,6 +1,7 @@
 //! The scaling of an RDT sensor, over TCP.
 
 use rod_hw::device::rdt::*;
+use rod_hw::{Calibration, Channels, RawSample};
 use std::io::{Read, Write};
 use std::net::TcpListener;
 use std::thread;
@@ -24,7 +25,8 @@ fn units_of_all_codes() {
         (6, 0.009_806_65, 1000.0),
     ] {
         let scaling = RdtScaling::from_bytes(&answer(code, code, [100, 1000])).unwrap();
-        let factors = scaling.factors();
+        let raw = RawSample::new(0.0, Channels::from([1.0; 6]));
+        let factors = scaling.calibration::<f64>().unwrap().wrench(&raw).unwrap().wrench.components();
         assert!((factors[2] * 100.0 / force - 1.0).abs() < 1e-12, "{code}: {factors:?}");
         assert!((factors[3] * 1000.0 / torque - 1.0).abs() < 1e-12, "{code}: {factors:?}");
         assert_eq!(scaling.to_bytes()[..], answer(code, code, [100, 1000]));

@@ -89,7 +89,7 @@ fn one_bit_costs_one_frame() {
             }
             let told = tell(kind.subject.as_mut(), &stream, &[1000]);
             let found: Vec<f64> = samples(&told).iter().map(|sample| number(&kind, sample.channels[0])).collect();
-            let checked = !kind.name.starts_with("gsv");
+            let checked = kind.name != "gsv";
             let others: Vec<f64> = (0..12).filter(|i| *i != 5).map(f64::from).collect();
             if checked || found.len() == 11 {
                 assert_eq!(found, others, "{} bit {bit}", kind.name);
@@ -159,7 +159,7 @@ proptest! {
             let told = tell(kind.subject.as_mut(), &stream, &[100]);
             let counters = kind.subject.counters();
             let frames = counters.samples + counters.repeated + counters.reordered;
-            if kind.name.starts_with("gsv") {
+            if kind.name == "gsv" {
                 // damaged heads may tell another length that fits
                 prop_assert!(counters.skipped_bytes <= stream.len() as u64);
             } else if counters.answers == 0 {

@@ -6,7 +6,7 @@ mod garbage;
 mod vectors;
 
 use rod_fake_sensor::{FakeBota, FakeDevice, FakeGsv8, FakeOptoForce, FakeRobotiq};
-use rod_hw::device::framed::{Bota, Framed, Gsv, GsvValues, OptoForce, Profile, Robotiq};
+use rod_hw::device::framed::{Bota, Framed, Gsv, OptoForce, Profile, Robotiq};
 use rod_hw::{FrameFault, Protocol, Quality, RawSample};
 
 /// A protocol that tells how many bytes it holds.
@@ -47,17 +47,12 @@ fn kinds() -> Vec<Kind> {
     ) -> Kind {
         Kind { name, device: Box::new(device), subject: Box::new(Framed::new(profile)), length }
     }
-    let gsv = |name, values, length| {
-        kind(name, FakeGsv8::new(6, 100.0, values), Gsv { values, channels: Some(6), ..Gsv::default() }, length)
-    };
     vec![
-        gsv("gsv f32", GsvValues::F32, 28),
-        gsv("gsv i24", GsvValues::I24, 22),
-        gsv("gsv i16", GsvValues::I16, 16),
-        kind("bota", FakeBota::new(800.0).with_time(u32::MAX - 100_000), Bota::default(), 37),
-        kind("optoforce 3", FakeOptoForce::new(3).with_count(65_500), OptoForce::default(), 16),
-        kind("optoforce 6", FakeOptoForce::new(6), OptoForce::default(), 22),
-        kind("optoforce 12", FakeOptoForce::new(12), OptoForce::default(), 34),
+        kind("gsv", FakeGsv8::new(6, 100.0), Gsv, 28),
+        kind("bota", FakeBota::new(800.0).with_time(u32::MAX - 100_000), Bota, 37),
+        kind("optoforce 3", FakeOptoForce::new(3).with_count(65_500), OptoForce, 16),
+        kind("optoforce 6", FakeOptoForce::new(6), OptoForce, 22),
+        kind("optoforce 12", FakeOptoForce::new(12), OptoForce, 34),
         kind("robotiq", FakeRobotiq::new(), Robotiq, 16),
     ]
 }

@@ -27,7 +27,7 @@ fn assert_near(found: &[f64], expected: &[f64]) {
 #[test]
 fn gsv() {
     let frame = "aa15b0 3dcccccd be4ccccd 3e99999a 00000000 00000000 3c4ccccd 85";
-    let sample = one(Framed::new(Gsv { channels: Some(6), ..Gsv::default() }), frame);
+    let sample = one(Framed::new(Gsv), frame);
     assert_near(&sample.channels, &[0.1, -0.2, 0.3, 0.0, 0.0, 0.0125]);
     assert_eq!((sample.status, sample.quality, sample.sequence), (0xb0, Quality::empty(), None));
     assert_eq!((sample.device_time, sample.host_time), (None, 0.0));
@@ -36,7 +36,7 @@ fn gsv() {
 #[test]
 fn bota() {
     let frame = "aa 0000 0000803f 000000c0 0000003f 0ad7233c 0ad7a3bc a69b443b 40e20100 0000fc41 d2d3";
-    let sample = one(Framed::new(Bota::default()), frame);
+    let sample = one(Framed::new(Bota), frame);
     assert_near(&sample.channels, &[1.0, -2.0, 0.5, 0.01, -0.02, 0.003]);
     assert_eq!((sample.device_time, sample.temperature), (Some(0.123456), Some(31.5)));
     assert_eq!((sample.status, sample.quality), (0, Quality::empty()));
@@ -51,7 +51,7 @@ fn robotiq() {
 #[test]
 fn optoforce() {
     // the first frame of the capture of a real device
-    let sample = one(Framed::new(OptoForce::default()), "aa07080a 2d6a 0000 fff7 fffb 0007 0551");
+    let sample = one(Framed::new(OptoForce), "aa07080a 2d6a 0000 fff7 fffb 0007 0551");
     assert_eq!(sample.channels[..], [-9.0, -5.0, 7.0]);
     assert_eq!((sample.sequence, sample.device_time, sample.status), (Some(0x2d6a), None, 0));
     for (status, quality) in [
@@ -66,7 +66,7 @@ fn optoforce() {
         frame.extend([0; 6]);
         let sum: u16 = frame.iter().map(|byte| u16::from(*byte)).sum();
         frame.extend(sum.to_be_bytes());
-        let sample = tell(&mut Framed::new(OptoForce::default()), &frame, &[1000])[0].unwrap();
+        let sample = tell(&mut Framed::new(OptoForce), &frame, &[1000])[0].unwrap();
         assert_eq!((sample.status, sample.quality), (u32::from(status), quality));
     }
 }

@@ -1,7 +1,7 @@
 //! Links, transports, counters.
 
 mod engine;
-mod read_write;
 mod sequence;
+mod spawn;
 #[cfg(feature = "rdt")]
 mod udp;

@@ -92,7 +92,7 @@ fn an_x_for_each_channel() {
     assert_eq!((samples.len(), samples[1].time(), &samples[1].channels[..]), (2, 1.0, &[-0.034, 0.25][..]));
 
     let table = parse(&with_xs(&[["1.0", "1.5"]]));
-    let message = table.samples::<RawSample>(&map).unwrap_err().to_string();
+    let message = table.samples::<RawSample>(&map).err().unwrap().to_string();
     assert_eq!(
         message,
         "f.lvm:18: `X_Value of Acceleration` is 1.5, `X_Value` 1, expected the same times for all channels; read them one by one, or resample"

@@ -1,8 +1,9 @@
 //! Memory is bounded by the length of a file whatever is in it, and a recorder takes none.
 
 use allocation_counter::measure;
-use rod_hw::recording::{About, Contents, Recorder, Table, TableOptions};
-use rod_hw::{Channels, RawSample};
+use rod_core::{Pose, Reactions};
+use rod_hw::recording::{Contents, Recorder, Table, TableOptions};
+use rod_hw::{Channels, OutOfPlane, Quality, RawSample, ReactionSample};
 
 /// A header that takes half of the file, and as many segments as there is room for.
 fn many_segments(length: usize) -> String {
@@ -39,10 +40,19 @@ fn of_files_that_mean_harm() {
 #[test]
 fn of_a_recorder() {
     let contents = Contents { raw: Some(6), ..Contents::default() };
-    let sample = |k: u32| RawSample::new(f64::from(k), Channels::from([0.1 * f64::from(k); 6]));
+    let sample = |k: u32| ReactionSample {
+        t: f64::from(k),
+        pose: Pose { x: 0.1, y: 0.2, phi: 1.5 },
+        reactions: Reactions { f0x: 0.1, f0y: 0.2, m0z: 0.3 },
+        sigma: None,
+        systematic: None,
+        out_of_plane: OutOfPlane::default(),
+        quality: Quality::empty(),
+        raw: RawSample::new(f64::from(k), Channels::from([0.1 * f64::from(k); 6])),
+    };
     let record = |count| {
         let used = measure(|| {
-            let mut recorder = Recorder::new(std::io::sink(), &About::default(), contents).unwrap();
+            let mut recorder = Recorder::new(std::io::sink(), &[], contents).unwrap();
             (0..count).for_each(|k| recorder.write(&sample(k)).unwrap());
             recorder.finish(None).unwrap();
         });

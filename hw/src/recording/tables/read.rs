@@ -1,0 +1,105 @@
+//! From a file to its tables.
+
+use super::error::{TableError, TableProblem, listed};
+use super::options::TableOptions;
+use super::table::Table;
+use super::{lvm, text};
+use std::borrow::Cow;
+use std::io::Read;
+use std::path::Path;
+
+impl Table {
+    /// The table in a file.
+    ///
+    /// # Errors
+    /// [`TableError`]; also where an LVM file has several segments and the options do not say which.
+    pub fn read(file: &Path, options: &TableOptions) -> Result<Self, TableError> {
+        let name = file.display().to_string();
+        Self::parse(&name, &bytes(file, &name, options)?, options)
+    }
+
+    /// The table in a text. `file` names it in messages; it is not opened.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Self, TableError> {
+        let mut tables = Self::parse_all(file, bytes, options)?;
+        match (tables.len(), tables.pop()) {
+            (1, Some(table)) => Ok(table),
+            (segments, _) => Err(TableProblem::Segments { segments }.at(file, None)),
+        }
+    }
+
+    /// All tables in a file: the segments of an LVM file, or the only one.
+    ///
+    /// # Errors
+    /// [`TableError`].
+    pub fn read_all(file: &Path, options: &TableOptions) -> Result<Vec<Self>, TableError> {
+        let name = file.display().to_string();
+        Self::parse_all(&name, &bytes(file, &name, options)?, options)
+    }
+
+    /// All tables in a text.
+    ///
+    /// # Errors
+    /// As [`read_all`](Self::read_all).
+    pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
+        let bytes = &*utf8(bytes);
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let mut tables = if lvm::is_lvm(bytes) {
+            lvm::tables(file, bytes, options)?
+        } else {
+            vec![text::table(file, bytes, options)?]
+        };
+        for table in &mut tables {
+            table.cut = !bytes.ends_with(b"\n") && !bytes.ends_with(b"\r");
+            table.take_units(&options.units)?;
+        }
+        Ok(tables)
+    }
+
+    /// Takes the units that the options give.
+    fn take_units(&mut self, units: &[(String, String)]) -> Result<(), TableError> {
+        for (name, unit) in units {
+            let mut any = false;
+            for column in self.columns.iter_mut().filter(|column| column.is(name)) {
+                column.unit = Some(unit.clone());
+                any = true;
+            }
+            if !any {
+                let found = listed(self.columns.iter().map(|column| column.heading.as_str()));
+                return Err(TableProblem::NoColumnOfUnit { column: name.clone(), found }.at(&self.file, None));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The text in UTF-8 where its mark says that it has two bytes a letter, as spreadsheets write it.
+fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let (letters, letter): (_, fn([u8; 2]) -> u16) = match bytes {
+        [0xff, 0xfe, letters @ ..] => (letters, u16::from_le_bytes),
+        [0xfe, 0xff, letters @ ..] => (letters, u16::from_be_bytes),
+        _ => return Cow::Borrowed(bytes),
+    };
+    let letters = letters.chunks_exact(2).map(|pair| letter([pair[0], pair[1]]));
+    let text: String =
+        char::decode_utf16(letters).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+    Cow::Owned(text.into_bytes())
+}
+
+fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {
+    let unreadable = |source| TableProblem::Unreadable(source).at(name, None);
+    let mut bytes = Vec::new();
+    let input = std::fs::File::open(file).map_err(unreadable)?;
+    let length = input.metadata().map_or(0, |data| data.len());
+    // what may be read, and one more byte to see that there is more
+    let most = options.most_bytes;
+    if length <= most {
+        input.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(unreadable)?;
+    }
+    if length > most || bytes.len() as u64 > most {
+        return Err(TableProblem::TooLong { most }.at(name, None));
+    }
+    Ok(bytes)
+}

@@ -1,3 +1,0 @@
-//! Axes and lever arms.
-
-mod lever_arm;
