@@ -1,7 +1,6 @@
 //! The path of a point on a rolling disc.
 
-use vibrissa::Contour;
-use vibrissa::contour::{ContourError, Frame, Range};
+use vibrissa::contour::{Contour, ContourError, Frame, Range};
 
 /// Ripples: the path of a point `arm` from the centre of a disc that rolls along the line above it (y = radius) to +x,
 /// by the angle rolled; the solid is above.
