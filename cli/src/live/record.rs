@@ -1,4 +1,4 @@
-//! What a live scan writes while it runs: files that are complete up to the last flush, whatever happens then.
+//! The files that a live scan writes while it runs. They are complete up to the last flush, whatever happens then.
 
 use crate::OutputError;
 use crate::output::check_output;
@@ -16,7 +16,7 @@ use vibrissa::hw::{LinkCounters, ReactionSample};
 pub(super) struct Record {
     directory: PathBuf,
     about: About,
-    /// Made with the first sample, which tells how many channels there are.
+    /// Created with the first sample, which has the number of channels.
     recorder: Option<Recorder<BufWriter<File>, ReactionSample>>,
     points: BufWriter<File>,
     line: Vec<u8>,
@@ -31,7 +31,7 @@ const FILES: [&str; 3] = [RECORDING, POINTS, SUMMARY];
 #[derive(Serialize)]
 struct LiveRecord {
     t: f64,
-    /// What speaks against it.
+    /// The flags of its quality.
     quality: Vec<&'static str>,
     #[serde(flatten)]
     point: PointRecord,
