@@ -1,17 +1,17 @@
-//! Where a sensor is to be found.
+//! The address of a sensor.
 
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Port of RDT, and of the readings and scaling beside it (ATI Net F/T manual).
+/// UDP port of RDT, and TCP port of the scaling (ATI Net F/T manual).
 const RDT_PORT: u16 = 49_152;
 const SCALING_PORT: u16 = 49_151;
 
-/// What is accepted, for messages.
+/// The forms of an address, for messages.
 const EXPECTED: &str = "rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] or file:RECORDING";
 
-/// Where a sensor is to be found: `rdt://HOST[:PORT][?scaling=PORT]`, `serial:PATH:PROFILE[:BAUD]` or `file:RECORDING`.
+/// The address of a sensor: `rdt://HOST[:PORT][?scaling=PORT]`, `serial:PATH:PROFILE[:BAUD]` or `file:RECORDING`.
 ///
 /// ```
 /// use vibrissa_cli::SensorAddress;
@@ -29,40 +29,40 @@ pub enum SensorAddress {
         host: String,
         /// UDP port of the samples.
         port: u16,
-        /// TCP port that tells the scaling.
+        /// TCP port of the scaling.
         scaling: u16,
     },
     /// A serial port.
     Serial {
         /// The device.
         path: PathBuf,
-        /// What it speaks, by name.
+        /// The name of its protocol.
         profile: String,
-        /// Bits a second, where they are not the profile's own.
+        /// Bits per second, if not those of the profile.
         baud: Option<u32>,
     },
     /// A recording, played back.
     File(PathBuf),
 }
 
-/// Why a text is no address of a sensor.
+/// Why a text is not an address of a sensor.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AddressError {
-    /// Its form is none of those known.
+    /// Its form is unknown.
     #[error("`{text}` is no address of a sensor, expected {EXPECTED}")]
     Form {
         /// The text.
         text: String,
     },
-    /// A number in it is none.
+    /// A number in it is not possible.
     #[error("{what} in `{text}` is `{found}`, expected a whole number from 1 to {most}")]
     Number {
         /// The text.
         text: String,
         /// Which number.
         what: &'static str,
-        /// What is there.
+        /// The text in its place.
         found: String,
         /// The largest one.
         most: u32,

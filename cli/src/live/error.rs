@@ -1,41 +1,41 @@
-//! Why there is no live scan.
+//! Errors of a live scan.
 
 use std::path::PathBuf;
 use vibrissa::hw::recording::{RowProblem, TableError};
 use vibrissa::hw::{StageError, TareError};
 
-/// Why there is no live scan, or none any more.
+/// Why a live scan cannot start or go on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LiveError {
-    /// The sensor cannot be reached or understood.
+    /// The sensor cannot be reached, or its answer is not understood.
     #[error("{address}: {source}")]
     Sensor {
-        /// Where it should be.
+        /// Its address.
         address: String,
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// It is not known what the numbers of the sensor are.
+    /// The scale of the sensor's numbers is not known.
     #[error(
         "{address}: nothing tells what its numbers are in N and N m; give force_unit and torque_unit, and the counts per unit of \
          each where it sends counts, or a calibration or matrix, in the table [sensor] of a setup (--setup FILE)"
     )]
     NoScale {
-        /// Where it is.
+        /// Its address.
         address: String,
     },
-    /// Something of a recording is to be chosen.
+    /// The setup has to choose a part of a recording.
     #[error("{}: expected {field} = .. in the table [recording] of a setup (--setup FILE), of those there are: {found}", file.display())]
     Choose {
         /// Which file.
         file: PathBuf,
-        /// The field that is missing, or names what is not there.
+        /// The field of the setup that is missing, or names a part that does not exist.
         field: &'static str,
-        /// What there is.
+        /// The parts that exist.
         found: String,
     },
-    /// Samples without a time of their own.
+    /// The samples have no times.
     #[error(
         "{}: a rate is for TDMS files, a table needs a column of times; name it by time = \"NAME\" in the table [recording] of \
          the setup", file.display()
@@ -44,7 +44,7 @@ pub enum LiveError {
         /// Which file.
         file: PathBuf,
     },
-    /// A calibration of what is calibrated.
+    /// A calibration is given for calibrated samples.
     #[error(
         "{}: its wrenches are in N and N m already, expected no calibration, matrix, units or counts in the table [sensor] of \
          the setup", file.display()
@@ -53,7 +53,7 @@ pub enum LiveError {
         /// Which file.
         file: PathBuf,
     },
-    /// A table of something else.
+    /// A table without samples.
     #[error(
         "{file}{}: found {found}; expected times and reactions (x0, y0, phi0, f0x, f0y, m0z), a wrench (fx to tz) or raw values \
          (channel1, channel2, ...; others by columns = [..] in the table [recording] of a setup)",
@@ -64,21 +64,21 @@ pub enum LiveError {
         file: String,
         /// Line of the names.
         line: Option<u64>,
-        /// All columns there are.
+        /// Its columns.
         found: String,
     },
-    /// A constant speed along no path.
+    /// A constant speed needs a path.
     #[error(
         "--stage constant:SPEED needs the path of the clamp: give --path SCENE, a TOML file with [sweep], or a scene as --rod"
     )]
     NoPath,
-    /// Nothing tells where the clamp is.
+    /// The pose of the clamp is not known.
     #[error("{address}: nothing tells where the clamp is; give --stage constant:SPEED or table:FILE")]
     NoStage {
         /// Where the samples come from.
         address: String,
     },
-    /// The stage cannot move like this.
+    /// The motion of the stage is not possible.
     #[error("the stage: {0}")]
     Stage(StageError),
     /// A table cannot be read, or lacks columns.
@@ -94,7 +94,7 @@ pub enum LiveError {
         /// What is wrong with it.
         problem: RowProblem,
     },
-    /// A table of poses that is none.
+    /// A table of poses is not possible.
     #[error("{}: {source}", file.display())]
     StageTable {
         /// Which file.
@@ -112,16 +112,16 @@ pub enum LiveError {
         /// Why.
         source: TareError,
     },
-    /// Too little came before the end.
+    /// Too few samples before the end.
     #[error(
         "{samples} samples before the end, expected at least {fewest} for the tare and the noise of the sensor{first}"
     )]
     TooFew {
-        /// How many came.
+        /// Their number.
         samples: usize,
-        /// The fewest.
+        /// The smallest number.
         fewest: usize,
-        /// What was wrong with the first one that was no sample.
+        /// The first fault, if there was one.
         first: String,
     },
 }

@@ -2,12 +2,12 @@
 
 use vibrissa::hw::{LinkCounters, RawSample, ReactionSample};
 
-/// A sample as its source has it.
+/// A sample as its source gives it.
 #[derive(Clone, Copy, Debug)]
 pub enum Fed {
     /// As the device sent it.
     Raw(RawSample),
-    /// With everything done already, as recordings may have it.
+    /// As reactions with poses, which recordings may contain.
     Reactions(ReactionSample),
 }
 
@@ -16,18 +16,18 @@ pub enum Fed {
 pub enum Miss {
     /// Nothing came in time; more may come.
     Silence(String),
-    /// Something came that is no sample; more may come.
+    /// The device sent something else; more may come.
     Fault(String),
 }
 
-/// Where samples come from: one a call, no sample and why, or none where there are no more.
+/// A source of samples: one per call, or the reason why there is none; `None` at the end.
 pub trait Feed {
-    /// The next one; it comes back within a second or so.
+    /// The next sample, after about a second at most.
     fn next(&mut self) -> Option<Result<Fed, Miss>>;
 
-    /// What came over the connection so far.
+    /// Counters of the connection so far.
     fn counters(&self) -> LinkCounters;
 
-    /// Seconds by the clock that the samples' host times are of; none where they are played back.
+    /// Time, s, by the clock of the samples' host times; none for a recording.
     fn now(&self) -> Option<f64>;
 }

@@ -13,7 +13,7 @@ use vibrissa::hw::{
 };
 use vibrissa::reconstruct::LiveSettings;
 
-/// Largest change within a tare window, in units of the rod (EI/L^2, EI/L): 1 % of the force that bends it by its length.
+/// Largest change within a tare window, in units of the rod (EI/L^2, EI/L): it would move the tip by 0.3 % of the length.
 const SMALL: f64 = 0.01;
 /// Fewest samples of the free rod, for its noise and the spacing.
 const FEWEST: usize = LiveSettings::FEWEST_FREE;
@@ -24,7 +24,7 @@ pub(super) const PATIENCE: f64 = 3.0;
 /// Window, s, over which the clock of a device is compared with that of the host. Longer: less jitter, slower correction.
 const WINDOW: f64 = 10.0;
 
-/// What a sample is in N and N m, and how far it can be trusted.
+/// The calibration of a sensor with its rated loads and accuracy.
 pub(super) struct Scaled<'a> {
     pub calibration: SensorCalibration,
     scan: &'a LiveScan,
@@ -41,15 +41,15 @@ impl Calibration for Scaled<'_> {
 
 pub(super) type Chain<'a> = SignalChain<Scaled<'a>, Motion>;
 
-/// What was heard before the first answer.
+/// The samples before the first answer.
 pub(super) struct Head<'a> {
     pub chain: Chain<'a>,
     pub samples: Vec<ReactionSample>,
-    /// In words.
+    /// The tare, in words.
     pub tare: String,
 }
 
-/// Listens to the rod without contact: tare, time of the first sample, start of the stage.
+/// Records the rod without contact: tare, time of the first sample, start of the stage.
 pub(super) fn head<'a>(
     scan: &'a LiveScan,
     sensor: &mut Sensor,
@@ -104,7 +104,7 @@ pub(super) fn head<'a>(
         return Err(LiveError::TooFew { samples: count, fewest: FEWEST, first }.into());
     }
     let (Some(mut chain), Some(start)) = (chain, wrenches.first().map(|wrench| wrench.t)) else {
-        // everything is done already: nothing is left for a chain to do
+        // the samples are reactions already: the chain is not used
         let wrench_chain = WrenchChain::new(Motion::Told, scan.setup.mounting);
         let chain = SignalChain::new(scaled(), wrench_chain);
         return Ok(Head { chain, samples, tare: "as recorded".into() });
@@ -127,7 +127,7 @@ pub(super) fn head<'a>(
     for wrench in &wrenches {
         match chain.wrenches().take(wrench) {
             Ok(sample) => samples.push(sample),
-            // the first ones, at the edge of a table, may be outside
+            // the first samples may be before the start of a table of poses
             Err(error) => report.miss(&error.to_string()),
         }
     }

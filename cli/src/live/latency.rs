@@ -1,11 +1,11 @@
-//! How late something is.
+//! Delays.
 
-/// Bins of a factor of 2^(1/8), from 1 us to 17 minutes.
+/// Number of bins: each is longer by a factor of 2^(1/8), from 1 us to 17 minutes.
 const BINS: usize = 240;
 const PER_OCTAVE: f64 = 8.0;
 const LEAST: f64 = 1e-6;
 
-/// Quantiles of delays, to 9 %, in memory that does not grow.
+/// Quantiles of delays, accurate to 9 %, in constant memory.
 #[derive(Clone, Debug)]
 pub struct Latency {
     bins: [u64; BINS],
@@ -28,7 +28,7 @@ impl Latency {
         self.largest = self.largest.max(seconds);
     }
 
-    /// The delay (s) that this share of them does not exceed, to 9 %; none where there are none.
+    /// The delay (s) that this share of them does not exceed, to 9 %; none without delays.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let rank = (share * self.count as f64).ceil().max(1.0) as u64;
         let mut seen = 0;

@@ -1,4 +1,4 @@
-//! The stage of a live scan.
+//! The motion of the clamp in a live scan.
 
 use super::error::LiveError;
 use super::stage::StageSpec;
@@ -11,7 +11,7 @@ use vibrissa::{ClampPath, Pose};
 /// How the clamp moves.
 #[derive(Clone, Debug)]
 pub(super) enum Motion {
-    /// Not known: the samples tell.
+    /// Given by the samples.
     Told,
     /// At constant speed along a path.
     Constant(ConstantSpeed),
@@ -20,7 +20,7 @@ pub(super) enum Motion {
 }
 
 impl Motion {
-    /// What is asked for, a constant speed from time `start` (s) on.
+    /// The motion of a `spec`; a constant speed starts at time `start` (s).
     pub fn new(
         spec: Option<&StageSpec>,
         path: Option<&ClampPath>,
@@ -39,7 +39,7 @@ impl Motion {
         }
     }
 
-    /// When it has arrived, s; infinite where that is not known.
+    /// Time of arrival, s; infinite where that is not known.
     pub fn end(&self) -> f64 {
         match self {
             Self::Told => f64::INFINITY,

@@ -18,7 +18,7 @@ struct Played {
     handed: u64,
 }
 
-/// The samples of a recording, and what makes N and N m of them where that is to be done.
+/// The samples of a recording, and their calibration if they have none.
 type Samples = (Vec<Result<Fed, Miss>>, Option<SensorCalibration>);
 
 /// Opens a recording: TDMS and MCAP by the end of its name, anything else as a table.
@@ -43,12 +43,12 @@ fn failed<E: StdError + Send + Sync + 'static>(file: &Path) -> impl Fn(E) -> Liv
     move |error| LiveError::Sensor { address: address(file), source: Box::new(error) }
 }
 
-/// What the raw values are, which is for the setup to say.
+/// The calibration of raw values, which the setup must give.
 fn told(file: &Path, setup: &Setup) -> Result<SensorCalibration, LiveError> {
     setup.calibration.clone().ok_or_else(|| LiveError::NoScale { address: address(file) })
 }
 
-/// Something of the file that is to be chosen.
+/// The error for a part of the file that the setup has to choose.
 fn choose<T: Display>(
     file: &Path,
     field: &'static str,
@@ -108,8 +108,8 @@ fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
     Ok((samples.collect(), Some(SensorCalibration::Scale(Scale::si()))))
 }
 
-/// Rows of a table: raw values where the setup has a matrix for them or names their columns; otherwise reactions with poses,
-/// wrenches in units that the file tells, or raw values, whatever there is.
+/// Rows of a table: raw values if the setup has a matrix for them or names their columns; otherwise reactions with poses, wrenches in
+/// the units of the file, or raw values, the first of these that the table contains.
 fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Samples, LiveError> {
     let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let RecordingSetup { columns, time, .. } = &setup.recording;
@@ -145,7 +145,7 @@ fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Samples, LiveE
     }
 }
 
-/// An error that says more than that columns are missing, which is no error of a table of another kind.
+/// The error, unless it is that columns are missing: the table may be one of another kind.
 fn telling(error: TableError) -> Option<TableError> {
     (!matches!(error.problem, TableProblem::Missing { .. })).then_some(error)
 }

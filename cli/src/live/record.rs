@@ -1,4 +1,4 @@
-//! What a live scan writes while it runs: files that are complete up to the last flush, whatever happens then.
+//! The files that a live scan writes while it runs. They are complete up to the last flush, whatever happens then.
 
 use crate::OutputError;
 use crate::output::check_output;
@@ -15,9 +15,9 @@ use vibrissa::reconstruct::Reading;
 #[derive(Debug)]
 pub(super) struct Record {
     directory: PathBuf,
-    /// What the recording says of itself.
+    /// Lines of the recording's head: name and text.
     notes: Vec<(&'static str, String)>,
-    /// Made with the first sample, which tells how many channels there are.
+    /// Created with the first sample, which has the number of channels.
     recorder: Option<Recorder<BufWriter<File>>>,
     points: BufWriter<File>,
     line: Vec<u8>,
@@ -32,7 +32,7 @@ const FILES: [&str; 3] = [RECORDING, POINTS, SUMMARY];
 #[derive(Serialize)]
 struct LiveRecord {
     t: f64,
-    /// What speaks against it.
+    /// The flags of its quality.
     quality: Vec<&'static str>,
     #[serde(flatten)]
     point: PointRecord,

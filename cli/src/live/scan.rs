@@ -12,12 +12,12 @@ pub struct LiveScan {
     pub rod: Rod,
     /// How the sensor is set up.
     pub setup: Setup,
-    /// How the clamp moves; none where the samples tell.
+    /// How the clamp moves; none where the samples contain its poses.
     pub stage: Option<StageSpec>,
     /// Its path, which a constant speed needs.
     pub path: Option<ClampPath>,
     /// How the table of a stage is written.
     pub read: ReadOptions,
-    /// Files that are read, which are not to be overwritten.
+    /// Files that are read, which must not be overwritten.
     pub inputs: Vec<PathBuf>,
 }

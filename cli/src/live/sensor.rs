@@ -7,8 +7,8 @@ use crate::SensorCalibration;
 pub struct Sensor {
     /// Its samples.
     pub feed: Box<dyn Feed>,
-    /// What its numbers are in N and N m; none where they are reactions already.
+    /// Its calibration to N and N m; none where the samples are reactions already.
     pub calibration: Option<SensorCalibration>,
-    /// What it is, for the record.
+    /// Its name for the record.
     pub name: String,
 }

@@ -21,8 +21,8 @@ const TICK: f64 = 1.0;
 
 impl LiveScan {
     /// Listens to the sensor until the clamp has arrived, there are no more samples, the sensor falls silent, or `stopped`
-    /// says so. Writes recording.csv, points.jsonl and summary.json into `out`, the first two as it goes. `tell` is handed
-    /// lines to show.
+    /// returns true. Writes recording.csv, points.jsonl and summary.json into `out`, the first two while it runs. `tell` gets the lines
+    /// to show.
     ///
     /// The first samples, for [`TareSetup::seconds`](crate::TareSetup), must be of the free rod: tare and noise are computed from them.
     /// The stage starts with the first sample.
@@ -64,7 +64,7 @@ impl LiveScan {
             session.push(sample, usable(&sample).as_ref(), |sample, reading| recorded.answer(&sample, reading));
         }
         let (mut last, mut period) = (f64::NEG_INFINITY, 0.0);
-        // those that came before had to wait for the tare
+        // the latency of earlier samples includes the wait for the tare
         let ready = sensor.feed.now();
         let end = loop {
             if let Some(error) = recorded.fault.take() {
@@ -77,7 +77,7 @@ impl LiveScan {
                 None => break End::Source,
                 Some(Ok(fed)) => fed,
                 Some(Err(Miss::Silence(text))) => {
-                    // the next sample would have come after the end of the way
+                    // the next sample would be after the end of the path
                     if last + period >= chain.wrenches().stage().end() {
                         break End::Stage;
                     }
@@ -140,9 +140,9 @@ fn settings(scan: &LiveScan, free: &[ReactionSample], rounding: Reactions) -> Re
 struct Recorded<'a> {
     record: Record,
     report: LiveReport,
-    /// Of the last answer.
+    /// The label of the last answer.
     label: Option<Label>,
-    /// When something was told last, s.
+    /// Time of the last line of progress, s.
     told: f64,
     tell: &'a mut dyn FnMut(&str),
     fault: Option<crate::OutputError>,
@@ -173,7 +173,7 @@ impl Recorded<'_> {
         }
     }
 
-    /// Nothing came for a while; whether that is the end.
+    /// Reports a silence; whether the scan has to end.
     fn silent(&mut self, text: &str) -> bool {
         (self.tell)(&format!("warning: {text}"));
         self.report.silent() as f64 >= PATIENCE

@@ -1,4 +1,4 @@
-//! How the clamp is moved, as told on the command line.
+//! The motion of the clamp as an argument of the command line.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -20,24 +20,24 @@ pub enum StageSpec {
     Table(PathBuf),
 }
 
-/// Why a text is no stage.
+/// Why a text is not a stage.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StageSpecError {
-    /// Its form is none of those known.
+    /// Its form is unknown.
     #[error("`{text}` is no stage, expected constant:SPEED (m/s, or rad/s where the clamp only turns) or table:FILE")]
     Form {
         /// The text.
         text: String,
     },
-    /// The speed is none.
+    /// The speed is not possible.
     #[error(
         "the speed in `{text}` is `{found}`, expected a positive, finite number of m/s, or rad/s where the clamp only turns"
     )]
     Speed {
         /// The text.
         text: String,
-        /// What is there.
+        /// The text in its place.
         found: String,
     },
 }

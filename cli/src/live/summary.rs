@@ -1,4 +1,4 @@
-//! What is said of a live scan.
+//! The report of a live scan.
 
 use super::latency::Latency;
 use super::scan::LiveScan;
@@ -20,20 +20,20 @@ pub enum End {
     Source,
     /// The sensor fell silent.
     Silence,
-    /// It was asked to.
+    /// On request.
     Stopped,
 }
 
-/// What a live scan came to.
+/// The report of a live scan.
 #[derive(Clone, Debug)]
 pub struct LiveReport {
-    /// What was listened to.
+    /// The sensor.
     pub sensor: String,
-    /// What came over the connection.
+    /// Counters of the connection.
     pub counters: LinkCounters,
     /// Samples with reactions.
     pub samples: u64,
-    /// How late their reactions were known after their arrival.
+    /// Delays from the arrival of a sample to its reactions.
     pub latency: Latency,
     /// Why it ended.
     pub end: Option<End>,
@@ -74,12 +74,12 @@ impl LiveReport {
         }
     }
 
-    /// What speaks against this sensor at this rod.
+    /// Reasons against this sensor for this rod.
     pub fn findings(&self) -> &[SensorFinding] {
         &self.findings
     }
 
-    /// Whether it went as it should: to the end of the way or of the source, with a sensor that suits the rod.
+    /// Whether the scan is complete, to the end of the path or of the source, with a sensor that suits the rod.
     pub fn is_complete(&self) -> bool {
         !matches!(self.end, None | Some(End::Silence)) && !self.findings.iter().any(SensorFinding::is_misfit)
     }
@@ -112,7 +112,7 @@ impl LiveReport {
         self.first_miss.as_deref()
     }
 
-    /// Nothing came; how often in a row.
+    /// Counts a silence; the number of consecutive ones.
     pub(super) fn silent(&mut self) -> u32 {
         self.silent += 1;
         self.silent
@@ -122,7 +122,7 @@ impl LiveReport {
         (self.end, self.counters, self.jitter) = (Some(end), counters, timekeeper.jitter());
     }
 
-    /// A line of progress: the answer, and where the label is new, the one before.
+    /// A line of progress: the answer, and the label `before` if it has changed.
     pub(super) fn line(&self, sample: &ReactionSample, reading: &Reading, before: Option<Label>) -> String {
         let phase = match before {
             Some(before) => format!("{before} -> {}", reading.label),
@@ -141,7 +141,7 @@ impl LiveReport {
         format!("{:10.3} s  x0 {:8.3} mm  {phase:<10}  {point}{good}", sample.t, 1e3 * sample.pose.x)
     }
 
-    /// For people.
+    /// The report as text.
     pub fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -177,7 +177,7 @@ impl LiveReport {
         self.findings.iter().try_for_each(|finding| writeln!(text, "sensor: {finding}"))
     }
 
-    /// As it is written.
+    /// The report as a record of summary.json.
     pub(super) fn record(&self) -> impl Serialize {
         SummaryRecord {
             sensor: self.sensor.clone(),
@@ -219,12 +219,12 @@ struct SummaryRecord {
     first_without: Option<String>,
     /// Standard deviations.
     noise: NoiseRecord,
-    /// Way of the clamp from sample to sample, m.
+    /// Path length of the clamp from sample to sample, m.
     spacing: f64,
-    /// So many samples after a sample its answer came.
+    /// Number of samples after a sample at which its answer came.
     delay: usize,
     latency: LatencyRecord,
-    /// Of the host's time of arrival, s.
+    /// Jitter of the host's times of arrival, s.
     jitter: f64,
     findings: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! How near a reconstruction is to the truth.
+//! The result of a comparison with the truth.
 
 use crate::Scene;
 use std::path::PathBuf;
@@ -23,35 +23,35 @@ pub struct Transition {
     pub from: Label,
     /// The label after.
     pub to: Label,
-    /// What happened.
+    /// The kind of transition.
     pub kind: EventKind,
-    /// The clamp there.
+    /// The pose of the clamp.
     pub pose: Pose,
-    /// How far beyond it, along the path of the clamp, the labels change: m, or rad where the clamp only turns. None
-    /// where no such change was found nearby.
+    /// Distance along the path of the clamp at which the labels change after it: m, or rad where the clamp only turns. None where no
+    /// such change was found nearby.
     pub error: Option<f64>,
 }
 
-/// How near a reconstruction is to the truth.
+/// The comparison of a reconstruction with the truth.
 #[derive(Debug)]
 pub struct Comparison {
     /// The scene.
     pub scene: Scene,
-    /// Why its sweep stopped before the end of the path, if it did: samples beyond are compared with nothing.
+    /// Why its sweep stopped before the end of the path, if it did. Samples beyond are not compared.
     pub stop: Option<Stop>,
     /// Samples that are not on the path of the scene.
     pub off_path: usize,
-    /// Phases; of samples on the path.
+    /// The phases of the samples on the path.
     pub confusion: Confusion,
     /// Wrong labels within 1e-4 rod lengths of a transition, where they may be either.
     pub either: u64,
     /// Distance from the contour of the points of samples with a single contact.
     pub single: Option<Deviation>,
-    /// Of the first contacts of samples with several.
+    /// The same for the first contacts of samples with several.
     pub first: Option<Deviation>,
-    /// Of the second ones.
+    /// The same for the second ones.
     pub second: Option<Deviation>,
-    /// Of the points that samples with several contacts would have if they had a single one.
+    /// The same for points that are computed from samples with several contacts as if they had a single one.
     pub naive: Option<Deviation>,
     /// Kinks within 1 mm (or mrad) of transitions that make one: all changes of phase but A -> B, and snaps. For
     /// recall.

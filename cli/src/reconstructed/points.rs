@@ -1,4 +1,4 @@
-//! A row of a recording as it is written: SI units, numbers that survive a round trip, null where there is no answer.
+//! A line of points.jsonl for each row of a recording: SI units, all digits, null where there is no answer.
 
 use super::result::Reconstructed;
 use crate::RowFault;

@@ -1,5 +1,4 @@
-//! What is said of a reconstruction as a whole: report.json, SI units, rows counted from 0 as the lines of
-//! points.jsonl.
+//! report.json: the reconstruction as a whole, in SI units. Rows are counted from 0, as the lines of points.jsonl.
 
 use super::comparison::{Comparison, Transition};
 use super::result::Reconstructed;

@@ -21,23 +21,23 @@ pub struct ReconstructionError {
 /// The reconstruction of a recording.
 #[derive(Debug)]
 pub struct Reconstructed {
-    /// What to call it: the name of the recording without its extension.
+    /// The name of the recording without its extension.
     pub name: String,
     /// The recording.
     pub recording: Recording,
-    /// The rod that it is taken to be of.
+    /// The rod that is assumed.
     pub rod: Rod,
     /// The samples of its usable rows.
     pub samples: Vec<Sample>,
     /// Numbers of those rows, from 0.
     pub rows: Vec<usize>,
-    /// What was found, one reading for each of the samples.
+    /// The result, one reading per sample.
     pub found: vibrissa::reconstruct::Reconstruction,
     /// The contour. Its samples are numbered as `samples`.
     pub contour: ContourEstimate,
     /// The check of the recording by the physics.
     pub check: Plausibility,
-    /// How near it is to the truth, where that is known.
+    /// The comparison with the truth, where that is known.
     pub comparison: Option<Comparison>,
 }
 
@@ -64,7 +64,7 @@ impl Reconstructed {
         runs.iter().zip(ends).map(|(&(first, label), end)| (first..end, label))
     }
 
-    /// Where the clamp was at the kinks: between the samples on either side.
+    /// The poses of the clamp at the kinks, interpolated between the samples on either side.
     pub(crate) fn kink_poses(&self) -> Vec<Pose> {
         let mut travel = Travel::new(&self.rod);
         let ways: Vec<f64> = self.samples.iter().map(|s| travel.go(&s.pose).unwrap_or(f64::NAN)).collect();

@@ -1,4 +1,4 @@
-//! What the command says of a reconstruction.
+//! The reconstruction in words.
 
 use super::comparison::{Comparison, Transition};
 use super::report::Answered;
@@ -8,7 +8,7 @@ use std::fmt::Write;
 use vibrissa::reconstruct::score::Deviation;
 
 impl Reconstructed {
-    /// Rows, noise, labels, points and gaps; where the truth is known, how near they are to it.
+    /// Rows, noise, labels, points and gaps, and the comparison with the truth where that is known.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.

@@ -1,6 +1,6 @@
-//! Why there is no such frame or mounting.
+//! Why there is no such frame, mounting or lever arm.
 
-/// Why there is no such frame or mounting.
+/// Why there is no such frame, mounting or lever arm.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
@@ -13,6 +13,26 @@ pub enum GeometryError {
         value: f64,
         /// What was expected.
         expected: &'static str,
+    },
+    /// Too few loads for a lever arm.
+    #[error("{found} loads, expected 2 or more in different directions")]
+    Few {
+        /// How many there are.
+        found: usize,
+    },
+    /// A load of a lever arm is not finite.
+    #[error("load {load} is not finite, expected finite numbers of N and N m")]
+    NotFinite {
+        /// Its number, from 1.
+        load: usize,
+    },
+    /// The forces are nearly parallel: they leave the arm along them open.
+    #[error(
+        "the forces differ by a sine of {spread:.3} only, expected 0.05 or more; hang weights in other directions, or turn the sensor"
+    )]
+    Parallel {
+        /// Sine by which they differ, root mean square.
+        spread: f64,
     },
     /// Two axes along the same line.
     #[error("two of the axes lie along the same line, expected one along each of x, y and z")]

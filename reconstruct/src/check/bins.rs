@@ -6,7 +6,7 @@ use rod_core::{Pose, Reactions, Sample};
 
 /// Most bins of a recording. More: more time, and more noise of a bin.
 const MOST_BINS: usize = 1000;
-/// The rod is free where all reactions are within so many standard deviations of 0.
+/// The rod is free where all reactions are within this many standard deviations of 0.
 const SIGMAS: f64 = 4.0;
 
 /// The mean of consecutive samples, SI units if theirs are.

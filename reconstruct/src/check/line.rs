@@ -8,7 +8,7 @@ const WINDOWS: [usize; 3] = [8, 24, 72];
 /// First tolerance of the distance of a bin from a line, relative to the largest square. Larger: contacts of the tip near the line
 /// count, too; smaller: a line is missed where the noise is underestimated.
 const WIDE: f64 = 2e-3;
-/// Bins within so many standard deviations are on a line.
+/// Bins within this many standard deviations are on a line.
 const SIGMAS: f64 = 4.0;
 /// Fewest bins on a line.
 const FEWEST: usize = 8;

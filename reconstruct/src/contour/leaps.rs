@@ -1,4 +1,4 @@
-//! Where a run of contact points leaps: a snap or a slip to another place of the contour within one contact phase.
+//! Leaps in a run of contact points: a snap or a slip to another place of the contour within one contact phase.
 
 use super::point::Point;
 use super::scatter;
@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 const SCALES: [usize; 5] = [1, 4, 16, 64, 256];
 /// A leap exceeds the motion before and after it by this factor. Smaller: a contact that accelerates smoothly counts as a leap.
 const FACTOR: f64 = 4.0;
-/// A leap exceeds the motion before and after it by so many standard deviations, which 65,000 samples at five scales do not reach by
+/// A leap exceeds the motion before and after it by this many standard deviations, which 65,000 samples at five scales do not reach by
 /// chance.
 const SIGNIFICANCE: f64 = 6.0;
 /// Share of a leap that shorter means must show, too, less this many of their standard deviations. A change that is spread over

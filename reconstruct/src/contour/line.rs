@@ -9,10 +9,10 @@ use nalgebra::Vector2;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// A point is ahead of another one where it is farther along the contour by so many standard deviations of their distance. Smaller:
+/// A point is ahead of another one where it is farther along the contour by this many standard deviations of their distance. Smaller:
 /// points may be in the wrong order by noise.
 const AHEAD: f64 = 3.0;
-/// The contact turns back where it has gone back by so many standard deviations.
+/// The contact turns back where it has gone back by this many standard deviations.
 const BACK: f64 = 6.0;
 /// Ratio of standard deviations along the contour below which the new point replaces the old one.
 const BETTER: f64 = 0.5;

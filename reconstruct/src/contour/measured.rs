@@ -20,7 +20,7 @@ pub struct Measured<'a> {
     pub label: Label,
     /// The contact points, from the clamp on.
     pub touches: &'a [Touch],
-    /// Why there is none, where there is none.
+    /// Why there is no contact point, where there is none.
     pub reason: Option<&'a str>,
     /// Number of neighbouring samples that share the noise of the points: 1 where each has its own, the length of the window where
     /// the points come from fits through many samples.
@@ -38,7 +38,7 @@ impl<'a> Measured<'a> {
         Self { label, touches, reason: None, shared: 1 }
     }
 
-    /// What the sample says of the contour.
+    /// The sample as points of the contour.
     pub(super) fn says(&self, sample: usize) -> Says {
         let point = |index: usize| self.touches.get(index).and_then(|touch| Point::of(sample, touch, self.shared));
         match self.label {
@@ -53,7 +53,7 @@ impl<'a> Measured<'a> {
     }
 }
 
-/// What a sample says of the contour.
+/// A sample as points of the contour.
 pub(super) enum Says {
     Single(Point),
     Several(Option<Point>, Option<Point>),

@@ -16,7 +16,7 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// Adds what a sample says of the contour; `bridge` is that of the assembly.
+    /// Adds the points of a sample; `bridge` is that of the assembly.
     pub fn add(&mut self, sample: usize, says: Says, bridge: usize) {
         match says {
             Says::Single(point) => {

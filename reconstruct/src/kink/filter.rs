@@ -45,7 +45,7 @@ pub struct KinkFilter {
     skipped: usize,
 }
 
-/// A transition within so many samples or standard deviations of the last one is the same, found again by the next search.
+/// A transition within this many samples or standard deviations of the last one is the same, found again by the next search.
 const APART: f64 = 5.0;
 
 impl KinkFilter {

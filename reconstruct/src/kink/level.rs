@@ -25,7 +25,7 @@ const NEGLIGIBLE: f64 = 0.1;
 const AROUND: usize = 6;
 
 impl Level {
-    /// Room for so many bins.
+    /// Room for this many bins.
     pub fn with_capacity(bins: usize) -> Self {
         let room = || Vec::with_capacity(bins + 1);
         Self {

@@ -1,4 +1,4 @@
-//! Kinks and jumps of the reactions along the path of the clamp: where one contact phase gives way to another.
+//! Kinks and jumps of the reactions along the path of the clamp, at which the contact phase changes.
 //!
 //! At every place and at many scales, a quadratic with a step and a hinge is fitted to the samples on either side. What it explains
 //! beyond a quadratic is compared with the noise, with its own misfit, and with a quartic, which has as many parameters and

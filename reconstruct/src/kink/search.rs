@@ -27,10 +27,10 @@ const JUMP: f64 = 32.0;
 const FINER: usize = 3;
 /// Largest number of searches of a recording. A search follows another where a transition was dropped in it.
 const ROUNDS: usize = 3;
-/// A longer window is used if its knot agrees with those of all shorter ones within so many of their standard deviations. Larger:
+/// A longer window is used if its knot agrees with those of all shorter ones within this many of their standard deviations. Larger:
 /// smaller errors from noise, and larger ones from the curvature beside a kink.
 const AGREES: f64 = 1.0;
-/// Samples within so many standard deviations of a kink belong to neither side.
+/// Samples within this many standard deviations of a kink belong to neither side.
 const GUARD: f64 = 4.0;
 /// Standard normal quantile of 95 %: residuals of noise are below it in 95 of 100 windows.
 const USUAL: f64 = 1.6449;
@@ -249,7 +249,7 @@ impl Detector {
         let freedom = (3 * (last - first).saturating_sub(5)).max(1) as f64;
         match (kink, jump) {
             (Some((kink, bent)), Some((jump, stepped))) if bent - stepped > JUMP * (stepped / freedom).max(1.0) => {
-                // bins do not tell between which samples it jumps
+                // bins do not determine between which samples it jumps
                 let near = (jump.next.saturating_sub(2) * size, (jump.next + 2) * size);
                 Some(self.samples().jump(from, to, near).map_or(kink, |exact| exact.0))
             }

@@ -1,6 +1,6 @@
 //! A transition of the reactions.
 
-/// What happens at a transition.
+/// The kind of a transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KinkKind {
     /// The channels go on continuously, their slopes do not.
@@ -12,13 +12,13 @@ pub enum KinkKind {
 /// A kink or a jump.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kink {
-    /// Where, in units of the path parameter.
+    /// Place, in units of the path parameter.
     pub tau: f64,
-    /// Standard deviation of `tau` from the noise alone; for a jump, of a place anywhere between two samples.
+    /// Standard deviation of `tau` by noise; for a jump, that of a uniform distribution between two samples.
     pub sigma_tau: f64,
     /// Index of the first sample after it.
     pub next: usize,
-    /// What it is.
+    /// The kind.
     pub kind: KinkKind,
     /// Change of slope (kink) or value (jump) of each channel.
     pub change: [f64; 3],

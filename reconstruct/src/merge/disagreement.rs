@@ -29,7 +29,7 @@ const PLACES: f64 = 400.0;
 pub struct Comparison {
     /// The direction of the coordinate in which intervals are given, radians: 0 is x.
     pub direction: f64,
-    /// Contours disagree where they are farther apart than so many standard deviations of their distance, plus `least`.
+    /// Contours disagree where they are farther apart than this many standard deviations of their distance, plus `least`.
     pub significance: f64,
     /// Distance, m, that is allowed in any case: contours depart from the polygon of their points by as much.
     pub least: f64,

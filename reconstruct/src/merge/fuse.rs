@@ -4,7 +4,7 @@ use super::nearest::{Nearest, nearest};
 use crate::contour::{Trace, TracePoint, simplified};
 use crate::numeric::wrapped;
 
-/// Traces agree at a place where their distance is within so many of its standard deviations.
+/// Traces agree at a place where their distance is within this many of its standard deviations.
 const AGREE: f64 = 5.0;
 /// Distance, m, within which they agree in any case: points that were left out depart by as much.
 const LEFT_OUT: f64 = 5e-6;

@@ -39,7 +39,7 @@ impl Label {
         matches!(self, Self::A | Self::BA)
     }
 
-    /// The label of a rod with so many contacts, the last one at its tip or not.
+    /// The label of a rod with this many contacts, the last one at its tip or not.
     pub fn of(contacts: usize, tip: bool) -> Self {
         match (contacts, tip) {
             (0, _) => Self::Free,

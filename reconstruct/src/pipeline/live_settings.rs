@@ -70,3 +70,27 @@ impl LiveSettings {
         Ok(Self { half_window, ..Self::new(noise, spacing) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_core::Pose;
+
+    #[test]
+    fn the_free_rod_gives_noise_spacing_and_half_window() {
+        let rod = Rod::new(0.1, 6.3e-4).unwrap();
+        let sample = |k: u32| {
+            let bits = k.wrapping_mul(k).wrapping_mul(2_654_435_769).count_ones();
+            let sign = [1e-3, -1e-3][bits as usize % 2];
+            let pose = Pose { x: 2e-6 * f64::from(k), y: 0.0, phi: 1.5 };
+            Sample::new(pose, Reactions { f0x: sign, ..Reactions::default() })
+        };
+        let samples: Vec<Sample> = (0..1000).map(sample).collect();
+        let rounding = Reactions { f0y: 1e-4, ..Reactions::default() };
+        let settings = LiveSettings::of_free_rod(&rod, &samples, rounding).unwrap();
+        assert!((settings.noise[0].sigma - 1e-3).abs() < 1e-4 && settings.noise[1].sigma == 1e-4);
+        assert!((settings.spacing - 2e-6).abs() < 1e-15 && (settings.half_window - 2e-3).abs() < 1e-15);
+        let few = LiveSettings::of_free_rod(&rod, &samples[..99], rounding);
+        assert!(matches!(few, Err(ReconstructError::TooFew { usable: 99, fewest: 100, .. })));
+    }
+}

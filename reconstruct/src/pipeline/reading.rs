@@ -22,7 +22,7 @@ pub enum Reason {
     /// The point is too uncertain.
     #[error("the point is uncertain by {sigma:.1e} m")]
     TooNoisy {
-        /// Standard deviation across the contour (or along it, where that is what is too large), m.
+        /// Standard deviation across the contour, m; along it, if that is the one that is too large.
         sigma: f64,
     },
     /// The sample has several contacts, which are resolved from a whole scan only.

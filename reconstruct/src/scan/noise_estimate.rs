@@ -37,7 +37,7 @@ const WINDOWS: [usize; 4] = [8, 16, 32, 64];
 /// Largest ratio of the residual variance in windows of twice the length that is still the correlation of the noise: AR(1) noise of
 /// 0.9 gives 1.9. A larger ratio is signal.
 const CORRELATED: f64 = 2.0;
-/// Windows whose residuals exceed the median by so many standard deviations (of a normal variable of the same probability) are left
+/// Windows whose residuals exceed the median by this many standard deviations (of a normal variable of the same probability) are left
 /// out: they hold a kink, a jump or an outlier.
 const OUTLYING: f64 = 4.5;
 /// Lags up to this one enter the long-run variance.

@@ -20,7 +20,7 @@ use std::ops::AddAssign;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Confusion {
-    /// By truth, then by what was found, both in the order of [`Label::ALL`].
+    /// By the true label, then by the one found, both in the order of [`Label::ALL`].
     counts: [[u64; Label::ALL.len()]; Label::ALL.len()],
 }
 
@@ -55,24 +55,23 @@ impl Confusion {
         share(self.count(label, label), self.sum(|_, found| found == label))
     }
 
-    /// Share of the samples with several contacts (BA, BB) that were found to have several, whichever.
+    /// Share of the samples with several contacts (BA, BB) that were found to have several, BA or BB.
     pub fn several_recall(&self) -> Option<f64> {
         share(self.sum(|truth, found| truth.several() && found.several()), self.sum(|truth, _| truth.several()))
     }
 
-    /// Share of the samples found to have several contacts that have several, whichever.
+    /// Share of the samples found to have several contacts that have several, BA or BB.
     pub fn several_precision(&self) -> Option<f64> {
         share(self.sum(|truth, found| truth.several() && found.several()), self.sum(|_, found| found.several()))
     }
 
-    /// Share of the samples with a single contact (A, B) that were found to have one, whichever: the good points that
-    /// are kept.
+    /// Share of the samples with a single contact (A, B) that were found to have one, A or B: the good points that are kept.
     pub fn single_kept(&self) -> Option<f64> {
         let single = |label: Label| matches!(label, Label::A | Label::B);
         share(self.sum(|truth, found| single(truth) && single(found)), self.sum(|truth, _| single(truth)))
     }
 
-    /// The samples with such a truth and such a finding.
+    /// The number of samples whose truth and finding fulfil a condition.
     fn sum(&self, choose: impl Fn(Label, Label) -> bool) -> u64 {
         let pairs = Label::ALL.into_iter().flat_map(|truth| Label::ALL.map(|found| (truth, found)));
         pairs.filter(|(truth, found)| choose(*truth, *found)).map(|(truth, found)| self.count(truth, found)).sum()

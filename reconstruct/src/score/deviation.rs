@@ -1,4 +1,4 @@
-//! How far points are from the true contour.
+//! Distances of points from the true contour.
 
 use rod_contours::{Composite, Contour};
 
@@ -24,25 +24,24 @@ pub fn signed_distance(objects: &[Composite], x: f64, y: f64) -> Option<f64> {
     gaps.min_by(|a, b| a.abs().total_cmp(&b.abs())).filter(|gap| gap.is_finite())
 }
 
-/// How far points are from the contour they should lie on. All in the unit of the distances; from
-/// [`of_points`](Self::of_points) in m.
+/// Statistics of the distances of points from the contour, in the unit of the distances; from [`of_points`](Self::of_points) in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// How many points.
     pub count: usize,
-    /// Mean of the signed distances: what is left of the deviation where the points scatter to both sides.
+    /// Mean of the signed distances, in which scatter to both sides cancels.
     pub bias: f64,
     /// Median of the absolute distances.
     pub median: f64,
-    /// What 95 % of the absolute distances do not exceed.
+    /// The 95 % quantile of the absolute distances.
     pub percentile_95: f64,
     /// The largest absolute distance.
     pub largest: f64,
 }
 
 impl Deviation {
-    /// Of these signed distances. What a share p of n distances does not exceed is number p (n - 1) of them in order,
-    /// counted from 0 and interpolated between neighbours.
+    /// From signed distances. The quantile p of n distances is number p (n - 1) in their order, counted from 0 and interpolated
+    /// between neighbours.
     ///
     /// None without distances, and where one of them is not finite.
     ///
@@ -74,7 +73,7 @@ impl Deviation {
     }
 }
 
-/// The value that this share of them does not exceed; they are in order and there is at least one.
+/// A quantile of ordered values, at least one.
 fn quantile(ordered: &[f64], share: f64) -> f64 {
     let last = ordered.len() - 1;
     let place = share * last as f64;

@@ -73,7 +73,7 @@ impl KinkScore {
         self.matches.extend_from_slice(&other.matches);
     }
 
-    /// Kinks found where there is none.
+    /// Number of kinks found that match no true one.
     pub fn false_alarms(&self) -> usize {
         self.found.saturating_sub(self.matches.len())
     }

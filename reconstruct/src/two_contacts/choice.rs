@@ -8,7 +8,7 @@ const MOST_CHOICES: usize = 6;
 /// Largest distance (rod lengths) between the ends of the trails of neighbouring stretches: trails are straight, and the first
 /// contact is not.
 const FARTHEST_JOINT: f64 = 0.1;
-/// The neighbour's contact may be the first one within so many standard deviations more.
+/// The neighbour's contact may be the first one within this many standard deviations more.
 const NEAR: f64 = 2.0;
 /// The neighbour's contact may be the second one where it is farther from the trail than this share of the distance.
 const ANOTHER: f64 = 0.3;

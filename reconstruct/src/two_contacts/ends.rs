@@ -1,11 +1,11 @@
-//! What is known at the ends of a run with two contacts.
+//! The ends of a run with two contacts.
 
 use nalgebra::Vector2;
 
 /// What is assumed at an end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum End {
-    /// Nothing.
+    /// No contact goes on.
     Open,
     /// The second contact goes on as the neighbour's single contact: a point of the contour, its normal and its standard
     /// deviation across the contour; the path length of the clamp to there.

@@ -108,7 +108,7 @@ pub(super) fn guess(parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
     Some(x)
 }
 
-/// The Legendre series of so many terms that fits forces at the instants best.
+/// The Legendre series of this many terms that fits forces at the instants best.
 fn fitted(forces: &[f64], terms: usize) -> Option<DVector<f64>> {
     let mut rows = DMatrix::zeros(terms, INSTANTS);
     (0..INSTANTS).for_each(|i| legendre::values(instant(i), rows.column_mut(i).as_mut_slice()));

@@ -11,7 +11,7 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    /// No residuals yet, for so many unknowns.
+    /// No residuals yet, for this many unknowns.
     pub fn empty(unknowns: usize) -> Self {
         Self { matrix: DMatrix::zeros(unknowns, unknowns), gradient: DVector::zeros(unknowns), cost: 0.0 }
     }

@@ -12,7 +12,7 @@ use rod_core::Dual;
 
 /// Instants of a stretch at which covariances are computed; they are interpolated linearly in between.
 const INSTANTS: usize = 33;
-/// The second force vanishes where it is within so many standard deviations of zero.
+/// The second force vanishes where it is within this many standard deviations of zero.
 const VANISHES: f64 = 3.0;
 /// Path length of a contact, rod lengths, below which it counts as standing still when its mean curvature is computed.
 const STANDING: f64 = 1e-3;
@@ -38,7 +38,7 @@ impl Default for Limits {
     }
 }
 
-/// What is known of the two contacts of a sample.
+/// The two contacts of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
     pub first: Result<Touch, Unresolved>,

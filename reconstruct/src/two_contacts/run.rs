@@ -117,7 +117,7 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
     Err(Unresolved::Inconsistent)
 }
 
-/// The stretches with series of the reactions of at most `short` terms, and so many terms of the others.
+/// The stretches with series of the reactions of at most `short` terms, and this many terms of the others.
 fn parts(stretches: &[(Series, bool)], short: usize, terms: impl Fn(&Series) -> usize) -> Vec<Part> {
     let mut start = 0;
     let place = |(series, tip): &(Series, bool)| {

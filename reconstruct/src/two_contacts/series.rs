@@ -10,9 +10,9 @@ use std::ops::Range;
 const MOST_TERMS: usize = 24;
 /// Fewest terms of the reactions' series.
 const FEWEST_TERMS: usize = 4;
-/// A term of the series is kept where it exceeds so many of its standard deviations in a channel.
+/// A term of the series is kept where it exceeds this many of its standard deviations in a channel.
 const SIGNIFICANT: f64 = 3.0;
-/// After so many insignificant terms the series ends.
+/// After this many insignificant terms the series ends.
 const QUIET: usize = 3;
 /// Terms added to the last significant one. The conditions determine them where the noise of the reactions hides them.
 const SPARE: usize = 2;

@@ -1,0 +1,3 @@
+//! Lever arms.
+
+mod lever_arm;
