@@ -1,6 +1,7 @@
 //! From a document to a setup: every number checked where it stands.
 
 use super::document::{AccuracyTable, Document, MountingTable, SensorTable, TareTable};
+use super::field::{component, positive, units};
 use super::gauges::gauges;
 use super::recording::recording;
 use super::{SensorCalibration, Setup, TareSetup};
@@ -81,20 +82,6 @@ fn scale(table: &SensorTable, place: Range<usize>) -> Result<Option<Scale>, Faul
         channels.get_ref().iter().map(|name| if name.is_empty() { Ok(None) } else { of_channel(name) }).collect();
     let scale = scale.with_channels(&components?).map_err(|error| Fault::new(channels.span(), error.to_string()))?;
     Ok(Some(scale))
-}
-
-pub(super) fn component(name: &str, place: Range<usize>, expected: &str) -> Result<Component, Fault> {
-    let fault = || Fault::new(place, format!("`{name}` is no component, expected {expected}"));
-    Component::parse(name).ok_or_else(fault)
-}
-
-/// Both units, or none where one is not given.
-pub(super) fn units(table: &SensorTable) -> Result<Option<[Unit; 2]>, Fault> {
-    let unit = |text: &Spanned<String>, dimension| {
-        Unit::parse(text.get_ref(), dimension).map_err(|error| Fault::new(text.span(), error.to_string()))
-    };
-    let (Some(force), Some(torque)) = (&table.force_unit, &table.torque_unit) else { return Ok(None) };
-    Ok(Some([unit(force, Dimension::Force)?, unit(torque, Dimension::Torque)?]))
 }
 
 fn seat(table: &MountingTable, place: Range<usize>) -> Result<Mounting, Fault> {
@@ -217,15 +204,6 @@ fn window(table: &TareTable) -> Result<TareSetup, Fault> {
         }
     };
     Ok(tare)
-}
-
-pub(super) fn positive(what: &str, value: &Spanned<f64>, unit: &str) -> Result<f64, Fault> {
-    let number = *value.get_ref();
-    if number.is_finite() && number > 0.0 {
-        Ok(number)
-    } else {
-        Err(Fault::new(value.span(), format!("{what} is {number}, expected a positive, finite number of {unit}")))
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! From the table of a sensor to the matrix of its gauges: a calibration file, or rows.
 
 use super::calibration::Gauges;
-use super::check::{component, units};
 use super::document::SensorTable;
+use super::field::{component, units};
 use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;

@@ -6,6 +6,7 @@
 mod calibration;
 mod check;
 mod document;
+mod field;
 mod gauges;
 mod recording;
 

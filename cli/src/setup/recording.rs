@@ -1,8 +1,8 @@
 //! What of a recording is meant, where it has more than that.
 
 use super::calibration::{Gauges, SensorCalibration};
-use super::check::positive;
 use super::document::RecordingTable;
+use super::field::positive;
 use crate::toml_file::Fault;
 use toml::{Spanned, Value};
 
