@@ -1,20 +1,23 @@
 //! Orthonormal columns by the Gram-Schmidt method.
 
 /// Scalar product.
+// Inlined, so that the windows of the search for kinks, which have a fixed length, get code for that length.
+#[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Four sums at once use the lanes of the processor; one sum would have to be added in order.
     let mut sums = [0.0; 4];
-    let (fours_a, fours_b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = fours_a.remainder().iter().zip(fours_b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in fours_a.zip(fours_b) {
+    let ((fours_a, rest_a), (fours_b, rest_b)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    for (a, b) in fours_a.iter().zip(fours_b) {
         for lane in 0..4 {
             sums[lane] += a[lane] * b[lane];
         }
     }
+    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// Subtracts `share` times `b` from `a`.
+#[inline(always)]
 pub(crate) fn subtract(a: &mut [f64], share: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a -= share * b);
 }

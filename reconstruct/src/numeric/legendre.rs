@@ -14,13 +14,13 @@ pub(crate) fn fifth(t: f64) -> f64 {
 
 /// Fills `values` with P_0(t), P_1(t), ..., by Bonnet's recursion.
 pub(crate) fn values(t: f64, values: &mut [f64]) {
-    for j in 0..values.len() {
-        let n = j as f64;
-        values[j] = match j {
-            0 => 1.0,
-            1 => t,
-            _ => ((2.0 * n - 1.0) * t * values[j - 1] - (n - 1.0) * values[j - 2]) / n,
-        };
+    let (mut before, mut last) = (0.0, 1.0);
+    for (j, value) in values.iter_mut().enumerate() {
+        if j > 0 {
+            let n = j as f64;
+            (before, last) = (last, ((2.0 * n - 1.0) * t * last - (n - 1.0) * before) / n);
+        }
+        *value = last;
     }
 }
 
