@@ -1,9 +1,6 @@
 //! Angles that look like radians where degrees belong, and the other way round, are told of and taken as they are.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, complaint, edited, vibrissa};
+use crate::common::{SCENE, complaint, edited, vibrissa};
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use vibrissa_cli::{Scene, Setup};
@@ -24,7 +21,7 @@ fn radians_in_a_scene() {
     let object = object.replace("angle = 0.0", "angle = 6.283");
     assert_eq!(warnings(&object), ["scene.toml:7:9: contour.angle: angle is 6.283 degrees; is 360 degrees meant?"]);
     let arc = "[[contour.piece]]\nshape = \"arc\"\ncenter = [0, 0]\nradius = 0.01\nfrom_angle = 0\nto_angle = 4.712\n";
-    let warned = warnings(&common::with_objects(arc));
+    let warned = warnings(&crate::common::with_objects(arc));
     assert_eq!(warned.len(), 1);
     assert!(warned[0].contains("contour.piece[1].to_angle: ") && warned[0].contains("270"), "{warned:?}");
 }

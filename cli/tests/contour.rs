@@ -1,9 +1,6 @@
 //! The contour of a scene as points, and its drawing.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, complaint, vibrissa, with_objects};
+use crate::common::{SCENE, complaint, vibrissa, with_objects};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fs;
 use std::path::Path;

@@ -1,14 +1,10 @@
 //! Scenes that an earlier version got wrong or did not finish: what each must give, and which of them do not yet.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-mod witness;
-
+use crate::witness::description::boundaries;
+use crate::witness::run::{End, Run};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use vibrissa_cli::Scene;
-use witness::description::boundaries;
-use witness::run::{End, Run};
 
 /// Where a sweep may end.
 type Ends = &'static [End];

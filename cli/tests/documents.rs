@@ -1,5 +1,4 @@
 //! The scenes of the documentation and of the repository.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

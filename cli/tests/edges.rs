@@ -1,9 +1,6 @@
 //! A square and a triangle in many poses, rods parallel to a side among them, from both sides, with clamps that turn.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::judge::judge;
+use crate::common::judge::judge;
 use vibrissa::contact::EventKind;
 use vibrissa_cli::{Scan, Scene};
 

@@ -1,9 +1,6 @@
 //! What a sweep writes, and what it leaves alone.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, complaint, edited, vibrissa};
+use crate::common::{SCENE, complaint, edited, vibrissa};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

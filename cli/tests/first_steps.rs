@@ -1,9 +1,6 @@
 //! What leads a newcomer on: the help, a scene to begin with, the list of shapes.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, complaint, vibrissa};
+use crate::common::{SCENE, complaint, vibrissa};
 use std::fs;
 use std::path::Path;
 

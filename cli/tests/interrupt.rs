@@ -1,10 +1,7 @@
 //! Ctrl-C: what was computed is written and marked, and nothing else stays behind.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, edited};
+use crate::common::{SCENE, edited};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,7 @@
 //! From a sensor that is played to contact points, over the connections that real ones have, and what is said where that
 //! cannot be.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-
-use common::{complaint, edited, vibrissa};
+use crate::common::{complaint, edited, vibrissa};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};

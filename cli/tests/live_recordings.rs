@@ -1,20 +1,14 @@
 //! Recordings of volts, played back through a calibration: the way from a table, TDMS or MCAP file to contact points, and what is
 //! said where that cannot be.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-#[allow(dead_code, reason = "a part of it is used here")]
-#[path = "../../hw/tdms/tests/suite/writer.rs"]
-mod writer;
-
-use common::{SCENE, complaint, vibrissa};
+use crate::common::{SCENE, complaint, vibrissa};
+use crate::writer::{Endian, F64, Index, Object, segment};
 use nalgebra::{Matrix6, Vector6};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::hw::{AtiFile, Frame, Mounting, OutOfPlane};
 use vibrissa_cli::{ReadOptions, Recording, Scene};
-use writer::{Endian, F64, Index, Object, segment};
 
 const NOISE: &str = "[white]\nforce = 1e-5\nm0z = 1e-7\n";
 const TARE: &str = "[tare]\nseconds = 0.1\n";

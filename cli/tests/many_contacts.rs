@@ -1,9 +1,6 @@
 //! The scenes with many contacts, with corners, and with objects on both sides of the rod.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::judge::{is_pushed_from_both_sides, judge};
+use crate::common::judge::{is_pushed_from_both_sides, judge};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

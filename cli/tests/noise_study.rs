@@ -1,12 +1,7 @@
 //! A part of the study of docs/reconstruction.md, small enough to be run each time.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-#[path = "../examples/noise_study/study/mod.rs"]
-#[allow(dead_code, unused_imports, reason = "the example needs more of it")]
-mod study;
-
+use crate::study::{LEVELS, NOISES, Score, judge, scans, sweep};
 use std::path::Path;
-use study::{LEVELS, NOISES, Score, judge, scans, sweep};
 use vibrissa::reconstruct::score::Deviation;
 
 const SEEDS: u64 = 1;
@@ -18,7 +13,7 @@ fn an_industrial_sensor_gives_kinks_phases_and_both_contacts() {
     for noise in &NOISES {
         let mut score = Score::default();
         judge(&scans, &LEVELS[1], noise, SEEDS, None, &|| ()).unwrap().into_iter().for_each(|scan| score.merge(scan));
-        println!("{}", study::tables([(&LEVELS[1], Some(noise), &score)]));
+        println!("{}", crate::study::tables([(&LEVELS[1], Some(noise), &score)]));
 
         assert_eq!(score.scans, 9 * SEEDS as usize);
         let false_alarms = score.kinks.false_alarms() as f64 / score.scans as f64;

@@ -1,9 +1,6 @@
 //! Where results may go: standard output, and no link, device or input.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, complaint, vibrissa, with_objects};
+use crate::common::{SCENE, complaint, vibrissa, with_objects};
 use std::fs;
 use std::path::Path;
 

@@ -1,9 +1,6 @@
 //! The nine scans of the paper, from the command to the files.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{complaint, vibrissa};
+use crate::common::{complaint, vibrissa};
 use std::fs;
 use std::path::Path;
 

@@ -1,12 +1,8 @@
 //! Random scenes, read as scene files, swept, and every state judged without the solver.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-mod random;
-
-use random::generator::{Generated, scene};
-use random::report;
-use random::sweep::{End, Verdict, verdict};
+use crate::random::generator::{Generated, scene};
+use crate::random::report;
+use crate::random::sweep::{End, Verdict, verdict};
 use rayon::prelude::*;
 use std::ops::Range;
 

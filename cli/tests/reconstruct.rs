@@ -1,9 +1,6 @@
 //! Recordings turned back into contact points: what is written, and what is said of recordings that are none.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{complaint, vibrissa};
+use crate::common::{complaint, vibrissa};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

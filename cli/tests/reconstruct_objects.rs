@@ -1,5 +1,4 @@
 //! What a scan of objects with vertices, edges, notches and many contacts is reconstructed to, against the truth.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use rayon::prelude::*;
 use std::path::Path;

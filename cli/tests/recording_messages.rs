@@ -1,5 +1,4 @@
 //! Every fault of a recording is answered with its file and line, the value and what was expected.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use vibrissa::{Pose, Rod};
 use vibrissa_cli::{ReadOptions, Recording, RecordingError, RowProblem};

@@ -1,9 +1,6 @@
 //! Defects that were, each with the scene that showed it.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::judge::judge;
+use crate::common::judge::judge;
 use std::path::Path;
 use vibrissa::Event;
 use vibrissa::contact::StopReason;

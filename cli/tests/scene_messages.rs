@@ -1,9 +1,6 @@
 //! Every mistake in a scene file is answered with its place, the value and what was expected.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, edited, refused_beside, with_objects};
+use crate::common::{SCENE, edited, refused_beside, with_objects};
 
 /// Checks that the message for a scene holds all these parts.
 fn says(scene: &str, parts: &[&str]) {

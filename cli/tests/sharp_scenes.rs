@@ -1,21 +1,14 @@
 //! Random scenes of thin, sharp, flat and finely divided objects, every state judged without the library.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
-mod common;
-#[allow(dead_code, reason = "only its dice, shapes and ways are used here")]
-mod random;
-mod sharp;
-mod witness;
-
+use crate::sharp::bounds::{FALSE_EVENTS, FALSE_STATES, GAVE_UP, STEPS_DISAGREE};
+use crate::sharp::report::table;
+use crate::sharp::scene::scene;
+use crate::sharp::unit::in_unit;
+use crate::sharp::verdict::{Verdict, verdict};
+use crate::witness::run::Run;
 use rayon::prelude::*;
-use sharp::bounds::{FALSE_EVENTS, FALSE_STATES, GAVE_UP, STEPS_DISAGREE};
-use sharp::report::table;
-use sharp::scene::scene;
-use sharp::unit::in_unit;
-use sharp::verdict::{Verdict, verdict};
 use std::ops::Range;
 use vibrissa_cli::Scene;
-use witness::run::Run;
 
 /// Of so many scenes one is swept at other steps too. It has no divisor in common with the number of kinds, and so goes
 /// through all of them.

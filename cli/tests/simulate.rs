@@ -1,9 +1,6 @@
 //! Simulated recordings, and what is said of those that cannot be made.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{SCENE, complaint, edited, vibrissa};
+use crate::common::{SCENE, complaint, edited, vibrissa};
 use std::fs;
 use std::path::Path;
 use std::process::Output;

@@ -13,7 +13,7 @@ use toml::de::DeTable;
 use vibrissa::hw::device::rdt::RdtProfile;
 use vibrissa::hw::{
     Accuracy, Axis, CalibrationDataError, Component, Dimension, Frame, GeometryError, Mounting, RatedLoad, Scale,
-    Sense, Unit, Wrench, WrenchUnits,
+    Sense, Wrench, WrenchUnits,
 };
 
 /// The setup of a document; files that it names are in the directory.

@@ -1,0 +1,36 @@
+//! The tests of the command: one program, because each of its own links the whole library again.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+mod common;
+mod random;
+mod sharp;
+#[path = "../examples/noise_study/study/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "the example needs more of it")]
+mod study;
+mod witness;
+#[allow(dead_code, reason = "a part of it is used here")]
+#[path = "../../hw/tdms/tests/suite/writer.rs"]
+mod writer;
+
+mod angle_warnings;
+mod contour;
+mod defects;
+mod documents;
+mod edges;
+mod files;
+mod first_steps;
+mod interrupt;
+mod live;
+mod live_recordings;
+mod many_contacts;
+mod noise_study;
+mod outputs;
+mod paper;
+mod random_scenes;
+mod reconstruct;
+mod reconstruct_objects;
+mod recording_messages;
+mod regression;
+mod scene_messages;
+mod sharp_scenes;
+mod simulate;
