@@ -14,7 +14,7 @@
 
 use crate::{Bounds, Contour, Frame, Range};
 
-/// How far along a range that goes on for ever [`check`] looks, in units of the parameter.
+/// Part of an infinite range that [`check`] tests, in units of the parameter.
 const WINDOW: f64 = 10.0;
 
 /// Accepted error of a length, relative to the largest coordinate: the ends of a composite's pieces may differ

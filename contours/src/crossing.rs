@@ -6,7 +6,7 @@ use crate::{Contour, Frame, Range};
 /// Cells in which the search begins.
 const CELLS: usize = 256;
 
-/// How often a cell is halved before a pair of crossings within it is given up.
+/// Halvings of a cell in search of a pair of crossings within it.
 const HALVINGS: u32 = 4;
 
 /// Margin on the length of a cell, which is estimated from three speeds.

@@ -12,7 +12,7 @@ const STRAIGHT: f64 = 1e-9;
 /// How far an arc may turn beyond a right angle, relative: a quarter of a circle stays whole.
 const ROUNDING: f64 = 1e-9;
 
-/// Largest number of arcs between two inflections, a bound for shapes whose angle is not to be trusted.
+/// Largest number of arcs between two inflections, for shapes whose angle may be wrong.
 const MOST: f64 = 1e5;
 
 /// Shortest arc next to an inflection, relative to the range: an inflection at an end may be rounded into the range, and

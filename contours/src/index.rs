@@ -2,14 +2,13 @@
 
 use crate::Bounds;
 
-/// Up to so many items are all looked at: that costs less than to ask which ones are near.
+/// Number of items up to which all are visited: a search for the near ones would cost more.
 const FEW: usize = 6;
 
-/// Boxes within one box of the next level: with fewer of them the levels above take more memory, with more of them more
-/// boxes are compared.
+/// Number of boxes within one box of the next level. Fewer take more memory; with more, more boxes are compared.
 const FAN: usize = 4;
 
-/// Room for rounding, relative to the distance squared: a box that touches its item can come out just beyond it.
+/// Rounding of a squared distance, relative: the computed distance of a box may exceed that of the item which it touches.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Items by their boxes, and where they are many the boxes around each four of them, around each four of

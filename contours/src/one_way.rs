@@ -10,7 +10,7 @@ use crate::{Contour, Range};
 /// less than this times its length.
 const STRAIGHT: f64 = 1e-12;
 
-/// Most parts looked at; limits that do not become sharp end here.
+/// Largest number of parts. Limits that do not tighten on smaller parts end the search here.
 const MOST: usize = 10_000;
 
 /// Times a range is halved.

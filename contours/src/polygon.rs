@@ -3,7 +3,7 @@
 use crate::vector::distance;
 use crate::{Composite, Contour, ContourError, Line, check};
 
-/// A last point counts as the first one given again if it is no farther away, relative to the way around.
+/// Distance of the last from the first point, relative to the circumference, below which the last point repeats the first.
 const CLOSED: f64 = 1e-9;
 
 impl Composite {

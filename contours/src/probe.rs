@@ -6,10 +6,10 @@
 use crate::error::Broken;
 use crate::{Contour, Frame, Range};
 
-/// Where, as fractions of the range; not at its ends, so that differences stay within it.
+/// Places, as fractions of the range. The ends are left out, so that differences stay within the range.
 const FRACTIONS: [f64; 5] = [0.03, 0.26, 0.5, 0.74, 0.97];
 
-/// How far along a range that goes on for ever, in units of the parameter.
+/// Part of an infinite range that is tested, in units of the parameter.
 const WINDOW: f64 = 10.0;
 
 /// Steps of the differences, relative to the range: noise spoils a short one, a sharp bend a long one. Both must be wrong.

@@ -9,13 +9,13 @@ use crate::limits::Limits;
 use crate::vector::{cross, dot};
 use crate::{Range, newton};
 
-/// Most parts looked at for one point. Sharp limits need some tens; limits that do not become sharp end here.
+/// Largest number of parts for one point. Tight limits need some tens; limits that do not tighten on smaller parts end here.
 const MOST: usize = 200_000;
 
-/// Times a range is halved: what remains is one number to rounding.
+/// Halvings of a range, down to rounding.
 const HALVINGS: u32 = 52;
 
-/// Distance below the one found that is not looked for, relative to the lengths it is made of: rounding.
+/// Rounding of a distance, relative to the lengths that it is computed from. Closer points are not searched for.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Least value of `1 + kappa h` that proves that there is one foot: above what its rounding can be.

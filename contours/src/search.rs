@@ -3,7 +3,7 @@
 use crate::vector::dot;
 use crate::{Bounds, Closest, Contour, Range, newton};
 
-/// Cells of a finite range in which anything is looked for: 96 cells of a full circle turn by less than 4 degrees each.
+/// Cells of a search in a finite range: of a full circle, each turns by less than 4 degrees.
 pub(crate) const CELLS: usize = 96;
 
 /// Fewest cells of a part of a finite range: one alone would not see a minimum between two maxima at its ends.
@@ -12,7 +12,7 @@ const FEWEST: usize = 2;
 /// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
 const CELLS_INFINITE: usize = 512;
 
-/// Steps towards the extremum of the slope within a cell; one that they do not show is too flat to matter.
+/// Steps towards the extremum of the slope within a cell. An extremum that they miss is too flat to change the result.
 const DIP_STEPS: usize = 12;
 
 /// A sample of the contour, seen from the point whose closest point is wanted.

@@ -10,8 +10,8 @@ use crate::{Bounds, Composite, ContourError, Frame, Part, Range, StretchKind};
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.
 const CHORDS: f64 = 8.0;
 
-/// Most chords of one part, a bound for shapes whose angle is not to be trusted; also those of a part that goes on for
-/// ever, where neighbouring ones differ by 7 % in length.
+/// Largest number of chords of one part, for shapes whose angle may be wrong; also the number of an infinite part, whose
+/// neighbouring chords differ by 7 % in length.
 const MOST: f64 = 512.0;
 
 /// Samples of the angle from which the turn of a part is summed up.
@@ -23,8 +23,8 @@ const STRAIGHT: f64 = 1e-9;
 /// Sine of the angle below which two directions are the same: what runs back along itself does not cross itself.
 const PARALLEL: f64 = 1e-9;
 
-/// How far beyond the ends of a chord a crossing still counts, relative to the chord: one through a vertex is in neither of
-/// the chords otherwise.
+/// Distance beyond the ends of a chord, relative to its length, within which a crossing counts. At 0 a crossing through a vertex
+/// would lie on neither of the two chords.
 const SLACK: f64 = 1e-9;
 
 /// Largest distance of the two points of a crossing, relative to the coordinates.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::{ContourError, Range, angle};
 
-/// How far beyond a full turn an arc may go, relative to its angles: `from + TAU` is rounded.
+/// Excess of an arc over a full turn, relative to its angles, that is rounding of `from + TAU`.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// From one angle (rad) to another: up is counterclockwise.

@@ -25,11 +25,10 @@ pub(crate) struct Basis<T> {
 /// reach farther, by the sixth root.
 const SERIES_REACH: f64 = 3.2e-3;
 
-/// No segment needs more halvings than this: beyond, P or M is not finite in any useful sense.
+/// Limit of halvings: a segment that needs more has P s^2 or M s^2 beyond 1e36.
 const MOST_HALVINGS: u32 = 64;
 
-/// Below this C or D is doubled by the formula that keeps its relative error, above by the one that keeps its distance
-/// to 1.
+/// C or D below which the duplication formula that keeps its relative error is used; above, the one that keeps its distance to 1.
 const STEEP: f64 = 0.7;
 
 /// Basis functions at arc length `s` for P = `p` and M = P + `excess`: halve `s` until the series is exact, then double

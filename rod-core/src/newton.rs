@@ -189,20 +189,21 @@ impl NewtonWorkspace {
     }
 }
 
-/// Condition number from which on rounding leaves no digit of a solution.
+/// Condition number at which no digit of a solution is right.
 const NO_DIGIT: f64 = 1.0 / f64::EPSILON;
-/// Corrections that shrink less than this per simplified step are not worth the old Jacobian.
+/// Largest ratio of two successive simplified corrections at which the old Jacobian is kept. A larger ratio costs more steps than
+/// a new Jacobian.
 const WORTH_A_CHORD: f64 = 0.05;
-/// Most simplified steps with one Jacobian.
+/// Limit of simplified steps with one Jacobian.
 const MOST_CHORDS: usize = 4;
-/// Corrections that no longer shrink are rounding, not error, if they are below this and the residual below the next.
+/// Largest correction that counts as rounding when corrections no longer shrink, if the residual is at rounding too.
 const ROUNDING_STEP: f64 = 1e-9;
-/// Longest correction of what has converged.
+/// Largest last correction, taken after convergence.
 const LAST_STEP: f64 = 1e-10;
-/// What rounding leaves of a residual of order 1 to 10.
+/// Rounding of a residual whose terms are of order 1 to 10.
 const ROUNDING_RESIDUAL: f64 = 1e-13;
-/// What the rounding of the unknowns leaves of it besides, relative to their weighted norm: the parameter of a long contour
-/// may be in the thousands.
+/// Rounding of the residual by that of the unknowns, relative to their weighted norm: the parameter of a long contour may be in
+/// the thousands.
 const ROUNDING_UNKNOWNS: f64 = 4.0 * f64::EPSILON;
 
 /// One damped Newton step from `u`, in place. `workspace` must have been prepared for this system by

@@ -4,7 +4,7 @@ use crate::basis::{Basis, basis};
 use crate::scalar::{Scalar, is_finite};
 use crate::segment::{Arc, End, LEAST_COIL, Section, advance, axial, in_frame};
 
-/// Every so many steps the walk starts anew from the closed form of the whole stretch, so that rounding does not pile up.
+/// Number of steps after which the walk starts anew from the closed form, so that rounding does not accumulate.
 const STRIDE: usize = 64;
 
 /// Sections of the segment of `length` (negative: backwards) that starts at `start` and carries the force (A, B), at
