@@ -1,6 +1,6 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
-use crate::contact_set::edit::{beside_corner, beyond_corner, off_corner};
+use crate::contact_set::edit::{across_corner, beside_corner, beyond_corner, off_corner};
 use crate::contact_set::{Configuration, Held};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
@@ -57,6 +57,8 @@ pub struct Sweep<'a> {
     ahead: Option<Step>,
     pending: VecDeque<Item>,
     over: bool,
+    /// Path parameter up to which the rod is known.
+    reached: f64,
     /// Where the last transition was, and how many there were at that pose.
     crowd: (f64, usize),
 }
@@ -129,6 +131,7 @@ impl<'a> Sweep<'a> {
             ahead: None,
             pending: VecDeque::new(),
             over: false,
+            reached: 0.0,
             crowd: (f64::NAN, 0),
         }
     }
@@ -304,6 +307,10 @@ impl<'a> Sweep<'a> {
         if let Some(landed) = self.slip_off(here) {
             return Ok(self.landed(EventKind::Slip, last, landed));
         }
+        if let Some(landed) = self.slide_over(here) {
+            return Ok(self.jumped(last, landed));
+        }
+        self.reached = tau;
         Err(if is_at_inflection(&self.setup().world, here) {
             StopReason::LineContact
         } else if last.scan.is_by_an_end() {
@@ -330,6 +337,14 @@ impl<'a> Sweep<'a> {
     /// comes to no rest.
     fn slip_off(&mut self, last: &Configuration) -> Option<Point> {
         off_corner(last, &self.setup().world).into_iter().find_map(|guess| self.slipped(last, guess))
+    }
+
+    /// The tip, come to a convex corner, slides over it until the rod lies on the corner: where the descent comes to no rest.
+    fn slide_over(&mut self, last: &Configuration) -> Option<Point> {
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        let guess = across_corner(last.clone(), &corrector.setup.world)?;
+        let landed = settle(corrector, scanner, guess).filter(|landed| !same(&landed.configuration, last))?;
+        self.goes_on(landed)
     }
 
     /// The equilibrium by `guess`, if it is a slip away from `last`.
@@ -452,11 +467,13 @@ impl<'a> Sweep<'a> {
     }
 
     fn report(&mut self, point: &Point) {
+        self.reached = self.reached.max(point.configuration.tau());
         self.pending.push_back(Item::State(self.state(point)));
         self.reported += 1;
     }
 
     fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
+        self.reached = self.reached.max(after.configuration.tau());
         let event = Event { kind, before: self.state(before), after: self.state(after) };
         self.pending.push_back(Item::Event(event));
     }
@@ -469,7 +486,7 @@ impl<'a> Sweep<'a> {
 
     fn stop(&self, reason: StopReason) -> Stop {
         let Setup { rod, path, .. } = self.setup();
-        let tau = self.at.as_ref().map_or(0.0, |point| point.configuration.tau());
+        let tau = self.at.as_ref().map_or(0.0, |point| point.configuration.tau()).max(self.reached);
         let length = rod.length();
         let Pose { x, y, phi } = path.at(tau);
         let unit = if path.turns_only() { 1.0 } else { length };

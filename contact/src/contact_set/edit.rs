@@ -40,14 +40,36 @@ pub(crate) fn onto_neighbour(
 /// rest.
 pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
     let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
-    let (here, t) = (configuration.contacts[last].stretch, configuration.t(last));
-    let range = world.range(here);
-    let upwards = t - range.from > range.to - t;
-    let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
+    let (corner, upwards) = corner_ahead(&configuration, last, world)?;
     let beyond = world.neighbour(corner, upwards)?;
     configuration.contacts[last].stretch = beyond;
     configuration.set(Unknown::Parameter(last), world.border(beyond, !upwards));
     Some(configuration)
+}
+
+/// The tip, at an end of its piece where there is a convex corner, beyond that corner, which the rod then lies on. None where the
+/// rod could not lie on the corner in its direction.
+pub(crate) fn across_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
+    let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
+    let corner = corner_ahead(&configuration, last, world)?.0;
+    let (range, phi) = (world.range(corner), configuration.slope(last));
+    let (from, to) = (world.support(corner, range.from).alpha, world.support(corner, range.to).alpha);
+    let Hold::Tangent { offset } = lying(phi - 0.5 * (from + to)) else { return None };
+    let alpha = phi - offset;
+    let leans = (from.min(to)..=from.max(to)).contains(&alpha);
+    configuration.contacts[last] = Held { stretch: corner, hold: Hold::Tangent { offset } };
+    configuration.set(Unknown::Parameter(last), range.from + (alpha - from) / (to - from) * (range.to - range.from));
+    configuration.set(Unknown::ArcLength(last), 1.0);
+    leans.then_some(configuration)
+}
+
+/// The convex corner at the end of the piece that contact j is next to, and on which side of the piece it is.
+fn corner_ahead(configuration: &Configuration, j: usize, world: &World<'_>) -> Option<(usize, bool)> {
+    let (here, t) = (configuration.contacts[j].stretch, configuration.t(j));
+    let range = world.range(here);
+    let upwards = t - range.from > range.to - t;
+    let corner = world.neighbour(here, upwards).filter(|next| world.is_corner(*next))?;
+    Some((corner, upwards))
 }
 
 /// The last contact, new on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.

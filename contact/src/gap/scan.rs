@@ -186,6 +186,19 @@ mod tests {
         assert!(level(&ceiling, 0.3).clamp_inside);
     }
 
+    /// It goes in and out through notches, where no run of the contour is crossed, within one interval.
+    #[test]
+    fn a_rod_through_a_small_tooth_is_seen() {
+        for (from, way, height) in [(0.1, 1e-3, 1e-4), (0.13, 1e-5, 4e-6), (-0.2, 2e-6, 1e-6)] {
+            // solid above y = 0, but for the tooth, which hangs down
+            let tooth = [[from, 0.0], [from + 0.4 * way, -height], [from + way, 0.0]];
+            let points: Vec<_> =
+                [[-1.0, 0.0]].into_iter().chain(tooth).chain([[1.0, 0.0], [1.0, 1.0], [-1.0, 1.0]]).collect();
+            let object = Composite::polygon(&points).unwrap();
+            assert!(!level(&object, -1e-14).is_outside() && level(&object, -1.1 * height).is_outside(), "{from}");
+        }
+    }
+
     #[test]
     fn an_end_that_changes_sides_was_swept_over() {
         // an arm of the contour ends at (0, 0); the solid is above

@@ -65,8 +65,8 @@ pub(crate) struct Prover {
     closest: Option<(usize, f64)>,
     /// Runs and the intervals (first, last) that are near them.
     near: Vec<(usize, usize, usize)>,
-    /// Objects and the intervals of the rod that may touch them, and whether what cleared one does not tell the side.
-    gates: Vec<(usize, usize, bool)>,
+    /// Objects, the intervals of the rod that may touch them, and the run if what cleared an interval of it does not tell the side.
+    gates: Vec<(usize, usize, Option<usize>)>,
 }
 
 /// What a proof came to.
@@ -259,10 +259,10 @@ impl<'a> Search<'a> {
                 continue;
             }
             let Prover { lines, gates, .. } = &mut *self.known;
-            let (object, shape) = (self.object, self.shape);
-            let touch = |k: usize, line: &Line| gates.push((object, i + k, !line.outward));
+            let (object, run, shape) = (self.object, self.run, self.shape);
+            let touch = |k: usize, line: &Line| gates.push((object, i + k, (!line.outward).then_some(run)));
             let limits = (least, GATE.max(least));
-            if let Some((count, bound)) = lines[self.run].clear(nodes, |k| interval(shape, i + k), limits, touch) {
+            if let Some((count, bound)) = lines[run].clear(nodes, |k| interval(shape, i + k), limits, touch) {
                 self.proof.lower = self.proof.lower.min(bound);
                 i += count;
                 continue;
@@ -304,7 +304,7 @@ impl<'a> Search<'a> {
     fn note(&mut self, i: usize, bound: f64, unsigned: bool) {
         self.proof.lower = self.proof.lower.min(bound);
         if bound <= GATE {
-            self.known.gates.push((self.object, i, unsigned));
+            self.known.gates.push((self.object, i, unsigned.then_some(self.run)));
         }
     }
 

@@ -18,7 +18,8 @@ impl Search<'_> {
     }
 
     /// Asks on which side of an object the rod is, where it may have touched it: in the middle of the stretch behind those
-    /// intervals, at the tip where nothing is behind, and in an interval that is clear of the run, but on either side.
+    /// intervals, at the tip where nothing is behind, and in an interval that is clear of the run, but on either side. There a rod
+    /// that goes in at one end of the run and out at the other, through notches, is inside where it passes the run's middle.
     pub(super) fn sides(&mut self) {
         let mut gates = std::mem::take(&mut self.known.gates);
         gates.sort_unstable();
@@ -35,7 +36,7 @@ impl Search<'_> {
                 Some(next) if next <= i + 1 => None,
                 next => Some(i + 1 + (next.unwrap_or(last) - i - 1) / 2),
             };
-            let doubts = unsigned.then_some([(i, 0.5), (i + 1, 0.0)]);
+            let doubts = unsigned.map(|run| [(i, 0.5), (i + 1, 0.0), (i, self.beside_middle(i, run))]);
             let asked = behind.map(|k| (k, 0.0)).into_iter().chain(doubts.into_iter().flatten());
             for (k, share) in asked {
                 if !self.is_outside(k, share) {
@@ -45,6 +46,15 @@ impl Search<'_> {
             }
         }
         self.known.gates = gates;
+    }
+
+    /// The share of interval `i` at which the rod passes the middle of a run.
+    fn beside_middle(&self, i: usize, run: usize) -> f64 {
+        let [Some(a), Some(b)] = self.world.run(run).ends else { return 0.5 };
+        let [from, to] = [&self.shape.nodes[i].at, &self.shape.nodes[i + 1].at];
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let along = (0.5 * (a.x + b.x) - from.x) * dx + (0.5 * (a.y + b.y) - from.y) * dy;
+        (along / (dx * dx + dy * dy).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
     }
 
     /// The node `k`, or a point by a share of the way to the next one.
