@@ -8,6 +8,7 @@ use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
 use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
+use crate::gap::GAP_TOLERANCE;
 use crate::gap::scan::{Scan, Scanner};
 use crate::path::ClampPath;
 use crate::scene::setup::Setup;
@@ -57,7 +58,7 @@ pub struct Sweep<'a> {
     ahead: Option<Step>,
     pending: VecDeque<Item>,
     over: bool,
-    /// Path parameter up to which the rod is known.
+    /// Path parameter of the last state, or of a snap without landing: how far it came.
     reached: f64,
     /// Where the last transition was, and how many there were at that pose.
     crowd: (f64, usize),
@@ -365,8 +366,12 @@ impl<'a> Sweep<'a> {
     }
 
     /// Whether the clamp is inside an object at `tau`.
-    fn is_clamp_inside(&mut self, tau: f64) -> bool {
-        self.stepper.scan(&Configuration::free(tau)).clamp_inside
+    fn is_clamp_inside(&self, tau: f64) -> bool {
+        let Setup { world, path, .. } = self.setup();
+        let Pose { x, y, .. } = path.at(tau);
+        let mut inside = false;
+        world.objects_at(x, y, |object| inside |= world.is_inside(object, x, y, GAP_TOLERANCE));
+        inside
     }
 
     fn jumped(&mut self, last: Seen, landed: Point) -> Point {
@@ -473,7 +478,6 @@ impl<'a> Sweep<'a> {
     }
 
     fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
-        self.reached = self.reached.max(after.configuration.tau());
         let event = Event { kind, before: self.state(before), after: self.state(after) };
         self.pending.push_back(Item::Event(event));
     }

@@ -2,8 +2,9 @@
 //! tangential or the other way round.
 
 use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
+use crate::scene::corner::{Corner, Passing};
 use crate::scene::world::World;
-use rod_core::Hold;
+use rod_core::{Hold, Section};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
@@ -52,15 +53,12 @@ pub(crate) fn beyond_corner(mut configuration: Configuration, world: &World<'_>)
 pub(crate) fn across_corner(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
     let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
     let corner = corner_ahead(&configuration, last, world)?.0;
-    let (range, phi) = (world.range(corner), configuration.slope(last));
-    let (from, to) = (world.support(corner, range.from).alpha, world.support(corner, range.to).alpha);
-    let Hold::Tangent { offset } = lying(phi - 0.5 * (from + to)) else { return None };
-    let alpha = phi - offset;
-    let leans = (from.min(to)..=from.max(to)).contains(&alpha);
-    configuration.contacts[last] = Held { stretch: corner, hold: Hold::Tangent { offset } };
-    configuration.set(Unknown::Parameter(last), range.from + (alpha - from) / (to - from) * (range.to - range.from));
+    let phi = configuration.slope(last);
+    let Passing { alpha, t, .. } = Corner::new(world, corner).passing(&Section { x: 0.0, y: 0.0, phi, kappa: 0.0 })?;
+    configuration.contacts[last] = Held { stretch: corner, hold: lying(phi - alpha) };
+    configuration.set(Unknown::Parameter(last), t);
     configuration.set(Unknown::ArcLength(last), 1.0);
-    leans.then_some(configuration)
+    Some(configuration)
 }
 
 /// The convex corner at the end of the piece that contact j is next to, and on which side of the piece it is.

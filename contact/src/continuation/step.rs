@@ -173,7 +173,7 @@ impl<'a> Stepper<'a> {
         Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
     }
 
-    pub fn scan(&mut self, configuration: &Configuration) -> Scan {
+    fn scan(&mut self, configuration: &Configuration) -> Scan {
         self.scanner.scan(&self.corrector.setup, configuration)
     }
 
