@@ -93,6 +93,8 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
         #[command(flatten)]
+        trust: Trust,
+        #[command(flatten)]
         written: Written,
     },
     /// Listen to a sensor: contact points, phases and flags as they come
@@ -143,6 +145,27 @@ pub enum Command {
         /// The command
         command: Option<String>,
     },
+}
+
+/// How far a recording and its rod can be trusted.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "How far recording and rod can be trusted")]
+pub struct Trust {
+    /// Take samples, rod and poses as they are: nothing is corrected, and standard deviations are of the noise only
+    #[arg(long, conflicts_with = "setup")]
+    pub as_is: bool,
+    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+    /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recording]
+    #[arg(long, value_name = "FILE")]
+    pub noise: Option<PathBuf>,
+    /// Most kinks of the reactions to be expected by chance, per scan
+    #[arg(long, value_name = "N")]
+    pub false_alarms: Option<f64>,
+    /// Largest standard deviation of a contact point across the contour, in lengths of the rod; less certain points are left out
+    #[arg(long, value_name = "LENGTHS")]
+    pub largest_sigma: Option<f64>,
 }
 
 /// How a recording, or the table of a stage, is written, where the file alone does not tell.

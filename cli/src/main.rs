@@ -4,7 +4,7 @@ mod arguments;
 mod guide;
 mod signals;
 
-use arguments::{Arguments, Command, FakeSensor, Simulate};
+use arguments::{Arguments, Command, FakeSensor, Simulate, Trust};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::contact::Stop;
-use vibrissa::reconstruct::NoiseModel;
+use vibrissa::reconstruct::{Budget, NoiseModel};
+use vibrissa::{Rod, Settings};
 use vibrissa_cli::{
     Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Reconstructed, Recording, Scan,
     Scene, SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output,
@@ -39,8 +40,8 @@ fn main() -> ExitCode {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
-        Command::Reconstruct { recording, written, rod, truth, out } => {
-            reconstruct(&recording, &written.into(), &rod, truth, out)
+        Command::Reconstruct { recording, written, trust, rod, truth, out } => {
+            reconstruct(&recording, &written.into(), trust, &rod, truth, out)
         }
         Command::Live { sensor, written, rod, stage, path, setup, out } => {
             live(&sensor, written.into(), &rod, stage, path.as_deref(), setup.as_deref(), &out)
@@ -194,19 +195,22 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
 fn reconstruct(
     file: &Path,
     how: &ReadOptions,
+    trust: Trust,
     rod: &Path,
     truth: Option<PathBuf>,
     out: Option<PathBuf>,
 ) -> Result<ExitCode, Error> {
     signals::end();
     let mut inputs = vec![file.to_path_buf(), rod.to_path_buf()];
+    inputs.extend(trust.setup.iter().chain(&trust.noise).cloned());
     let rod = read_rod(rod)?;
+    let settings = settings(trust, &rod)?;
     let truth = truth.map(|scene| read_scene(&scene)).transpose()?;
     let recording = Recording::read(file, &rod, how)?;
     for warning in recording.warnings() {
         warn(&format!("warning: {warning}\n"));
     }
-    let mut found = Reconstructed::new(recording, rod)?;
+    let mut found = Reconstructed::new(recording, rod, &settings)?;
     if let Some(scene) = truth {
         scene.check_start()?;
         inputs.extend(scene.files.iter().cloned());
@@ -225,6 +229,24 @@ fn reconstruct(
         warn(&format!("warning: {}: {finding}\n", file.display()));
     }
     Ok(ExitCode::from(UNFINISHED))
+}
+
+/// The settings of a reconstruction.
+fn settings(trust: Trust, rod: &Rod) -> Result<Settings, Error> {
+    let Trust { as_is, setup, noise, false_alarms, largest_sigma } = trust;
+    let budget = setup
+        .map(|file| read_setup(&file))
+        .transpose()?
+        .and_then(|setup| setup.errors)
+        .map(|errors| errors.budget(rod));
+    let noise = noise.map(|file| read_noise(&file)).transpose()?;
+    let default = Settings::default();
+    Ok(Settings {
+        noise: noise.map(|model| model.channels()),
+        false_alarms: false_alarms.unwrap_or(default.false_alarms),
+        largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
+        budget: if as_is { Some(Budget::NONE) } else { budget },
+    })
 }
 
 fn live(

@@ -37,6 +37,8 @@ pub mod score;
 #[cfg(feature = "sensor-noise")]
 mod sensor_noise;
 #[cfg(feature = "std")]
+mod systematic;
+#[cfg(feature = "std")]
 mod two_contacts;
 
 // Covariances are its matrices.
@@ -66,5 +68,7 @@ pub use rod_core::Sample;
 pub use scan::{Fault, Halt, Travel, noise_estimate};
 #[cfg(feature = "sensor-noise")]
 pub use sensor_noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
+#[cfg(feature = "std")]
+pub use systematic::{Budget, Calibration, Source, SourceEstimate};
 #[cfg(feature = "std")]
 pub use two_contacts::Unresolved;

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// Columns of contour.csv.
-const COLUMNS: [&str; 6] = ["stretch", "kind", "x", "y", "alpha", "sigma"];
+const COLUMNS: [&str; 7] = ["stretch", "kind", "x", "y", "alpha", "sigma", "sigma_systematic"];
 
 impl Reconstructed {
     /// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg.

@@ -67,13 +67,15 @@ struct TouchRecord {
     force: Option<f64>,
     sigma_x: Option<f64>,
     sigma_y: Option<f64>,
+    systematic_x: Option<f64>,
+    systematic_y: Option<f64>,
     reason: Option<String>,
 }
 
 impl TouchRecord {
     fn of(touch: &Result<Touch, Reason>) -> Self {
         match touch {
-            Ok(Touch { x, y, s, alpha, force, covariance }) => Self {
+            Ok(Touch { x, y, s, alpha, force, covariance, systematic }) => Self {
                 x: Some(*x),
                 y: Some(*y),
                 s: Some(*s),
@@ -81,6 +83,8 @@ impl TouchRecord {
                 force: Some(*force),
                 sigma_x: Some(covariance[(0, 0)].max(0.0).sqrt()),
                 sigma_y: Some(covariance[(1, 1)].max(0.0).sqrt()),
+                systematic_x: Some(systematic[(0, 0)].max(0.0).sqrt()),
+                systematic_y: Some(systematic[(1, 1)].max(0.0).sqrt()),
                 reason: None,
             },
             Err(reason) => Self { reason: Some(reason.to_string()), ..Self::default() },

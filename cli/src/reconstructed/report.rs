@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
 use vibrissa::reconstruct::score::{Deviation, KinkScore};
-use vibrissa::reconstruct::{Gap, Plausibility, Shares};
+use vibrissa::reconstruct::{Calibration, Gap, Plausibility, Shares};
 use vibrissa::{Label, Pose, Rod};
 
 /// report.json.
@@ -21,6 +21,7 @@ pub(super) struct ReportRecord {
     runs: Vec<RunRecord>,
     kinks: Vec<KinkRecord>,
     gaps: Vec<GapRecord>,
+    calibration: Option<Calibration>,
     physics: PhysicsRecord,
     truth: Option<TruthRecord>,
 }
@@ -355,6 +356,7 @@ impl ReportRecord {
             runs: runs.collect(),
             kinks: kinks.collect(),
             gaps: found.contour.gaps.iter().map(gap).collect(),
+            calibration: result.calibration.clone(),
             physics: PhysicsRecord::of(&found.check, rod),
             truth: found.comparison.as_ref().map(Into::into),
         }

@@ -42,17 +42,22 @@ pub struct Reconstructed {
 }
 
 impl Reconstructed {
-    /// Reconstructs a recording as it is: nothing in it is corrected.
+    /// Reconstructs a recording of this rod.
     ///
     /// # Errors
-    /// [`Error::Reconstruction`]: too few samples are of use.
-    pub fn new(recording: Recording, rod: Rod) -> Result<Self, Error> {
+    /// [`Error::Reconstruction`]: too few samples are of use, or a setting is not possible.
+    pub fn new(recording: Recording, rod: Rod, settings: &Settings) -> Result<Self, Error> {
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
-        let found = reconstruct(&rod, &samples, &Settings::default())
+        let found = reconstruct(&rod, &samples, settings)
             .map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
         let contour = found.contour(&Assembly::default());
-        let check = plausibility(&rod, &samples);
+        // the physics of what is left after the corrections
+        let mut check = match &found.calibration {
+            Some(calibration) => plausibility(&calibration.rod(&rod), &calibration.corrected(&rod, &samples)),
+            None => plausibility(&rod, &samples),
+        };
+        check.findings.extend(found.findings());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self { name, recording, rod, samples, rows, found, contour, check, comparison: None })
     }

@@ -5,6 +5,7 @@ use super::report::Answered;
 use super::result::Reconstructed;
 use crate::table::Table;
 use std::fmt::Write;
+use vibrissa::reconstruct::SourceEstimate;
 use vibrissa::reconstruct::score::Deviation;
 
 impl Reconstructed {
@@ -29,12 +30,38 @@ impl Reconstructed {
              {first_answered}, the second of {second_answered}"
         )?;
         writeln!(text, "{} kinks, {} gaps", self.found.kinks.len(), self.contour.gaps.len())?;
+        self.tell_calibration(text)?;
         self.tell_physics(text)?;
         text.push_str(&self.run_table().to_string());
         match &self.comparison {
             Some(comparison) => comparison.tell(text),
             None => Ok(()),
         }
+    }
+
+    /// What was taken off the samples, and what may be left.
+    fn tell_calibration(&self, text: &mut String) -> std::fmt::Result {
+        let Some(calibration) = &self.found.calibration else { return writeln!(text, "corrections: none, as is") };
+        let taken: Vec<_> = calibration.sources.iter().filter(|estimate| estimate.taken != 0.0).collect();
+        if taken.is_empty() {
+            writeln!(text, "corrections: none needed")?;
+        }
+        for &SourceEstimate { source, taken, sigma, .. } in taken {
+            let (name, unit) = source.name();
+            let space = if unit.is_empty() { "" } else { " " };
+            writeln!(text, "correction: {name} {taken:+.3e}{space}{unit}, known to {sigma:.1e}{space}{unit}")?;
+        }
+        let touches = self.found.readings.iter().filter_map(|reading| reading.touch.ok());
+        let mut systematic: Vec<f64> = touches.map(|touch| touch.sigma_systematic()).collect();
+        systematic.sort_unstable_by(f64::total_cmp);
+        if let Some(median) = systematic.get(systematic.len() / 2) {
+            writeln!(text, "error that all points share: {:.1e} mm across the contour in the median", 1e3 * median)?;
+        }
+        let ties = calibration.ties.iter().map(|(a, b, _)| format!("{a} and {b}")).collect::<Vec<_>>();
+        if calibration.is_applied() && !ties.is_empty() {
+            writeln!(text, "not told apart by this scan: {}", ties.join("; "))?;
+        }
+        Ok(())
     }
 
     fn tell_physics(&self, text: &mut String) -> std::fmt::Result {

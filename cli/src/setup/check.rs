@@ -1,6 +1,7 @@
 //! From a document to a setup: every number checked where it stands.
 
 use super::document::{AccuracyTable, Document, MountingTable, SensorTable, TareTable};
+use super::errors::errors;
 use super::field::{component, positive, units};
 use super::gauges::gauges;
 use super::recording::recording;
@@ -18,7 +19,7 @@ use vibrissa::hw::{
 
 /// The setup of a document; files that it names are in the directory.
 pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -> Result<Setup, Fault> {
-    let Document { sensor, mounting, accuracy, tare, identification, recording: played } = document;
+    let Document { sensor, mounting, accuracy, tare, identification, recording: played, errors: shared } = document;
     let table = |name| place_of(tree, name).unwrap_or(0..0);
     let (calibration, rated) = match gauges(sensor, table("sensor"), directory)? {
         Some((gauges, rated)) => (Some(SensorCalibration::Gauges(gauges)), rated),
@@ -31,6 +32,7 @@ pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -
         rate: sensor.rate.as_ref().map(|rate| positive("rate", rate, "Hz")).transpose()?,
         recording: recording(played, calibration.as_ref())?,
         calibration,
+        errors: shared.as_ref().map(errors).transpose()?,
         mounting: seat(mounting, table("mounting"))?,
         rated,
         class,

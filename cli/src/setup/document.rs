@@ -19,6 +19,27 @@ pub(super) struct Document {
     pub identification: IdentificationTable,
     #[serde(default)]
     pub recording: RecordingTable,
+    pub errors: Option<ErrorsTable>,
+}
+
+/// `[errors]`: how large the errors may be that all samples of a scan share, as standard deviations.
+#[derive(Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ErrorsTable {
+    pub bias_force: Option<Spanned<f64>>,
+    pub bias_moment: Option<Spanned<f64>>,
+    pub drift_force: Option<Spanned<f64>>,
+    pub drift_moment: Option<Spanned<f64>>,
+    pub gain: Option<Spanned<f64>>,
+    pub cross_talk: Option<Spanned<f64>>,
+    pub clamp_angle: Option<Spanned<f64>>,
+    pub lever: Option<Spanned<f64>>,
+    pub stiffness: Option<Spanned<f64>>,
+    pub length: Option<Spanned<f64>>,
+    pub natural_curvature: Option<Spanned<f64>>,
+    pub clamp_compliance: Option<Spanned<f64>>,
+    pub lag: Option<Spanned<f64>>,
+    pub stage_scale: Option<Spanned<f64>>,
 }
 
 /// `[sensor]`: what it sends.

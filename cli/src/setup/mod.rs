@@ -6,11 +6,13 @@
 mod calibration;
 mod check;
 mod document;
+mod errors;
 mod field;
 mod gauges;
 mod recording;
 
 pub use calibration::{Gauges, SensorCalibration};
+pub use errors::SharedErrors;
 pub use recording::{RecordingSetup, RecordingTime};
 
 use crate::{SceneError, toml_file};
@@ -45,6 +47,8 @@ pub struct Setup {
     pub half_window: Option<f64>,
     /// What of a recording is meant.
     pub recording: RecordingSetup,
+    /// How large the errors may be that all samples of a scan share; none without the table `errors`.
+    pub errors: Option<SharedErrors>,
     /// What may be a mistake in the file: angles that look like radians where degrees belong.
     pub warnings: Vec<String>,
     /// The file of the setup, and the calibration file that it names.
@@ -74,6 +78,7 @@ impl Default for Setup {
             tare: TareSetup { seconds: 1.0, change: None },
             half_window: None,
             recording: RecordingSetup::default(),
+            errors: None,
             warnings: Vec::new(),
             files: Vec::new(),
         }
@@ -81,7 +86,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`, `identification`, `recording`.
+    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`, `identification`, `recording`, `errors`.
     ///
     /// # Errors
     /// [`SceneError`]: the file cannot be read, or is no setup.

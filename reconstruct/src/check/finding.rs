@@ -1,6 +1,8 @@
 //! A conclusion of the check by the physics.
 
 use super::shares::Shares;
+use crate::phase::Basis;
+use crate::systematic::Source;
 use std::fmt;
 
 /// Relative difference of the stiffness from which on the recording does not fit the rod.
@@ -85,6 +87,31 @@ pub enum Finding {
         /// In lengths of the rod.
         lengths: f64,
     },
+    /// No stretch of the scan is of a free rod, and nothing else tells the bias of the sensor.
+    NoFreeStretch,
+    /// The scan contradicts what is known of a source of error: the estimate is beyond three standard deviations of its budget.
+    Budget {
+        /// The source.
+        of: Source,
+        /// The estimate, in the unit of the source.
+        value: f64,
+        /// Its standard deviation.
+        sigma: f64,
+        /// The standard deviation that was known before.
+        budget: f64,
+    },
+    /// After all corrections, a criterion along the contacts that it holds for departs from 0 by more than noise and errors explain.
+    Misfit {
+        /// Which.
+        criterion: Basis,
+        /// Root mean square, in standard deviations of the noise.
+        times: f64,
+    },
+    /// Many samples with a single contact have no contact point.
+    Unanswered {
+        /// Share of the samples with a single contact.
+        share: f64,
+    },
     /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
     Unexplained {
         /// The shares of what a single contact explains or not.
@@ -104,7 +131,8 @@ impl Finding {
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
-            Self::Sign | Self::Units { .. } | Self::MomentSign => true,
+            Self::Sign | Self::Units { .. } | Self::MomentSign | Self::NoFreeStretch | Self::Budget { .. } => true,
+            Self::Misfit { .. } | Self::Unanswered { .. } => true,
         }
     }
 }
@@ -149,6 +177,29 @@ impl fmt::Display for Finding {
             Self::Length { given, suggested } => write!(
                 f,
                 "the rod is {given:.5} m long, but contacts of its tip are {suggested:.5} m from the clamp"
+            ),
+            Self::NoFreeStretch => f.write_str(
+                "no stretch of the scan is of a free rod, so that the bias of the sensor is not known: begin and end scans without \
+                 contact, or state the bias",
+            ),
+            Self::Budget { of, value, sigma, budget } => {
+                let unit = of.name().1;
+                let space = if unit.is_empty() { "" } else { " " };
+                write!(
+                    f,
+                    "the scan asks for {of} = {value:.3e} +- {sigma:.1e}{space}{unit}, beyond three times the {budget:.1e}{space}{unit} \
+                     that it may have: correct it, or state a larger error"
+                )
+            }
+            Self::Misfit { criterion, times } => write!(
+                f,
+                "after all corrections the {criterion} criterion departs from 0 by {times:.1} times its noise: friction, taper, \
+                 hysteresis or another error that is not in the budget; the contact points may be wrong by more than they say"
+            ),
+            Self::Unanswered { share } => write!(
+                f,
+                "{:.0} % of the samples with a single contact have no contact point: see the reasons of the samples",
+                100.0 * share
             ),
             Self::Angle { largest } => {
                 write!(f, "phi0 is up to {largest:.4} rad in size: is it in degrees? Expected radians")

@@ -33,7 +33,7 @@ use std::ops::Range;
 /// let touch = |k: i32| {
 ///     let x = 1e-3 * f64::from(10 - k);
 ///     let (y, alpha) = (50.0 * x * x, (100.0 * x).atan());
-///     Touch { s: 0.08, x, y, alpha, force: 0.1, covariance: Matrix2::zeros() }
+///     Touch { s: 0.08, x, y, alpha, force: 0.1, covariance: Matrix2::zeros(), systematic: Matrix2::zeros() }
 /// };
 /// let touches: Vec<Touch> = (0..20).map(touch).collect();
 /// let label = |k: usize| if k == 12 || k == 13 { Label::BB } else { Label::B };

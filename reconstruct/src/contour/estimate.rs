@@ -1,7 +1,7 @@
 //! The contour as one scan, or several, determine it.
 
 use super::gap::Gap;
-use super::trace::{Trace, TraceKind};
+use super::trace::{Trace, TraceKind, TracePoint};
 
 /// The parts of a contour that are known, and the gaps between them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,6 +29,8 @@ pub struct TraceRow {
     pub alpha: f64,
     /// Standard deviation across the contour, m.
     pub sigma: f64,
+    /// The part of it that errors cause which all samples of a scan share, m.
+    pub sigma_systematic: f64,
 }
 
 impl ContourEstimate {
@@ -37,11 +39,20 @@ impl ContourEstimate {
         self.traces.iter().filter(move |trace| trace.kind == kind)
     }
 
-    /// All points, with the number and the kind of their trace: the columns `stretch,kind,x,y,alpha,sigma`.
+    /// All points, with the number and the kind of their trace: the columns
+    /// `stretch,kind,x,y,alpha,sigma,sigma_systematic`.
     pub fn rows(&self) -> impl Iterator<Item = TraceRow> {
         self.traces.iter().enumerate().flat_map(|(stretch, trace)| {
             let kind = trace.kind;
-            trace.points.iter().map(move |p| TraceRow { stretch, kind, x: p.x, y: p.y, alpha: p.alpha, sigma: p.sigma })
+            trace.points.iter().map(move |&TracePoint { x, y, alpha, sigma, systematic }| TraceRow {
+                stretch,
+                kind,
+                x,
+                y,
+                alpha,
+                sigma,
+                sigma_systematic: systematic,
+            })
         })
     }
 }

@@ -49,7 +49,7 @@ impl Line {
                 way += mean.dot(&(at - last));
             }
             let sigma = variance(&normal).sqrt().hypot(bin.bias);
-            line.points.push(TracePoint { x: at.x, y: at.y, alpha: angle(&tangent), sigma });
+            line.points.push(TracePoint { x: at.x, y: at.y, alpha: angle(&tangent), sigma, systematic: 0.0 });
             line.along.push(variance(&along).sqrt());
             line.way.push(way);
             line.samples.push(bin.from..bin.to);

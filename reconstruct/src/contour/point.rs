@@ -30,7 +30,8 @@ impl Point {
         }
         let force = if touch.force.is_finite() { touch.force.max(0.0) } else { 0.0 };
         let (sin, cos) = touch.alpha.sin_cos();
-        let c = touch.covariance;
+        // what all samples share does not average out, and does not depend on how the points are assembled
+        let c = touch.covariance - touch.systematic;
         let known = c.iter().all(|entry| entry.is_finite()) && c[(0, 0)] >= 0.0 && c[(1, 1)] >= 0.0;
         let covariance = if known { 0.5 * shared * (c + c.transpose()) } else { Matrix2::zeros() };
         let tangent = Vector2::new(cos, sin);

@@ -44,7 +44,7 @@ mod tests {
     fn what_lies_on_a_chord_is_left_out() {
         let point = |k: i32| {
             let x = f64::from(k) * 1e-5;
-            TracePoint { x, y: 50.0 * x * x, alpha: (100.0 * x).atan(), sigma: 0.0 }
+            TracePoint { x, y: 50.0 * x * x, alpha: (100.0 * x).atan(), sigma: 0.0, systematic: 0.0 }
         };
         let points: Vec<_> = (-1000..=1000).map(point).collect();
         let few = simplified(&points, 0.5, 1e-6);

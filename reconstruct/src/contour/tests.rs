@@ -22,7 +22,15 @@ fn touches(count: usize, sigma: f64, seed: u64, path: impl Fn(f64) -> (f64, f64,
             let covariance = Matrix2::new(0.545, 0.455, 0.455, 0.545) * square;
             let half = 0.5_f64.sqrt();
             let (x, y) = (x + half * (u - v), y + half * (u + v));
-            Touch { s: 0.09, x, y, alpha: fy.atan2(fx), force: fx.hypot(fy), covariance }
+            Touch {
+                s: 0.09,
+                x,
+                y,
+                alpha: fy.atan2(fx),
+                force: fx.hypot(fy),
+                covariance,
+                systematic: nalgebra::Matrix2::zeros(),
+            }
         })
         .collect()
 }
@@ -172,7 +180,9 @@ fn gaps_are_where_there_is_no_single_contact() {
     let mut table = csv::Writer::from_writer(Vec::new());
     rows.iter().for_each(|row| table.serialize(row).unwrap());
     let table = String::from_utf8(table.into_inner().unwrap()).unwrap();
-    assert!(table.starts_with("stretch,kind,x,y,alpha,sigma\n0,single,") && table.contains("\n4,second,"));
+    assert!(
+        table.starts_with("stretch,kind,x,y,alpha,sigma,sigma_systematic\n0,single,") && table.contains("\n4,second,")
+    );
     assert!(rows.windows(2).all(|pair| pair[0].stretch <= pair[1].stretch) && rows[0].kind == TraceKind::Single);
 }
 

@@ -38,6 +38,8 @@ pub struct TracePoint {
     pub alpha: f64,
     /// Standard deviation of the contour across its tangent, m.
     pub sigma: f64,
+    /// The part of it that errors cause which all samples of a scan share, m.
+    pub systematic: f64,
 }
 
 /// How a trace becomes a contour.
@@ -101,7 +103,7 @@ impl Trace {
     /// ```
     /// use rod_contours::Contour;
     /// use rod_reconstruct::{Trace, TraceCurve, TraceKind, TracePoint};
-    /// let point = |x: f64| TracePoint { x, y: x * x, alpha: (2.0 * x).atan(), sigma: 1e-3 };
+    /// let point = |x: f64| TracePoint { x, y: x * x, alpha: (2.0 * x).atan(), sigma: 1e-3, systematic: 0.0 };
     /// let points = vec![point(-1.0), point(-0.5), point(0.0), point(0.5), point(1.0)];
     /// let trace = Trace { kind: TraceKind::Single, samples: 0..5, reversed: false, points };
     /// assert!((trace.contour(TraceCurve::Polyline)?.gap(0.25, 0.0) - 0.1118).abs() < 1e-4);

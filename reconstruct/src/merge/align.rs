@@ -50,7 +50,7 @@ impl Offset {
 /// use rod_reconstruct::{ContourEstimate, Trace, TraceKind, TracePoint, align};
 /// let scan = |up: f64| {
 ///     let points = (-50..=50).map(|k| 1e-4 * f64::from(k)).map(|x| {
-///         TracePoint { x, y: 50.0 * x * x + up, alpha: (100.0 * x).atan(), sigma: 1e-5 }
+///         TracePoint { x, y: 50.0 * x * x + up, alpha: (100.0 * x).atan(), sigma: 1e-5, systematic: 0.0 }
 ///     });
 ///     let trace = Trace { kind: TraceKind::Single, samples: 0..101, reversed: false, points: points.collect() };
 ///     ContourEstimate { traces: vec![trace], gaps: Vec::new() }

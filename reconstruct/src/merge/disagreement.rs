@@ -17,7 +17,7 @@ const PLACES: f64 = 400.0;
 /// let scan = |deep: f64| {
 ///     let y = |x: f64| if x.abs() < 1e-3 { deep * (1.0 - 1e3 * x.abs()) } else { 0.0 };
 ///     let x = (-50..=50).map(|k| 1e-4 * f64::from(k));
-///     let points = x.map(|x| TracePoint { x, y: y(x), alpha: 0.0, sigma: 1e-5 }).collect();
+///     let points = x.map(|x| TracePoint { x, y: y(x), alpha: 0.0, sigma: 1e-5, systematic: 0.0 }).collect();
 ///     let trace = Trace { kind: TraceKind::Single, samples: 0..101, reversed: false, points };
 ///     ContourEstimate { traces: vec![trace], gaps: Vec::new() }
 /// };

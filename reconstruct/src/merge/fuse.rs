@@ -112,16 +112,19 @@ fn keys(one: &Trace, other: &Trace, along: &[f64], far: f64) -> Vec<f64> {
 /// The mean of a point and another trace; none where the other one is more certain and they disagree.
 fn mean(place: &TracePoint, other: &Trace, far: f64) -> Option<TracePoint> {
     let Some(near) = beside(place, other, far) else { return Some(*place) };
-    let (own, of_other) = (place.sigma * place.sigma, near.point.sigma * near.point.sigma);
     if !agrees(place, &near) {
-        return (own <= of_other).then_some(*place);
+        return (place.sigma <= near.point.sigma).then_some(*place);
     }
+    let random = |point: &TracePoint| (point.sigma * point.sigma - point.systematic * point.systematic).max(0.0);
+    let (own, of_other) = (random(place), random(&near.point));
     let sum = own + of_other;
     let share = if sum > 0.0 { own / sum } else { 0.5 };
     let between = |from: f64, to: f64| from + share * (to - from);
-    let sigma = if sum > 0.0 { (own * of_other / sum).sqrt() } else { 0.0 };
+    // what all samples share may be the same in both scans
+    let systematic = between(place.systematic, near.point.systematic);
+    let sigma = (if sum > 0.0 { own * of_other / sum } else { 0.0 } + systematic * systematic).sqrt();
     let alpha = wrapped(place.alpha + share * wrapped(near.point.alpha - place.alpha));
-    Some(TracePoint { x: between(place.x, near.point.x), y: between(place.y, near.point.y), alpha, sigma })
+    Some(TracePoint { x: between(place.x, near.point.x), y: between(place.y, near.point.y), alpha, sigma, systematic })
 }
 
 /// The length of the polygon up to each point.

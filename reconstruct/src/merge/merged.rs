@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 /// ```
 /// use rod_reconstruct::{ContourEstimate, Trace, TraceKind, TracePoint, merge};
 /// let scan = |from: i32, to: i32, y: f64, sigma: f64| {
-///     let points = (from..=to).map(|k| TracePoint { x: 1e-3 * f64::from(k), y, alpha: 0.0, sigma }).collect();
+///     let points = (from..=to).map(|k| TracePoint { x: 1e-3 * f64::from(k), y, alpha: 0.0, sigma, systematic: 0.0 }).collect();
 ///     let trace = Trace { kind: TraceKind::Single, samples: 0..9, reversed: false, points };
 ///     ContourEstimate { traces: vec![trace], gaps: Vec::new() }
 /// };

@@ -35,6 +35,7 @@ fn between(a: &TracePoint, b: &TracePoint, share: f64) -> TracePoint {
         y: a.y + share * dy + left * dx,
         alpha: wrapped(a.alpha + share * wrapped(b.alpha - a.alpha)),
         sigma: a.sigma + share * (b.sigma - a.sigma),
+        systematic: a.systematic + share * (b.systematic - a.systematic),
     }
 }
 

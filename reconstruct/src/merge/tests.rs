@@ -46,6 +46,7 @@ fn exact(states: &[State], sigma: f64, seed: u64) -> Vec<(Label, Vec<Touch>)> {
             alpha: c.alpha + 10.0 * sigma / (c.force / 0.1).max(0.05) * random.normal(),
             force: c.force,
             covariance: Matrix2::identity() * sigma * sigma,
+            systematic: Matrix2::zeros(),
         };
         (Label::of(phase.contacts, phase.tip), state.contacts.iter().map(touch).collect())
     };
@@ -206,7 +207,7 @@ fn part(from: f64, to: f64, error: f64, sigma: f64) -> ContourEstimate {
     let count = 2 + ((to - from).abs() / 3e-4) as i32;
     let points = (0..=count).map(|k| from + (to - from) * f64::from(k) / f64::from(count)).map(|x| {
         let alpha = (100.0 * x).atan();
-        TracePoint { x: x - error * alpha.sin(), y: 50.0 * x * x + error * alpha.cos(), alpha, sigma }
+        TracePoint { x: x - error * alpha.sin(), y: 50.0 * x * x + error * alpha.cos(), alpha, sigma, systematic: 0.0 }
     });
     let trace = Trace { kind: TraceKind::Single, samples: 0..9, reversed: false, points: points.collect() };
     ContourEstimate { traces: vec![trace], gaps: Vec::new() }

@@ -27,7 +27,7 @@ pub(crate) fn contact(
 ///
 /// A requires that the moment vanishes at the tip, B that the criterion K does. The reactions are projected onto the condition by
 /// least squares, which removes a third of their noise. Reactions without noise stay as they are.
-fn constrained(clamp: &Clamp, covariance: &Matrix3<f64>, label: Label) -> Result<Touch, NoContact> {
+pub(crate) fn constrained(clamp: &Clamp, covariance: &Matrix3<f64>, label: Label) -> Result<Touch, NoContact> {
     let mut clamp = *clamp;
     let mut left = *covariance;
     if covariance.trace() > 0.0 {

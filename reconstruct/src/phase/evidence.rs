@@ -30,6 +30,24 @@ const MOST_STILL: f64 = 30.0;
 /// normal speed, dimensionless. Larger: noise counts more in favour of the phase that requires 0.
 const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
 
+/// Number of criteria of a place.
+pub(crate) const CRITERIA: usize = 10;
+
+/// The criteria of a place by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Criterion {
+    F0x,
+    F0y,
+    M0z,
+    /// The phase criterion K.
+    K,
+    Length,
+    Tangent,
+    /// Length and tangent of the zero of the moment that is nearest to the tip.
+    LengthByTip = 7,
+    TangentByTip,
+}
+
 /// The criteria at one place of a scan, dimensionless (lengths in L, forces in EI/L^2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
@@ -128,6 +146,32 @@ impl Evidence {
             Label::BB => [0.0, touch, 0.0, 0.0],
         };
         [(Basis::Force, free), (Basis::Criterion, k), (Basis::Length, s), (Basis::Tangent, v)]
+    }
+
+    /// The values of the criteria, in the order of [`Criterion`]; NaN where there is none.
+    pub(crate) fn values(&self) -> [f64; CRITERIA] {
+        self.quantities().map(|quantity| if quantity.sigma.is_finite() { quantity.value } else { f64::NAN })
+    }
+
+    /// The criteria in the order of [`Criterion`].
+    pub(crate) fn quantities(&self) -> [Quantity; CRITERIA] {
+        let [f0x, f0y, m0z] = self.force;
+        let [length, tangent, motion] = self.again.unwrap_or([Quantity::UNKNOWN; 3]);
+        [f0x, f0y, m0z, self.criterion, self.length, self.tangent, self.motion, length, tangent, motion]
+    }
+
+    /// Whether there is a zero of the moment nearer to the tip than the first.
+    pub(crate) fn again(&self) -> bool {
+        self.again.is_some()
+    }
+
+    /// Adds variances of errors that are not of the noise.
+    pub(crate) fn widen(&mut self, variances: &[f64; CRITERIA]) {
+        let own =
+            self.force.iter_mut().chain([&mut self.criterion, &mut self.length, &mut self.tangent, &mut self.motion]);
+        for (quantity, variance) in own.chain(self.again.iter_mut().flatten()).zip(variances) {
+            quantity.sigma = (quantity.sigma * quantity.sigma + variance).sqrt();
+        }
     }
 
     /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.

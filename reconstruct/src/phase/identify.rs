@@ -21,6 +21,8 @@ pub(crate) struct Node {
     pub index: usize,
     pub fit: LocalCubic,
     pub evidence: Evidence,
+    /// Its share of the samples of its window, which overlaps those of its neighbours.
+    pub weight: f64,
     pub place: Place,
 }
 
@@ -29,7 +31,7 @@ impl Node {
     pub fn about(track: &Track, index: usize, part: Range<usize>, noise: &Noise, widest: usize) -> Option<Self> {
         let fit = LocalCubic::about(track, index, part, noise, widest)?;
         let evidence = Evidence::of(&fit.at(track.tau[index]));
-        Some(Self { index, fit, evidence, place: Place { scores: [0.0; 5], between: None } })
+        Some(Self { index, fit, evidence, weight: 1.0, place: Place { scores: [0.0; 5], between: None } })
     }
 
     /// As one of places that are `stride` samples apart, with the break before it. Overlapping windows contain the same samples: each
@@ -37,7 +39,13 @@ impl Node {
     pub fn placed(self, stride: usize, between: Option<Break>) -> Self {
         let weight = (INDEPENDENT * stride as f64 / self.fit.window.len() as f64).min(1.0);
         let place = Place { scores: self.evidence.scores().map(|score| weight * score), between };
-        Self { place, ..self }
+        Self { place, weight, ..self }
+    }
+
+    /// With other evidence.
+    pub fn judged(&mut self, evidence: Evidence) {
+        self.place.scores = evidence.scores().map(|score| self.weight * score);
+        self.evidence = evidence;
     }
 }
 
@@ -52,7 +60,7 @@ pub(crate) struct Identified {
 }
 
 /// The parts between breaks.
-fn parts(samples: usize, breaks: &[Break]) -> Vec<(Range<usize>, Option<Break>)> {
+pub(crate) fn parts(samples: usize, breaks: &[Break]) -> Vec<(Range<usize>, Option<Break>)> {
     let mut parts = Vec::with_capacity(breaks.len() + 1);
     let (mut start, mut before) = (0, None);
     for &here in breaks {
@@ -65,8 +73,8 @@ fn parts(samples: usize, breaks: &[Break]) -> Vec<(Range<usize>, Option<Break>)>
     parts
 }
 
-/// The phases of a scan whose reactions break at `breaks`.
-pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identified {
+/// The places of a scan whose reactions break at `breaks`.
+pub(crate) fn places(track: &Track, noise: &Noise, breaks: &[Break]) -> Vec<Node> {
     let mut nodes = Vec::new();
     for (part, before) in parts(track.tau.len(), breaks) {
         let mut between = before;
@@ -81,7 +89,17 @@ pub(crate) fn identify(track: &Track, noise: &Noise, breaks: &[Break]) -> Identi
             index = (index + stride).min(part.end - 1);
         }
     }
-    let labels = Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec();
+    nodes
+}
+
+/// The label of each place and its margin.
+pub(crate) fn labels(nodes: &[Node]) -> Vec<(Label, f64)> {
+    Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec()
+}
+
+/// The phases of a scan with these places.
+pub(crate) fn identify(track: &Track, noise: &Noise, nodes: Vec<Node>) -> Identified {
+    let labels = labels(&nodes);
     let runs = runs(track, noise, &nodes, &labels);
     Identified { nodes, runs, labels }
 }

@@ -25,13 +25,15 @@ mod trellis;
 #[cfg(feature = "std")]
 pub use basis::Basis;
 #[cfg(feature = "std")]
-pub(crate) use contact::contact;
+pub(crate) use contact::{constrained, contact};
 #[cfg(feature = "std")]
 pub(crate) use diagram::Break;
 #[cfg(feature = "std")]
 pub use evidence::Evidence;
 #[cfg(feature = "std")]
-pub(crate) use identify::{Identified, Node, identify};
+pub(crate) use evidence::{CRITERIA, Criterion};
+#[cfg(feature = "std")]
+pub(crate) use identify::{Identified, Node, identify, labels, parts, places};
 pub use label::Label;
 #[cfg(feature = "std")]
 pub use quantity::Quantity;

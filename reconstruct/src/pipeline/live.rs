@@ -247,7 +247,7 @@ impl Live {
             Label::Free => Err(Reason::Free),
             Label::A | Label::B => contact(&self.track.clamps[at], self.track.tau[at], &node.fit, &self.noise, *label)
                 .map_err(Reason::NoContact)
-                .and_then(|touch| sure(touch, self.units, self.largest_sigma)),
+                .and_then(|touch| sure(touch, self.units, self.largest_sigma, false)),
             Label::BA | Label::BB => Err(Reason::Live),
         };
         Some(Reading { label: *label, margin: *margin, touch, ..Reading::without(*label, Reason::Free) })

@@ -4,6 +4,7 @@
 //! samples come, except for several contacts; [`LiveSession`] keeps the answers together with the samples that they are for.
 
 mod answers;
+mod doubts;
 mod live;
 mod live_settings;
 mod nearest;

@@ -55,9 +55,11 @@ impl Reading {
     }
 }
 
-/// The point in SI units, if it is known well enough.
-pub(super) fn sure(touch: Touch, units: Units, largest_sigma: f64) -> Result<Touch, Reason> {
+/// The point in SI units, if it is known well enough. Of clean samples only the noise counts: a contact that has just begun is exact,
+/// though a bias that nobody knows of might move it anywhere.
+pub(super) fn sure(touch: Touch, units: Units, largest_sigma: f64, clean: bool) -> Result<Touch, Reason> {
     let sigma = touch.sigma_normal();
+    let sigma = if clean { (sigma * sigma - touch.sigma_systematic().powi(2)).max(0.0).sqrt() } else { sigma };
     if sigma <= largest_sigma {
         Ok(touch.in_units(units))
     } else {

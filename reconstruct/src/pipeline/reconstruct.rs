@@ -5,9 +5,10 @@ use super::reading::{Reading, Reason};
 use super::reconstruction::Reconstruction;
 use super::settings::{ReconstructError, Settings, positive};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
-use crate::phase::{Break, Label, identify};
+use crate::phase::{Break, Label, identify, places};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{Noise, Track, dimensionless};
+use crate::systematic::{Budget, Errors, calibrate};
 use rod_core::{Rod, Sample};
 
 /// Fewest usable samples of a scan.
@@ -26,8 +27,8 @@ const FEWEST: usize = 20;
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
     positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
-    let units = rod.units();
-    let (track, places) = Track::new(rod, samples);
+    let mut units = rod.units();
+    let (mut track, numbered) = Track::new(rod, samples);
     if track.len() < FEWEST {
         return Err(ReconstructError::TooFew { usable: track.len(), samples: samples.len(), fewest: FEWEST });
     }
@@ -45,13 +46,40 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         .iter()
         .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
         .collect();
-    let identified = identify(&track, &noise, &breaks);
-    let usable =
-        Answers { track: &track, kinks: &kinks, noise: &noise, identified: &identified, units, settings }.all(&breaks);
+    let mut nodes = places(&track, &noise, &breaks);
+    let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
+    if let Some((of, value)) = budget.fault() {
+        return Err(ReconstructError::Budget { of, value });
+    }
+    let mut calibration = None;
+    if let Some((correction, shared, told)) = calibrate(rod, &track, &noise, &breaks, &nodes, &budget) {
+        if let Some(correction) = correction {
+            track = correction.track(&track);
+            nodes = places(&track, &noise, &breaks);
+            units = told.rod(rod).units();
+        }
+        shared.judge(&Errors::zeros(), &track, &mut nodes);
+        calibration = Some((shared, told));
+    }
+    let identified = identify(&track, &noise, nodes);
+    let shared = calibration.as_ref().map(|calibration| &calibration.0);
+    let systematic =
+        shared.map_or_else(Vec::new, |shared| shared.points(&track, &noise, &identified.nodes, &identified.labels));
+    let answers = Answers {
+        track: &track,
+        kinks: &kinks,
+        noise: &noise,
+        identified: &identified,
+        units,
+        settings,
+        shared,
+        systematic: &systematic,
+    };
+    let usable = answers.all(&breaks);
 
     let mut numbers = Vec::with_capacity(track.len());
     let mut readings = Vec::with_capacity(samples.len());
-    for (number, place) in places.iter().enumerate() {
+    for (number, place) in numbered.iter().enumerate() {
         match place {
             Ok(index) => {
                 numbers.push(number);
@@ -82,6 +110,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
         windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
+        calibration: calibration.map(|calibration| calibration.1),
     })
 }
 

@@ -1,16 +1,19 @@
 //! The result of a reconstruction.
 
 use super::reading::{Reading, Reason};
-use crate::contour::{Assembly, ContourEstimate, Measured};
+use crate::contour::{Assembly, ContourEstimate, Measured, Trace, TraceKind};
 use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
 use crate::point::Touch;
 use crate::scan::noise_estimate::ChannelNoise;
+use crate::systematic::Calibration;
 use std::ops::Range;
 
 /// Number of independent values in a stretch with several contacts: its series have about as many significant terms. The samples of the
 /// stretch share their noise accordingly.
 const SERIES: usize = 8;
+/// Most contact points of a trace that its systematic errors are taken from: they change little from point to point.
+const PLACES: usize = 100;
 
 /// The result of a reconstruction.
 #[derive(Clone, Debug)]
@@ -23,6 +26,8 @@ pub struct Reconstruction {
     pub kinks: Vec<Kink>,
     /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
     pub noise: [ChannelNoise; 3],
+    /// What was found of the errors that all samples share; none where the budget has none.
+    pub calibration: Option<Calibration>,
     pub(super) evidence: Vec<Evidence>,
     /// Samples of each place's window; 1 where samples are used as they are.
     pub(super) windows: Vec<usize>,
@@ -58,11 +63,34 @@ impl Reconstruction {
                 (start..touches.len(), reason.map(|reason| reason.to_string()), window)
             })
             .collect();
-        assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (range, reason, shared))| Measured {
-            reason: reason.as_deref(),
-            shared: *shared,
-            ..Measured::new(reading.label, &touches[range.clone()])
-        }))
+        let mut contour =
+            assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (range, reason, shared))| Measured {
+                reason: reason.as_deref(),
+                shared: *shared,
+                ..Measured::new(reading.label, &touches[range.clone()])
+            }));
+        contour.traces.iter_mut().for_each(|trace| self.add_systematic(trace));
+        contour
+    }
+
+    /// Adds to the points of a trace what all samples share, from the nearest of some contact points of its samples.
+    fn add_systematic(&self, trace: &mut Trace) {
+        let readings = self.readings.get(trace.samples.clone()).unwrap_or_default();
+        let of = |reading: &Reading| match (trace.kind, reading.label.several()) {
+            (TraceKind::Single, false) | (TraceKind::First, true) => reading.touch.ok(),
+            (TraceKind::Second, true) => reading.second.and_then(Result::ok),
+            _ => None,
+        };
+        let step = readings.len().div_ceil(PLACES).max(1);
+        let touches: Vec<Touch> = readings.iter().step_by(step).filter_map(of).collect();
+        for point in &mut trace.points {
+            let distance = |touch: &Touch| (touch.x - point.x).hypot(touch.y - point.y);
+            let nearest = touches.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(touch) = nearest {
+                point.systematic = touch.sigma_systematic();
+                point.sigma = point.sigma.hypot(point.systematic);
+            }
+        }
     }
 
     /// The criteria at the place nearest to a sample, dimensionless; none for a sample that cannot be used.

@@ -2,6 +2,7 @@
 
 use crate::kink::KinkOptions;
 use crate::scan::noise_estimate::ChannelNoise;
+use crate::systematic::{Budget, Source};
 
 /// Settings of a reconstruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,11 +13,14 @@ pub struct Settings {
     pub false_alarms: f64,
     /// Largest standard deviation of a contact point across the contour, in lengths of the rod. Less certain points are left out.
     pub largest_sigma: f64,
+    /// How large the errors may be that all samples share: those of an ordinary laboratory ([`Budget::laboratory`]) if none is given.
+    /// [`Budget::NONE`] takes samples and rod as they are.
+    pub budget: Option<Budget>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { noise: None, false_alarms: KinkOptions::default().false_alarms, largest_sigma: 0.02 }
+        Self { noise: None, false_alarms: KinkOptions::default().false_alarms, largest_sigma: 0.02, budget: None }
     }
 }
 
@@ -35,6 +39,14 @@ pub enum ReconstructError {
         samples: usize,
         /// The smallest number.
         fewest: usize,
+    },
+    /// A standard deviation of the budget that is not possible.
+    #[error("the budget of the {of} is {value}, expected a finite number, 0 or larger")]
+    Budget {
+        /// Of which source.
+        of: Source,
+        /// Its value.
+        value: f64,
     },
     /// A setting that is not possible.
     #[error("{what} is {value}, expected a positive, finite number")]

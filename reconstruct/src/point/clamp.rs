@@ -2,6 +2,8 @@
 
 use crate::numeric::Number;
 use nalgebra::{Matrix4x3, Vector3, Vector4};
+#[cfg(feature = "std")]
+use rod_core::Sample;
 use rod_core::{Pose, Reactions, Section, Units, advance, advance_with_sensitivities};
 
 /// Clamp pose and reactions, dimensionless: x0, y0, phi0 and f0x, f0y, m0z; or their rates along the scan.
@@ -9,6 +11,8 @@ use rod_core::{Pose, Reactions, Section, Units, advance, advance_with_sensitivit
 pub(crate) struct Clamp<T = f64> {
     pub pose: Vector3<T>,
     pub reactions: Vector3<T>,
+    /// Natural curvature of the rod, the same along it: 0 for a straight rod, and for rates.
+    pub natural: T,
 }
 
 impl<T: Number> Clamp<T> {
@@ -20,6 +24,7 @@ impl<T: Number> Clamp<T> {
                 reactions.f0y / units.force,
                 reactions.m0z / units.moment,
             ),
+            natural: T::zero(),
         }
     }
 
@@ -27,9 +32,9 @@ impl<T: Number> Clamp<T> {
         self.pose.iter().chain(&self.reactions).all(|v| v.is_finite())
     }
 
-    /// The cross-section at the clamp: kappa(0) = -m0z.
+    /// The cross-section at the clamp: kappa(0) is the natural curvature less m0z.
     pub fn section(&self) -> Section<T> {
-        Section { x: self.pose.x, y: self.pose.y, phi: self.pose.z, kappa: -self.reactions.z }
+        Section { x: self.pose.x, y: self.pose.y, phi: self.pose.z, kappa: self.natural - self.reactions.z }
     }
 
     /// The force (A, B) = (f0y, -f0x) that the rod carries next to the clamp.
@@ -71,11 +76,14 @@ impl<T: Number> Clamp<T> {
         (end, gradient)
     }
 
-    /// The phase criterion K and its derivatives by the reactions.
+    /// The phase criterion K = kappa(0)^2 - n^2 - 2 (f0y sin phi0 + f0x cos phi0) of a rod of natural curvature n, and its
+    /// derivatives by the reactions.
     pub fn criterion(&self) -> (T, Vector3<T>) {
         let (two, (sin, cos)) = (T::from_f64(2.0), self.pose.z.sin_cos());
         let r = &self.reactions;
-        (r.z * r.z - two * (r.y * sin + r.x * cos), Vector3::new(-two * cos, -two * sin, two * r.z))
+        // kappa(0)^2 - n^2, which is m0z^2 for a straight rod
+        let bending = r.z * (r.z - two * self.natural);
+        (bending - two * (r.y * sin + r.x * cos), Vector3::new(-two * cos, -two * sin, two * (r.z - self.natural)))
     }
 }
 
@@ -86,6 +94,17 @@ pub(crate) struct Gradient<T = f64> {
     #[cfg(feature = "std")]
     pub by_phi0: Vector4<T>,
     pub by_s: Vector4<T>,
+}
+
+#[cfg(feature = "std")]
+impl Clamp {
+    /// The sample with this pose and these reactions, SI units, for a rod of these units.
+    pub fn sample(&self, units: Units, of: &Sample) -> Sample {
+        let (p, r) = (&self.pose, &self.reactions);
+        let pose = Pose { x: p.x * units.length, y: p.y * units.length, phi: p.z };
+        let reactions = Reactions { f0x: r.x * units.force, f0y: r.y * units.force, m0z: r.z * units.moment };
+        Sample { pose, reactions, ..*of }
+    }
 }
 
 #[cfg(feature = "std")]

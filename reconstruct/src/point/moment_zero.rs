@@ -11,6 +11,9 @@ use rod_core::{Section, inflection};
 /// points on the rod are called beyond its tip.
 pub(super) const NOISE_SIGMAS: f64 = 4.0;
 
+/// Newton steps from where the curvature is 0 to where it is the natural one; a natural curvature of 0.1 / L takes 3 to rounding.
+const NEWTON_STEPS: usize = 4;
+
 /// Whether the reactions are within the noise of zero in each channel.
 pub(super) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
     let sigmas = T::from_f64(NOISE_SIGMAS);
@@ -80,9 +83,16 @@ impl<T: Number> MomentZero<T> {
         Ok(first.by_tip(clamp).unwrap_or(first))
     }
 
-    /// The zero at arc length `s`; none where the curvature is stationary there.
-    fn at(clamp: &Clamp<T>, s: T, derived: bool) -> Option<Self> {
+    /// The zero at arc length `s`, or, for a rod with natural curvature, the point near it where the curvature is that; none where the
+    /// curvature is stationary.
+    fn at(clamp: &Clamp<T>, mut s: T, derived: bool) -> Option<Self> {
         let [a, b] = clamp.force();
+        if clamp.natural != T::zero() {
+            for _ in 0..NEWTON_STEPS {
+                let (section, gradient) = clamp.slide_at(s);
+                s -= (section.kappa - clamp.natural) / gradient.by_s[3];
+            }
+        }
         let (section, gradient) = if derived { clamp.gradient_at(s) } else { clamp.slide_at(s) };
         let kappa_by_s = gradient.by_s[3];
         if kappa_by_s == T::zero() || !section.x.is_finite() {
@@ -100,7 +110,8 @@ impl<T: Number> MomentZero<T> {
         let jacobian: Matrix2x3<T> = self.by_reactions.fixed_rows::<2>(0).into_owned();
         let Section { x, y, .. } = self.section;
         let covariance: Matrix2<T> = propagated(&jacobian, covariance);
-        Touch { s: self.s, x, y, alpha: self.alpha, force: self.force, covariance }
+        let systematic = Matrix2::zeros();
+        Touch { s: self.s, x, y, alpha: self.alpha, force: self.force, covariance, systematic }
     }
 
     /// Normal of the contour there, into the solid.

@@ -165,7 +165,8 @@ impl Candidate {
         }
         let noise =
             |gradient: &Vector3<f64>| NOISE_SIGMAS * propagated(&gradient.transpose(), covariance).x.sqrt() + SLACK;
-        let touch = Touch { s, x: at.x, y: at.y, alpha, force, covariance: propagated(&position, covariance) };
+        let covariance = propagated(&position, covariance);
+        let touch = Touch { s, x: at.x, y: at.y, alpha, force, covariance, systematic: nalgebra::Matrix2::zeros() };
         let (pressing, tilt) = (at.phi - alpha).sin_cos();
         Ok(Self { touch, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) })
     }

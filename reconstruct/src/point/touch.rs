@@ -25,6 +25,9 @@ pub struct Touch<T = f64> {
     pub force: T,
     /// Covariance of the position (x, y), m^2; zero where the noise is not known.
     pub covariance: Matrix2<T>,
+    /// The part of it that errors cause which all samples of a scan share: bias, gain, angle of the clamp and so on. It does not average
+    /// out. Zero where no such errors are taken into account.
+    pub systematic: Matrix2<T>,
 }
 
 impl<T: Number> Touch<T> {
@@ -38,13 +41,28 @@ impl<T: Number> Touch<T> {
             alpha: self.alpha,
             force: self.force * force,
             covariance: self.covariance * (length * length),
+            systematic: self.systematic * (length * length),
         }
     }
 
     /// Standard deviation of the position across the contour, m. Only this error displaces the contour; one along it does not.
     pub fn sigma_normal(&self) -> T {
+        self.across(&self.covariance)
+    }
+
+    /// The part of [`sigma_normal`](Self::sigma_normal) that all samples of a scan share, m.
+    pub fn sigma_systematic(&self) -> T {
+        self.across(&self.systematic)
+    }
+
+    /// The same point with errors of this covariance besides, which all samples of a scan share.
+    #[cfg(feature = "std")]
+    pub(crate) fn with_systematic(self, systematic: Matrix2<T>) -> Self {
+        Self { covariance: self.covariance + systematic, systematic, ..self }
+    }
+
+    fn across(&self, c: &Matrix2<T>) -> T {
         let (sin, cos) = self.alpha.sin_cos();
-        let c = &self.covariance;
         (sin * sin * c[(0, 0)] - T::from_f64(2.0) * sin * cos * c[(0, 1)] + cos * cos * c[(1, 1)]).max(T::zero()).sqrt()
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct LocalCubic {
     inverse: Matrix4<f64>,
     /// Variance of a reaction's coefficients is this times the inverse.
     variance: Vector3<f64>,
+    /// Natural curvature of the rod.
+    natural: f64,
     pub window: Range<usize>,
 }
 
@@ -47,6 +49,11 @@ impl Estimate {
     /// A place known without error.
     pub fn exact(clamp: Clamp, rate: Clamp) -> Self {
         Self { clamp, rate, shape: [0.0; 3], variance: Vector3::zeros() }
+    }
+
+    /// The same with another clamp and rates, and the same noise.
+    pub fn moved(&self, clamp: Clamp, rate: Clamp) -> Self {
+        Self { clamp, rate, ..*self }
     }
 
     /// Covariance of the reactions.
@@ -120,7 +127,8 @@ impl LocalCubic {
             coefficients[(0, c)] += value;
         }
         let variance = noise.variance.sup(&found).component_mul(&noise.long_run);
-        Some((Self { centre, half, coefficients, inverse, variance, window }, fits))
+        let natural = track.natural;
+        Some((Self { centre, half, coefficients, inverse, variance, natural, window }, fits))
     }
 
     fn six(clamp: &Clamp) -> SMatrix<f64, 6, 1> {
@@ -157,11 +165,15 @@ impl LocalCubic {
         let rate = Vector4::new(0.0, 1.0, 2.0 * t, 3.0 * t * t) / self.half;
         let split = |basis: &Vector4<f64>| {
             let six = self.coefficients.tr_mul(basis);
-            Clamp { pose: six.fixed_rows::<3>(0).into_owned(), reactions: six.fixed_rows::<3>(3).into_owned() }
+            Clamp {
+                pose: six.fixed_rows::<3>(0).into_owned(),
+                reactions: six.fixed_rows::<3>(3).into_owned(),
+                natural: 0.0,
+            }
         };
         let (at_value, at_rate) = (self.inverse * value, self.inverse * rate);
         Estimate {
-            clamp: split(&value),
+            clamp: Clamp { natural: self.natural, ..split(&value) },
             rate: split(&rate),
             shape: [value.dot(&at_value), value.dot(&at_rate), rate.dot(&at_rate)],
             variance: self.variance,
@@ -179,10 +191,11 @@ mod tests {
         let clamp = |tau: f64, bend: f64| Clamp {
             pose: Vector3::new(tau, 2.0, 0.5),
             reactions: Vector3::new(1.0 + tau, tau.powi(3) + bend * (tau - 0.1).max(0.0), 3.0),
+            natural: 0.0,
         };
         let noise = Noise { variance: Vector3::repeat(1e-24), long_run: Vector3::repeat(1.0) };
         for (bend, widest) in [(0.0, 200), (1.0, 50)] {
-            let track = Track { clamps: tau.iter().map(|&t| clamp(t, bend)).collect(), tau: tau.clone() };
+            let track = Track { clamps: tau.iter().map(|&t| clamp(t, bend)).collect(), tau: tau.clone(), natural: 0.0 };
             let fit = LocalCubic::about(&track, 80, 0..200, &noise, 1000).unwrap();
             assert!(fit.window.len() <= widest && fit.window.len() >= widest / 2, "{:?}", fit.window);
             let at = fit.at(0.08);

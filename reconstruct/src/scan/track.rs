@@ -25,6 +25,8 @@ pub(crate) struct Track {
     /// Path length of the clamp in the norm of (x, y, phi), rod lengths and radians.
     pub tau: Vec<f64>,
     pub clamps: Vec<Clamp>,
+    /// Natural curvature of the rod, which the clamps have, too.
+    pub natural: f64,
 }
 
 /// Makes samples dimensionless, one by one, and gives each its path parameter.
@@ -54,7 +56,8 @@ impl Track {
     /// The usable samples, and for each sample its index among them or why it is left out.
     pub fn new(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
         let mut intake = Intake::new(rod);
-        let mut track = Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()) };
+        let mut track =
+            Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()), natural: 0.0 };
         let places = samples
             .iter()
             .map(|sample| {

@@ -1,6 +1,7 @@
 //! The errors of a sensor.
 
 use super::error::NoiseError;
+use crate::scan::noise_estimate::ChannelNoise;
 use rod_core::Reactions;
 
 /// A sensor that is not perfect, SI units. Everything is zero by default, and a model of zeros changes nothing.
@@ -92,6 +93,27 @@ impl NoiseModel {
             f0y: sum(white.f0y, ar1.f0y, quantum.f0y),
             m0z: sum(white.m0z, ar1.m0z, quantum.m0z),
         }
+    }
+
+    /// The noise of f0x, f0y (N) and m0z (N m) as a reconstruction takes it: white and AR(1) noise with the quantum's q / sqrt(12). The
+    /// random walk, which has no standard deviation, is left out.
+    ///
+    /// ```
+    /// use rod_core::Reactions;
+    /// use rod_reconstruct::{Ar1, NoiseModel};
+    /// let sigma = Reactions { f0x: 3.0, ..Default::default() };
+    /// let model = NoiseModel { ar1: Ar1 { sigma, correlation: 0.5 }, ..Default::default() };
+    /// let noise = model.channels()[0];
+    /// assert_eq!((noise.sigma, noise.lag1, noise.long_run), (3.0, 0.5, 3.0));
+    /// ```
+    pub fn channels(&self) -> [ChannelNoise; 3] {
+        let of = |r: Reactions| [r.f0x, r.f0y, r.m0z];
+        let (sigma, ar1, rho) = (of(self.sigma()), of(self.ar1.sigma), self.ar1.correlation);
+        std::array::from_fn(|c| {
+            let share = if sigma[c] > 0.0 { (ar1[c] / sigma[c]).powi(2) } else { 0.0 };
+            let long_run = 1.0 + share * ((1.0 + rho) / (1.0 - rho) - 1.0);
+            ChannelNoise { sigma: sigma[c], lag1: share * rho, long_run }
+        })
     }
 
     /// Checks that every number is possible.

@@ -31,6 +31,6 @@ mod unknowns;
 mod unresolved;
 mod weights;
 
-pub(crate) use pair::Limits;
+pub(crate) use pair::{Limits, Pair};
 pub(crate) use resolve::{Neighbour, Piece, resolve};
 pub use unresolved::Unresolved;

@@ -98,7 +98,15 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
     let phi = two.first.phi.value;
     let alpha = if f1 < 0.0 { phi + std::f64::consts::PI } else { phi };
     let alpha = alpha.sin().atan2(alpha.cos());
-    let first = Touch { s: local.values[Unknown::S1], x, y, alpha, force: f1.abs(), covariance: spread1 };
+    let first = Touch {
+        s: local.values[Unknown::S1],
+        x,
+        y,
+        alpha,
+        force: f1.abs(),
+        covariance: spread1,
+        systematic: nalgebra::Matrix2::zeros(),
+    };
     let kappa = two.first.kappa.value;
     let first = judged(first, bends[0].abs() + kappa.abs(), covariance[(S1, S1)].max(0.0).sqrt(), limits);
 
@@ -109,8 +117,15 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
     });
     let sigma_force = variance(&by_force, covariance).sqrt();
     let (x, y, spread2) = bend(&two.second);
-    let second =
-        Touch { s: local.values[Unknown::S2], x, y, alpha: b.value.atan2(a.value), force, covariance: spread2 };
+    let second = Touch {
+        s: local.values[Unknown::S2],
+        x,
+        y,
+        alpha: b.value.atan2(a.value),
+        force,
+        covariance: spread2,
+        systematic: nalgebra::Matrix2::zeros(),
+    };
     let second = if force < VANISHES * sigma_force {
         Err(Unresolved::ForceVanishes)
     } else {

@@ -139,7 +139,7 @@ impl Series {
         let by = |b: Vec<f64>, m: &DMatrix<f64>| {
             Vector3::from_fn(|c, _| m.column(c).iter().zip(&b).map(|(m, b)| m * b).sum())
         };
-        [p, d].map(|b| Clamp { pose: by(b.clone(), &self.pose), reactions: by(b, &self.reactions) })
+        [p, d].map(|b| Clamp { pose: by(b.clone(), &self.pose), reactions: by(b, &self.reactions), natural: 0.0 })
     }
 }
 

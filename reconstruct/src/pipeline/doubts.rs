@@ -1,0 +1,48 @@
+//! What a reconstruction itself finds wrong with the recording.
+
+use super::reconstruction::Reconstruction;
+use crate::check::Finding;
+use crate::phase::{Basis, Label};
+use crate::systematic::{Calibration, Source};
+
+/// Root mean square of a criterion, in standard deviations of its noise, from which on the model does not explain the scan.
+const MISFIT: f64 = 5.0;
+/// Share of single contacts without a contact point that is reported.
+const UNANSWERED: f64 = 0.25;
+/// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
+const KNOWN: f64 = 0.3;
+
+impl Reconstruction {
+    /// What the reconstruction itself finds wrong with the recording: no free stretch, an error beyond its budget, criteria that are not
+    /// met, samples without an answer. Empty where everything fits.
+    pub fn findings(&self) -> Vec<Finding> {
+        let mut findings = self.calibration.as_ref().map_or_else(Vec::new, of_calibration);
+        let single = || self.readings.iter().filter(|reading| matches!(reading.label, Label::A | Label::B));
+        let unanswered = single().filter(|reading| reading.touch.is_err()).count();
+        let share = unanswered as f64 / single().count().max(1) as f64;
+        if share > UNANSWERED {
+            findings.push(Finding::Unanswered { share });
+        }
+        findings
+    }
+}
+
+fn of_calibration(calibration: &Calibration) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let biases = [Source::BiasF0x, Source::BiasF0y, Source::BiasM0z].map(|source| calibration.source(source));
+    if calibration.free.is_empty() && biases.iter().flatten().any(|bias| bias.sigma > KNOWN * bias.budget) {
+        findings.push(Finding::NoFreeStretch);
+    }
+    for estimate in calibration.sources.iter().filter(|estimate| estimate.raised) {
+        let (of, value, sigma, budget) = (estimate.source, estimate.value, estimate.sigma, estimate.given);
+        findings.push(Finding::Budget { of, value, sigma, budget });
+    }
+    let misfits = [
+        (Basis::Criterion, calibration.misfit_criterion),
+        (Basis::Length, calibration.misfit_length),
+        (Basis::Tangent, calibration.misfit_tangent),
+    ];
+    let large = misfits.into_iter().filter(|(_, times)| *times > MISFIT);
+    findings.extend(large.map(|(criterion, times)| Finding::Misfit { criterion, times }));
+    findings
+}

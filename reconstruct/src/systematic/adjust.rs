@@ -1,0 +1,153 @@
+//! The errors that all samples share, from places whose phases are known: least squares with the budget as what is known before.
+
+use super::correction::{Correction, Frame};
+use super::influence::{of_criteria, of_inputs_by_errors};
+use super::source::{Errors, Joint, SOURCES};
+use crate::phase::{CRITERIA, Criterion, Evidence, Label};
+use crate::scan::Estimate;
+use nalgebra::{DMatrix, DVector, SVector};
+
+/// Gauss-Newton steps; each weighs the residuals anew.
+const STEPS: usize = 8;
+/// A step below this many prior standard deviations of every source is the last one.
+const SMALL: f64 = 1e-4;
+/// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the phase may be wrong.
+const OUTLYING: f64 = 3.0;
+/// Median of |z| of a standard normal variable z.
+const NORMAL_MEDIAN: f64 = 0.6745;
+
+/// A place with its phase, as measured.
+pub(super) struct Labelled {
+    pub tau: f64,
+    pub measured: Estimate,
+    pub weight: f64,
+    pub label: Label,
+}
+
+/// What was estimated.
+#[derive(Clone, Debug)]
+pub(super) struct Adjusted {
+    pub errors: Errors,
+    /// Factor of their covariance.
+    pub factor: Joint,
+    /// Its inverse in units of the budget: what the budget and the places tell of the errors.
+    pub normal: Joint,
+    /// For each criterion, root mean square residual in standard deviations of the noise, 1 at least.
+    pub scatter: [f64; CRITERIA],
+}
+
+/// The criteria that vanish in a phase.
+fn conditions(label: Label, evidence: &Evidence) -> &'static [Criterion] {
+    use Criterion::{F0x, F0y, K, Length, LengthByTip, M0z, Tangent, TangentByTip};
+    match label {
+        Label::Free => &[F0x, F0y, M0z],
+        Label::A if evidence.again() => &[LengthByTip, TangentByTip],
+        Label::A => &[Length, Tangent],
+        Label::B => &[K, Tangent],
+        Label::BB => &[K],
+        Label::BA => &[],
+    }
+}
+
+/// Smallest part of a budget, root of the sum over all sources, that one place can tell of. Smaller: least squares of noise-free scans,
+/// whose condition number is its inverse, lose all digits.
+const FINEST: f64 = 1e-10;
+
+/// A residual: its criterion, its value in standard deviations of the noise, its weight, and its derivatives by the errors.
+struct Residual {
+    criterion: usize,
+    z: f64,
+    weight: f64,
+    by_errors: SVector<f64, SOURCES>,
+}
+
+/// The residuals of the places after a correction by `errors`. Derivatives are by errors in units of `sigmas`.
+fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]) -> Vec<Residual> {
+    let Some(correction) = Correction::new(frame, errors) else { return Vec::new() };
+    let mut residuals = Vec::with_capacity(2 * places.len());
+    for place in places {
+        let here = correction.apply(place.tau, &place.measured.clamp, &place.measured.rate);
+        let evidence = Evidence::of(&place.measured.moved(here.0, here.1));
+        let quantities = evidence.quantities();
+        let Some(by) = of_inputs_by_errors(frame, errors, place.tau, &place.measured) else { continue };
+        let by = of_criteria(&here, &by);
+        for &criterion in conditions(place.label, &evidence) {
+            let (c, quantity) = (criterion as usize, quantities[criterion as usize]);
+            if !(quantity.sigma.is_finite() && quantity.value.is_finite()) {
+                continue;
+            }
+            let by_errors = by.row(c).transpose().component_mul(sigmas);
+            let sigma = quantity.sigma.max(FINEST * by_errors.norm());
+            residuals.push(Residual {
+                criterion: c,
+                z: quantity.value / sigma,
+                weight: place.weight,
+                by_errors: by_errors / sigma,
+            });
+        }
+    }
+    residuals
+}
+
+/// Robust root mean square of the residuals of each criterion, 1 at least.
+fn scatters(residuals: &[Residual]) -> [f64; CRITERIA] {
+    std::array::from_fn(|c| {
+        let of = residuals.iter().filter(|residual| residual.criterion == c);
+        let mut sizes: Vec<f64> = of.map(|residual| residual.z.abs()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        sizes.get(sizes.len() / 2).map_or(1.0, |median| (median / NORMAL_MEDIAN).max(1.0))
+    })
+}
+
+/// The robust sum of squares.
+fn objective(residuals: &[Residual], scatter: &[f64; CRITERIA]) -> f64 {
+    let square = |r: &Residual| {
+        let z = r.z / (OUTLYING * scatter[r.criterion]);
+        r.weight * OUTLYING * OUTLYING * (z * z).ln_1p()
+    };
+    residuals.iter().map(square).sum()
+}
+
+/// The errors that agree best with the budget (`sigmas`) and with what the phases of the places require, from `start` on.
+pub(super) fn adjust(frame: Frame, sigmas: &Errors, start: &Errors, places: &[Labelled]) -> Adjusted {
+    let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
+    let mut z = start.component_mul(&known);
+    // R of the QR decomposition: R^T R is what budget and places tell of the errors
+    let mut upper = Joint::identity();
+    let mut scatter = [1.0; CRITERIA];
+    for _ in 0..STEPS {
+        let here = residuals(frame, &z.component_mul(sigmas), sigmas, places);
+        scatter = scatters(&here);
+        let mut rows = DMatrix::<f64>::zeros(SOURCES + here.len(), SOURCES);
+        let mut right = DVector::<f64>::zeros(SOURCES + here.len());
+        rows.view_mut((0, 0), (SOURCES, SOURCES)).fill_with_identity();
+        right.rows_mut(0, SOURCES).copy_from(&-z);
+        for (k, residual) in here.iter().enumerate() {
+            let by = 1.0 / scatter[residual.criterion];
+            let off = residual.z * by;
+            let weight = (residual.weight / (1.0 + (off / OUTLYING).powi(2))).sqrt();
+            rows.row_mut(SOURCES + k).copy_from(&(residual.by_errors.transpose() * (weight * by)));
+            right[SOURCES + k] = -weight * off;
+        }
+        let decomposed = rows.qr();
+        upper = Joint::from_fn(|i, j| if i <= j { decomposed.r()[(i, j)] } else { 0.0 });
+        decomposed.q_tr_mul(&mut right);
+        let Some(step) = upper.solve_upper_triangular(&right.fixed_rows::<SOURCES>(0).into_owned()) else { break };
+        z += step;
+        if step.amax() < SMALL {
+            break;
+        }
+    }
+    let errors = z.component_mul(sigmas);
+    // the covariance is (R^T R)^-1 = R^-1 R^-T
+    let inverse = upper.solve_upper_triangular(&Joint::identity()).unwrap_or_else(Joint::identity);
+    let factor = Joint::from_diagonal(sigmas) * inverse;
+    let normal = upper.transpose() * upper;
+    Adjusted { errors, factor, normal, scatter }
+}
+
+/// By how much the robust sum of squares with `fewer` errors exceeds that with those that were found.
+pub(super) fn gain(frame: Frame, sigmas: &Errors, fewer: &Errors, found: &Adjusted, places: &[Labelled]) -> f64 {
+    let of = |errors: &Errors| objective(&residuals(frame, errors, sigmas, places), &found.scatter);
+    of(fewer) - of(&found.errors)
+}

@@ -1,0 +1,247 @@
+//! Labels and shared errors in turns.
+
+use super::adjust::{Adjusted, Labelled, adjust, gain};
+use super::budget::Budget;
+use super::calibration::{Calibration, SourceEstimate};
+use super::correction::{Correction, Frame};
+use super::free::stretches;
+use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
+use super::source::{Errors, Joint, SOURCES, Source, deviations};
+use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node, labels};
+use crate::scan::{Noise, Track};
+use nalgebra::{Matrix2, Matrix3, SymmetricEigen};
+use rod_core::Rod;
+
+/// Most turns of labelling and estimating.
+const TURNS: usize = 6;
+/// Most places that the errors are estimated from, besides those next to kinks. More: more time.
+const PLACES: usize = 800;
+/// Fall of the sum of squares from which on the estimates are taken off the samples: chance lets it fall by as much as the number of
+/// sources, with a standard deviation of 7.
+const SIGNIFICANT: f64 = 60.0;
+/// Prior standard deviations beyond which a budget is too small.
+const BEYOND: f64 = 3.0;
+/// Factor by which it is raised then.
+const RAISED: f64 = 3.0;
+/// Correlation of two estimates from which on the scan does not tell them apart.
+const TIED: f64 = 0.9;
+
+/// What is left of the shared errors after the correction.
+#[derive(Clone, Debug)]
+pub(crate) struct Shared {
+    pub frame: Frame,
+    /// Factor of the covariance of the errors.
+    pub factor: Joint,
+    /// Residuals of each criterion in standard deviations of the noise, 1 at least.
+    pub scatter: [f64; CRITERIA],
+}
+
+impl Shared {
+    /// Gives each place the evidence after a correction, with these errors in its standard deviations.
+    pub fn judge(&self, errors: &Errors, track: &Track, nodes: &mut [Node]) {
+        let Some(correction) = Correction::new(self.frame, errors) else { return };
+        let stride = nodes.len().div_ceil(PLACES).max(1);
+        let mut by_errors = None;
+        for (k, node) in nodes.iter_mut().enumerate() {
+            let tau = track.tau[node.index];
+            let measured = node.fit.at(tau);
+            let here = correction.apply(tau, &measured.clamp, &measured.rate);
+            let mut evidence = Evidence::of(&measured.moved(here.0, here.1));
+            // the influence of the errors changes little from place to place
+            if k % stride == 0 || node.place.between.is_some() || by_errors.is_none() {
+                let by = of_inputs_by_errors(self.frame, errors, tau, &measured);
+                by_errors = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));
+            }
+            if let Some(shared) = by_errors {
+                let quantities = evidence.quantities();
+                evidence.widen(&std::array::from_fn(|c| {
+                    let misfit = quantities[c].sigma.powi(2) * (self.scatter[c].powi(2) - 1.0);
+                    let both = shared[c] + misfit;
+                    if both.is_finite() { both } else { 0.0 }
+                }));
+            }
+            node.judged(evidence);
+        }
+    }
+
+    /// For each place of phase A or B the covariance of its contact point that the errors cause, dimensionless; the places are corrected.
+    pub fn points(&self, track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -> Vec<Matrix2<f64>> {
+        let stride = nodes.len().div_ceil(PLACES).max(1);
+        let (mut last, mut before) = (Matrix2::zeros(), None);
+        let each = nodes.iter().zip(labels).enumerate().map(|(k, (node, (label, _)))| {
+            if matches!(label, Label::A | Label::B) && (k % stride == 0 || before != Some(*label)) {
+                let tau = track.tau[node.index];
+                let measured = node.fit.at(tau);
+                let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
+                last = of_point(self.frame, tau, &measured, &covariance, *label, &self.factor).unwrap_or(last);
+            }
+            before = Some(*label);
+            last
+        });
+        each.collect()
+    }
+}
+
+/// The correction of a scan, if it needs one; what is left; and what to tell. None without a budget.
+pub(crate) fn calibrate(
+    rod: &Rod,
+    track: &Track,
+    noise: &Noise,
+    breaks: &[Break],
+    nodes: &[Node],
+    budget: &Budget,
+) -> Option<(Option<Correction>, Shared, Calibration)> {
+    if budget.is_none() {
+        return None;
+    }
+    let frame = Frame::of(track)?;
+    let mut sigmas = deviations(budget, rod);
+    let free = stretches(track, noise, breaks, &sigmas);
+    let stride = nodes.len().div_ceil(PLACES).max(1);
+    let nodes = thinned(nodes, stride);
+    let labelled = |found: &[(Label, f64)], only: &dyn Fn(&Node, Label) -> bool| -> Vec<Labelled> {
+        let places = nodes.iter().zip(found).filter(|(node, found)| only(node, found.0));
+        let of = |(node, found): (&Node, &(Label, f64))| {
+            let tau = track.tau[node.index];
+            Labelled { tau, measured: node.fit.at(tau), weight: node.weight, label: found.0 }
+        };
+        places.map(of).collect()
+    };
+    let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
+    let tared = labelled(&vec![(Label::Free, 1.0); nodes.len()], &|node, _| in_free(node));
+    let mut found = adjust(frame, &sigmas, &Errors::zeros(), &tared);
+    let mut raised = [false; SOURCES];
+    let mut judged = nodes.clone();
+    let mut before: Vec<Label> = Vec::new();
+    for _ in 0..TURNS {
+        Shared { frame, factor: found.factor, scatter: found.scatter }.judge(&found.errors, track, &mut judged);
+        let now = labels(&judged);
+        let names: Vec<Label> = now.iter().map(|found| found.0).collect();
+        found = adjust(frame, &sigmas, &found.errors, &labelled(&now, &|_, _| true));
+        let mut again = false;
+        for k in 0..SOURCES {
+            if !raised[k] && found.errors[k].abs() > BEYOND * sigmas[k] {
+                sigmas[k] *= RAISED;
+                (raised[k], again) = (true, true);
+            }
+        }
+        if !again && names == before {
+            break;
+        }
+        before = names;
+    }
+    let last = labelled(&labels(&judged), &|_, _| true);
+    let taken = fewest(frame, &sigmas, &found, &last);
+    let calibration = told(rod, &sigmas, &raised, &found, &taken, free);
+    let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter };
+    let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
+    Some((correction, shared, calibration))
+}
+
+/// Every so many of the places, and the first one after each break.
+fn thinned(nodes: &[Node], stride: usize) -> Vec<Node> {
+    let kept = nodes.iter().enumerate().filter(|(k, node)| k % stride == 0 || node.place.between.is_some());
+    kept.map(|(_, node)| Node { weight: (node.weight * stride as f64).min(1.0), ..node.clone() }).collect()
+}
+
+/// The fewest corrections that the places need: none, or tare and drift and then one source after the other, each the one that explains
+/// most of what is left.
+fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled]) -> Errors {
+    let is_enough = |errors: &Errors| gain(frame, sigmas, errors, found, places) < SIGNIFICANT;
+    if is_enough(&Errors::zeros()) {
+        return Errors::zeros();
+    }
+    let mut free: [bool; SOURCES] = std::array::from_fn(|k| k <= Source::BowM0z as usize && sigmas[k] > 0.0);
+    loop {
+        let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
+        let taken = adjust(frame, &only, &restricted(found, sigmas, &free), places).errors;
+        if is_enough(&taken) {
+            return taken;
+        }
+        let others = (0..SOURCES).filter(|k| !free[*k] && sigmas[*k] > 0.0);
+        let best = others.min_by(|i, j| {
+            let with = |k: usize| {
+                let mut free = free;
+                free[k] = true;
+                let left = (found.errors - restricted(found, sigmas, &free))
+                    .component_div(&sigmas.map(|s| s.max(f64::MIN_POSITIVE)));
+                (left.transpose() * found.normal * left).x
+            };
+            with(*i).total_cmp(&with(*j))
+        });
+        match best {
+            Some(best) => free[best] = true,
+            None => return found.errors,
+        }
+    }
+}
+
+/// The estimate where only some of the errors are not 0, to first order.
+fn restricted(found: &Adjusted, sigmas: &Errors, free: &[bool; SOURCES]) -> Errors {
+    let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
+    let right = found.normal * found.errors.component_mul(&known);
+    // rows and columns of the others are those of the identity
+    let of = |i: usize, j: usize| if free[i] && free[j] { found.normal[(i, j)] } else { f64::from(u8::from(i == j)) };
+    let right = Errors::from_fn(|k, _| if free[k] { right[k] } else { 0.0 });
+    let solved = Joint::from_fn(of).cholesky().map_or_else(Errors::zeros, |normal| normal.solve(&right));
+    solved.component_mul(sigmas)
+}
+
+/// A factor of the second moments of the errors about those that are taken off.
+fn about(found: &Adjusted, taken: &Errors) -> Joint {
+    let left = found.errors - taken;
+    if left == Errors::zeros() {
+        return found.factor;
+    }
+    let covariance = found.factor * found.factor.transpose() + left * left.transpose();
+    let eigen = SymmetricEigen::new(covariance);
+    eigen.eigenvectors * Joint::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0).sqrt()))
+}
+
+fn told(
+    rod: &Rod,
+    sigmas: &Errors,
+    raised: &[bool; SOURCES],
+    found: &Adjusted,
+    taken: &Errors,
+    free: Vec<std::ops::Range<usize>>,
+) -> Calibration {
+    let covariance = found.factor * found.factor.transpose();
+    let sigma = |k: usize| covariance[(k, k)].max(0.0).sqrt();
+    let has = |k: &usize| sigmas[*k] > 0.0;
+    let sources = (0..SOURCES)
+        .filter(has)
+        .map(|k| {
+            let source = Source::ALL[k];
+            let unit = source.unit(rod);
+            let [budget, value, sigma] = [sigmas[k], found.errors[k], sigma(k)].map(|v| v * unit);
+            SourceEstimate {
+                source,
+                given: if raised[k] { budget / RAISED } else { budget },
+                budget,
+                value,
+                sigma,
+                taken: taken[k] * unit,
+                raised: raised[k],
+            }
+        })
+        .collect();
+    let mut ties = Vec::new();
+    for i in (0..SOURCES).filter(has) {
+        for j in (i + 1..SOURCES).filter(has) {
+            let correlation = covariance[(i, j)] / (sigma(i) * sigma(j));
+            if correlation.abs() > TIED {
+                ties.push((Source::ALL[i], Source::ALL[j], correlation));
+            }
+        }
+    }
+    let misfit = |criterion: Criterion| found.scatter[criterion as usize];
+    Calibration {
+        sources,
+        ties,
+        free,
+        misfit_criterion: misfit(Criterion::K),
+        misfit_length: misfit(Criterion::Length).max(misfit(Criterion::LengthByTip)),
+        misfit_tangent: misfit(Criterion::Tangent).max(misfit(Criterion::TangentByTip)),
+    }
+}

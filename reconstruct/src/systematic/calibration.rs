@@ -1,0 +1,91 @@
+//! What was found of the errors that all samples share.
+
+use super::correction::{Correction, Frame};
+use super::source::{Errors, Source};
+use crate::scan::{Fault, Track};
+use rod_core::{Rod, Sample};
+use std::ops::Range;
+
+/// One source of error: what was known, and what the scan says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SourceEstimate {
+    /// Which.
+    pub source: Source,
+    /// Standard deviation of the budget that was given, in the unit of the source.
+    pub given: f64,
+    /// The one that was used: larger where the data ask for it.
+    pub budget: f64,
+    /// The estimate.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// What was taken off the samples: the estimate, or 0 where the scan agrees with its model without that. Then the standard deviations
+    /// of the contact points contain the estimate.
+    pub taken: f64,
+    /// Whether the budget was too small for the data, and was raised.
+    pub raised: bool,
+}
+
+impl SourceEstimate {
+    /// Whether the scan says more of it than the budget: its standard deviation is at most half of that.
+    pub fn is_identified(&self) -> bool {
+        self.sigma <= 0.5 * self.budget
+    }
+}
+
+/// The errors that all samples of a scan share, as the scan itself tells them.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Calibration {
+    /// The sources that the budget has.
+    pub sources: Vec<SourceEstimate>,
+    /// Pairs that the scan does not tell apart: their estimates have a correlation beyond 0.9 in size, which is given.
+    pub ties: Vec<(Source, Source, f64)>,
+    /// Stretches of samples in which the rod is free, by the numbers of usable samples.
+    pub free: Vec<Range<usize>>,
+    /// Root mean square of what is left of the phase criterion K along tangential contacts, in standard deviations of the noise: 1
+    /// where model and scan agree.
+    pub misfit_criterion: f64,
+    /// The same of the length criterion along contacts of the tip.
+    pub misfit_length: f64,
+    /// The same of the tangent criterion along single contacts.
+    pub misfit_tangent: f64,
+}
+
+impl Calibration {
+    /// The samples of the scan without what was taken off, as of [`Self::rod`]. A natural curvature stays in them.
+    pub fn corrected(&self, given: &Rod, samples: &[Sample]) -> Vec<Sample> {
+        let taken = Errors::from_fn(|k, _| {
+            let source = Source::ALL[k];
+            self.source(source).map_or(0.0, |estimate| estimate.taken / source.unit(given))
+        });
+        let (track, places) = Track::new(given, samples);
+        let correction =
+            Frame::of(&track).filter(|_| self.is_applied()).and_then(|frame| Correction::new(frame, &taken));
+        let Some(correction) = correction else { return samples.to_vec() };
+        let (corrected, units) = (correction.track(&track), self.rod(given).units());
+        let of = |(sample, place): (&Sample, Result<usize, Fault>)| match place {
+            Ok(index) => corrected.clamps[index].sample(units, sample),
+            Err(_) => *sample,
+        };
+        samples.iter().zip(places).map(of).collect()
+    }
+
+    /// Whether anything was taken off the samples.
+    pub fn is_applied(&self) -> bool {
+        self.sources.iter().any(|estimate| estimate.taken != 0.0)
+    }
+
+    /// The rod with stiffness and length as they were found, if that was needed; otherwise the given one.
+    pub fn rod(&self, given: &Rod) -> Rod {
+        let value = |source| self.source(source).map_or(0.0, |estimate| estimate.taken);
+        let (length, stiffness) = (value(Source::Length), value(Source::Stiffness));
+        Rod::new(given.length() * (1.0 + length), given.bending_stiffness() * (1.0 + stiffness)).unwrap_or(*given)
+    }
+
+    /// The estimate of one source.
+    pub fn source(&self, source: Source) -> Option<&SourceEstimate> {
+        self.sources.iter().find(|estimate| estimate.source == source)
+    }
+}

@@ -1,0 +1,47 @@
+//! The few combinations of shared errors that matter along a stretch.
+
+use super::calibrate::Shared;
+use super::correction::Correction;
+use super::influence::{OF_POINT, of_inputs_by_errors};
+use super::source::{Errors, Joint};
+use crate::phase::Node;
+use crate::scan::Track;
+use nalgebra::SymmetricEigen;
+use std::ops::Range;
+
+/// Most combinations. More: more time, as each costs as much as the stretch itself.
+const MOST: usize = 6;
+/// Smallest part of the largest combination's standard deviation that counts.
+const SMALLEST: f64 = 0.03;
+/// The displacement in standard deviations. Larger: a stretch that is displaced does not agree with its phases any more.
+pub(crate) const DISPLACED: f64 = 0.03;
+/// Places of a stretch from which the combinations are found.
+const PLACES: usize = 16;
+
+impl Shared {
+    /// The track of a stretch displaced by [`DISPLACED`] standard deviations of each combination of errors that matters there. Other samples stay
+    /// as they are.
+    pub fn displaced(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Track> {
+        let moved =
+            |errors: &Errors| Some(Correction::new(self.frame, &(errors * DISPLACED))?.stretch(track, stretch.clone()));
+        self.combinations(track, nodes, stretch).iter().filter_map(moved).collect()
+    }
+
+    fn combinations(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Errors> {
+        let inside: Vec<&Node> = nodes.iter().filter(|node| stretch.contains(&node.index)).collect();
+        let mut squares = Joint::zeros();
+        for node in inside.iter().step_by(inside.len().div_ceil(PLACES).max(1)) {
+            let tau = track.tau[node.index];
+            if let Some(by) = of_inputs_by_errors(self.frame, &Errors::zeros(), tau, &node.fit.at(tau)) {
+                let spread = by.fixed_rows::<OF_POINT>(0) * self.factor;
+                squares += spread.transpose() * spread;
+            }
+        }
+        let eigen = SymmetricEigen::new(squares);
+        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+        order.sort_by(|i, j| eigen.eigenvalues[*j].total_cmp(&eigen.eigenvalues[*i]));
+        let least = eigen.eigenvalues[order[0]] * SMALLEST * SMALLEST;
+        let matters = order.into_iter().take(MOST).filter(|k| eigen.eigenvalues[*k] > least.max(f64::MIN_POSITIVE));
+        matters.map(|k| self.factor * eigen.eigenvectors.column(k)).collect()
+    }
+}

@@ -1,0 +1,104 @@
+//! How the criteria of a place, and the contact point there, depend on the errors that all samples share.
+
+use super::correction::{Correction, Frame};
+use super::source::{Errors, Joint, SOURCES};
+use crate::phase::{CRITERIA, Evidence, Label, constrained};
+use crate::point::Clamp;
+use crate::scan::Estimate;
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
+
+/// Pose, reactions, natural curvature, and rates of pose and reactions.
+const INPUTS: usize = 13;
+/// The first seven of them determine the contact point.
+pub(super) const OF_POINT: usize = 7;
+/// Step of differences by inputs of size 1: the error of a central difference is some 1e-10 relative, far below that of any budget.
+const STEP: f64 = 1e-5;
+
+type Inputs = SVector<f64, INPUTS>;
+
+fn inputs((clamp, rate): &(Clamp, Clamp)) -> Inputs {
+    let (p, r, v, w) = (&clamp.pose, &clamp.reactions, &rate.pose, &rate.reactions);
+    Inputs::from([p.x, p.y, p.z, r.x, r.y, r.z, clamp.natural, v.x, v.y, v.z, w.x, w.y, w.z])
+}
+
+fn of_inputs(x: &Inputs) -> (Clamp, Clamp) {
+    let three = |k: usize| x.fixed_rows::<3>(k).into_owned();
+    (
+        Clamp { pose: three(0), reactions: three(3), natural: x[6] },
+        Clamp { pose: three(7), reactions: three(10), natural: 0.0 },
+    )
+}
+
+/// Derivatives of the corrected sample by the errors.
+pub(super) fn of_inputs_by_errors(
+    frame: Frame,
+    errors: &Errors,
+    tau: f64,
+    measured: &Estimate,
+) -> Option<SMatrix<f64, INPUTS, SOURCES>> {
+    let mut by = SMatrix::<f64, INPUTS, SOURCES>::zeros();
+    for k in 0..SOURCES {
+        let at = |step: f64| {
+            let mut errors = *errors;
+            errors[k] += step;
+            Some(inputs(&Correction::new(frame, &errors)?.apply(tau, &measured.clamp, &measured.rate)))
+        };
+        by.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
+    }
+    Some(by)
+}
+
+/// Derivatives of the criteria of a corrected place by the errors; 0 where a criterion is not known.
+pub(super) fn of_criteria(
+    place: &(Clamp, Clamp),
+    by_errors: &SMatrix<f64, INPUTS, SOURCES>,
+) -> SMatrix<f64, CRITERIA, SOURCES> {
+    let here = inputs(place);
+    let mut by_inputs = SMatrix::<f64, CRITERIA, INPUTS>::zeros();
+    // the place in the plane changes no criterion
+    for k in 2..INPUTS {
+        let at = |step: f64| {
+            let mut x = here;
+            x[k] += step;
+            let (clamp, rate) = of_inputs(&x);
+            SVector::<f64, CRITERIA>::from(Evidence::of(&Estimate::exact(clamp, rate)).values())
+        };
+        let column = (at(STEP) - at(-STEP)) / (2.0 * STEP);
+        by_inputs.set_column(k, &column.map(|v| if v.is_finite() { v } else { 0.0 }));
+    }
+    by_inputs * by_errors
+}
+
+/// Variances of the criteria that errors with this factor of their covariance cause.
+pub(super) fn variances(by_errors: &SMatrix<f64, CRITERIA, SOURCES>, factor: &Joint) -> [f64; CRITERIA] {
+    let spread = by_errors * factor;
+    std::array::from_fn(|c| spread.row(c).norm_squared())
+}
+
+/// The covariance of the contact point at a place of phase A or B that errors with this factor of their covariance cause,
+/// dimensionless. The place is corrected; `measured` is it before that. None where there is no contact point.
+pub(crate) fn of_point(
+    frame: Frame,
+    tau: f64,
+    measured: &Estimate,
+    noise: &Matrix3<f64>,
+    label: Label,
+    factor: &Joint,
+) -> Option<Matrix2<f64>> {
+    let none = Errors::zeros();
+    let by_errors = of_inputs_by_errors(frame, &none, tau, measured)?;
+    let here = inputs(&Correction::new(frame, &none)?.apply(tau, &measured.clamp, &measured.rate));
+    let mut by_inputs = SMatrix::<f64, 2, OF_POINT>::zeros();
+    for k in 0..OF_POINT {
+        let at = |step: f64| {
+            let mut x = here;
+            x[k] += step;
+            let touch = constrained(&of_inputs(&x).0, noise, label).ok()?;
+            Some(SVector::<f64, 2>::new(touch.x, touch.y))
+        };
+        by_inputs.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
+    }
+    let spread = by_inputs * by_errors.fixed_rows::<OF_POINT>(0) * factor;
+    let covariance = spread * spread.transpose();
+    covariance.iter().all(|v| v.is_finite()).then_some(covariance)
+}

@@ -1,0 +1,23 @@
+//! Errors that all samples of a scan share: bias and drift of the sensor, gains, cross-talk, the angle of the clamp, the lever arm,
+//! stiffness, length and natural curvature of the rod, the compliance of the clamp, the stage.
+//!
+//! They do not average out. `Budget` says how large each may be. `Correction` takes them off a sample, `influence` says how the
+//! criteria of a place depend on them, `free` finds the stretches of the free rod, `adjust` estimates them from labelled places, and
+//! `calibrate` estimates labels and errors in turns.
+
+mod adjust;
+mod budget;
+mod calibrate;
+mod calibration;
+mod components;
+mod correction;
+mod free;
+mod influence;
+mod source;
+
+pub use budget::Budget;
+pub(crate) use calibrate::{Shared, calibrate};
+pub use calibration::{Calibration, SourceEstimate};
+pub(crate) use components::DISPLACED;
+pub(crate) use source::Errors;
+pub use source::Source;
