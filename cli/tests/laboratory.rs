@@ -11,7 +11,9 @@
 //! `SEEDS=0..4` the seeds of noise, signs and combinations, `LEVEL=0.5` a multiple of the ordinary levels, `RATE=100` the samples
 //! in a second. `KEEP=directory` keeps all files.
 
+mod bent;
 mod command;
+mod following;
 mod imperfections;
 mod judge;
 mod making;
@@ -30,7 +32,8 @@ use making::{Wrong, make};
 use rayon::prelude::*;
 use report::{Judged, table, totals};
 use settings::Settings;
-use truth::Site;
+use truth::{SCENES, Site, TrueState};
+use world::World;
 
 fn judged(site: &Site, wrong: &Wrong, seed: u64, settings: &Settings) -> Judged {
     let made = make(site, wrong, settings.level, seed);
@@ -64,6 +67,55 @@ fn the_laboratory_table() {
     let longest = judged.iter().map(|one| one.time.as_secs_f64()).fold(0.0, f64::max);
     println!("\n{}\n{}", table(&judged), totals(&judged));
     println!("{} recordings, {:.2} s on average and {longest:.2} s at most", judged.len(), time / judged.len() as f64);
+}
+
+/// Reactions f0x, f0y, m0z of the rod past O1 at q = 0.4 in EI/L^2 and EI/L, from an independent solver (two places each, x0 / L).
+const REFERENCES: [(World, f64, [f64; 3]); 5] = [
+    (ELASTIC, 0.3, [-1.709195456109, 0.837558159120, 1.210487286007]),
+    (ELASTIC, 0.0, [-2.873008653501, 4.499686760355, 2.844972401020]),
+    (ELASTIC, -0.3, [-0.613623959138, 4.297863119451, 2.886155271247]),
+    (ROUGH, 0.0, [-3.754490854696, 5.418078824528, 3.485394405505]),
+    (ROUGH, -0.55, [-0.272925653455, 4.964780755503, 3.121456817185]),
+];
+const NONE: World = World { turned: 0.0, curvature: 0.0, compliance: 0.0, friction: 0.0 };
+const ELASTIC: World = World { compliance: 1.0 / 20.0, ..NONE };
+const ROUGH: World = World { friction: 0.1, ..NONE };
+
+#[test]
+fn bent_rods_agree_with_an_independent_solver() {
+    let site = Site::new("O1_q40", COARSE);
+    let units = site.scene.rod.units();
+    for (world, x0, expected) in REFERENCES {
+        // from the first pose to this one
+        let step = (site.path.at(0.0).x - x0 * units.length) / 400.0;
+        let truth = following::sweep(&site, world, step);
+        let state = truth.states.iter().find(|state| (state.pose.x - x0 * units.length).abs() < 1e-9).unwrap();
+        let felt = state.reactions;
+        let found = [felt.f0x / units.force, felt.f0y / units.force, felt.m0z / units.moment];
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-9, "{world:?} at {x0}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_straight_rod_agrees_with_the_sweep() {
+    for name in SCENES {
+        let site = Site::new(name, COARSE);
+        let step = site.step(0);
+        let (swept, followed) = (site.truth(0, &NONE), following::sweep(&site, NONE, step));
+        let of = |state: &TrueState| [state.reactions.f0x, state.reactions.f0y, 10.0 * state.reactions.m0z];
+        let mut wrong = 0;
+        for (a, b) in swept.states.iter().zip(&followed.states) {
+            assert!((a.way - b.way).abs() < 1e-9, "{name}: a state is missing at {}", a.way);
+            let differs = of(a).iter().zip(of(b)).any(|(a, b)| (a - b).abs() > 1e-7);
+            if differs || a.label != b.label {
+                println!("{name} at {}: {:?} {:?} for {:?} {:?}", b.pose.x, b.label, of(b), a.label, of(a));
+                wrong += 1;
+            }
+        }
+        assert!(wrong <= 2, "{name}: {wrong}");
+    }
 }
 
 /// Samples in a second for the ordinary tests, 1/s.

@@ -41,6 +41,10 @@ use Acts::{After, Before, World as Of};
 /// All imperfections. Signs and phases are drawn at random.
 pub const IMPERFECTIONS: &[Imperfection] = &[
     slow("clamp angle", "0.5 deg", Of(|w, level, dice| w.turned += level * dice.sign() * 0.5_f64.to_radians())),
+    slow("elastic clamp", "200 EI/L", Of(|w, level, _| w.compliance = level / 200.0)),
+    slow("natural curvature, 0.03", "0.03/L", Of(|w, level, dice| w.curvature = level * dice.sign() * 0.03)),
+    slow("natural curvature, 0.01", "0.01/L", Of(|w, level, dice| w.curvature = level * dice.sign() * 0.01)),
+    slow("friction", "0.02", Of(|w, level, _| w.friction = level * 0.02)),
     slow("stiffness", "5 %", Before(|r, level, dice| stiffness(r, level * 0.05 * dice.sign()))),
     slow("length", "0.5 %", Before(|r, level, dice| length(r, level * 0.005 * dice.sign()))),
     slow("lever, along", "1 mm", Before(|r, level, dice| lever(r, level * 1e-3 * dice.sign(), 0.0))),

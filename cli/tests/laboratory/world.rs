@@ -1,12 +1,19 @@
 //! What differs from the ideal rod before any sensor sees it.
 
+use super::following;
 use super::truth::{Site, Truth};
 
-/// Deviations of the rod, the clamp and the object from what the inversion assumes.
+/// Deviations of the rod, the clamp and the contacts from what the inversion assumes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct World {
     /// True angle of the clamp less the angle that the stage is told, rad.
     pub turned: f64,
+    /// Natural curvature of the rod, 1/L.
+    pub curvature: f64,
+    /// Angle by which the clamp gives way, rad per EI/L.
+    pub compliance: f64,
+    /// Coefficient of Coulomb friction; the rod slides against the direction of the contour all along the scan.
+    pub friction: f64,
 }
 
 impl World {
@@ -16,6 +23,10 @@ impl World {
 
     /// The sweep of a scene in this world.
     pub fn sweep(&self, site: &Site, step: f64) -> Truth {
-        Truth::sweep(&site.scene, site.path, step, self.turned)
+        if (Self { turned: 0.0, ..*self }).is_ideal() {
+            Truth::sweep(&site.scene, site.path, step, self.turned)
+        } else {
+            following::sweep(site, *self, step)
+        }
     }
 }
