@@ -32,7 +32,7 @@ use making::{Wrong, make};
 use rayon::prelude::*;
 use report::{Judged, table, totals};
 use settings::Settings;
-use truth::{SCENES, Site, TrueState};
+use truth::{SCENES, Site, TrueState, Truth};
 use world::World;
 
 fn judged(site: &Site, wrong: &Wrong, seed: u64, settings: &Settings) -> Judged {
@@ -43,8 +43,9 @@ fn judged(site: &Site, wrong: &Wrong, seed: u64, settings: &Settings) -> Judged 
     std::fs::create_dir_all(&directory).unwrap();
     let answer = run(&directory, &made.recording);
     let score = judge(&site.scene, &made, &answer);
-    let (said, time) = (answer.said, answer.time);
-    Judged { wrong: wrong.name(), level: wrong.level(), scene: site.name, seed, what: made.what, score, said, time }
+    let (level, cycle) = (wrong.level(), made.truth.cycle());
+    let (wrong, what, said, time) = (wrong.name(), made.what, answer.said, answer.time);
+    Judged { wrong, level, scene: site.name, seed, what, cycle, score, said, time }
 }
 
 /// `cargo test -p vibrissa-cli --test suite laboratory -- --ignored --nocapture` prints the table.
@@ -69,8 +70,12 @@ fn the_laboratory_table() {
     println!("{} recordings, {:.2} s on average and {longest:.2} s at most", judged.len(), time / judged.len() as f64);
 }
 
-/// Reactions f0x, f0y, m0z of the rod past O1 at q = 0.4 in EI/L^2 and EI/L, from an independent solver (two places each, x0 / L).
-const REFERENCES: [(World, f64, [f64; 3]); 5] = [
+/// Reactions f0x, f0y, m0z of the rod past O1 at q = 0.4 in EI/L^2 and EI/L, at x0 / L, from an independent
+/// solver.
+const REFERENCES: [(World, f64, [f64; 3]); 8] = [
+    (CURVED, 0.3, [-2.785698279755, 1.218997678102, 2.137491282986]),
+    (CURVED, 0.0, [-4.204288865478, 6.580938205935, 4.162222878508]),
+    (CURVED, -0.3, [-0.963583429261, 5.732712179341, 3.922780208936]),
     (ELASTIC, 0.3, [-1.709195456109, 0.837558159120, 1.210487286007]),
     (ELASTIC, 0.0, [-2.873008653501, 4.499686760355, 2.844972401020]),
     (ELASTIC, -0.3, [-0.613623959138, 4.297863119451, 2.886155271247]),
@@ -78,6 +83,7 @@ const REFERENCES: [(World, f64, [f64; 3]); 5] = [
     (ROUGH, -0.55, [-0.272925653455, 4.964780755503, 3.121456817185]),
 ];
 const NONE: World = World { turned: 0.0, curvature: 0.0, compliance: 0.0, friction: 0.0 };
+const CURVED: World = World { curvature: 0.5, ..NONE };
 const ELASTIC: World = World { compliance: 1.0 / 20.0, ..NONE };
 const ROUGH: World = World { friction: 0.1, ..NONE };
 
@@ -102,8 +108,8 @@ fn bent_rods_agree_with_an_independent_solver() {
 fn a_straight_rod_agrees_with_the_sweep() {
     for name in SCENES {
         let site = Site::new(name, COARSE);
-        let step = site.step(0);
-        let (swept, followed) = (site.truth(0, &NONE), following::sweep(&site, NONE, step));
+        let step = 4.0 * site.step(0);
+        let (swept, followed) = (Truth::sweep(&site.scene, site.path, step, 0.0), following::sweep(&site, NONE, step));
         let of = |state: &TrueState| [state.reactions.f0x, state.reactions.f0y, 10.0 * state.reactions.m0z];
         let mut wrong = 0;
         for (a, b) in swept.states.iter().zip(&followed.states) {
@@ -142,5 +148,38 @@ fn clean_recordings_are_right() {
         let judged = judged(&Site::new(name, COARSE), &Wrong::Nothing { fast: false }, 1, &settings);
         assert_eq!(judged.score.verdict, Verdict::Right, "{} {:?}", judged.line(), judged.score);
         assert!(judged.said.is_empty(), "{}", judged.line());
+    }
+}
+
+/// What the ordinary level does to the readings and poses, by hand.
+#[test]
+fn imperfections_are_what_they_say() {
+    let site = Site::new("disc", COARSE);
+    let clean = make(&site, &Wrong::Nothing { fast: false }, 1.0, 5).recording;
+    let made = |name: &str| {
+        let one = IMPERFECTIONS.iter().find(|one| one.name == name).unwrap();
+        make(&site, &Wrong::One(one), 1.0, 5).recording
+    };
+    let rows = clean.rows.len();
+    let change = |name: &str, row: usize| -> [f64; 3] {
+        let made = made(name);
+        std::array::from_fn(|c| (made.rows[row].felt[c] - clean.rows[row].felt[c]).abs())
+    };
+    let near = |found: [f64; 3], expected: [f64; 3]| {
+        assert!((0..3).all(|c| (found[c] - expected[c]).abs() < 1e-12), "{found:?} for {expected:?}");
+    };
+    near(change("bias, before tare", 7), [5e-3, 5e-3, 0.3e-3]);
+    near(change("drift, after tare", 0), [0.0; 3]);
+    near(change("drift, after tare", rows - 1), [1e-3, 1e-3, 0.05e-3]);
+    let touching = (0..rows).find(|row| clean.rows[*row].felt[2] > 5e-3).unwrap();
+    let truth = site.truth(0, &World::default()).states[touching];
+    near(change("gain m0z", touching), [0.0, 0.0, 0.01 * truth.reactions.m0z]);
+    // the rod points along y: the lever is along y, too
+    near(change("lever, along", touching), [0.0, 0.0, 1e-3 * truth.reactions.f0x.abs()]);
+    near(change("lever, across", touching), [0.0, 0.0, 1e-3 * truth.reactions.f0y.abs()]);
+    let dropped = rows - made("dropped samples").rows.len();
+    assert!(dropped > rows / 200 && dropped < rows / 50, "{dropped} of {rows}");
+    for row in &made("encoder steps").rows {
+        assert!((row.pose[0] / 5e-6 - (row.pose[0] / 5e-6).round()).abs() < 1e-6);
     }
 }

@@ -85,7 +85,10 @@ pub fn run(directory: &Path, recording: &Recording) -> Answer {
     let report = fs::read_to_string(directory.join("out/report.json")).unwrap_or_default();
     if let Ok(report) = serde_json::from_str::<Value>(&report) {
         for list in [&report["physics"]["findings"], &report["rows"]["warnings"]] {
-            said.extend(list.as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned));
+            let new = |text: &&str| said.iter().all(|line| !line.contains(*text));
+            let texts = list.as_array().into_iter().flatten().filter_map(Value::as_str).filter(new);
+            let texts: Vec<String> = texts.map(str::to_owned).collect();
+            said.extend(texts);
         }
     }
     let lines = fs::File::open(directory.join("out/points.jsonl")).map_or_else(|_| Vec::new(), lines);

@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-9;
 pub enum Verdict {
     /// Status 0; labels and points are right.
     Right,
-    /// Another exit status, or no contact point at all and a message.
+    /// Another exit status, or no contact point at all and a message. Of a mistake: status 2.
     Refused,
     /// Status 0, labels or points are wrong, and there is a message.
     Warned,
@@ -94,7 +94,8 @@ pub fn judge(scene: &Scene, made: &Made, answer: &Answer) -> Score {
     let verdict = match (answer.status, answer.said.is_empty()) {
         (Some(0), _) if good => Verdict::Right,
         (Some(0), true) => Verdict::Silent,
-        (Some(0), false) if answered => Verdict::Warned,
+        (Some(0), false) if answered || made.must_be_refused => Verdict::Warned,
+        (status, _) if made.must_be_refused && status != Some(2) => Verdict::Silent,
         _ => Verdict::Refused,
     };
     distances.sort_unstable_by(f64::total_cmp);

@@ -61,12 +61,11 @@ impl Wrong {
     }
 
     /// The imperfections in the order of the table, each with its multiple of the ordinary level.
-    fn drawn(&self, level: f64, seed: u64) -> Vec<(&'static Imperfection, f64)> {
+    fn drawn(&self, level: f64, dice: &mut Dice) -> Vec<(&'static Imperfection, f64)> {
         match self {
             Self::Nothing { .. } | Self::Mistake(_) => Vec::new(),
             Self::One(one) => vec![(one, level)],
             Self::Several => {
-                let mut dice = Dice::new(seed ^ 0x5EED);
                 let group = |one: &Imperfection| one.name.split(',').next();
                 let mut drawn: Vec<(usize, f64)> = Vec::new();
                 while drawn.len() < COMBINED {
@@ -88,12 +87,18 @@ pub struct Made {
     pub truth: Arc<Truth>,
     /// What is wrong with it, with the levels.
     pub what: String,
+    /// Whether the only right answer is status 2.
+    pub must_be_refused: bool,
 }
 
-/// Makes a recording. The white noise depends on the scene and the seed only.
+/// Makes a recording. The white noise depends on the scene and the seed only; signs and phases depend on the name of the
+/// imperfection, too.
 pub fn make(site: &Site, wrong: &Wrong, level: f64, seed: u64) -> Made {
-    let drawn = wrong.drawn(level, seed);
-    let own = |name: &str| Dice::new(name.bytes().fold(seed, |hash, byte| hash.wrapping_mul(31) + u64::from(byte)));
+    let own = |name: &str| {
+        let bytes = site.name.bytes().chain(name.bytes());
+        Dice::new(bytes.fold(seed, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte))))
+    };
+    let drawn = wrong.drawn(level, &mut own("combined"));
     let mut world = World::default();
     for (one, level) in &drawn {
         if let Acts::World(change) = one.acts {
@@ -108,7 +113,7 @@ pub fn make(site: &Site, wrong: &Wrong, level: f64, seed: u64) -> Made {
             change(&mut recording, *level, &mut own(one.name));
         }
     }
-    let mut noise = own(site.name);
+    let mut noise = own("noise");
     recording.each(|row| std::array::from_fn(|c| row.felt[c] + NOISE[c] * noise.normal()));
     for (one, level) in &drawn {
         if let Acts::After(change) = one.acts {
@@ -119,5 +124,6 @@ pub fn make(site: &Site, wrong: &Wrong, level: f64, seed: u64) -> Made {
         (mistake.make)(&mut recording);
     }
     let what: Vec<String> = drawn.iter().map(|(one, level)| format!("{} x {level:.2}", one.name)).collect();
-    Made { recording, truth, what: what.join(", ") }
+    let must_be_refused = matches!(wrong, Wrong::Mistake(_));
+    Made { recording, truth, what: what.join(", "), must_be_refused }
 }

@@ -10,8 +10,9 @@ pub struct Judged {
     pub level: &'static str,
     pub scene: &'static str,
     pub seed: u64,
-    /// The imperfections with their levels.
+    /// The imperfections with their levels, and the true labels.
     pub what: String,
+    pub cycle: String,
     pub score: Score,
     pub said: Vec<String>,
     pub time: Duration,
@@ -20,9 +21,13 @@ pub struct Judged {
 impl Judged {
     /// A line on this recording alone.
     pub fn line(&self) -> String {
-        let Self { wrong, scene, seed, what, said, time, .. } = self;
+        let Self { wrong, scene, seed, what, cycle, said, time, .. } = self;
         let said = if said.is_empty() { String::new() } else { format!("; said: {}", said.join(" / ")) };
-        format!("{wrong}, {scene}, seed {seed} ({what}): {}, {:.1} s{said}", self.score.verdict, time.as_secs_f64())
+        format!(
+            "{wrong}, {scene}, seed {seed} ({what}): {}, {:.1} s; true {cycle}{said}",
+            self.score.verdict,
+            time.as_secs_f64()
+        )
     }
 }
 

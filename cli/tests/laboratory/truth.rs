@@ -47,6 +47,12 @@ impl Truth {
         Self { states, changes }
     }
 
+    /// The labels in order.
+    pub fn cycle(&self) -> String {
+        let labels = self.states.chunk_by(|a, b| a.label == b.label).map(|run| run[0].label.to_string());
+        labels.collect::<Vec<_>>().join(" ")
+    }
+
     /// The sweep by the library. The clamp is turned by `turned` against the angle that the stage is told.
     pub fn sweep(scene: &Scene, path: ClampPath, step: f64, turned: f64) -> Self {
         let turn = |pose: Pose| Pose { phi: pose.phi + turned, ..pose };

@@ -12,7 +12,8 @@ pub struct World {
     pub curvature: f64,
     /// Angle by which the clamp gives way, rad per EI/L.
     pub compliance: f64,
-    /// Coefficient of Coulomb friction; the rod slides against the direction of the contour all along the scan.
+    /// Coefficient of Coulomb friction. The rod slides against the direction of the contour at every contact; so it does in the
+    /// scenes of the table but for 3 mm of O3_q60 in BA, where one of both contacts would stick or slide back.
     pub friction: f64,
 }
 
