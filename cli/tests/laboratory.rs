@@ -26,7 +26,7 @@ mod truth;
 mod world;
 
 use command::run;
-use imperfections::IMPERFECTIONS;
+use imperfections::{Acts, IMPERFECTIONS};
 use judge::{Verdict, judge};
 use making::{Wrong, make};
 use rayon::prelude::*;
@@ -182,4 +182,21 @@ fn imperfections_are_what_they_say() {
     for row in &made("encoder steps").rows {
         assert!((row.pose[0] / 5e-6 - (row.pose[0] / 5e-6).round()).abs() < 1e-6);
     }
+}
+
+/// The tare and the noise are looked for where the rod is free.
+#[test]
+fn scans_begin_and_end_with_a_free_rod() {
+    let worlds = IMPERFECTIONS.iter().filter(|one| matches!(one.acts, Acts::World(_)));
+    let work: Vec<_> = worlds.flat_map(|one| SCENES.map(|name| (one, name))).collect();
+    work.into_par_iter().for_each(|(one, name)| {
+        let site = Site::new(name, 0.25 * COARSE);
+        let truth = make(&site, &Wrong::One(one), 1.0, 1).truth;
+        let (first, last) = (truth.changes[0], truth.changes[truth.changes.len() - 1]);
+        let free = first.min(site.path.length() - last);
+        assert!(free >= 2e-3, "{}, {name}: {free} m", one.name);
+        assert!(truth.cycle().starts_with("free ") && truth.cycle().ends_with(" free"), "{}", truth.cycle());
+        let expected = (site.path.length() / site.step(0)) as usize;
+        assert!(truth.states.len() >= expected, "{}, {name}: states are missing", one.name);
+    });
 }

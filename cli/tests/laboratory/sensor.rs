@@ -127,7 +127,7 @@ pub fn hum(recording: &mut Recording, force: f64, moment: f64, dice: &mut Dice) 
     recording.each(|row| std::array::from_fn(|c| row.felt[c] + sizes[c] * (TAU * MAINS * row.t + phases[c]).sin()));
 }
 
-/// A filter of first order in every channel; `inverse` is 1 over its corner frequency, s. It passes the mean of the noise.
+/// A filter of first order in every channel; `inverse` is 1 over its corner frequency, s. It filters the white noise, too.
 pub fn low_pass(recording: &mut Recording, inverse: f64) {
     let Some(factor) = (inverse > 0.0).then(|| (-TAU * recording.period / inverse).exp()) else { return };
     let mut state = recording.rows[0].felt;
