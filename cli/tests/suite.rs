@@ -20,6 +20,7 @@ mod edges;
 mod files;
 mod first_steps;
 mod interrupt;
+mod laboratory;
 mod live;
 mod live_recordings;
 mod many_contacts;

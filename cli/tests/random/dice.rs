@@ -22,6 +22,17 @@ impl Dice {
         z ^ (z >> 31)
     }
 
+    /// Evenly between 0 and 1, to all digits.
+    pub fn share(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Normally distributed with mean 0 and standard deviation 1 (Box and Muller 1958).
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.share()).ln()).sqrt();
+        radius * (TAU * self.share()).cos()
+    }
+
     /// Evenly between `from` and `to`, rounded to 1e-4 so that scene files are short.
     pub fn between(&mut self, from: f64, to: f64) -> f64 {
         let share = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
