@@ -24,6 +24,7 @@
 //! false alarms.
 
 mod basis;
+mod candidate;
 mod filter;
 mod find;
 mod free_knot;

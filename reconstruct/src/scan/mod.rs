@@ -3,9 +3,12 @@
 //! [`Travel`] is the path parameter, `Track` the dimensionless samples, [`noise_estimate`] the noise of each channel, and
 //! `LocalCubic` gives values and rates of pose and reactions at a place, with their covariance.
 
+pub(crate) mod bands;
 mod local_cubic;
 mod noise;
 pub mod noise_estimate;
+mod polynomials;
+mod quantum;
 mod track;
 mod travel;
 
