@@ -4,6 +4,7 @@
 //! samples come, except for several contacts; [`LiveSession`] keeps the answers together with the samples that they are for.
 
 mod answers;
+mod each_pass;
 mod live;
 mod live_settings;
 mod nearest;
@@ -13,6 +14,7 @@ mod reconstruction;
 mod session;
 mod settings;
 
+pub use each_pass::reconstruct_passes;
 pub use live::Live;
 pub use live_settings::LiveSettings;
 pub use reading::{Reading, Reason};

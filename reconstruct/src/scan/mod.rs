@@ -7,13 +7,20 @@ pub(crate) mod bands;
 mod local_cubic;
 mod noise;
 pub mod noise_estimate;
+mod passes;
 mod polynomials;
 mod quantum;
+mod smooth_path;
+mod stops;
 mod track;
 mod travel;
 
 pub(crate) use local_cubic::{Estimate, LocalCubic};
 pub(crate) use noise::{Noise, dimensionless};
+pub use passes::passes;
 pub use track::Fault;
 pub(crate) use track::{Intake, Track};
 pub use travel::{Halt, Travel};
+
+/// Fewest usable samples of a scan, or of a pass of it. Fewer do not determine the noise, nor the rates of the reactions.
+pub const FEWEST_SAMPLES: usize = 20;
