@@ -1,6 +1,7 @@
 //! A scan: its samples in order along the path of the clamp, their noise, and smooth local fits of the reactions.
 //!
-//! [`Travel`] is the path parameter, `Track` the dimensionless samples, [`noise_estimate`] the noise of each channel, and
+//! [`passes`] splits a recording whose clamp turns back. [`Travel`] is the path parameter, `Track` the dimensionless samples, whose
+//! poses are smoothed where they tremble, [`noise_estimate`] the noise of each channel, and
 //! `LocalCubic` gives values and rates of pose and reactions at a place, with their covariance.
 
 pub(crate) mod bands;
