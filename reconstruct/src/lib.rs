@@ -4,6 +4,7 @@
 //!   [`single_general`] for rods without one. [`NoContact`]: why there is none.
 //! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
 //!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
+//! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them.
 //! - [`kink`], [`noise_estimate`]: the places where the reactions have kinks and jumps, and their noise.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: offsets of the contours of several scans, where they disagree, and one contour from all.
@@ -59,13 +60,14 @@ pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
 pub use pipeline::{
     Live, LiveSession, LiveSettings, Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct,
+    reconstruct_passes,
 };
 #[cfg(feature = "std")]
 pub use point::{GeneralError, single_general};
 pub use point::{NoContact, Touch, single};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]
-pub use scan::{Fault, Halt, Travel, noise_estimate};
+pub use scan::{FEWEST_SAMPLES, Fault, Halt, Travel, noise_estimate, passes};
 #[cfg(feature = "sensor-noise")]
 pub use sensor_noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 #[cfg(feature = "std")]

@@ -195,3 +195,27 @@ fn recordings_that_are_none_show_nothing() {
     let free = [vec![0.0; 1000], vec![0.0; 1000], vec![0.0; 1000]];
     assert_eq!(found(&tau, &free), []);
 }
+
+#[test]
+fn noise_that_is_smooth_drifts_or_hums_is_not_taken_for_kinks() {
+    let tau = even(40_000);
+    let hum = |i: usize| 0.03 * (0.2 * std::f64::consts::PI * i as f64).sin();
+    for (rho, drift, hums, most) in
+        [(0.99, 0.0, false, 3), (0.94, 0.0, false, 3), (0.0, 0.0, true, 3), (0.0, 1e-4, false, 12)]
+    {
+        let mut noise = Noise::new(11, rho);
+        let mut channels = sampled(&tau, curve, [0.01; 3], &mut noise);
+        for channel in &mut channels {
+            let mut walk = 0.0;
+            for (i, y) in channel.iter_mut().enumerate() {
+                walk += drift * noise.normal();
+                *y += walk + if hums { hum(i) } else { 0.0 };
+            }
+        }
+        let kinks = found(&tau, &channels);
+        let jumps = JUMPS.iter().filter(|(at, _)| kinks.iter().any(|kink| (kink.tau - at).abs() < 0.01)).count();
+        println!("rho {rho} drift {drift} hum {hums}: {} kinks, {jumps} of 2 jumps", kinks.len());
+        assert!(kinks.len() <= KINKS.len() + JUMPS.len() + most, "{rho} {drift} {hums}: {}", kinks.len());
+        assert_eq!(jumps, JUMPS.len());
+    }
+}

@@ -9,5 +9,6 @@ mod kinks_of_the_paper;
 mod noise;
 mod noise_estimate;
 mod plausibility;
+mod poses;
 mod properties;
 mod single_precision;

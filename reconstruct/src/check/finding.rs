@@ -100,12 +100,12 @@ pub enum Finding {
         /// The standard deviation that was known before.
         budget: f64,
     },
-    /// After all corrections, a criterion along the contacts that it holds for departs from 0 by more than noise and errors explain.
+    /// After all corrections, a criterion along the contacts that it holds for departs from 0 by more than its noise.
     Misfit {
         /// Which.
         criterion: Basis,
-        /// Root mean square, in standard deviations of the noise.
-        times: f64,
+        /// What is left of it, in parts of what the budget let it be.
+        part: f64,
     },
     /// Many samples with a single contact have no contact point.
     Unanswered {
@@ -191,10 +191,12 @@ impl fmt::Display for Finding {
                      that it may have: correct it, or state a larger error"
                 )
             }
-            Self::Misfit { criterion, times } => write!(
+            Self::Misfit { criterion, part } => write!(
                 f,
-                "after all corrections the {criterion} criterion departs from 0 by {times:.1} times its noise: friction, taper, \
-                 hysteresis or another error that is not in the budget; the contact points may be wrong by more than they say"
+                "after all corrections {:.0} % of what the budget explains of the {} is left: friction, taper, hysteresis or another \
+                 error that is not in the budget; the contact points may be wrong by more than they say",
+                100.0 * part,
+                if criterion == Basis::Criterion { "phase criterion K".to_owned() } else { format!("{criterion} criterion") }
             ),
             Self::Unanswered { share } => write!(
                 f,

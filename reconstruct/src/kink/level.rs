@@ -10,8 +10,8 @@ pub(crate) struct Level {
     pub y: [Vec<f64>; 3],
     /// Typical distance of bins.
     pub width: f64,
-    /// Bins that no window may contain.
-    masked: Vec<bool>,
+    /// How many times each bin is masked. No window may contain a bin that is.
+    masked: Vec<u32>,
     /// Number of bins before each one that are not evenly spaced with their neighbours.
     uneven: Vec<u32>,
 }
@@ -95,15 +95,23 @@ impl Level {
     /// Lets all bins be used.
     pub fn unmask(&mut self) {
         self.masked.clear();
-        self.masked.resize(self.len(), false);
+        self.masked.resize(self.len(), 0);
     }
 
     /// Leaves out the bins that hold samples `from..to`.
-    pub fn mask(&mut self, from: usize, to: usize) {
-        let (from, to) = (from / self.size, to.div_ceil(self.size).min(self.len()));
-        if from < to {
-            self.masked[from..to].fill(true);
-        }
+    pub fn mask(&mut self, (from, to): (usize, usize)) {
+        self.holding(from, to).iter_mut().for_each(|masked| *masked += 1);
+    }
+
+    /// Takes back one call of [`mask`](Self::mask).
+    pub fn release(&mut self, (from, to): (usize, usize)) {
+        self.holding(from, to).iter_mut().for_each(|masked| *masked = masked.saturating_sub(1));
+    }
+
+    fn holding(&mut self, from: usize, to: usize) -> &mut [u32] {
+        let to = to.div_ceil(self.size).min(self.masked.len());
+        let from = (from / self.size).min(to);
+        &mut self.masked[from..to]
     }
 
     /// Bins left out at a node: none at the finest level, where nodes lie between samples, and one, that may hold a
@@ -115,10 +123,10 @@ impl Level {
     /// Bins that may be used without a break before and after a node, up to `most`; none where the node is masked.
     pub fn room(&self, node: usize, most: usize) -> (usize, usize) {
         let gap = self.gap();
-        if node + gap > self.len() || (gap == 1 && self.masked[node]) {
+        if node + gap > self.len() || (gap == 1 && self.masked[node] > 0) {
             return (0, 0);
         }
-        let free = |masked: &&bool| !**masked;
+        let free = |masked: &&u32| **masked == 0;
         let left = self.masked[node.saturating_sub(most)..node].iter().rev().take_while(free).count();
         let right = self.masked[node + gap..self.len().min(node + gap + most)].iter().take_while(free).count();
         (left, right)

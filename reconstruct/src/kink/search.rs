@@ -1,12 +1,14 @@
 //! The search for transitions, from the finest scale to the coarsest.
 
 use super::basis::{Basis, FEWEST_BINS, MOST_BINS, ROWS, Verdict, Window};
+use super::candidate::Candidates;
 use super::free_knot::{Part, Placed};
 use super::level::Level;
 use super::options::KinkOptions;
 use super::scale::{Scale, scales};
 use super::transition::{Kink, KinkKind};
 use crate::numeric::chi_squared::{exceeded_by_six, exceeded_by_three, wilson_hilferty};
+use crate::scan::bands::Bands;
 use crate::scan::noise_estimate::ChannelNoise;
 
 /// Factor on the thresholds: the variance of the noise is known to about 10 %. Smaller: more false alarms than asked for.
@@ -54,11 +56,13 @@ pub(crate) struct Detector {
     noise: [ChannelNoise; 3],
     /// White-equivalent noise of a sample.
     sigma: [f64; 3],
+    /// Variance of the noise in the bins of each level over that of white noise.
+    excess: Vec<[f64; 3]>,
     levels: Vec<Level>,
     scales: Vec<Scale>,
     bases: Vec<Basis>,
     taken: Vec<Taken>,
-    candidates: Vec<(f64, usize)>,
+    candidates: Candidates,
     /// Scale and sample of the transitions that were taken and dropped again.
     dropped: Vec<(usize, usize)>,
 }
@@ -77,8 +81,9 @@ impl Detector {
         let bases = (0..2 * SIDES * SIDES)
             .map(|i| Basis::even(FEWEST_BINS + i / SIDES % SIDES, FEWEST_BINS + i % SIDES, i / (SIDES * SIDES)))
             .collect();
-        let (taken, candidates, dropped) = (Vec::new(), Vec::new(), Vec::new());
-        Self { options, noise, sigma: [0.0; 3], levels, scales, bases, taken, candidates, dropped }
+        let (taken, candidates, dropped) = (Vec::new(), Candidates::default(), Vec::new());
+        let excess = vec![[1.0; 3]; finest + 1];
+        Self { options, noise, sigma: [0.0; 3], excess, levels, scales, bases, taken, candidates, dropped }
     }
 
     /// With memory for the largest number of transitions, so that no run allocates.
@@ -86,6 +91,19 @@ impl Detector {
         self.candidates.reserve(capacity);
         self.taken.reserve(capacity / 2);
         self.dropped.reserve(ROUNDS * capacity / 2);
+        self
+    }
+
+    /// Reckons with noise whose power at long times exceeds that of white noise.
+    pub fn coloured(mut self, tau: &[f64], channels: [&[f64]; 3]) -> Self {
+        let sigma = equivalents(&self.noise, channels);
+        for (c, channel) in channels.iter().enumerate() {
+            let known = sigma[c] * sigma[c];
+            let bands = Bands::of(tau, channel, known);
+            for (level, excess) in self.excess.iter_mut().enumerate() {
+                excess[c] = bands.excess(level, known).max(bands.excess(level + 1, known));
+            }
+        }
         self
     }
 
@@ -127,33 +145,25 @@ impl Detector {
     /// Takes the best transition of a scale until there is none.
     fn search(&mut self, scale: usize) {
         let Scale { level, half, .. } = self.scales[scale];
-        self.mask(level, None);
-        self.candidates.clear();
+        self.mask(level);
+        let mut candidates = std::mem::take(&mut self.candidates);
+        candidates.clear();
         for node in 0..self.levels[level].len() {
             if let Some(ratio) = self.ratio(scale, node)
                 && !self.was_dropped(scale, node)
             {
-                self.candidates.push((ratio, node));
+                candidates.push(ratio, node);
             }
         }
-        self.candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        while let Some((ratio, node)) = self.candidates.pop() {
+        while let Some((ratio, node)) = candidates.pop() {
             let Some(taken) = self.take(scale, node, ratio) else { continue };
-            self.levels[level].mask(taken.guard.0, taken.guard.1);
+            self.levels[level].mask(taken.guard);
             self.taken.push(taken);
             // windows that reached over it are shorter now
             let reach = half + 2;
-            let (low, high) = (node.saturating_sub(2 * reach), node + 2 * reach);
-            let mut kept = std::mem::take(&mut self.candidates);
-            kept.retain_mut(|(ratio, node)| {
-                if (low..=high).contains(node) {
-                    *ratio = self.ratio(scale, *node).unwrap_or(f64::NAN);
-                }
-                !ratio.is_nan()
-            });
-            kept.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            self.candidates = kept;
+            candidates.update((node.saturating_sub(2 * reach), node + 2 * reach), |node| self.ratio(scale, node));
         }
+        self.candidates = candidates;
     }
 
     fn was_dropped(&self, scale: usize, node: usize) -> bool {
@@ -177,7 +187,7 @@ impl Detector {
 
     fn variance(&self, level: usize) -> [f64; 3] {
         let size = self.levels[level].size as f64;
-        self.sigma.map(|s| s * s / size)
+        std::array::from_fn(|c| self.sigma[c] * self.sigma[c] * self.excess[level][c] / size)
     }
 
     /// The fit of a window around a node, and the bins of the window. None where there is no room for one and, in a `hurry`, where
@@ -251,14 +261,10 @@ impl Detector {
             (Some((kink, bent)), Some((jump, stepped))) if bent - stepped > JUMP * (stepped / freedom).max(1.0) => {
                 // bins do not determine between which samples it jumps
                 let near = (jump.next.saturating_sub(2) * size, (jump.next + 2) * size);
-                Some(self.samples().jump(from, to, near).map_or(kink, |exact| exact.0))
+                Some(self.part(0).0.jump(from, to, near).map_or(kink, |exact| exact.0))
             }
             (kink, _) => kink.map(|found| found.0),
         }
-    }
-
-    fn samples(&self) -> Part<'_> {
-        self.part(0).0
     }
 
     /// The bins by which a knot in a window of a level is placed, finer than those of the level, and the samples in each.
@@ -266,7 +272,8 @@ impl Detector {
         let bins = &self.levels[level.saturating_sub(FINER)];
         let share = (bins.size as f64).sqrt();
         let channels = [&bins.y[0][..], &bins.y[1][..], &bins.y[2][..]];
-        (Part { tau: &bins.tau, channels, sigma: self.sigma.map(|s| s / share) }, bins.size)
+        let sigma = std::array::from_fn(|c| self.sigma[c] * self.excess[level][c].sqrt() / share);
+        (Part { tau: &bins.tau, channels, sigma }, bins.size)
     }
 
     /// A kink that was placed by bins, with the index of the sample after it.
@@ -298,21 +305,18 @@ impl Detector {
         expected > MISSED * shorter.six
     }
 
-    /// Masks the bins of a level at all transitions but one.
-    fn mask(&mut self, level: usize, but: Option<usize>) {
+    /// Masks the bins of a level at all transitions.
+    fn mask(&mut self, level: usize) {
         let bins = &mut self.levels[level];
         bins.unmask();
-        for (i, taken) in self.taken.iter().enumerate() {
-            if Some(i) != but {
-                bins.mask(taken.guard.0, taken.guard.1);
-            }
-        }
+        self.taken.iter().for_each(|taken| bins.mask(taken.guard));
     }
 
     /// Places each transition by the longest window that its neighbours and the noise allow, and drops, weakest first, those that
     /// no longer stand out between their neighbours.
     fn settle(&mut self) {
         self.taken.sort_unstable_by(|a, b| a.placed.tau.total_cmp(&b.placed.tau));
+        (0..self.levels.len()).for_each(|level| self.mask(level));
         // twice: a new place changes the windows of the neighbours
         for _ in 0..2 {
             (0..self.taken.len()).for_each(|i| self.settle_one(i));
@@ -322,6 +326,7 @@ impl Detector {
             .min_by(|a, b| self.taken[*a].score.total_cmp(&self.taken[*b].score))
         {
             let dropped = self.taken.remove(weakest);
+            self.levels.iter_mut().for_each(|bins| bins.release(dropped.guard));
             self.dropped.push((dropped.scale, dropped.placed.next));
             for i in weakest.saturating_sub(1)..(weakest + 1).min(self.taken.len()) {
                 self.settle_one(i);
@@ -335,12 +340,12 @@ impl Detector {
     /// a long window.
     fn settle_one(&mut self, i: usize) {
         let old = self.taken[i];
+        self.levels.iter_mut().for_each(|bins| bins.release(old.guard));
         let mut score = 0.0_f64;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut best: Option<Taken> = None;
         for scale in 0..self.scales.len() {
             let level = self.scales[scale].level;
-            self.mask(level, Some(i));
             let bins = &self.levels[level];
             let middle = old.placed.next / bins.size;
             // the fit may have moved the transition into a bin beside the one that found it
@@ -370,7 +375,9 @@ impl Detector {
                 best = Some(Taken { placed, guard, ..old });
             }
         }
-        self.taken[i] = Taken { score, ..best.unwrap_or(old) };
+        let new = Taken { score, ..best.unwrap_or(old) };
+        self.levels.iter_mut().for_each(|bins| bins.mask(new.guard));
+        self.taken[i] = new;
     }
 }
 

@@ -5,8 +5,10 @@ use crate::check::Finding;
 use crate::phase::{Basis, Label};
 use crate::systematic::{Calibration, Source};
 
-/// Root mean square of a criterion, in standard deviations of its noise, from which on the model does not explain the scan.
-const MISFIT: f64 = 5.0;
+/// What is left of a criterion, in parts of what the budget let it be, from which on the model does not explain the scan.
+const MISFIT: f64 = 0.2;
+/// Standard deviations of its budget beyond which an estimate contradicts what is known.
+const BEYOND: f64 = 3.0;
 /// Share of single contacts without a contact point that is reported.
 const UNANSWERED: f64 = 0.25;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
@@ -33,7 +35,7 @@ fn of_calibration(calibration: &Calibration) -> Vec<Finding> {
     if calibration.free.is_empty() && biases.iter().flatten().any(|bias| bias.sigma > KNOWN * bias.budget) {
         findings.push(Finding::NoFreeStretch);
     }
-    for estimate in calibration.sources.iter().filter(|estimate| estimate.raised) {
+    for estimate in calibration.sources.iter().filter(|estimate| estimate.value.abs() > BEYOND * estimate.given) {
         let (of, value, sigma, budget) = (estimate.source, estimate.value, estimate.sigma, estimate.given);
         findings.push(Finding::Budget { of, value, sigma, budget });
     }
@@ -42,7 +44,7 @@ fn of_calibration(calibration: &Calibration) -> Vec<Finding> {
         (Basis::Length, calibration.misfit_length),
         (Basis::Tangent, calibration.misfit_tangent),
     ];
-    let large = misfits.into_iter().filter(|(_, times)| *times > MISFIT);
-    findings.extend(large.map(|(criterion, times)| Finding::Misfit { criterion, times }));
+    let large = misfits.into_iter().filter(|(_, part)| *part > MISFIT);
+    findings.extend(large.map(|(criterion, part)| Finding::Misfit { criterion, part }));
     findings
 }

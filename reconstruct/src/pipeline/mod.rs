@@ -5,6 +5,7 @@
 
 mod answers;
 mod doubts;
+mod each_pass;
 mod live;
 mod live_settings;
 mod nearest;
@@ -14,6 +15,7 @@ mod reconstruction;
 mod session;
 mod settings;
 
+pub use each_pass::reconstruct_passes;
 pub use live::Live;
 pub use live_settings::LiveSettings;
 pub use reading::{Reading, Reason};

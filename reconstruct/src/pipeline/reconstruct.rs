@@ -7,16 +7,17 @@ use super::settings::{ReconstructError, Settings, positive};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Label, identify, places};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
-use crate::scan::{Noise, Track, dimensionless};
+use crate::scan::{FEWEST_SAMPLES, Noise, Track, dimensionless};
 use crate::systematic::{Budget, Errors, calibrate};
 use rod_core::{Rod, Sample};
 
-/// Fewest usable samples of a scan.
-const FEWEST: usize = 20;
-
 /// Computes from the reactions of a scan the phase of each sample and the places where the rod touched the object.
 ///
-/// The samples follow one path of the clamp. Those that are not finite, repeat a pose or turn back are left out, with the reason.
+/// The samples follow one path of the clamp; [`reconstruct_passes`](crate::reconstruct_passes) splits a recording whose clamp
+/// turns back. Samples that are not finite are left out, with the reason, and so are a few that repeat a pose or turn back. Where
+/// these are more than 1 % of the samples, the poses are noisy and are smoothed along the path; the samples of a clamp that
+/// stands still are averaged.
+///
 /// Kinks and jumps cut the scan into parts. In each part local cubics give the reactions and their rates with covariance. Criteria
 /// computed from these (phase criterion, length, tangent: see [`Evidence`](crate::Evidence)) and the phase diagram of Merker et al. (2020,
 /// fig. 8b) give the labels. Single contacts follow in closed form, several from the envelope of the scan.
@@ -29,8 +30,8 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
     let mut units = rod.units();
     let (mut track, numbered) = Track::new(rod, samples);
-    if track.len() < FEWEST {
-        return Err(ReconstructError::TooFew { usable: track.len(), samples: samples.len(), fewest: FEWEST });
+    if track.len() < FEWEST_SAMPLES {
+        return Err(ReconstructError::TooFew { usable: track.len(), samples: samples.len(), fewest: FEWEST_SAMPLES });
     }
     let channels = [0, 1, 2].map(|c| track.clamps.iter().map(|clamp| clamp.reactions[c]).collect::<Vec<f64>>());
     let size = [units.force, units.force, units.moment];
@@ -82,7 +83,10 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     for (number, place) in numbered.iter().enumerate() {
         match place {
             Ok(index) => {
-                numbers.push(number);
+                // the samples of a stop share a place
+                if numbers.len() == *index {
+                    numbers.push(number);
+                }
                 readings.push(usable[*index]);
             }
             Err(fault) => {

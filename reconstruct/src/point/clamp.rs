@@ -98,11 +98,12 @@ pub(crate) struct Gradient<T = f64> {
 
 #[cfg(feature = "std")]
 impl Clamp {
-    /// The sample with this pose and these reactions, SI units, for a rod of these units.
+    /// The sample with this pose and these reactions, SI units, for a straight rod of these units that has the same curvature at its clamp.
     pub fn sample(&self, units: Units, of: &Sample) -> Sample {
         let (p, r) = (&self.pose, &self.reactions);
         let pose = Pose { x: p.x * units.length, y: p.y * units.length, phi: p.z };
-        let reactions = Reactions { f0x: r.x * units.force, f0y: r.y * units.force, m0z: r.z * units.moment };
+        let reactions =
+            Reactions { f0x: r.x * units.force, f0y: r.y * units.force, m0z: (r.z - self.natural) * units.moment };
         Sample { pose, reactions, ..*of }
     }
 }

@@ -1,16 +1,27 @@
 //! A scan: its samples in order along the path of the clamp, their noise, and smooth local fits of the reactions.
 //!
-//! [`Travel`] is the path parameter, `Track` the dimensionless samples, [`noise_estimate`] the noise of each channel, and
+//! [`passes`] splits a recording whose clamp turns back. [`Travel`] is the path parameter, `Track` the dimensionless samples, whose
+//! poses are smoothed where they tremble, [`noise_estimate`] the noise of each channel, and
 //! `LocalCubic` gives values and rates of pose and reactions at a place, with their covariance.
 
+pub(crate) mod bands;
 mod local_cubic;
 mod noise;
 pub mod noise_estimate;
+mod passes;
+mod polynomials;
+mod quantum;
+mod smooth_path;
+mod stops;
 mod track;
 mod travel;
 
 pub(crate) use local_cubic::{Estimate, LocalCubic};
 pub(crate) use noise::{Noise, dimensionless};
+pub use passes::passes;
 pub use track::Fault;
 pub(crate) use track::{Intake, Track};
 pub use travel::{Halt, Travel};
+
+/// Fewest usable samples of a scan, or of a pass of it. Fewer do not determine the noise, nor the rates of the reactions.
+pub const FEWEST_SAMPLES: usize = 20;

@@ -1,7 +1,10 @@
 //! The noise of a channel, estimated from the channel itself.
 
+use super::bands::Bands;
+use super::polynomials::Bases;
+use super::quantum::quantum;
 use crate::numeric::chi_squared::wilson_hilferty;
-use crate::numeric::{dot, orthonormalise, subtract};
+use crate::numeric::{dot, subtract};
 use nalgebra::{DMatrix, DVector};
 
 /// The random noise of one channel, in the channel's units.
@@ -42,6 +45,11 @@ const CORRELATED: f64 = 2.0;
 const OUTLYING: f64 = 4.5;
 /// Lags up to this one enter the long-run variance.
 const LAGS: usize = 8;
+/// Levels of long times: the longest have periods of some 1300 samples. More: slow drift counts as noise of all windows, even of
+/// those that are too short to see it.
+const LEVELS: usize = 9;
+/// Share of the frequencies (of half the sampling rate) below the geometric mean of the frequencies of the first two levels.
+const BAND: f64 = 0.28;
 /// The noise is at least this share of the largest sample: rounding of a number.
 const ROUNDING: f64 = 1.0 / (1u64 << 52) as f64;
 
@@ -52,7 +60,8 @@ const ROUNDING: f64 = 1.0 / (1u64 << 52) as f64;
 /// makes the residuals stand out, windows with values that are not finite, and windows without any residual, unless all are.
 ///
 /// On 85,000 samples of white noise or AR(1) noise of correlations from -0.4 to 0.45 the standard deviation is right to 1 % and
-/// `long_run` to 8 %. Correlations beyond 8 samples are not seen. The standard deviation is at least the rounding of the largest
+/// `long_run` to 8 %. Power at longer times (drift, low-pass filters, hum) is added where it
+/// exceeds that of the windows and does not grow as a smooth signal does; its `long_run` is right to a factor of 2 or 3. The standard deviation is at least the rounding of the largest
 /// sample, and at least q / sqrt 12 where most differences of neighbours are multiples of a quantum q. For fewer than 8 samples
 /// the standard deviation about their mean is returned.
 ///
@@ -84,7 +93,26 @@ pub fn estimate(tau: &[f64], channel: &[f64]) -> ChannelNoise {
         variance = found.white_variance;
         best = found.noise();
     }
-    ChannelNoise { sigma: best.sigma.max(floor), ..best }
+    let noise = ChannelNoise { sigma: best.sigma.max(floor), ..best };
+    with_long_times(noise, &Bands::of(tau, channel, noise.equivalent().powi(2)))
+}
+
+/// Adds the noise at times that the windows do not see, where there is more of it.
+fn with_long_times(noise: ChannelNoise, bands: &Bands) -> ChannelNoise {
+    let known = noise.equivalent().powi(2);
+    let levels = bands.levels().min(LEVELS);
+    let most = (1..levels).map(|level| bands.excess(level, known)).fold(1.0, f64::max);
+    if most <= 1.0 || known <= 0.0 {
+        return noise;
+    }
+    // a level stands for the frequencies of half a power of two, the first for all higher ones, the last for all lower ones
+    let share = |level: usize| match level {
+        0 => 1.0 - BAND,
+        _ if level + 1 == levels => BAND * 2.0_f64.powi(1 - level as i32),
+        _ => BAND * 2.0_f64.powi(-(level as i32)),
+    };
+    let variance = (0..levels).map(|level| share(level) * bands.at(level)).sum::<f64>().max(noise.sigma.powi(2));
+    ChannelNoise { sigma: variance.sqrt(), lag1: noise.lag1, long_run: (most * known / variance).max(1.0) }
 }
 
 /// Sums of products of residuals over all good windows of a length.
@@ -99,21 +127,14 @@ struct Windows {
 impl Windows {
     fn of(tau: &[f64], channel: &[f64], length: usize) -> Option<Self> {
         let lags = (length / 8).clamp(1, LAGS);
-        let mut basis: [Vec<f64>; COLUMNS] = std::array::from_fn(|_| vec![0.0; length]);
-        let mut spacing = f64::NAN;
+        let mut bases = Bases::<COLUMNS>::new(length);
         let mut residual = vec![0.0; length];
         let mut sums: Vec<(f64, [f64; LAGS + 1])> = Vec::new();
         for (t, y) in tau.chunks_exact(length).zip(channel.chunks_exact(length)) {
-            let shape = t[length - 1] - t[0];
-            let evenly = even_enough(t, shape);
-            let same = evenly && (shape - spacing).abs() < 1e-6 * shape;
-            if !same {
-                spacing = if evenly { shape } else { f64::NAN };
-                orthonormal(t, &mut basis);
-            }
+            let basis = bases.at(t);
             let middle = y[length / 2];
             residual.iter_mut().zip(y).for_each(|(r, y)| *r = y - middle);
-            for column in &basis {
+            for column in basis {
                 let share = dot(&residual, column);
                 subtract(&mut residual, share, column);
             }
@@ -166,8 +187,8 @@ impl Windows {
 /// The matrix that maps covariances at lags 0, 1, ... to the expected sums of products of residuals over a window.
 fn taken_part(length: usize, lags: usize) -> DMatrix<f64> {
     let t: Vec<f64> = (0..length).map(|i| i as f64).collect();
-    let mut basis: [Vec<f64>; COLUMNS] = std::array::from_fn(|_| vec![0.0; length]);
-    orthonormal(&t, &mut basis);
+    let mut bases = Bases::<COLUMNS>::new(length);
+    let basis = bases.at(&t);
     let q = DMatrix::from_fn(length, COLUMNS, |i, j| basis[j][i]);
     let rest = DMatrix::identity(length, length) - &q * q.transpose();
     let mut matrix = DMatrix::zeros(lags, lags);
@@ -181,48 +202,10 @@ fn taken_part(length: usize, lags: usize) -> DMatrix<f64> {
     matrix
 }
 
-/// Orthonormal polynomials up to the degree at the places `t`.
-fn orthonormal(t: &[f64], basis: &mut [Vec<f64>; COLUMNS]) {
-    let (first, last) = (t[0], t[t.len() - 1]);
-    let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-    for (i, t) in t.iter().enumerate() {
-        let u = (t - middle) / half;
-        let mut power = 1.0;
-        for column in basis.iter_mut() {
-            column[i] = power;
-            power *= u;
-        }
-    }
-    for k in 0..COLUMNS {
-        let (before, rest) = basis.split_at_mut(k);
-        orthonormalise(&mut rest[0], before);
-    }
-}
-
-/// Whether places are evenly spaced but for rounding, so that one basis serves for many windows.
-fn even_enough(t: &[f64], span: f64) -> bool {
-    let step = span / (t.len() - 1) as f64;
-    t.iter().enumerate().all(|(i, x)| (x - t[0] - step * i as f64).abs() < 1e-6 * step)
-}
-
 /// Standard deviation about the mean.
 fn scatter(channel: &[f64]) -> f64 {
     let finite = || channel.iter().filter(|y| y.is_finite());
     let count = finite().count().max(1) as f64;
     let mean = finite().sum::<f64>() / count;
     (finite().map(|y| (y - mean).powi(2)).sum::<f64>() / count).sqrt()
-}
-
-/// The quantum of a channel: the smallest difference of neighbours, where at least a third of the neighbours are equal and the
-/// others differ by multiples of it.
-fn quantum(channel: &[f64]) -> Option<f64> {
-    let steps = || channel.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| d.is_finite());
-    let (equal, all) = steps().fold((0, 0), |(e, n), d| (e + usize::from(d == 0.0), n + 1));
-    if 3 * equal < all || equal == all {
-        return None;
-    }
-    let smallest = steps().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-    let multiple = |d: f64| (d / smallest - (d / smallest).round()).abs() < 1e-3 * (d / smallest).max(1.0);
-    let odd = steps().filter(|d| *d > 0.0 && !multiple(*d)).count();
-    (20 * odd < all - equal).then_some(smallest)
 }

@@ -1,8 +1,13 @@
 //! The samples of a scan in order along the path of the clamp.
 
+use super::FEWEST_SAMPLES;
+use super::passes::{passes, trembling};
+use super::smooth_path::smooth_path;
+use super::stops::stops;
 use super::travel::{Halt, Travel};
 use crate::point::Clamp;
-use rod_core::{Rod, Sample, Units};
+use nalgebra::Vector3;
+use rod_core::{Pose, Rod, Sample, Units};
 
 /// Why a sample cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -52,9 +57,29 @@ impl Intake {
     }
 }
 
+/// Share of the samples that may repeat a pose or turn back. If there are more, the poses are noisy and are smoothed. Larger: more
+/// samples of a trembling clamp are left out. Smaller: a few held samples change all poses.
+const HALTS: f64 = 0.01;
+
 impl Track {
     /// The usable samples, and for each sample its index among them or why it is left out.
+    ///
+    /// Where poses are exact they are used as they are. Noisy ones are smoothed, and samples of a clamp that stands still are
+    /// averaged: then several samples have the same index. A recording of several passes is not smoothed.
     pub fn new(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
+        let (track, places) = Self::exact(rod, samples);
+        let halts = places.iter().filter(|place| matches!(place, Err(Fault::Halt(_)))).count();
+        if samples.len() < FEWEST_SAMPLES || halts as f64 <= HALTS * samples.len() as f64 {
+            return (track, places);
+        }
+        if passes(rod, samples).len() > 1 {
+            return (track, places);
+        }
+        Self::smoothed(rod, samples, &places).unwrap_or((track, places))
+    }
+
+    /// The samples whose poses go on in one direction.
+    fn exact(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
         let mut intake = Intake::new(rod);
         let mut track =
             Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()), natural: 0.0 };
@@ -70,6 +95,39 @@ impl Track {
         (track, places)
     }
 
+    /// All finite samples, with smoothed poses; none where no smoothing lets the clamp go on in one direction.
+    fn smoothed(
+        rod: &Rod,
+        samples: &[Sample],
+        places: &[Result<usize, Fault>],
+    ) -> Option<(Self, Vec<Result<usize, Fault>>)> {
+        let units = rod.units();
+        let usable = |place: &Result<usize, Fault>| *place != Err(Fault::NotFinite);
+        let clamps: Vec<Clamp> = samples
+            .iter()
+            .zip(places)
+            .filter(|(_, place)| usable(place))
+            .map(|(sample, _)| Clamp::new(units, sample.pose, sample.reactions))
+            .collect();
+        let poses: Vec<(usize, [f64; 3])> = clamps.iter().map(|clamp| (0, clamp.pose.into())).collect();
+        let stops = stops(&clamps, trembling(&poses));
+        let along = |poses: &[Vector3<f64>]| -> Option<Vec<f64>> {
+            let mut travel = Travel::new(rod);
+            let pose = |p: &Vector3<f64>| Pose { x: p.x * units.length, y: p.y * units.length, phi: p.z };
+            poses.iter().map(|p| Some(travel.go(&pose(p)).ok()? / units.length)).collect()
+        };
+        let own: Vec<Vector3<f64>> = stops.iter().map(|stop| stop.clamp.pose).collect();
+        let poses = if along(&own).is_some() { own } else { smooth_path(&own, |poses| along(poses).is_some())? };
+        let tau = along(&poses)?;
+        let clamps = stops.iter().zip(&poses).map(|(stop, pose)| Clamp { pose: *pose, ..stop.clamp }).collect();
+        let mut indices = stops.iter().enumerate().flat_map(|(index, stop)| std::iter::repeat_n(index, stop.count));
+        let places = places
+            .iter()
+            .map(|place| if usable(place) { indices.next().ok_or(Fault::TooFew) } else { *place })
+            .collect();
+        Some((Self { tau, clamps, natural: 0.0 }, places))
+    }
+
     pub fn len(&self) -> usize {
         self.tau.len()
     }
@@ -78,7 +136,7 @@ impl Track {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rod_core::{Pose, Reactions};
+    use rod_core::Reactions;
 
     #[test]
     fn what_stands_still_turns_back_or_is_no_number_is_left_out() {

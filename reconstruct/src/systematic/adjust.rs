@@ -34,6 +34,8 @@ pub(super) struct Adjusted {
     pub normal: Joint,
     /// For each criterion, root mean square residual in standard deviations of the noise, 1 at least.
     pub scatter: [f64; CRITERIA],
+    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be.
+    pub misfit: [f64; CRITERIA],
 }
 
 /// The criteria that vanish in a phase.
@@ -89,13 +91,24 @@ fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]
     residuals
 }
 
+/// What the budget lets each criterion be, in standard deviations of the noise: the median of its places.
+fn allowances(residuals: &[Residual]) -> [f64; CRITERIA] {
+    std::array::from_fn(|c| {
+        let of = residuals.iter().filter(|residual| residual.criterion == c);
+        median(of.map(|residual| residual.by_errors.norm()).collect()).unwrap_or(f64::INFINITY)
+    })
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
 /// Robust root mean square of the residuals of each criterion, 1 at least.
 fn scatters(residuals: &[Residual]) -> [f64; CRITERIA] {
     std::array::from_fn(|c| {
         let of = residuals.iter().filter(|residual| residual.criterion == c);
-        let mut sizes: Vec<f64> = of.map(|residual| residual.z.abs()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        sizes.get(sizes.len() / 2).map_or(1.0, |median| (median / NORMAL_MEDIAN).max(1.0))
+        median(of.map(|residual| residual.z.abs()).collect()).map_or(1.0, |median| (median / NORMAL_MEDIAN).max(1.0))
     })
 }
 
@@ -114,10 +127,10 @@ pub(super) fn adjust(frame: Frame, sigmas: &Errors, start: &Errors, places: &[La
     let mut z = start.component_mul(&known);
     // R of the QR decomposition: R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
-    let mut scatter = [1.0; CRITERIA];
+    let (mut scatter, mut allowed) = ([1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
     for _ in 0..STEPS {
         let here = residuals(frame, &z.component_mul(sigmas), sigmas, places);
-        scatter = scatters(&here);
+        (scatter, allowed) = (scatters(&here), allowances(&here));
         let mut rows = DMatrix::<f64>::zeros(SOURCES + here.len(), SOURCES);
         let mut right = DVector::<f64>::zeros(SOURCES + here.len());
         rows.view_mut((0, 0), (SOURCES, SOURCES)).fill_with_identity();
@@ -143,7 +156,8 @@ pub(super) fn adjust(frame: Frame, sigmas: &Errors, start: &Errors, places: &[La
     let inverse = upper.solve_upper_triangular(&Joint::identity()).unwrap_or_else(Joint::identity);
     let factor = Joint::from_diagonal(sigmas) * inverse;
     let normal = upper.transpose() * upper;
-    Adjusted { errors, factor, normal, scatter }
+    let misfit = std::array::from_fn(|c| (scatter[c] * scatter[c] - 1.0).sqrt() / allowed[c]);
+    Adjusted { errors, factor, normal, scatter, misfit }
 }
 
 /// By how much the robust sum of squares with `fewer` errors exceeds that with those that were found.

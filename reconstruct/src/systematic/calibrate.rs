@@ -73,7 +73,9 @@ impl Shared {
                 let tau = track.tau[node.index];
                 let measured = node.fit.at(tau);
                 let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
-                last = of_point(self.frame, tau, &measured, &covariance, *label, &self.factor).unwrap_or(last);
+                let criterion = if *label == Label::A { Criterion::Length } else { Criterion::K };
+                let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
+                last = of_point(self.frame, tau, &measured, &covariance, *label, &self.factor, misfit).unwrap_or(last);
             }
             before = Some(*label);
             last
@@ -235,7 +237,7 @@ fn told(
             }
         }
     }
-    let misfit = |criterion: Criterion| found.scatter[criterion as usize];
+    let misfit = |criterion: Criterion| found.misfit[criterion as usize];
     Calibration {
         sources,
         ties,

@@ -44,7 +44,7 @@ pub struct Calibration {
     pub ties: Vec<(Source, Source, f64)>,
     /// Stretches of samples in which the rod is free, by the numbers of usable samples.
     pub free: Vec<Range<usize>>,
-    /// Root mean square of what is left of the phase criterion K along tangential contacts, in standard deviations of the noise: 1
+    /// What is left of the phase criterion K along tangential contacts beyond its noise, in parts of what the budget let it be: 0
     /// where model and scan agree.
     pub misfit_criterion: f64,
     /// The same of the length criterion along contacts of the tip.
@@ -54,7 +54,8 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// The samples of the scan without what was taken off, as of [`Self::rod`]. A natural curvature stays in them.
+    /// The samples of the scan without what was taken off, as of [`Self::rod`]. Of a rod with natural curvature the moment is less by what
+    /// would bend a straight rod to it.
     pub fn corrected(&self, given: &Rod, samples: &[Sample]) -> Vec<Sample> {
         let taken = Errors::from_fn(|k, _| {
             let source = Source::ALL[k];

@@ -76,7 +76,7 @@ pub(super) fn variances(by_errors: &SMatrix<f64, CRITERIA, SOURCES>, factor: &Jo
 }
 
 /// The covariance of the contact point at a place of phase A or B that errors with this factor of their covariance cause,
-/// dimensionless. The place is corrected; `measured` is it before that. None where there is no contact point.
+/// dimensionless, with `misfit` times that of the noise. The place is corrected. None where there is no contact point.
 pub(crate) fn of_point(
     frame: Frame,
     tau: f64,
@@ -84,6 +84,7 @@ pub(crate) fn of_point(
     noise: &Matrix3<f64>,
     label: Label,
     factor: &Joint,
+    misfit: f64,
 ) -> Option<Matrix2<f64>> {
     let none = Errors::zeros();
     let by_errors = of_inputs_by_errors(frame, &none, tau, measured)?;
@@ -99,6 +100,7 @@ pub(crate) fn of_point(
         by_inputs.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
     }
     let spread = by_inputs * by_errors.fixed_rows::<OF_POINT>(0) * factor;
-    let covariance = spread * spread.transpose();
+    let by_reactions = by_inputs.fixed_columns::<3>(3);
+    let covariance = spread * spread.transpose() + by_reactions * noise * by_reactions.transpose() * misfit;
     covariance.iter().all(|v| v.is_finite()).then_some(covariance)
 }
