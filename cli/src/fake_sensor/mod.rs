@@ -1,7 +1,10 @@
 //! A sensor that is none, playing what it would feel along a scene.
 
+mod pty;
+
 use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
-use rod_fake_sensor::{FakeBota, FakeDevice, FakeGsv8, FakeRdt, FakeRdtSettings, FakeSensor, Pace, open_pty};
+use pty::play_pty;
+use rod_fake_sensor::{FakeBota, FakeGsv8, FakeRdt, FakeRdtSettings};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -68,6 +71,12 @@ pub enum FakeError {
         place: String,
         /// Why.
         source: std::io::Error,
+    },
+    /// A serial line, on a system without pseudo-terminals.
+    #[error("{protocol} needs a pseudo-terminal, which only Unix systems have; use --protocol rdt here")]
+    NoPty {
+        /// What was to be played.
+        protocol: &'static str,
     },
     /// There is no way back from a wrench to the gauges.
     #[error(
@@ -194,27 +203,4 @@ fn play_rdt(
         thread::sleep(LOOK);
     }
     Ok(fake.account().records)
-}
-
-fn play_pty<D: FakeDevice>(
-    device: D,
-    name: &str,
-    pace: f64,
-    samples: Receiver<[f64; 6]>,
-    playing: &str,
-    tell: &mut dyn FnMut(&str),
-    stopped: &dyn Fn() -> bool,
-) -> Result<u64, Error> {
-    let failed = |source| FakeError::Place { place: "a pseudo-terminal".into(), source };
-    let mut pty = open_pty().map_err(failed)?;
-    tell(&format!("serial:{}:{name}: {playing}", pty.path()));
-    let mut sensor = FakeSensor::new(device, samples.into_iter()).with_pace(Pace::Rate(pace));
-    loop {
-        let end = sensor.serve(&mut pty, |_| !stopped()).map_err(failed)?;
-        if end != rod_fake_sensor::End::Closed {
-            // what the other side has not read yet would be gone with the pseudo-terminal
-            thread::sleep(Duration::from_millis(500));
-            return Ok(sensor.served().frames);
-        }
-    }
 }
