@@ -9,6 +9,11 @@ use std::sync::mpsc::Receiver;
 #[cfg(unix)]
 use std::{thread, time::Duration};
 
+/// Bytes kept for a program that does not read: half a minute of 6 floats at 1 kHz. More would only delay what it reads next.
+#[cfg(unix)]
+const ROOM: usize = 1 << 20;
+
+/// Plays on a new pseudo-terminal until all samples are sent or `stopped` says so, however often a program opens it.
 #[cfg(unix)]
 pub(super) fn play_pty<D: FakeDevice>(
     device: D,
@@ -22,7 +27,8 @@ pub(super) fn play_pty<D: FakeDevice>(
     let failed = |source| FakeError::Place { place: "a pseudo-terminal".into(), source };
     let mut pty = open_pty().map_err(failed)?;
     tell(&format!("serial:{}:{name}: {playing}", pty.path()));
-    let mut sensor = FakeSensor::new(device, samples.into_iter()).with_pace(Pace::Rate(pace));
+    let sensor = FakeSensor::new(device, samples.into_iter()).with_pace(Pace::Rate(pace));
+    let mut sensor = sensor.with_room(ROOM);
     loop {
         let end = sensor.serve(&mut pty, |_| !stopped()).map_err(failed)?;
         if end != rod_fake_sensor::End::Closed {
