@@ -229,7 +229,7 @@ fn a_file_that_cannot_be_written() {
     {
         let output = simulate(directory.path(), &["--rate", "1", "--out", out]);
         let message = complaint(&output);
-        assert!(output.status.code() == Some(1) && message.contains(part), "{message}");
+        assert!(output.status.code() == Some(2) && message.contains(part), "{message}");
     }
     let output = simulate(directory.path(), &["--rate", "1", "--out", "scene.toml/r.csv"]);
     let message = complaint(&output);
