@@ -36,15 +36,29 @@ impl Scale {
         (first..=last).map(|k| k as f64 * step).map(|value| (value, text(value))).collect()
     }
 
-    /// The name of an axis with the power: `f in N` becomes `f in 10⁻³ N`.
+    /// The name of an axis with the power: `f in N` becomes `f in mN`, `margin` becomes `margin in 10⁻³`.
     pub fn name(self, name: &str) -> String {
         let power: String = self.0.to_string().chars().map(superscript).collect();
-        match (self.0, name.split_once(" in ")) {
-            (0, _) => name.to_owned(),
-            (_, Some((quantity, unit))) => format!("{quantity} in 10{power} {unit}"),
-            (_, None) => format!("{name} in 10{power}"),
-        }
+        let Some((quantity, unit)) = name.split_once(" in ").filter(|_| self.0 != 0) else {
+            return if self.0 == 0 { name.to_owned() } else { format!("{name} in 10{power}") };
+        };
+        // prefixes are shorter than powers, and beside a low plot there is little room
+        let unit = match (unit.strip_prefix('('), prefix(self.0), prefix(self.0 / 2)) {
+            (None, Some(prefix), _) if unit.starts_with('N') => format!("{prefix}{unit}"),
+            (Some(squared), _, Some(prefix)) if squared.starts_with('N') && self.0 % 2 == 0 => {
+                format!("({prefix}{squared}")
+            }
+            _ => format!("10{power} {unit}"),
+        };
+        format!("{quantity} in {unit}")
     }
+}
+
+/// The prefix of a unit for a power of ten.
+fn prefix(power: i32) -> Option<char> {
+    [(-12, 'p'), (-9, 'n'), (-6, 'µ'), (-3, 'm'), (3, 'k'), (6, 'M')]
+        .into_iter()
+        .find_map(|(known, prefix)| (known == power).then_some(prefix))
 }
 
 fn superscript(letter: char) -> char {
@@ -76,9 +90,12 @@ mod tests {
     #[test]
     fn small_and_large_numbers_share_a_power_of_ten() {
         assert_eq!(texts(-1e-7..4.1e-6, 5), ["0", "1", "2", "3", "4"]);
-        assert_eq!(Scale::of(&(-1e-7..4.1e-6)).name("f_{0x} in N"), "f_{0x} in 10⁻⁶ N");
+        assert_eq!(Scale::of(&(-1e-7..4.1e-6)).name("f_{0x} in N"), "f_{0x} in µN");
         assert_eq!(texts(0.0..4.1e-4, 5), ["0", "100", "200", "300", "400"]);
         assert_eq!(Scale::of(&(0.0..2e5)).name("margin"), "margin in 10³");
+        assert_eq!(Scale::of(&(0.0..2e-5)).name("K in (N mm)²"), "K in (mN mm)²");
+        assert_eq!(Scale::of(&(0.0..2e-3)).name("K in (N mm)²"), "K in 10⁻³ (N mm)²");
+        assert_eq!(Scale::of(&(0.0..2e-3)).name("x in mm"), "x in 10⁻³ mm");
         assert_eq!(Scale::of(&(0.0..0.02)).name("f_{0x} in N"), "f_{0x} in N");
         assert_eq!(Scale::of(&(0.0..0.0)).name("K"), "K");
     }
