@@ -4,20 +4,31 @@
 
 #![allow(clippy::print_stdout, reason = "it is there to be read")]
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+#[path = "../../benches/speed_error/figure/canvas.rs"]
+#[allow(dead_code, reason = "shared with figures that need more of it")]
+mod canvas;
+
+use canvas::{BODY, Colour, FAINT, INK, LINE, Point, Sheet, Side};
 use std::error::Error;
+use std::ops::Range;
 use std::path::Path;
 use vibrissa::{Label, Sample, Settings, reconstruct};
 use vibrissa_cli::{Scan, Scene};
 
 /// Part of the clamp's way that is shown, mm.
-const SHOWN: (f64, f64) = (80.0, 215.0);
-const SIZE: (u32, u32) = (1400, 1120);
-const PANEL: i32 = 240;
-const LEFT: i32 = 190;
-const RIGHT: i32 = 1370;
-const TOP: i32 = 70;
+const SHOWN: Range<f64> = 80.0..215.0;
+/// The page, a panel with the gap below it, and the sides of the plots, pixels.
+const SIZE: Point = (1530.0, 1270.0);
+const PANEL: f64 = 280.0;
+const GAP: f64 = 24.0;
+const LEFT: f64 = 150.0;
+const RIGHT: f64 = 1500.0;
+const TOP: f64 = 84.0;
+/// A kink with and without a change of phase.
+const CHANGES: Colour = "#0072b2";
+const STAYS: Colour = "#d55e00";
+/// Fewest pixels between two names of phases.
+const APART: f64 = 46.0;
 
 /// A line: millimetres along the way, and a value.
 type Line = Vec<(f64, f64)>;
@@ -42,66 +53,54 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let criterion = |index: usize| found.evidence(index).map_or(f64::NAN, |evidence| evidence.criterion.value);
     let panels = [
-        ("f0x, mN", vec![line(&|index| 1e3 * samples[index].reactions.f0x)]),
-        ("f0y, mN", vec![line(&|index| 1e3 * samples[index].reactions.f0y)]),
-        ("K, (EI/L)²", vec![line(&criterion)]),
-        ("log10 |vn|", vec![line(&speed)]),
+        ("f0x in mN", line(&|index| 1e3 * samples[index].reactions.f0x)),
+        ("f0y in mN", line(&|index| 1e3 * samples[index].reactions.f0y)),
+        ("K in (EI/L)²", line(&criterion)),
+        ("log10 |vn|", line(&speed)),
     ];
-    let root = SVGBackend::new(&out, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let at = |x: f64| LEFT + ((x - SHOWN.0) / (SHOWN.1 - SHOWN.0) * f64::from(RIGHT - LEFT)) as i32;
-    let text = |text: String, place: (i32, i32), side: HPos| {
-        let style = ("sans-serif", 24).into_font().color(&BLACK).pos(Pos::new(side, VPos::Center));
-        root.draw(&Text::new(text, place, style))
-    };
-    // several contacts grey, with the label of each run
-    for (number, &(first, label)) in found.runs.iter().enumerate() {
-        let last = found.runs.get(number + 1).map_or(samples.len() - 1, |run| run.0);
-        let (from, to) = (way(first).max(SHOWN.0), way(last).min(SHOWN.1));
-        if from >= to || label == Label::Free {
-            continue;
+    let at = |x: f64| LEFT + (x - SHOWN.start) / (SHOWN.end - SHOWN.start) * (RIGHT - LEFT);
+    let bottom = TOP + PANEL * panels.len() as f64 - GAP;
+    let drawing = Sheet::svg(SIZE, |sheet| {
+        let mut named = f64::NEG_INFINITY;
+        for (number, &(first, label)) in found.runs.iter().enumerate() {
+            let last = found.runs.get(number + 1).map_or(samples.len() - 1, |run| run.0);
+            let (from, to) = (way(first).max(SHOWN.start), way(last).min(SHOWN.end));
+            if from >= to || label == Label::Free {
+                continue;
+            }
+            if label.several() {
+                let (left, right) = (at(from), at(to));
+                sheet.area(&[(left, TOP), (right, TOP), (right, bottom), (left, bottom)], FAINT);
+            }
+            // short runs are told apart by colour alone
+            let middle = 0.5 * (at(from) + at(to));
+            if to - from > 2.0 && middle - named >= APART {
+                sheet.write(&label.to_string(), (middle, TOP - 20.0), Side::Middle, BODY, INK);
+                named = middle;
+            }
         }
-        if label.several() {
-            let grey = RGBColor(225, 225, 225).filled();
-            root.draw(&Rectangle::new([(at(from), TOP), (at(to), TOP + 4 * PANEL)], grey))?;
+        for kink in &found.kinks {
+            let x = way(kink.next);
+            if SHOWN.contains(&x) {
+                let changes = found.runs.iter().any(|run| run.0.abs_diff(kink.next) <= 2);
+                sheet.line(&[(at(x), TOP), (at(x), bottom)], if changes { CHANGES } else { STAYS }, 2.0);
+            }
         }
-        if to - from > 2.0 {
-            text(label.to_string(), ((at(from) + at(to)) / 2, TOP - 25), HPos::Center)?;
+        for (number, (name, line)) in panels.into_iter().enumerate() {
+            let line: Line = line.into_iter().filter(|point| SHOWN.contains(&point.0) && point.1.is_finite()).collect();
+            draw(sheet, name, &line, TOP + PANEL * number as f64, &at);
         }
-    }
-    // orange where a kink is no change of phase
-    for kink in &found.kinks {
-        let x = way(kink.next);
-        if (SHOWN.0..SHOWN.1).contains(&x) {
-            let changes = found.runs.iter().any(|run| run.0.abs_diff(kink.next) <= 2);
-            let colour = if changes { RGBColor(0, 114, 178) } else { RGBColor(213, 94, 0) };
-            root.draw(&PathElement::new([(at(x), TOP), (at(x), TOP + 4 * PANEL)], colour.stroke_width(2)))?;
+        for x in ticks(&SHOWN, 8).0 {
+            sheet.line(&[(at(x), bottom), (at(x), bottom + 7.0)], INK, 1.0);
+            sheet.write(&format!("{x}"), (at(x), bottom + 26.0), Side::Middle, BODY, INK);
         }
-    }
-    for (number, (name, lines)) in panels.into_iter().enumerate() {
-        let base = TOP + PANEL * (number as i32 + 1) - 10;
-        let shown: Vec<Line> = lines
-            .into_iter()
-            .map(|line| line.into_iter().filter(|p| p.0 >= SHOWN.0 && p.0 <= SHOWN.1 && p.1.is_finite()).collect())
-            .collect();
-        let values = || shown.iter().flatten().map(|point| point.1);
-        let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let height = |value: f64| base - ((value - low) / (high - low) * f64::from(PANEL - 20)) as i32;
-        for line in &shown {
-            let points: Vec<(i32, i32)> = line.iter().map(|point| (at(point.0), height(point.1))).collect();
-            root.draw(&PathElement::new(points, BLACK.stroke_width(2)))?;
-        }
-        text(name.to_owned(), (12, base - PANEL / 2 + 10), HPos::Left)?;
-        for value in [low, high] {
-            text(format!("{value:.2}"), (LEFT - 8, height(value)), HPos::Right)?;
-        }
-    }
-    for x in [80.0, 100.0, 120.0, 140.0, 160.0, 180.0, 200.0] {
-        text(format!("{x}"), (at(x), TOP + 4 * PANEL + 20), HPos::Center)?;
-    }
-    let foot = "way of the clamp, mm; grey: several contacts; kinks: orange without, blue with a change of phase";
-    text(foot.to_owned(), (LEFT, SIZE.1 as i32 - 20), HPos::Left)?;
-    root.present()?;
+        let middle = 0.5 * (LEFT + RIGHT);
+        sheet.write("way of the clamp in mm", (middle, bottom + 60.0), Side::Middle, BODY, INK);
+        sheet.write("grey: several contacts", (LEFT, 28.0), Side::Left, BODY, INK);
+        sheet.write("kink with a change of phase", (0.5 * (LEFT + RIGHT), 28.0), Side::Middle, BODY, CHANGES);
+        sheet.write("kink without a change of phase", (RIGHT, 28.0), Side::Right, BODY, STAYS);
+    });
+    std::fs::write(&out, drawing)?;
     println!("kink (way in mm), change of the rates of f0x and f0y (N/m) and m0z (N), |vn| before and after, labels");
     for kink in found.kinks.iter().filter(|kink| kink.next > 200 && kink.next + 200 < samples.len()) {
         let [before, after] = [kink.next - 100, kink.next + 100];
@@ -119,4 +118,35 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     Ok(())
+}
+
+/// Draws a panel with its axis: `top` in pixels, `at` from the way to pixels.
+fn draw(sheet: &mut Sheet, name: &str, line: &Line, top: f64, at: &impl Fn(f64) -> f64) {
+    let values = || line.iter().map(|point| point.1);
+    let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    let margin = 0.06 * (high - low);
+    let range = low - margin..high + margin;
+    let below = top + PANEL - GAP;
+    let height = |value: f64| below - (value - range.start) / (range.end - range.start) * (PANEL - GAP);
+    let points: Vec<Point> = line.iter().map(|point| (at(point.0), height(point.1))).collect();
+    sheet.line(&points, INK, LINE);
+    sheet.line(&[(LEFT, top), (LEFT, below), (RIGHT, below)], INK, 1.0);
+    let (values, decimals) = ticks(&range, 5);
+    for value in values {
+        sheet.line(&[(LEFT - 7.0, height(value)), (LEFT, height(value))], INK, 1.0);
+        let text = format!("{value:.decimals$}").replace('-', "\u{2212}");
+        sheet.write(&text, (LEFT - 12.0, height(value)), Side::Right, BODY, INK);
+    }
+    sheet.write_upwards(name, (28.0, 0.5 * (top + below)), BODY);
+}
+
+/// At most about so many round numbers in a range, and the decimals that they have.
+fn ticks(range: &Range<f64>, most: u32) -> (Vec<f64>, usize) {
+    let least = (range.end - range.start) / f64::from(most);
+    let power = 10.0_f64.powf(least.log10().floor());
+    let step = [1.0, 2.0, 5.0].map(|factor| factor * power).into_iter().find(|step| *step >= least);
+    let step = step.unwrap_or(10.0 * power);
+    let (first, last) = ((range.start / step).ceil() as i64, (range.end / step).floor() as i64);
+    let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+    ((first..=last).map(|k| k as f64 * step).collect(), decimals)
 }

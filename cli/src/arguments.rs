@@ -2,7 +2,7 @@
 
 use crate::guide;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand};
+use clap::{Arg, ArgAction, Args, Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
@@ -52,7 +52,7 @@ pub enum Command {
         /// The scene, a TOML file
         scene: PathBuf,
         /// Directory of the results [default: out/<name of the scene>]
-        #[arg(long, value_name = "DIR")]
+        #[arg(long, value_name = "DIR", value_parser = directory)]
         out: Option<PathBuf>,
     },
     /// Write the contours of a scene as points (CSV), and a drawing of them beside it (SVG)
@@ -65,14 +65,14 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
         /// Largest distance of a chord between two points from the contour, m [default: 1e-6 of the rod's length]
-        #[arg(long, value_name = "METRES")]
+        #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
         tolerance: Option<f64>,
         /// Only this object, from 1
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
         object: Option<usize>,
     },
     /// List the shapes that objects are made of, with fields and units
-    #[command(after_help = guide::SHAPES)]
+    #[command(after_help = guide::SHAPES, arg = no_quiet())]
     Shapes,
     /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
     #[command(after_help = guide::SIMULATE)]
@@ -90,7 +90,7 @@ pub enum Command {
         #[arg(long, value_name = "SCENE")]
         truth: Option<PathBuf>,
         /// Directory of the results [default: out/<name of the recording>]
-        #[arg(long, value_name = "DIR")]
+        #[arg(long, value_name = "DIR", value_parser = directory)]
         out: Option<PathBuf>,
         #[command(flatten)]
         trust: Trust,
@@ -118,7 +118,7 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         setup: Option<PathBuf>,
         /// Directory of the results
-        #[arg(long, value_name = "DIR", default_value = "out/live")]
+        #[arg(long, value_name = "DIR", default_value = "out/live", value_parser = directory)]
         out: PathBuf,
         #[command(flatten)]
         written: Written,
@@ -130,17 +130,17 @@ pub enum Command {
     #[command(after_help = guide::PAPER)]
     Paper {
         /// Directory of the results
-        #[arg(long, value_name = "DIR", default_value = "out")]
+        #[arg(long, value_name = "DIR", default_value = "out", value_parser = directory)]
         out: PathBuf,
     },
     /// Print the completions of a shell
-    #[command(after_help = guide::COMPLETIONS)]
+    #[command(after_help = guide::COMPLETIONS, arg = no_quiet())]
     Completions {
         /// The shell
         shell: Shell,
     },
     /// Print the manual page of vibrissa, or of one of its commands
-    #[command(after_help = guide::MAN)]
+    #[command(after_help = guide::MAN, arg = no_quiet())]
     Man {
         /// The command
         command: Option<String>,
@@ -179,7 +179,7 @@ pub struct Written {
     #[arg(long, value_parser = PossibleValuesParser::new(["point", "comma"]))]
     decimal: Option<String>,
     /// The line that names its columns, from 1
-    #[arg(long, value_name = "LINE")]
+    #[arg(long, value_name = "LINE", allow_negative_numbers = true)]
     header: Option<u64>,
     /// The unit of a column
     #[arg(long, value_name = "COLUMN=UNIT", value_parser = pair)]
@@ -188,7 +188,7 @@ pub struct Written {
     #[arg(long, value_name = "MEANING=COLUMN", value_parser = meaning)]
     column: Vec<(Role, String)>,
     /// Which of the segments of an LVM file, from 1
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     segment: Option<usize>,
 }
 
@@ -208,6 +208,27 @@ impl From<Written> for ReadOptions {
             options: TableOptions { delimiter, decimal, header, units, segment, ..TableOptions::default() },
             columns,
         }
+    }
+}
+
+/// In place of the global `--quiet` where there is no report: taken, not listed.
+fn no_quiet() -> Arg {
+    Arg::new("quiet").long("quiet").short('q').action(ArgAction::SetTrue).hide(true)
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
+fn number(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
+}
+
+/// A directory of results: several files have no place on standard output.
+fn directory(text: &str) -> Result<PathBuf, String> {
+    match text {
+        "-" => Err("several files cannot go to standard output, expected a directory".to_owned()),
+        _ => Ok(PathBuf::from(text)),
     }
 }
 
@@ -239,7 +260,7 @@ pub struct Simulate {
     #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
     pub speed: f64,
     /// Seed of the noise: the same one gives the same recording
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     pub seed: u64,
     /// Write the standard deviations of white and AR(1) noise and the quantum, too: sigma_f0x,sigma_f0y,sigma_m0z
     #[arg(long)]
@@ -270,7 +291,7 @@ pub struct FakeSensor {
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
     /// Seed of the noise
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     pub seed: u64,
     /// How the sensor is set up, a TOML file, as for `live`
     #[arg(long, value_name = "FILE")]

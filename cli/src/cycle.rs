@@ -32,9 +32,9 @@ impl Cycle {
         CYCLES.iter().find(|(_, cycle)| *cycle == phases).map(|(name, _)| *name)
     }
 
-    /// The phases, and the name if there is one, as in `A B BB B A (C1)`.
+    /// The phases, and the name if there is one, as in `A B BB B A (cycle C1 of Merker et al. 2020)`.
     pub(crate) fn titled(&self) -> String {
-        self.name().map_or_else(|| self.to_string(), |name| format!("{self} ({name})"))
+        self.name().map_or_else(|| self.to_string(), |name| format!("{self} (cycle {name} of Merker et al. 2020)"))
     }
 }
 

@@ -52,3 +52,16 @@ pub enum Error {
     #[error(transparent)]
     Output(#[from] OutputError),
 }
+
+impl Error {
+    /// Whether the value of an option is wrong, as opposed to a file or a device.
+    pub fn is_of_options(&self) -> bool {
+        matches!(
+            self,
+            Self::Profile(_)
+                | Self::Simulation(_)
+                | Self::Fake(FakeError::Pace { .. } | FakeError::NoPty { .. })
+                | Self::Output(OutputError::Name { .. } | OutputError::NoFile { .. })
+        )
+    }
+}

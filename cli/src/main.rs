@@ -23,6 +23,9 @@ use vibrissa_cli::{
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
 const UNFINISHED: u8 = 2;
 
+/// The same status that the parser of the command line has for options that are none.
+const WRONG_OPTIONS: u8 = 2;
+
 /// Name of the command.
 const NAME: &str = "vibrissa";
 
@@ -53,8 +56,9 @@ fn main() -> ExitCode {
         // who reads has seen enough, as in `| head`
         Error::Output(OutputError::Standard(source)) if is_broken_pipe(&source) => ExitCode::SUCCESS,
         error => {
+            let wrong_options = error.is_of_options();
             complain(error);
-            ExitCode::FAILURE
+            if wrong_options { ExitCode::from(WRONG_OPTIONS) } else { ExitCode::FAILURE }
         }
     })
 }
@@ -98,7 +102,10 @@ fn man(command: Option<&str>) -> Result<ExitCode, Error> {
     };
     let mut text = Vec::new();
     clap_mangen::Man::new(page).render(&mut text).map_err(OutputError::Standard)?;
-    print(&text)
+    // what stands behind the help has no name of its own there
+    let title = if command.is_none() { "FIRST STEPS AND EXIT STATUS" } else { "EXAMPLES AND NEXT STEPS" };
+    let text = String::from_utf8_lossy(&text).replace(".SH EXTRA", &format!(".SH \"{title}\""));
+    print(text.as_bytes())
 }
 
 /// Reads a scene, and tells of what may be a mistake in it.

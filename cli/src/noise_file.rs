@@ -61,7 +61,7 @@ mod tests {
             ("\n[white]\nforce = 1\nf0x = 1", "noise.toml:2:1: white: force given beside f0x or f0y, expected either"),
             ("white.f0z = 1", "noise.toml:1:7: white.f0z: unknown field `f0z`, expected one of `force`, `f0x`"),
             ("[withe]", "noise.toml:1:2: withe: unknown field `withe`, expected one of `gain`"),
-            ("white.force = \"low\"", "noise.toml:1:15: white.force: invalid type: string \"low\", expected a number"),
+            ("white.force = \"low\"", "noise.toml:1:15: white.force: the value is the text \"low\", expected a number"),
             ("[dropout]\nprobability = 2", "noise.toml:2:15: dropout.probability: probability is 2, expected"),
             ("white = ", "noise.toml:1:9: "),
         ] {

@@ -1,7 +1,7 @@
 //! The list of shapes that a scene can have.
 
 use crate::table::Table;
-use vibrissa::contour::description::{FieldUnit, Shape};
+use vibrissa::contour::description::{FieldInfo, FieldUnit, Shape};
 
 /// The shapes of scene files with their fields, types, units in scene files, and meanings.
 ///
@@ -19,8 +19,16 @@ pub fn shapes_list() -> String {
                 FieldUnit::Degrees => "degrees",
                 FieldUnit::None => "-",
             };
-            let needed = if field.required { "yes" } else { "no" };
-            table.row([field.name, field.kind, unit, needed, field.meaning.trim()].map(str::to_owned));
+            // the meaning of the first of two fields names the other one
+            let other = |field: &FieldInfo| field.meaning.split("or else `").nth(1)?.split('`').next();
+            let rival = other(field)
+                .or_else(|| shape.fields.iter().find(|rival| other(rival) == Some(field.name)).map(|rival| rival.name));
+            let needed = match (field.required, rival) {
+                (true, _) => "yes".to_owned(),
+                (false, Some(rival)) => format!("or {rival}"),
+                (false, None) => "no".to_owned(),
+            };
+            table.row([field.name, field.kind, unit, &needed, field.meaning.trim()].map(str::to_owned));
         }
         format!("shape = \"{}\"  {}\n{table}", shape.name, shape.meaning.trim())
     });

@@ -193,7 +193,7 @@ fn requests_that_cannot_be_met() {
     fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
     let refused = |arguments: &[&str]| {
         let output = vibrissa(directory.path(), &[&["contour", "scene.toml"], arguments].concat());
-        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(output.status.code(), Some(2));
         complaint(&output)
     };
     let message = refused(&["--tolerance", "0"]);

@@ -61,13 +61,18 @@ fn a_sweep_writes_states_events_and_a_figure() {
     assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &2.into()));
 
     let events = lines(&out.join("events.jsonl"));
-    let mut expected = vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z"];
+    let mut expected = vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z", "contacts", "after"];
     expected.sort_unstable();
     assert_eq!(keys(&events[0]), expected);
     assert_eq!(
         (&events[0]["kind"], &events[0]["from"], &events[0]["to"]),
         (&"first-contact".into(), &"free".into(), &"A".into())
     );
+    // at first contact the states before and after are one, but for the contact
+    let after = &events[0]["after"];
+    assert_eq!(keys(after), keys(state));
+    assert_eq!((&after["x0"], &after["phase"]), (&events[0]["x0"], &"A".into()));
+    assert_eq!((&events[0]["contacts"], &after["contacts"][0]["kind"]), (&Value::Array(Vec::new()), &"tip".into()));
     // Reach of the tip: 0.03 + sqrt((0.1 - 0.04) / 50).
     let reach = 0.03 + (0.06_f64 / 50.0).sqrt();
     assert!((events[0]["x0"].as_f64().unwrap() - reach).abs() < 1e-11);
@@ -191,7 +196,10 @@ fn an_unreadable_scene() {
     assert!(message.contains("cannot read the scene nowhere.toml"), "{message}");
     fs::write(directory.path().join("image.toml"), b"\xff\xfe").unwrap();
     let message = complaint(&vibrissa(directory.path(), &["sweep", "image.toml"]));
-    assert!(message.contains("cannot read the scene image.toml") && message.contains("UTF-8"), "{message}");
+    assert!(message.contains("image.toml:1: byte 0xff is no text in UTF-8, expected the scene"), "{message}");
+    fs::write(directory.path().join("image.toml"), b"[rod]\nlength\0").unwrap();
+    let message = complaint(&vibrissa(directory.path(), &["sweep", "image.toml"]));
+    assert!(message.contains("image.toml:2: byte 0x00 is no text"), "{message}");
 }
 
 #[test]

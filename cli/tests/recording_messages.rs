@@ -372,7 +372,9 @@ fn a_file_that_cannot_be_read() {
     let rod = Rod::new(0.1, 6.32e-4).unwrap();
     let message = Recording::read("nowhere.csv".as_ref(), &rod, &ReadOptions::default()).unwrap_err().to_string();
     assert!(message.starts_with("cannot read the recording nowhere.csv: "), "{message}");
-    // Bytes that are no text are names and cells like others.
-    let image = Recording::parse("image.csv".as_ref(), b"\xff\xd8\xff\xe0,\x00\n", &rod).unwrap_err().to_string();
-    assert!(image.starts_with("image.csv:1: no column x0, y0"), "{image}");
+    // Latin-1 is text, a byte of zero is not.
+    let latin = Recording::parse("latin.csv".as_ref(), b"\xff\xd8\xff\xe0,a\n", &rod).unwrap_err().to_string();
+    assert!(latin.starts_with("latin.csv:1: no column x0, y0"), "{latin}");
+    let image = Recording::parse("image.csv".as_ref(), b"\xff\xd8\n\xff\xe0,\x00\n", &rod).unwrap_err().to_string();
+    assert_eq!(image, "image.csv:2: a byte of zero, which no text has, expected a table (CSV, TSV or LVM)");
 }

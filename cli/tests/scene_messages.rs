@@ -38,15 +38,26 @@ fn an_unknown_field() {
 
 #[test]
 fn a_wrong_type() {
-    says(&edited("0.1", "\"long\""), &["scene.toml:2:10: rod.length: ", "string \"long\"", "expected a number"]);
-    says(&edited("[0.03, 0.0]", "0.03"), &["scene.toml:13:10: contour.piece[2].vertex: ", "0.03", "sequence"]);
+    says(&edited("0.1", "\"long\""), &["scene.toml:2:10: rod.length: ", "the text \"long\"", "expected a number"]);
+    says(
+        &edited("[0.03, 0.0]", "0.03"),
+        &["scene.toml:13:10: contour.piece[2].vertex: ", "the value is 0.03", "expected a list"],
+    );
     says(
         &edited("[0.07, -0.04]", "[0.07]"),
         &["scene.toml:17:8: sweep.from: ", "found a list of 1, expected two numbers"],
     );
     says(&edited("[0.07, -0.04]", "[0.07, 1.0, 2.0]"), &["sweep.from: ", "found a list of 3, expected two numbers"]);
-    says(&edited("\"parabola\"", "3"), &["scene.toml:7:9: contour.piece[1].shape: ", "integer", "name of a shape"]);
+    says(
+        &edited("\"parabola\"", "3"),
+        &["scene.toml:7:9: contour.piece[1].shape: ", "of the type integer", "name of a shape"],
+    );
     says(&edited("1e-3", "[1"), &["scene.toml:20:", "array"]);
+}
+
+#[test]
+fn a_key_given_twice() {
+    says(&edited("length = 0.1\n", "length = 0.1\nlength = 0.2\n"), &["scene.toml:3:1: `length` is given twice"]);
 }
 
 #[test]
@@ -186,7 +197,7 @@ fn points_that_are_none() {
         let three = piece(shape, "points = [[0, 0], [1, 0, 0], [1, 1]]");
         says(&three, &["scene.toml:8:10: contour.piece[1].points: ", "point 2 is a list of 3, expected two numbers"]);
         let words = piece(shape, "points = [[0, 0], [1, \"0\"], [1, 1]]");
-        says(&words, &["scene.toml:8:23: contour.piece[1].points[2][2]: ", "string \"0\"", "expected a number"]);
+        says(&words, &["scene.toml:8:23: contour.piece[1].points[2][2]: ", "the text \"0\"", "expected a number"]);
     }
     says(
         &piece("line", "from = [1, 2]\nto = [1, 2]"),
@@ -373,7 +384,10 @@ fn an_object_that_is_none() {
     says(&square("angle = inf"), &["scene.toml:7:9: object[1].angle: ", "angle is inf", "degrees"]);
     says(&square("scale = -2"), &["scene.toml:7:9: object[1].scale: ", "scale is -2, expected a positive", "mirror"]);
     says(&square("scale = nan"), &["scene.toml:7:9: object[1].scale: ", "scale is NaN"]);
-    says(&with_objects("[[object]]\npiece = 3"), &["scene.toml:7:9: object[1].piece: ", "expected a sequence"]);
+    says(
+        &with_objects("[[object]]\npiece = 3"),
+        &["scene.toml:7:9: object[1].piece: ", "the value is 3, expected a list"],
+    );
     says(&with_objects("[[object]]\npiece = [3]"), &["object[1].piece[1]: ", "integer", "a table of fields"]);
     says(
         &with_objects("[[object.piece]]\nshape = \"line\""),
@@ -392,7 +406,7 @@ fn a_file_of_shapes_that_is_none() {
     says(&scene, &[at, "cannot read object.json: "]);
     with("[]", &["object.json: a composite contour needs at least one piece"]);
     with("[\n{]", &["object.json:2: "]);
-    with("[{\"shape\": \"lime\"}]", &["object.json:1: unknown variant `lime`", "`polygon`"]);
+    with("[{\"shape\": \"lime\"}]", &["object.json:1: the shape is `lime`", "`polygon`"]);
     let arc = |radius: &str| {
         format!(
             "[{{\"shape\": \"arc\", \"center\": [0, 0], \"radius\": {radius}, \"from_angle\": 0, \"to_angle\": 9}}]"

@@ -25,6 +25,7 @@ mod live;
 mod live_recordings;
 mod many_contacts;
 mod noise_study;
+mod options;
 mod outputs;
 mod paper;
 mod random_scenes;

@@ -1,20 +1,20 @@
 //! A logarithmic axis in pixels.
 
 /// Fewest pixels from one number to the next.
-const APART: f64 = 70.0;
+const APART: f64 = 84.0;
 
 /// Whole decades, from one power of ten to another, along so many pixels.
 #[derive(Clone, Copy)]
 pub struct Decades {
     pub from: i32,
     pub to: i32,
-    pub start: i32,
-    pub end: i32,
+    pub start: f64,
+    pub end: f64,
 }
 
 impl Decades {
     /// The decades that hold all values.
-    pub fn of(values: impl Iterator<Item = f64>, (start, end): (i32, i32)) -> Self {
+    pub fn of(values: impl Iterator<Item = f64>, (start, end): (f64, f64)) -> Self {
         let (least, most) = values
             .map(f64::log10)
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
@@ -23,14 +23,14 @@ impl Decades {
         Self { from, to: to.max(from + 1), start, end }
     }
 
-    pub fn pixel(&self, value: f64) -> i32 {
+    pub fn pixel(&self, value: f64) -> f64 {
         let part = (value.log10() - f64::from(self.from)) / f64::from(self.to - self.from);
-        self.start + (part * f64::from(self.end - self.start)).round() as i32
+        self.start + part * (self.end - self.start)
     }
 
     /// All decades: where, and, of so many that can be read, what to write there.
-    pub fn ticks(&self) -> impl Iterator<Item = (i32, Option<String>)> + '_ {
-        let decade = f64::from((self.end - self.start).abs()) / f64::from(self.to - self.from);
+    pub fn ticks(&self) -> impl Iterator<Item = (f64, Option<String>)> + '_ {
+        let decade = (self.end - self.start).abs() / f64::from(self.to - self.from);
         let every = (APART / decade).ceil() as i32;
         (self.from..=self.to).map(move |power| {
             let name = (power % every == 0).then(|| format!("10{}", superscript(power)));

@@ -1,93 +1,126 @@
-//! What figures are drawn on and with: pixels, text, marks.
+//! What figures are drawn on and with: SVG in decimal pixels, 1530 of which are 180 mm, the width of a page.
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+/// Size of letters: titles, everything else (8 pt in print), settings beside points.
+pub const TITLE: f64 = 27.0;
+pub const BODY: f64 = 24.0;
+pub const SMALL: f64 = 18.0;
 
-pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// Millimetres a pixel.
+const PIXEL: f64 = 180.0 / 1530.0;
+/// Height of the middle of letters above their line, em.
+const MIDDLE: f64 = 0.35;
+/// Width of a line, pixels.
+pub const LINE: f64 = 2.5;
 
-/// Size of letters: titles, everything else, settings beside points. Coordinates are whole pixels, so figures are drawn
-/// large, to be scaled down.
-pub const TITLE: u32 = 30;
-pub const BODY: u32 = 24;
-pub const SMALL: u32 = 17;
+/// A colour as SVG has it.
+pub type Colour = &'static str;
 
-pub const INK: RGBColor = RGBColor(0, 0, 0);
-pub const FAINT: RGBColor = RGBColor(225, 225, 225);
+pub const INK: Colour = "#000000";
+pub const FAINT: Colour = "#e1e1e1";
 
-/// The colours of Okabe and Ito (2008) that are read on white.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 0, 0),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(230, 159, 0),
-];
+pub type Point = (f64, f64);
 
-/// Half the width of a mark.
-const MARK: i32 = 7;
-const LINE: u32 = 2;
-
-/// A white canvas of this size (pixels), painted, as SVG text.
-pub fn svg(size: (u32, u32), paint: impl FnOnce(&Area<'_>)) -> String {
-    let mut text = String::new();
-    let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-    root.fill(&WHITE).unwrap();
-    paint(&root);
-    root.present().unwrap();
-    drop(root);
-    text
-}
-
-/// Text at a point, which is its middle in height and what `side` says in width.
-pub fn write(area: &Area<'_>, text: &str, at: (i32, i32), side: HPos, size: u32, colour: RGBColor) {
-    let style = ("sans-serif", size).into_font().color(&colour).pos(Pos::new(side, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), at, style)).unwrap();
-}
-
-/// Text that runs upwards, its middle at a point.
-pub fn write_upwards(area: &Area<'_>, text: &str, at: (i32, i32), size: u32) {
-    let font = ("sans-serif", size).into_font().transform(FontTransform::Rotate270);
-    let style = font.color(&INK).pos(Pos::new(HPos::Center, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), at, style)).unwrap();
-}
-
-/// About how wide a text is, pixels. Nothing here knows the reader's font: common ones are no wider.
-pub fn width(text: &str, size: u32) -> i32 {
-    (0.5 * f64::from(size) * text.chars().count() as f64).ceil() as i32
-}
-
-/// A straight or broken line.
-pub fn stroke(area: &Area<'_>, points: Vec<(i32, i32)>, style: impl Into<ShapeStyle>) {
-    area.draw(&PathElement::new(points, style)).unwrap();
-}
-
-/// How the points of a method look: seven colours and six marks, no pair of which comes twice among 42.
+/// Where a text stands at its point.
 #[derive(Clone, Copy)]
-pub struct Look(pub usize);
+pub enum Side {
+    Left,
+    Middle,
+    Right,
+}
 
-impl Look {
-    pub fn colour(self) -> RGBColor {
-        COLOURS[self.0 % COLOURS.len()]
+/// A drawing.
+#[derive(Default)]
+pub struct Sheet(String);
+
+impl Sheet {
+    /// A white drawing of this size, painted, as SVG text.
+    pub fn svg((width, height): Point, paint: impl FnOnce(&mut Self)) -> String {
+        let mut sheet = Self::default();
+        paint(&mut sheet);
+        let [w, h] = [width, height].map(|pixels| number(pixels * PIXEL));
+        let [width, height] = [width, height].map(number);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {width} {height}\" \
+             font-family=\"Helvetica, Arial, sans-serif\" stroke-linejoin=\"round\">\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            sheet.0
+        )
     }
 
-    pub fn line(self, area: &Area<'_>, points: Vec<(i32, i32)>) {
-        stroke(area, points, self.colour().stroke_width(LINE));
+    /// A part whose pixels count from a corner.
+    pub fn part(&mut self, corner: Point, paint: impl FnOnce(&mut Self)) {
+        self.put(&format!("<g transform=\"translate({})\">", pair(corner)));
+        paint(self);
+        self.put("</g>");
     }
 
-    pub fn mark(self, area: &Area<'_>, (x, y): (i32, i32)) {
-        let (colour, r) = (self.colour(), MARK);
-        let style = colour.stroke_width(3);
-        match self.0 % 6 {
-            0 => area.draw(&Circle::new((x, y), r, colour.filled())),
-            1 => area.draw(&Rectangle::new([(x - r + 1, y - r + 1), (x + r - 1, y + r - 1)], colour.filled())),
-            2 => area.draw(&Polygon::new(vec![(x - r, y + r), (x + r, y + r), (x, y - r)], colour)),
-            3 => area.draw(&Polygon::new(vec![(x - r, y), (x, y - r - 1), (x + r, y), (x, y + r + 1)], colour)),
-            4 => area.draw(&Cross::new((x, y), r - 1, style)),
-            _ => area.draw(&Circle::new((x, y), r - 1, style)),
-        }
-        .unwrap();
+    /// Text at a point, which is its middle in height and what `side` says in width.
+    pub fn write(&mut self, text: &str, at: Point, side: Side, size: f64, colour: Colour) {
+        self.letters(text, (at.0, at.1 + MIDDLE * size), side, (size, colour), "");
     }
+
+    /// Text that runs upwards, its middle at a point.
+    pub fn write_upwards(&mut self, text: &str, at: Point, size: f64) {
+        let at = (at.0 + MIDDLE * size, at.1);
+        let turn = format!(" transform=\"rotate(-90 {} {})\"", number(at.0), number(at.1));
+        self.letters(text, at, Side::Middle, (size, INK), &turn);
+    }
+
+    fn letters(&mut self, text: &str, (x, y): Point, side: Side, (size, colour): (f64, Colour), turn: &str) {
+        let anchor = match side {
+            Side::Left => "start",
+            Side::Middle => "middle",
+            Side::Right => "end",
+        };
+        let text = text.replace('&', "&amp;").replace('<', "&lt;");
+        let [x, y, size] = [x, y, size].map(number);
+        self.put(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{turn}>{text}</text>"
+        ));
+    }
+
+    /// A straight or broken line.
+    pub fn line(&mut self, points: &[Point], colour: Colour, width: f64) {
+        let points: Vec<String> = points.iter().copied().map(pair).collect();
+        let (points, width) = (points.join(" "), number(width));
+        self.put(&format!(
+            "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+        ));
+    }
+
+    /// The area within points.
+    pub fn area(&mut self, points: &[Point], colour: Colour) {
+        let points: Vec<String> = points.iter().copied().map(pair).collect();
+        self.put(&format!("<polygon points=\"{}\" fill=\"{colour}\"/>", points.join(" ")));
+    }
+
+    /// A disc, or with the width of its line a circle.
+    pub fn circle(&mut self, (x, y): Point, radius: f64, colour: Colour, line: Option<f64>) {
+        let [x, y, radius] = [x, y, radius].map(number);
+        let style = match line {
+            Some(width) => format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{}\"", number(width)),
+            None => format!("fill=\"{colour}\""),
+        };
+        self.put(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" {style}/>"));
+    }
+
+    fn put(&mut self, element: &str) {
+        self.0.push_str(element);
+        self.0.push('\n');
+    }
+}
+
+/// About how wide a text is. Nothing here knows the reader's font: common ones are no wider.
+pub fn width(text: &str, size: f64) -> f64 {
+    0.58 * size * text.chars().count() as f64
+}
+
+/// To a hundredth of a pixel.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn pair((x, y): Point) -> String {
+    format!("{},{}", number(x), number(y))
 }

@@ -2,12 +2,13 @@
 
 mod axis;
 mod canvas;
+mod look;
 mod panel;
 
 use crate::row::Row;
-use canvas::{BODY, INK, Look, TITLE, svg, width, write};
+use canvas::{BODY, INK, Sheet, Side, TITLE, width};
+use look::Look;
 use panel::{SIZE, ZERO, coordinates};
-use plotters::style::text_anchor::HPos;
 
 /// A figure of one or more panels.
 pub struct Figure<'a> {
@@ -26,11 +27,11 @@ pub struct Panel<'a> {
 }
 
 /// Height of the title and of a row of the legend; pixels of a sample, and between entries.
-const HEAD: u32 = 64;
-const ROW: u32 = 38;
-const SAMPLE: i32 = 40;
-const APART: i32 = 30;
-const MARGIN: i32 = 24;
+const HEAD: f64 = 64.0;
+const ROW: f64 = 38.0;
+const SAMPLE: f64 = 44.0;
+const APART: f64 = 24.0;
+const MARGIN: f64 = 24.0;
 
 impl Figure<'_> {
     /// The methods that have points, in the order in which they come.
@@ -52,36 +53,36 @@ impl Figure<'_> {
         if methods.is_empty() {
             return None;
         }
-        let columns = (self.panels.len() as u32).min(2);
-        let size = (SIZE.0 * columns, SIZE.1 * (self.panels.len() as u32).div_ceil(columns));
+        let columns = self.panels.len().min(2);
+        let lines = self.panels.len().div_ceil(columns);
+        let size = (SIZE.0 * columns as f64, SIZE.1 * lines as f64);
         let entry = |method: &str| SAMPLE + width(method, BODY) + APART;
-        let (mut places, mut x, mut row) = (Vec::new(), MARGIN, 0);
+        let (mut places, mut x, mut row) = (Vec::new(), MARGIN, 0.0);
         for method in &methods {
-            if x > MARGIN && x + entry(method) > size.0 as i32 {
-                (x, row) = (MARGIN, row + 1);
+            if x > MARGIN && x + entry(method) > size.0 {
+                (x, row) = (MARGIN, row + 1.0);
             }
-            places.push((x, row));
+            places.push((x, HEAD + ROW * row + 0.5 * ROW));
             x += entry(method);
         }
         let zero = drawn().any(|row| row.error == Some(0.0));
         let zero = zero.then(|| format!("an error of 0 is drawn at {ZERO:e}"));
-        let above = HEAD + ROW * (row + 1 + u32::from(zero.is_some()));
-        Some(svg((size.0, size.1 + above), |root| {
-            let (head, body) = root.split_vertically(above);
-            write(&head, self.title, (MARGIN, 36), HPos::Left, TITLE, INK);
-            let height = |row: u32| (HEAD + ROW * row + ROW / 2) as i32;
-            for (index, (method, (x, row))) in methods.iter().zip(places).enumerate() {
-                let (look, y) = (Look(index), height(row));
-                look.line(&head, vec![(x, y), (x + SAMPLE - 10, y)]);
-                look.mark(&head, (x + SAMPLE / 2 - 5, y));
-                write(&head, method, (x + SAMPLE, y), HPos::Left, BODY, INK);
+        let last = HEAD + ROW * (row + 1.0);
+        let above = last + if zero.is_some() { ROW } else { 0.0 };
+        Some(Sheet::svg((size.0, size.1 + above), |sheet| {
+            sheet.write(self.title, (MARGIN, 36.0), Side::Left, TITLE, INK);
+            for (index, (method, (x, y))) in methods.iter().zip(places).enumerate() {
+                let look = Look(index);
+                look.line(sheet, &[(x, y), (x + SAMPLE - 10.0, y)]);
+                look.mark(sheet, (x + 0.5 * SAMPLE - 5.0, y));
+                sheet.write(method, (x + SAMPLE, y), Side::Left, BODY, INK);
             }
-            zero.iter().for_each(|zero| write(&head, zero, (MARGIN, height(row + 1)), HPos::Left, BODY, INK));
-            let areas = body.split_evenly((size.1.div_ceil(SIZE.1) as usize, columns as usize));
-            for (panel, area) in self.panels.iter().zip(&areas) {
+            zero.iter().for_each(|zero| sheet.write(zero, (MARGIN, last + 0.5 * ROW), Side::Left, BODY, INK));
+            for (index, panel) in self.panels.iter().enumerate() {
                 let of = |method: &str| panel.rows.iter().copied().filter(|row| row.method == method).collect();
                 let lines = methods.iter().enumerate().map(|(index, method)| (Look(index), of(method))).collect();
-                panel::draw(area, &panel.title, self.unit, &lines, &all);
+                let corner = (SIZE.0 * (index % columns) as f64, above + SIZE.1 * (index / columns) as f64);
+                sheet.part(corner, |sheet| panel::draw(sheet, &panel.title, self.unit, &lines, &all));
             }
         }))
     }

@@ -1,8 +1,9 @@
 //! A plot with axes.
 
-use super::canvas::{Area, BODY, FigureError, stroke, tick, width};
+use super::canvas::{Area, BODY, FigureError, stroke, width};
 use super::element::{Element, number};
 use super::palette::INK;
+use super::scale::Scale;
 use super::text::{HPos, Letters};
 use std::ops::Range;
 
@@ -73,54 +74,30 @@ impl<'a> Chart<'a> {
         let (left, top) = self.plot.corner();
         let letters = |at: (f64, f64), side, upwards| Letters { at, side, size: BODY, colour: INK, upwards };
         // as many numbers as there is room for
-        let widest = ticks(&self.x, numbers.0).iter().map(|value| width(&tick(value), BODY)).max().unwrap_or(1) + 24;
+        let (across, up) = (Scale::of(&self.x), Scale::of(&self.y));
+        let widest = across.ticks(&self.x, numbers.0).iter().map(|(_, text)| width(text, BODY)).max().unwrap_or(1) + 24;
         let most = (right / widest.max(1)).max(2) as usize;
-        for value in ticks(&self.x, numbers.0.min(most)) {
+        for (value, text) in across.ticks(&self.x, numbers.0.min(most)) {
             let at = self.pixel((value, self.y.start)).0.round() as i32;
             stroke(&self.plot, vec![(at, bottom), (at, bottom + TICK)], INK)?;
             if !x.is_empty() {
                 let place = (left + f64::from(at), top + f64::from(bottom + NUMBER));
-                self.plot.put(&letters(place, HPos::Center, false).svg(&tick(&value)));
+                self.plot.put(&letters(place, HPos::Center, false).svg(&text));
             }
         }
         let most = (bottom / 40).max(2) as usize;
-        for value in ticks(&self.y, numbers.1.min(most)) {
+        for (value, text) in up.ticks(&self.y, numbers.1.min(most)) {
             let at = self.pixel((self.x.start, value)).1.round() as i32;
             stroke(&self.plot, vec![(-TICK, at), (0, at)], INK)?;
             let place = (left - f64::from(TICK + 5), top + f64::from(at));
-            self.plot.put(&letters(place, HPos::Right, false).svg(&tick(&value)));
+            self.plot.put(&letters(place, HPos::Right, false).svg(&text));
         }
         if !x.is_empty() {
             let place = (left + 0.5 * f64::from(right), top + f64::from(bottom + NUMBER + 32));
-            self.plot.put(&letters(place, HPos::Center, false).svg(x));
+            self.plot.put(&letters(place, HPos::Center, false).svg(&across.name(x)));
         }
         let place = (self.area.corner().0 + 20.0, top + 0.5 * f64::from(bottom));
-        self.plot.put(&letters(place, HPos::Center, true).svg(y));
+        self.plot.put(&letters(place, HPos::Center, true).svg(&up.name(y)));
         Ok(())
-    }
-}
-
-/// At most about so many round numbers in a range.
-fn ticks(range: &Range<f64>, most: usize) -> Vec<f64> {
-    let least = (range.end - range.start) / most.max(1) as f64;
-    if !(least.is_finite() && least > 0.0) {
-        return Vec::new();
-    }
-    let power = 10.0_f64.powf(least.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= least);
-    let step = step.unwrap_or(10.0 * power);
-    let (first, last) = ((range.start / step).ceil() as i64, (range.end / step).floor() as i64);
-    (first..=last).map(|k| k as f64 * step).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_few() {
-        assert_eq!(ticks(&(-0.1..10.0), 6), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]);
-        assert_eq!(ticks(&(-55.0..61.0), 5), [-50.0, 0.0, 50.0]);
-        assert!(ticks(&(1.0..1.0), 5).is_empty());
     }
 }

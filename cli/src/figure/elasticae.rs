@@ -21,7 +21,10 @@ const MOST: usize = 60;
 /// Points on a shape.
 const POINTS: usize = 200;
 /// Room beside and above the shapes, for the names of phases, pixels.
-const ROOM: (f64, f64) = (50.0, 84.0);
+const ROOM: (f64, f64) = (50.0, 100.0);
+
+/// Least gap between two names in a row, pixels: two names closer read as one.
+const APART: i32 = 14;
 
 /// From this cosine between the rod at its clamp and the path on, the clamp moves along the rod.
 const LENGTHWISE: f64 = 0.8;
@@ -149,7 +152,7 @@ fn name_phases(root: &Area<'_>, chart: &Chart<'_>, scan: &Scan, intervals: &[Int
         let ((x, y), away) = place(scan, interval, middle)?;
         let (x, y) = chart.backend_coord(&(1e3 * x, 1e3 * y));
         let name = interval.phase.to_string();
-        let size = (width(&name, BODY) + 4, BODY as i32 + 2);
+        let size = (width(&name, BODY) + APART, BODY as i32 + 2);
         let (sin, cos) = away.sin_cos();
         let beside = 0.5 * f64::from(size.0) * cos;
         let places = [22.0, 48.0, 74.0].map(|d| (x + (d * cos + beside) as i32, y - (d * sin) as i32));

@@ -19,6 +19,7 @@ pub(crate) mod plane;
 mod profile;
 mod reactions;
 mod reconstruction;
+mod scale;
 mod sweep;
 mod text;
 pub(crate) mod trace;

@@ -38,6 +38,8 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
     let plot = f64::from(WIDTH - beside);
     let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
     let window = Window::of(&x, &y, (plot, high), (0.0, 0.0));
+    let in_view = |point: &(f64, f64)| window.x.contains(&point.0) && window.y.contains(&point.1);
+    let seen: Vec<(f64, f64)> = naive.into_iter().filter(in_view).collect();
     svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {
         let (head, area) = root.split_vertically(HEAD);
         write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
@@ -48,15 +50,16 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
         let tip = Dot { colour: label_colour(Label::A), filled: true };
         let tangential = Dot { colour: label_colour(Label::B), filled: true };
         let entries = [
-            (tip, "A"),
-            (tangential, "B"),
-            (FIRST, "first of several"),
-            (SECOND, "second of several"),
-            (NAIVE, "several taken for one"),
+            (tip, "A", single(Label::A).next()),
+            (tangential, "B", single(Label::B).next()),
+            (FIRST, "first of several", first().next()),
+            (SECOND, "second of several", second().next()),
+            (NAIVE, "several taken for one", seen.first().copied()),
         ];
+        let drawn = entries.into_iter().filter(|(_, _, point)| point.is_some());
+        let entries: Vec<(Dot, &str)> = drawn.map(|(dot, name, _)| (dot, name)).collect();
         cloud::key(&head, (24, 154), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
         let chart = window.chart(&area, (12, 8))?;
-        let seen = naive.into_iter().filter(|point| window.x.contains(&point.0) && window.y.contains(&point.1));
         cloud::dots(&chart, &window, seen, NAIVE)?;
         for (label, dot) in [(Label::A, tip), (Label::B, tangential)] {
             cloud::dots(&chart, &window, single(label), dot)?;

@@ -16,6 +16,9 @@ const BELOW: u32 = 70;
 /// Room above for two rows of phases, pixels.
 pub(crate) const ABOVE: u32 = 70;
 
+/// Least gap between two names of phases in a row, pixels: two names closer read as one.
+const APART: i32 = 14;
+
 /// What the traces of one scan above each other share.
 pub(crate) struct Along {
     /// Range of the abscissa.
@@ -110,7 +113,7 @@ fn name_phases(
     let mut labels = Labels::default();
     for (part, name) in phases {
         let (x, y) = chart.backend_coord(&(0.5 * (part.start + part.end), top));
-        let size = (width(name, BODY) + 6, BODY as i32 + 2);
+        let size = (width(name, BODY) + APART, BODY as i32 + 2);
         if let Some(place) = labels.place([(x, y - 18), (x, y - 46)], size) {
             write(root, name, place, HPos::Center, BODY, INK)?;
         }

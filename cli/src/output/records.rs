@@ -67,7 +67,7 @@ impl From<&Contact> for ContactRecord {
     }
 }
 
-/// A line of events.jsonl, with the reactions before the event.
+/// A line of events.jsonl: reactions and contacts before the event, the whole state after it.
 #[derive(Serialize)]
 pub(super) struct EventRecord {
     x0: f64,
@@ -79,6 +79,8 @@ pub(super) struct EventRecord {
     f0x: f64,
     f0y: f64,
     m0z: f64,
+    contacts: Vec<ContactRecord>,
+    after: StateRecord,
 }
 
 impl From<&Event> for EventRecord {
@@ -94,6 +96,8 @@ impl From<&Event> for EventRecord {
             f0x: reactions.f0x,
             f0y: reactions.f0y,
             m0z: reactions.m0z,
+            contacts: event.before.contacts.iter().map(ContactRecord::from).collect(),
+            after: StateRecord::from(&event.after),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, RodTable, SweepTable};
-use super::{Scene, files, object};
+use super::{Scene, files, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
@@ -21,7 +21,9 @@ pub(super) fn scene(name: String, source: Source, document: Document, directory:
     let objects = object::all(&tables, &contour, &objects, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
-    Ok(Scene { name, rod, objects, path, step, warnings: Vec::new(), files, source })
+    let warnings =
+        plausible::rod(tables.rod.get_ref()).into_iter().map(|fault| source.place(fault).to_string()).collect();
+    Ok(Scene { name, rod, objects, path, step, warnings, files, source })
 }
 
 pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {

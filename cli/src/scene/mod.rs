@@ -8,6 +8,7 @@ mod check;
 mod document;
 mod files;
 mod object;
+mod plausible;
 mod rod;
 mod shape;
 
@@ -35,7 +36,8 @@ pub struct Scene {
     pub path: ClampPath,
     /// Distance between reported states: m, or radians where the clamp only turns.
     pub step: f64,
-    /// What may be a mistake in the file: angles that look like radians where degrees belong, or the other way round.
+    /// What may be a mistake in the file: a rod of implausible size or stiffness, angles that look like radians where degrees
+    /// belong, or the other way round.
     pub warnings: Vec<String>,
     /// The file of the scene, and those that it names.
     pub files: Vec<PathBuf>,
@@ -82,7 +84,7 @@ impl Scene {
         let read =
             |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
         let (scene, warnings) = toml_file::parse_angles(file, text, read)?;
-        Ok(Self { warnings, ..scene })
+        Ok(Self { warnings: [scene.warnings, warnings].concat(), ..scene })
     }
 
     /// Whether the clamp is outside of all objects in its first pose.

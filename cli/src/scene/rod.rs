@@ -61,7 +61,7 @@ mod tests {
                 "[rod]\nlength = -1\nbending_stiffness = 1",
                 "rod.toml:2:10: rod.length: length is -1, expected a positive",
             ),
-            ("[rod]\nlength = \"m\"", "rod.toml:2:10: rod.length: invalid type: string \"m\", expected a number"),
+            ("[rod]\nlength = \"m\"", "rod.toml:2:10: rod.length: the value is the text \"m\", expected a number"),
         ] {
             let error = parse("rod.toml".as_ref(), text).unwrap_err().to_string();
             assert!(error.starts_with(message), "{error}");

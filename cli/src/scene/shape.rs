@@ -1,7 +1,6 @@
 //! The pieces of a contour: the library's shapes, whose fields are listed there, with their places in the file.
 
 use crate::toml_file::Fault;
-use serde::de::Error as _;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -35,7 +34,7 @@ impl Piece {
             other => {
                 return Err(Fault::new(
                     span,
-                    format!("invalid type: {}, expected a table of fields", other.type_str()),
+                    format!("the value is of the type {}, expected a table of fields", other.type_str()),
                 ));
             }
         };
@@ -48,12 +47,13 @@ impl Piece {
             other => {
                 return Err(Fault::new(
                     at,
-                    format!("invalid type: {}, expected the name of a shape", other.type_str()),
+                    format!("the value is of the type {}, expected the name of a shape", other.type_str()),
                 ));
             }
         };
         if !Shape::NAMES.contains(&name.as_ref()) {
-            return Err(Fault::new(at, toml::de::Error::unknown_variant(&name, Shape::NAMES).message()));
+            let known: Vec<String> = Shape::NAMES.iter().map(|name| format!("`{name}`")).collect();
+            return Err(Fault::new(at, format!("the shape is `{name}`, expected one of {}", known.join(", "))));
         }
         let fields = fields(&table);
         let values = ValueDeserializer::from(Spanned::new(span.clone(), DeValue::Table(table)));

@@ -1,6 +1,6 @@
 //! What can be wrong with a TOML file, and where in it.
 
-use super::number;
+use super::{message, number};
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,18 @@ pub enum SceneError {
         file: PathBuf,
         /// Why.
         source: std::io::Error,
+    },
+    /// The file is no text.
+    #[error("{}:{line}: byte {byte:#04x} is no text in UTF-8, expected {what} as a TOML file", file.display())]
+    NoText {
+        /// What it should be, as in "the scene".
+        what: &'static str,
+        /// Which file.
+        file: PathBuf,
+        /// Line of the byte, from 1.
+        line: usize,
+        /// The first byte that is no text.
+        byte: u8,
     },
     /// The file is not what it should be.
     #[error(transparent)]
@@ -75,6 +87,9 @@ impl Fault {
             return Self::new(span, hint);
         }
         let written = text.get(fault.span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default().trim();
+        if let Some(message) = message::duplicate(&fault.message, written) {
+            return Self { message, ..fault };
+        }
         if !fault.message.starts_with("string values must be quoted") {
             return fault;
         }
@@ -115,6 +130,12 @@ impl Source {
         &self.file
     }
 
+    /// The error with its place in the text.
+    pub fn place(&self, fault: Fault) -> SceneError {
+        let table = DeTable::parse(&self.text).ok();
+        fault.in_text(&self.file, &self.text, table.as_ref().map(Spanned::get_ref))
+    }
+
     /// An error at the value of a field, given its path as in `sweep.from`.
     pub fn error(&self, field: &str, message: &str) -> SceneError {
         let table = DeTable::parse(&self.text).ok();
@@ -126,12 +147,11 @@ impl Source {
 
 impl From<toml::de::Error> for Fault {
     fn from(error: toml::de::Error) -> Self {
-        let message = error.message().trim().replace('\n', ", ").replace("expected f64", "expected a number");
+        let message = message::plain(error.message());
         let message = match number::quoted(&message) {
             Some(hint) => format!("{message}; {hint}"),
             None => message,
         };
-        let message = message.replace("number overflowed", "number overflowed, expected at most 1.7e308 either way");
         // An error without a place concerns the file as a whole.
         Self::new(error.span().unwrap_or(0..0), message)
     }

@@ -2,6 +2,7 @@
 
 mod angle;
 mod error;
+mod message;
 mod number;
 
 pub(crate) use error::{Fault, Source, place_of};
@@ -14,7 +15,17 @@ use toml::de::DeTable;
 
 /// The text of the file, which should be `what`, as in "the scene".
 pub(crate) fn text(what: &'static str, file: &Path) -> Result<String, SceneError> {
-    std::fs::read_to_string(file).map_err(|source| SceneError::Unreadable { what, file: file.to_path_buf(), source })
+    let unreadable = |source| SceneError::Unreadable { what, file: file.to_path_buf(), source };
+    let bytes = std::fs::read(file).map_err(unreadable)?;
+    // a byte of zero is text by the rules, and the sign of a binary file
+    let zero = bytes.iter().position(|byte| *byte == 0);
+    let wrong = std::str::from_utf8(&bytes).err().map(|error| error.valid_up_to());
+    let Some(at) = wrong.into_iter().chain(zero).min() else {
+        return Ok(String::from_utf8_lossy(&bytes).into_owned());
+    };
+    let (before, byte) = (bytes.get(..at).unwrap_or_default(), bytes.get(at).copied().unwrap_or_default());
+    let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+    Err(SceneError::NoText { what, file: file.to_path_buf(), line, byte })
 }
 
 /// What `check` makes of the text, as a tree of values that know where they stand. `file` names it in messages.

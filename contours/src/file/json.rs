@@ -15,7 +15,13 @@ pub fn shapes(file: &Path) -> Result<Vec<Shape>, FileError> {
     serde_json::from_str(&super::text(file)?).map_err(|error| {
         let message = error.to_string();
         // The place stands before the message, as for other files.
-        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
+        let message = message.split(" at line ").next().unwrap_or_default();
+        let plain = [
+            ("unknown variant", "the shape is"),
+            ("invalid type:", "the value is"),
+            ("expected f64", "expected a number"),
+        ];
+        let message = plain.into_iter().fold(message.to_owned(), |message, (rust, plain)| message.replace(rust, plain));
         FileError::Malformed { file: file.to_path_buf(), line: error.line().max(1) as u64, message }
     })
 }

@@ -4,8 +4,8 @@ use super::{FakeDevice, Script};
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::{Duration, Instant};
 
-/// More than this is not kept for a host that does not read.
-const MOST_PENDING: usize = 1 << 16;
+/// Bytes that are kept for a host that does not read, if nothing else is said.
+const ROOM: usize = 1 << 16;
 
 /// So many frames at a time, then the host is heard again.
 const BATCH: usize = 64;
@@ -47,6 +47,7 @@ pub struct FakeSensor<D, S> {
     source: S,
     script: Script,
     pace: Pace,
+    room: usize,
     served: Served,
     /// The frame before which it was unplugged last.
     unplugged: Option<u64>,
@@ -95,7 +96,7 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
     /// A device that sends what the source yields, at its own rate, and never fails.
     pub fn new(device: D, source: S) -> Self {
         let (script, pace, served, unplugged) = (Script::new(), Pace::Device, Served::default(), None);
-        Self { device, source, script, pace, served, unplugged }
+        Self { device, source, script, pace, room: ROOM, served, unplugged }
     }
 
     /// With this going wrong.
@@ -109,6 +110,14 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
     #[must_use]
     pub fn with_pace(mut self, pace: Pace) -> Self {
         self.pace = pace;
+        self
+    }
+
+    /// With room for so many bytes that the host has not read yet, 65,536 by default; frames beyond are lost. More room bridges
+    /// longer pauses of the host, as on a busy machine.
+    #[must_use]
+    pub fn with_room(mut self, bytes: usize) -> Self {
+        self.room = bytes;
         self
     }
 
@@ -200,7 +209,7 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
         self.served.frames += 1;
         match self.script.damaged(frame, bytes) {
             None => self.served.lost += 1,
-            Some(_) if pending.len() > MOST_PENDING => self.served.overrun += 1,
+            Some(_) if pending.len() > self.room => self.served.overrun += 1,
             Some(bytes) => pending.extend(bytes),
         }
         None

@@ -87,7 +87,7 @@ fn heading(root: &Area<'_>) -> Result<(), FigureError> {
     let title = "Goodness of fit 1 − |x − r|² / |r − mean r|² (NMSE) between clean and noisy reactions";
     write(root, title, (24, 36), HPos::Left, TITLE, INK)?;
     let text = format!(
-        "simulated noise in place of the experiment: white, σ = {:.1} mN and {:.2} mN m, every {:.2} mm in contact",
+        "simulated noise in place of the experiment: white, σ = {:.1} mN and {:.2} N mm, every {:.2} mm in contact",
         1e3 * NOISE.f0x,
         1e3 * NOISE.m0z,
         1e3 * STEP,

@@ -72,7 +72,7 @@ pub enum TableProblem {
     },
     /// Commas between numbers or in them.
     #[error(
-        "`{text}` could be numbers with decimal commas or numbers separated by commas ({cells} of them, under {names} names); say which in the options: either the decimal mark (and the delimiter), or delimiter comma and the names of all columns"
+        "`{text}` could be numbers with decimal commas or numbers separated by commas ({cells} of them, under {names} names); say which in the options: either `decimal` (and `delimiter`), or `delimiter` comma and the names of all columns"
     )]
     AmbiguousComma {
         /// The beginning of a line that shows it.
@@ -84,7 +84,7 @@ pub enum TableProblem {
     },
     /// Both decimal marks.
     #[error(
-        "`{point}` in line {point_line} has a decimal point, `{comma}` in line {comma_line} a decimal comma, expected the same in all columns; say which in the options"
+        "`{point}` in line {point_line} has a decimal point, `{comma}` in line {comma_line} a decimal comma, expected the same in all columns; say which in the option `decimal`"
     )]
     MixedDecimals {
         /// A cell with a point.
@@ -111,13 +111,22 @@ pub enum TableProblem {
         expected: &'static str,
     },
     /// Several tables in one file.
-    #[error("{segments} segments, expected one; say which in the options, or read all")]
+    #[error("{segments} segments, expected one; say which in the option `segment`, or read all")]
     Segments {
         /// How many.
         segments: usize,
     },
+    /// Bytes that no text has.
+    #[error("a byte of zero, which no text has, expected a table (CSV, TSV or LVM)")]
+    Binary,
+    /// A segment of a table that has none.
+    #[error("the option `segment` is {segment}, but only LVM files have segments; leave it out")]
+    NoSegments {
+        /// Which one was asked for.
+        segment: usize,
+    },
     /// A unit for a column that is not there.
-    #[error("no column `{column}`, for which the options give a unit; found {found}")]
+    #[error("no column `{column}`, for which the option `unit` gives one; found {found}")]
     NoColumnOfUnit {
         /// The name.
         column: String,
@@ -144,7 +153,7 @@ pub enum TableProblem {
     },
     /// Two columns for the same.
     #[error(
-        "two columns are named {name}{}, expected one; say which in the column map, or rename one",
+        "two columns are named {name}{}, expected one; say which in the option `column`, or rename one",
         Other(name, other)
     )]
     Twice {

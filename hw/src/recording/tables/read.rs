@@ -46,8 +46,14 @@ impl Table {
     pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
         let bytes = &*utf8(bytes);
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if let Some(zero) = bytes.iter().position(|byte| *byte == 0) {
+            let line = 1 + bytes[..zero].iter().filter(|byte| **byte == b'\n').count() as u64;
+            return Err(TableProblem::Binary.at(file, Some(line)));
+        }
         let mut tables = if lvm::is_lvm(bytes) {
             lvm::tables(file, bytes, options)?
+        } else if let Some(segment) = options.segment {
+            return Err(TableProblem::NoSegments { segment }.at(file, None));
         } else {
             vec![text::table(file, bytes, options)?]
         };

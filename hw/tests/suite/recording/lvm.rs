@@ -108,7 +108,7 @@ fn segments() {
     let tables = parse_all(&text);
     let last: Vec<f64> = tables.iter().map(|table| column(table, 0)[1]).collect();
     assert_eq!(last, [1.0, 2.0, 3.0]);
-    refuses(&text, &TableOptions::default(), &["f.lvm: 3 segments, expected one; say which in the options"]);
+    refuses(&text, &TableOptions::default(), &["f.lvm: 3 segments, expected one; say which in the option `segment`"]);
     let options = |segment| TableOptions { segment: Some(segment), ..TableOptions::default() };
     assert_eq!(column(&Table::parse("f.lvm", text.as_bytes(), &options(2)).unwrap(), 0), [0.0, 2.0]);
     refuses(&text, &options(4), &["f.lvm: 3 segments, expected"]);

@@ -1,9 +1,12 @@
 //! A sensor that is none, playing what it would feel along a scene.
 
+mod pty;
+
 use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
-use rod_fake_sensor::{FakeBota, FakeDevice, FakeGsv8, FakeRdt, FakeRdtSettings, FakeSensor, Pace, open_pty};
+use pty::play_pty;
+use rod_fake_sensor::{FakeBota, FakeGsv8, FakeRdt, FakeRdtSettings};
 use std::net::{Ipv4Addr, SocketAddr};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 use vibrissa::contact::Stop;
@@ -11,7 +14,7 @@ use vibrissa::hw::device::rdt::{RdtRecord, RdtScaling};
 use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit};
 use vibrissa::rod::Reactions;
 
-/// Samples that are made in advance.
+/// Samples that are made in advance, before the first is played and while it plays.
 const AHEAD: usize = 4096;
 /// How often to look whether it is over.
 const LOOK: Duration = Duration::from_millis(20);
@@ -69,6 +72,12 @@ pub enum FakeError {
         /// Why.
         source: std::io::Error,
     },
+    /// A serial line, on a system without pseudo-terminals.
+    #[error("{protocol} needs a pseudo-terminal, which only Unix systems have; use --protocol rdt here")]
+    NoPty {
+        /// What was to be played.
+        protocol: &'static str,
+    },
     /// There is no way back from a wrench to the gauges.
     #[error(
         "the setup has a calibration of gauges, from which a wrench can be told, but not the gauges from a wrench; give units, \
@@ -87,7 +96,7 @@ pub enum FakeError {
 const COUNTS: f64 = 1e6;
 
 impl FakeScan {
-    /// Plays until all samples are sent or `stopped` says so; a sensor that waits to be started waits. `tell` is handed lines to
+    /// Makes the first 4096 samples, then plays until all samples are sent or `stopped` says so; a sensor that waits to be started waits. `tell` is handed lines to
     /// show, the first of them the address.
     ///
     /// Poses that a snap jumps over are filled with what was felt before, for a sensor has no gaps.
@@ -123,7 +132,10 @@ impl FakeScan {
             (FakeProtocol::Gsv8 | FakeProtocol::Bota, None) => Scale::si(),
         };
         let (sender, receiver) = sync_channel(AHEAD);
-        let maker = thread::spawn(move || make(&simulation, &setup, scale, &sender));
+        let (begun, enough) = sync_channel(0);
+        let maker = thread::spawn(move || make(&simulation, &setup, scale, &sender, begun));
+        // what computes while it plays falls silent on a busy machine
+        while enough.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) && !stopped() {}
         let sent = match protocol {
             FakeProtocol::Rdt => {
                 let address = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
@@ -150,8 +162,15 @@ fn unit(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
     Unit { name, dimension, factor }
 }
 
-/// Makes the channels of all samples, in order. How many, and why no more.
-fn make(simulation: &Simulation, setup: &Setup, scale: Scale, sender: &SyncSender<[f64; 6]>) -> (u64, Option<Stop>) {
+/// Makes the channels of all samples, in order, and closes `begun` once [`AHEAD`] or all are made. How many, and why no more.
+fn make(
+    simulation: &Simulation,
+    setup: &Setup,
+    scale: Scale,
+    sender: &SyncSender<[f64; 6]>,
+    begun: SyncSender<()>,
+) -> (u64, Option<Stop>) {
+    let mut begun = Some(begun);
     let (mut made, mut felt) = (0, Reactions::default());
     // checked before
     let Ok(ticks) = simulation.ticks() else { return (0, None) };
@@ -162,6 +181,9 @@ fn make(simulation: &Simulation, setup: &Setup, scale: Scale, sender: &SyncSende
                 for reactions in std::iter::repeat_n(felt, (number as u64).saturating_sub(made) as usize).chain([now]) {
                     let wrench = setup.mounting.wrench(&reactions, &OutOfPlane::default(), pose);
                     let channels = scale.channels(&wrench);
+                    if made == AHEAD as u64 {
+                        drop(begun.take());
+                    }
                     if sender.send(std::array::from_fn(|i| channels.get(i).copied().unwrap_or_default())).is_err() {
                         return (made, None);
                     }
@@ -194,27 +216,4 @@ fn play_rdt(
         thread::sleep(LOOK);
     }
     Ok(fake.account().records)
-}
-
-fn play_pty<D: FakeDevice>(
-    device: D,
-    name: &str,
-    pace: f64,
-    samples: Receiver<[f64; 6]>,
-    playing: &str,
-    tell: &mut dyn FnMut(&str),
-    stopped: &dyn Fn() -> bool,
-) -> Result<u64, Error> {
-    let failed = |source| FakeError::Place { place: "a pseudo-terminal".into(), source };
-    let mut pty = open_pty().map_err(failed)?;
-    tell(&format!("serial:{}:{name}: {playing}", pty.path()));
-    let mut sensor = FakeSensor::new(device, samples.into_iter()).with_pace(Pace::Rate(pace));
-    loop {
-        let end = sensor.serve(&mut pty, |_| !stopped()).map_err(failed)?;
-        if end != rod_fake_sensor::End::Closed {
-            // what the other side has not read yet would be gone with the pseudo-terminal
-            thread::sleep(Duration::from_millis(500));
-            return Ok(sensor.served().frames);
-        }
-    }
 }
