@@ -78,7 +78,7 @@ fn units_above_and_below() {
     let options = TableOptions { units: vec![("x".into(), "mm".into())], ..TableOptions::default() };
     assert_eq!(units(&Table::parse("f.csv", b"x [V],y\n1,2\n", &options).unwrap()), [Some("mm"), None]);
     let options = TableOptions { units: vec![("z".into(), "mm".into())], ..TableOptions::default() };
-    refuses("x,y\n1,2\n", &options, &["f.csv: no column `z`, for which the options give a unit; found x, y"]);
+    refuses("x,y\n1,2\n", &options, &["f.csv: no column `z`, for which the option `unit` gives one; found x, y"]);
 }
 
 #[test]
@@ -261,4 +261,11 @@ proptest::proptest! {
         let found: Vec<[f64; 3]> = table.rows().map(|row| [0, 1, 2].map(|i| row.number(i).unwrap())).collect();
         assert_eq!(found, rows);
     }
+}
+
+#[test]
+fn a_segment_of_a_table_without_segments_and_bytes_that_are_no_text() {
+    let segment = TableOptions { segment: Some(2), ..TableOptions::default() };
+    refuses("x,y\n1,2\n", &segment, &["f.csv: the option `segment` is 2, but only LVM files have segments"]);
+    refuses("x,y\n1,\0\n", &TableOptions::default(), &["f.csv:2: a byte of zero, which no text has"]);
 }
