@@ -3,6 +3,7 @@
 mod arguments;
 mod guide;
 mod signals;
+mod values;
 
 use arguments::{Arguments, Command, FakeSensor, Simulate};
 use clap::{CommandFactory, Parser};
