@@ -1,8 +1,9 @@
 //! The command line.
 
 use crate::guide;
+use crate::values::{directory, meaning, no_quiet, number, pair, seed};
 use clap::builder::PossibleValuesParser;
-use clap::{Arg, ArgAction, Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
@@ -209,40 +210,6 @@ impl From<Written> for ReadOptions {
             columns,
         }
     }
-}
-
-/// In place of the global `--quiet` where there is no report: taken, not listed.
-fn no_quiet() -> Arg {
-    Arg::new("quiet").long("quiet").short('q').action(ArgAction::SetTrue).hide(true)
-}
-
-fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
-}
-
-fn number(text: &str) -> Result<usize, String> {
-    text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
-}
-
-/// A directory of results: several files have no place on standard output.
-fn directory(text: &str) -> Result<PathBuf, String> {
-    match text {
-        "-" => Err("several files cannot go to standard output, expected a directory".to_owned()),
-        _ => Ok(PathBuf::from(text)),
-    }
-}
-
-fn pair(text: &str) -> Result<(String, String), String> {
-    let (name, value) = text.rsplit_once('=').ok_or("expected two names with = between them")?;
-    Ok((name.to_owned(), value.to_owned()))
-}
-
-fn meaning(text: &str) -> Result<(Role, String), String> {
-    let (name, column) = text.split_once('=').ok_or("expected two names with = between them")?;
-    let role = Role::of_name(name).ok_or_else(|| {
-        format!("`{name}` means nothing, expected x0, y0, phi0, f0x, f0y, m0z, t or another name of docs/recordings.md")
-    })?;
-    Ok((role, column.to_owned()))
 }
 
 /// A recording to be made.

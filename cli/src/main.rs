@@ -3,6 +3,7 @@
 mod arguments;
 mod guide;
 mod signals;
+mod values;
 
 use arguments::{Arguments, Command, FakeSensor, Simulate, Trust};
 use clap::{CommandFactory, Parser};

@@ -1,0 +1,43 @@
+//! The values of options, read and checked.
+
+use clap::{Arg, ArgAction};
+use std::path::PathBuf;
+use vibrissa::hw::recording::Role;
+
+/// In place of the global `--quiet` where there is no report: taken, not listed.
+pub fn no_quiet() -> Arg {
+    Arg::new("quiet").long("quiet").short('q').action(ArgAction::SetTrue).hide(true)
+}
+
+/// A seed of noise.
+pub fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
+/// A number that counts from 1; whether there are so many shows later.
+pub fn number(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
+}
+
+/// A directory of results: several files have no place on standard output.
+pub fn directory(text: &str) -> Result<PathBuf, String> {
+    match text {
+        "-" => Err("several files cannot go to standard output, expected a directory".to_owned()),
+        _ => Ok(PathBuf::from(text)),
+    }
+}
+
+/// A column and its unit.
+pub fn pair(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.rsplit_once('=').ok_or("expected two names with = between them")?;
+    Ok((name.to_owned(), value.to_owned()))
+}
+
+/// A meaning and its column.
+pub fn meaning(text: &str) -> Result<(Role, String), String> {
+    let (name, column) = text.split_once('=').ok_or("expected two names with = between them")?;
+    let role = Role::of_name(name).ok_or_else(|| {
+        format!("`{name}` means nothing, expected x0, y0, phi0, f0x, f0y, m0z, t or another name of docs/recordings.md")
+    })?;
+    Ok((role, column.to_owned()))
+}
