@@ -59,7 +59,7 @@ pub use phase::Label;
 pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
 pub use pipeline::{
-    Live, LiveSession, LiveSettings, Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct,
+    Live, LiveSession, LiveSettings, Pass, Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct,
     reconstruct_passes,
 };
 #[cfg(feature = "std")]

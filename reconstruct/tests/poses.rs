@@ -3,7 +3,7 @@
 use crate::common::nine_scans::{Clean, scan};
 use crate::common::noise::Noise;
 use rod_core::{Pose, Reactions, Rod, Sample};
-use rod_reconstruct::{Label, Settings, passes, reconstruct, reconstruct_passes};
+use rod_reconstruct::{Assembly, Label, Settings, passes, reconstruct, reconstruct_passes};
 use std::f64::consts::FRAC_PI_2;
 
 /// Rod length, m, and units of force and moment.
@@ -88,13 +88,19 @@ fn forth_and_back_are_two_passes() {
     let clean = scan(1, 0.4, 1e-4);
     let forth = samples(&clean, |_, x| x);
     let both: Vec<Sample> = forth.iter().chain(forth.iter().rev()).copied().collect();
-    let each = reconstruct_passes(&rod(), &both, &Settings::default());
-    assert_eq!(each.len(), 2);
+    let found = reconstruct_passes(&rod(), &both, &Settings::default()).unwrap();
     let alone = reconstruct(&rod(), &forth, &Settings::default()).unwrap();
-    let (first, second) = (each[0].1.as_ref().unwrap(), each[1].1.as_ref().unwrap());
-    assert!(each[0].0.end.abs_diff(forth.len()) <= 1, "{:?}", each[0].0);
-    assert_eq!(first.readings.len() + second.readings.len(), both.len());
-    assert!(first.runs.len().abs_diff(alone.runs.len()) <= 1);
+    let passes: Vec<_> = found.passes.iter().map(|pass| pass.samples.clone()).collect();
+    assert!(passes.len() == 2 && passes[0].end.abs_diff(forth.len()) <= 1, "{passes:?}");
+    assert_eq!(found.readings.len(), both.len());
+    let second = found.runs.partition_point(|run| run.0 < passes[1].start);
+    assert!(second.abs_diff(alone.runs.len()) <= 1 && found.runs.len() > second, "{:?}", found.runs);
+    // the contour has the traces of both, in the numbers of the whole
+    let assembly = Assembly::default();
+    let (traces, once) = (found.contour(&assembly).traces, alone.contour(&assembly).traces);
+    assert!(
+        traces.len().abs_diff(2 * once.len()) <= 1 && traces.iter().any(|trace| trace.samples.start >= passes[1].start)
+    );
 }
 
 #[test]

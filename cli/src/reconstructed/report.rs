@@ -356,7 +356,7 @@ impl ReportRecord {
             runs: runs.collect(),
             kinks: kinks.collect(),
             gaps: found.contour.gaps.iter().map(gap).collect(),
-            calibration: result.calibration.clone(),
+            calibration: result.calibration().cloned(),
             physics: PhysicsRecord::of(&found.check, rod),
             truth: found.comparison.as_ref().map(Into::into),
         }

@@ -41,7 +41,7 @@ impl Reconstructed {
 
     /// What was taken off the samples, and what may be left.
     fn tell_calibration(&self, text: &mut String) -> std::fmt::Result {
-        let Some(calibration) = &self.found.calibration else { return writeln!(text, "corrections: none, as is") };
+        let Some(calibration) = self.found.calibration() else { return writeln!(text, "corrections: none, as is") };
         let taken: Vec<_> = calibration.sources.iter().filter(|estimate| estimate.taken != 0.0).collect();
         if taken.is_empty() {
             writeln!(text, "corrections: none needed")?;

@@ -7,17 +7,17 @@ use crate::simulation::INCOMPLETE;
 use std::path::Path;
 use vibrissa::Rod;
 use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError, TableProblem};
-use vibrissa::reconstruct::{Halt, Travel};
+use vibrissa::reconstruct::{FEWEST_SAMPLES, Halt, Travel};
 
-/// Fewer samples than this are no scan: a curve through them would leave nothing to judge it by.
-const FEWEST: usize = 10;
+/// At most one row in so many may be left out because the clamp repeats a pose or turns back there.
+const HALTS: usize = 20;
 
 impl Recording {
     /// The recording in a file. The rod's length says how far a clamp that turns has gone.
     ///
     /// # Errors
     /// [`RecordingError`]: the file cannot be read, columns are missing, more than half of the rows cannot be used, or
-    /// fewer than 10 can.
+    /// fewer than [`FEWEST_SAMPLES`] can.
     pub fn read(file: &Path, rod: &Rod, how: &ReadOptions) -> Result<Self, RecordingError> {
         Self::of_table(file, Table::read(file, &how.options), rod, how)
     }
@@ -59,21 +59,11 @@ impl Recording {
         })?;
         let columns = find(&file, &table, &how.columns)?;
         let mut rows: Vec<Row> = Vec::with_capacity(table.len());
-        let mut late = Vec::new();
+        let (mut late, mut lines) = (Vec::new(), Vec::with_capacity(table.len()));
         let mut time = f64::NEG_INFINITY;
-        let mut travel = Travel::new(rod);
-        // line of the last usable row
-        let mut of = table.header_line().unwrap_or_default();
         for row in table.rows() {
             let line = row.line();
-            let row = sample(&row, &columns).and_then(|sample| match travel.go(&sample.pose) {
-                Ok(_) => {
-                    of = line;
-                    Ok(sample)
-                }
-                Err(Halt::Repeated) => Err((Some(sample.pose), RowProblem::Repeated { of })),
-                Err(_) => Err((Some(sample.pose), RowProblem::TurnsBack { of })),
-            });
+            let row = sample(&row, &columns);
             if let Ok(t) = row.as_ref().map(|sample| sample.t.unwrap_or(f64::NAN)) {
                 if t <= time {
                     late.push(line);
@@ -81,6 +71,12 @@ impl Recording {
                 time = t;
             }
             rows.push(row.map_err(|(pose, problem)| RowFault { line, pose, problem }));
+            lines.push(line);
+        }
+        let halts = halts(&rows, &lines, rod);
+        // if there are more, the clamp trembles, stands or turns back on purpose: then the reconstruction needs all rows
+        if HALTS * halts.len() <= rows.len() {
+            halts.into_iter().for_each(|(row, fault)| rows[row] = Err(fault));
         }
         let usable = rows.iter().filter(|row| row.is_ok()).count();
         if 2 * usable < rows.len() {
@@ -88,8 +84,8 @@ impl Recording {
             let faults = rows.into_iter().filter_map(Result::err).collect();
             return Err(RecordingError::Unusable { file, rows: count, faults });
         }
-        if usable < FEWEST {
-            return Err(RecordingError::TooFew { file, usable, expected: FEWEST });
+        if usable < FEWEST_SAMPLES {
+            return Err(RecordingError::TooFew { file, usable, expected: FEWEST_SAMPLES });
         }
         let ignored = columns.ignored(&table).map(str::to_owned).collect();
         let cut = rows.last().is_some_and(|row| matches!(row, Err(RowFault { problem, .. }) if is_cut(problem)));
@@ -97,6 +93,24 @@ impl Recording {
         let incomplete = table.note(INCOMPLETE).map(str::to_owned);
         Ok(Self { file, rows, ignored, late, cut, incomplete })
     }
+}
+
+/// The rows at which the clamp does not go on.
+fn halts(rows: &[Row], lines: &[u64], rod: &Rod) -> Vec<(usize, RowFault)> {
+    let (mut travel, mut of, mut halts) = (Travel::new(rod), 0, Vec::new());
+    for (number, (row, &line)) in rows.iter().zip(lines).enumerate() {
+        let Ok(sample) = row else { continue };
+        let problem = match travel.go(&sample.pose) {
+            Ok(_) => {
+                of = line;
+                continue;
+            }
+            Err(Halt::Repeated) => RowProblem::Repeated { of },
+            Err(_) => RowProblem::TurnsBack { of },
+        };
+        halts.push((number, RowFault { line, pose: Some(sample.pose), problem }));
+    }
+    halts
 }
 
 fn is_cut(problem: &RowProblem) -> bool {

@@ -18,7 +18,12 @@ impl Reconstruction {
     /// What the reconstruction itself finds wrong with the recording: no free stretch, an error beyond its budget, criteria that are not
     /// met, samples without an answer. Empty where everything fits.
     pub fn findings(&self) -> Vec<Finding> {
-        let mut findings = self.calibration.as_ref().map_or_else(Vec::new, of_calibration);
+        let mut findings = self
+            .passes
+            .iter()
+            .filter_map(|pass| pass.calibration.as_ref())
+            .flat_map(of_calibration)
+            .collect::<Vec<_>>();
         let single = || self.readings.iter().filter(|reading| matches!(reading.label, Label::A | Label::B));
         let unanswered = single().filter(|reading| reading.touch.is_err()).count();
         let share = unanswered as f64 / single().count().max(1) as f64;

@@ -20,6 +20,6 @@ pub use live::Live;
 pub use live_settings::LiveSettings;
 pub use reading::{Reading, Reason};
 pub use reconstruct::reconstruct;
-pub use reconstruction::Reconstruction;
+pub use reconstruction::{Pass, Reconstruction};
 pub use session::LiveSession;
 pub use settings::{ReconstructError, Settings};

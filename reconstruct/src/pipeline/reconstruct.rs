@@ -2,7 +2,7 @@
 
 use super::answers::Answers;
 use super::reading::{Reading, Reason};
-use super::reconstruction::Reconstruction;
+use super::reconstruction::{Pass, Reconstruction};
 use super::settings::{ReconstructError, Settings, positive};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Label, identify, places};
@@ -114,7 +114,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
         windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
-        calibration: calibration.map(|calibration| calibration.1),
+        passes: vec![Pass { samples: 0..samples.len(), calibration: calibration.map(|calibration| calibration.1) }],
     })
 }
 

@@ -1,12 +1,13 @@
 //! The result of a reconstruction.
 
 use super::reading::{Reading, Reason};
-use crate::contour::{Assembly, ContourEstimate, Measured, Trace, TraceKind};
+use crate::contour::{Assembly, ContourEstimate, Gap, Measured, Trace, TraceKind};
 use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
 use crate::point::Touch;
 use crate::scan::noise_estimate::ChannelNoise;
 use crate::systematic::Calibration;
+use rod_core::{Rod, Sample};
 use std::ops::Range;
 
 /// Number of independent values in a stretch with several contacts: its series have about as many significant terms. The samples of the
@@ -14,6 +15,15 @@ use std::ops::Range;
 const SERIES: usize = 8;
 /// Most contact points of a trace that its systematic errors are taken from: they change little from point to point.
 const PLACES: usize = 100;
+
+/// A part of a recording in which the clamp goes on in one direction.
+#[derive(Clone, Debug)]
+pub struct Pass {
+    /// Its samples.
+    pub samples: Range<usize>,
+    /// What was found of the errors that its samples share; none where the budget has none, or where there are too few samples.
+    pub calibration: Option<Calibration>,
+}
 
 /// The result of a reconstruction.
 #[derive(Clone, Debug)]
@@ -26,28 +36,58 @@ pub struct Reconstruction {
     pub kinks: Vec<Kink>,
     /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
     pub noise: [ChannelNoise; 3],
-    /// What was found of the errors that all samples share; none where the budget has none.
-    pub calibration: Option<Calibration>,
+    /// The passes, one unless the clamp turns back.
+    pub passes: Vec<Pass>,
     pub(super) evidence: Vec<Evidence>,
     /// Samples of each place's window; 1 where samples are used as they are.
     pub(super) windows: Vec<usize>,
 }
 
 impl Reconstruction {
+    /// What was found of the errors that all samples share, in the first pass that says something of them.
+    pub fn calibration(&self) -> Option<&Calibration> {
+        self.passes.iter().find_map(|pass| pass.calibration.as_ref())
+    }
+
+    /// The rod and the samples as they were used: without what was taken off in each pass.
+    pub fn corrected(&self, rod: &Rod, samples: &[Sample]) -> (Rod, Vec<Sample>) {
+        let of = |pass: &Pass| {
+            let part = samples.get(pass.samples.clone()).unwrap_or_default();
+            pass.calibration.as_ref().map_or_else(|| part.to_vec(), |calibration| calibration.corrected(rod, part))
+        };
+        let corrected = self.calibration().map_or(*rod, |calibration| calibration.rod(rod));
+        (corrected, self.passes.iter().flat_map(of).collect())
+    }
+
     /// The contour: contact points assembled into stretches, and the gaps between them.
     ///
     /// In noise the points of neighbouring samples come from fits that overlap. Each point counts with its share of the window, so that
     /// the standard deviations of the contour are those of the noise of the samples.
     pub fn contour(&self, assembly: &Assembly) -> ContourEstimate {
+        let mut whole = ContourEstimate::default();
+        for pass in &self.passes {
+            let part = self.of_pass(assembly, pass.samples.clone());
+            let shifted = |samples: Range<usize>| samples.start + pass.samples.start..samples.end + pass.samples.start;
+            whole
+                .traces
+                .extend(part.traces.into_iter().map(|trace| Trace { samples: shifted(trace.samples), ..trace }));
+            whole.gaps.extend(part.gaps.into_iter().map(|gap| Gap { samples: shifted(gap.samples), ..gap }));
+        }
+        whole.traces.iter_mut().for_each(|trace| self.add_systematic(trace));
+        whole
+    }
+
+    /// The contour of some consecutive samples, which are numbered from 0 in it.
+    fn of_pass(&self, assembly: &Assembly, pass: Range<usize>) -> ContourEstimate {
+        let readings = self.readings.get(pass.clone()).unwrap_or_default();
         let runs = self.runs.iter().map(|run| run.0).skip(1).chain([self.readings.len()]);
         let mut lengths = self.runs.iter().zip(runs).map(|(run, end)| (end, end - run.0));
         let mut run = lengths.next();
-        let mut touches: Vec<Touch> = Vec::with_capacity(self.readings.len());
-        let answers: Vec<(Range<usize>, Option<String>, usize)> = self
-            .readings
+        let mut touches: Vec<Touch> = Vec::with_capacity(readings.len());
+        let answers: Vec<(Range<usize>, Option<String>, usize)> = readings
             .iter()
-            .enumerate()
-            .map(|(sample, reading)| {
+            .zip(pass)
+            .map(|(reading, sample)| {
                 while run.is_some_and(|(end, _)| end <= sample) {
                     run = lengths.next();
                 }
@@ -63,14 +103,11 @@ impl Reconstruction {
                 (start..touches.len(), reason.map(|reason| reason.to_string()), window)
             })
             .collect();
-        let mut contour =
-            assembly.assemble(self.readings.iter().zip(&answers).map(|(reading, (range, reason, shared))| Measured {
-                reason: reason.as_deref(),
-                shared: *shared,
-                ..Measured::new(reading.label, &touches[range.clone()])
-            }));
-        contour.traces.iter_mut().for_each(|trace| self.add_systematic(trace));
-        contour
+        assembly.assemble(readings.iter().zip(&answers).map(|(reading, (range, reason, shared))| Measured {
+            reason: reason.as_deref(),
+            shared: *shared,
+            ..Measured::new(reading.label, &touches[range.clone()])
+        }))
     }
 
     /// Adds to the points of a trace what all samples share, from the nearest of some contact points of its samples.
