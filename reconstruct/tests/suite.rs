@@ -11,3 +11,4 @@ mod noise_estimate;
 mod plausibility;
 mod properties;
 mod single_precision;
+mod two_contacts;
