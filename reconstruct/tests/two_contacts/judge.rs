@@ -1,7 +1,9 @@
 //! The errors of contact points in units of their standard deviations.
 
 use super::scene::Scan;
+use rod_contact::State;
 use rod_contours::Contour;
+use rod_reconstruct::nalgebra::Vector2;
 use rod_reconstruct::{Label, Reading, Touch};
 use std::collections::BTreeMap;
 
@@ -78,7 +80,9 @@ pub fn judge(scan: &Scan, readings: &[Reading]) -> Tallies {
             let tally = tallies.entry((name.clone(), which)).or_default();
             tally.samples += 1;
             match touch {
-                _ if !reading.label.several() => *tally.reasons.entry(format!("label {}", reading.label)).or_default() += 1,
+                _ if !reading.label.several() => {
+                    *tally.reasons.entry(format!("label {}", reading.label)).or_default() += 1
+                }
                 Some(Ok(touch)) => tally.add(gap(scan, &touch), touch.sigma_normal()),
                 Some(Err(why)) => {
                     let why: String = why.to_string().chars().filter(|c| c.is_alphabetic() || *c == ' ').collect();
@@ -98,10 +102,20 @@ struct Stretch {
     gap: f64,
     sigmas: f64,
     what: String,
+    /// Largest distance from the true contact in standard deviations of that distance.
+    off: f64,
 }
 
 /// Samples without a wrong point that a stretch of wrong ones may contain.
 const BETWEEN: usize = 50;
+
+/// Distance of a point from the true contact in standard deviations of its components.
+fn off(state: &State, which: &str, touch: &Touch) -> f64 {
+    let contact = if which == "first" { state.contacts.first() } else { state.contacts.last() };
+    let Some(contact) = contact else { return f64::INFINITY };
+    let d = Vector2::new(touch.x - contact.x, touch.y - contact.y);
+    touch.covariance.try_inverse().map_or(f64::NAN, |inverse| (d.dot(&(inverse * d))).max(0.0).sqrt())
+}
 
 /// The wrong points, a line for each stretch of samples.
 pub fn wrong(scan: &Scan, readings: &[Reading]) -> Vec<String> {
@@ -115,16 +129,23 @@ pub fn wrong(scan: &Scan, readings: &[Reading]) -> Vec<String> {
                 continue;
             }
             let what = format!("{which}, {} as {}", state.phase(), reading.label);
+            let off = off(state, which, &touch);
             match stretches.last_mut() {
                 Some(last) if last.what == what && k <= last.to + BETWEEN => {
+                    last.off = last.off.max(off);
                     last.to = k;
                     last.gap = last.gap.max(gap);
                     last.sigmas = last.sigmas.max(gap / sigma);
                 }
-                _ => stretches.push(Stretch { from: k, to: k, gap, sigmas: gap / sigma, what }),
+                _ => stretches.push(Stretch { from: k, to: k, gap, sigmas: gap / sigma, what, off }),
             }
         }
     }
-    let line = |s: &Stretch| format!("{}..={}: {}: {:.1e} L, {:.1} sigma", s.from, s.to, s.what, s.gap, s.sigmas);
+    let line = |s: &Stretch| {
+        format!(
+            "{}..={}: {}: {:.1e} L, {:.1} sigma, {:.1} from the contact",
+            s.from, s.to, s.what, s.gap, s.sigmas, s.off
+        )
+    };
     stretches.iter().map(line).collect()
 }

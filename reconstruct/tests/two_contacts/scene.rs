@@ -124,7 +124,8 @@ fn saw(dice: &mut Dice) -> Objects {
 
 fn around(dice: &mut Dice, count: usize, radius: f64, deep: f64) -> Vec<[f64; 2]> {
     let place = |k: usize| {
-        let (angle, r) = ((k as f64 + dice.between(-0.25, 0.25)) * TAU / count as f64, radius * dice.between(deep, 1.0));
+        let (angle, r) =
+            ((k as f64 + dice.between(-0.25, 0.25)) * TAU / count as f64, radius * dice.between(deep, 1.0));
         [r * angle.cos(), r * angle.sin() + radius]
     };
     (0..count).map(place).collect()

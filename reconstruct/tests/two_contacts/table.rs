@@ -5,7 +5,9 @@ use super::run::{LEVELS, readings};
 use super::scene::{Scan, Scene};
 
 fn print(title: &str, tallies: &Tallies) {
-    println!("{title}: phase, contact | samples | answered | wrong | scans | largest, L | most sigmas | variance | reasons");
+    println!(
+        "{title}: phase, contact | samples | answered | wrong | scans | largest, L | most sigmas | variance | reasons"
+    );
     for ((phase, which), t) in tallies {
         let Tally { samples, answered, wrong, scans, largest, most_sigmas, squares, measured, reasons } = t;
         let (share, variance) =
