@@ -76,8 +76,13 @@ pub(super) fn answer(found: &Resolved, part: &Part, tau: &[f64], limits: &Limits
         let u = (0.5 * (t.clamp(-1.0, 1.0) + 1.0)) * (INSTANTS - 1) as f64;
         let k = (u as usize).min(INSTANTS - 2);
         let w = u - k as f64;
-        let covariance = covariances[k] * (1.0 - w) + covariances[k + 1] * w;
         let local = part.local(x, t);
+        // beyond the samples of the series, at the ends of the stretch, its error grows fast
+        let covariance = if t.abs() > 1.0 {
+            part.covariance(&local, &found.solution.covariance) * found.excess
+        } else {
+            covariances[k] * (1.0 - w) + covariances[k + 1] * w
+        };
         let bend = [0, 1].map(|i| bends[k][i].max(bends[k + 1][i]));
         pairs.push(pair(part, &local, &covariance, bend, limits));
     }
