@@ -12,3 +12,4 @@ mod plausibility;
 mod poses;
 mod properties;
 mod single_precision;
+mod two_contacts;

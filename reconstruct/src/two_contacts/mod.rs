@@ -9,6 +9,7 @@
 //! coefficients of Legendre series in the path parameter (`unknowns`, `series`, `part`): reactions, which agree with the
 //! measured ones within their noise, arc lengths, and the first force, which are smooth (`weights`).
 
+mod bend;
 mod beyond;
 mod choice;
 mod chord;

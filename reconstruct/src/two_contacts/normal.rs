@@ -35,4 +35,10 @@ impl Normal {
         let scaled = DMatrix::from_fn(n, n, |i, j| self.matrix[(i, j)] * scale[i] * scale[j]);
         (scale, scaled)
     }
+
+    /// The Gauss-Newton step, to be subtracted from the unknowns.
+    pub fn step(&self) -> Option<DVector<f64>> {
+        let (scale, scaled) = self.scaled();
+        Some(scaled.cholesky()?.solve(&self.gradient.component_mul(&scale)).component_mul(&scale))
+    }
 }

@@ -30,6 +30,12 @@ impl Part {
         3 * self.series.terms() + if self.tip { 2 } else { 3 } * self.terms
     }
 
+    /// Size of the mean force at the clamp.
+    pub fn force_at_clamp(&self) -> f64 {
+        let [f0x, f0y] = [Unknown::F0x, Unknown::F0y].map(|u| self.series.reactions[(0, u as usize)]);
+        f0x.hypot(f0y)
+    }
+
     /// Index of the first coefficient of an unknown, and the number of its coefficients.
     pub fn columns(&self, unknown: Unknown) -> (usize, usize) {
         let n = self.series.terms();

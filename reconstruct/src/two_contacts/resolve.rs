@@ -1,5 +1,6 @@
 //! Stretches with several contacts, resolved.
 
+use super::bend::UNSURE;
 use super::ends::{Beside, End};
 use super::pair::{Limits, Pair, answer};
 use super::run::solve;
@@ -104,5 +105,13 @@ fn beside(track: &Track, noise: &Noise, range: &Range<usize>, side: usize, like:
     let sigma_s = propagated(&found.s_by_reactions.transpose(), &covariance).x.sqrt();
     let way = (edge - tau).abs();
     let place = Vector2::new(found.section.x, found.section.y);
-    Some(Beside { last: End::Last { place, normal, sigma, way }, s: found.s, sigma_s, way })
+    // the other end of the neighbour's samples
+    let far = MomentZero::of(&series.clamps(-t)[0], &covariance).ok();
+    let bend = far.map_or(f64::INFINITY, |far| {
+        let passed = (Vector2::new(far.section.x, far.section.y) - place).norm();
+        let least = passed - UNSURE * (sigma_s * std::f64::consts::SQRT_2);
+        let turned = far.normal().perp(&normal).abs();
+        if least > 0.0 { turned / least } else { f64::INFINITY }
+    });
+    Some(Beside { last: End::Last { place, normal, sigma, way, bend }, s: found.s, sigma_s, way, bend })
 }

@@ -32,11 +32,19 @@ const REFINED: usize = 3;
 /// Largest sum of weighted squares per measured coefficient of a solution; noise gives 1. Larger: contradictory conditions pass.
 const MOST_MISFIT: f64 = 2.0;
 
+/// A solution whose sum of weighted squares exceeds that of another by less than this cannot be excluded: a likelihood ratio of
+/// exp(-12). Larger: more stretches are given up as ambiguous; smaller: wrong contacts pass.
+const AS_GOOD: f64 = 24.0;
+/// Distance of the first contacts of two solutions along the rod, rod lengths, from which on they are not the same.
+const ANOTHER: f64 = 0.02;
+
 /// Both contacts of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Resolved {
     pub parts: Vec<Part>,
     pub solution: Solution,
+    /// What is assumed at the ends of the run.
+    pub ends: [End; 2],
     /// Factor on the covariance: the sum of weighted squares per measured coefficient, at least 1.
     pub excess: f64,
 }
@@ -85,20 +93,29 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
     middle.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
     let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE_TERMS);
     let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
-    let judged = |parts: &[Part], solution: Solution| {
+    let judged = |parts: &[Part], ends: [End; 2], solution: Solution| {
         let excess = solution.cost / measured as f64;
-        let good = excess < MOST_MISFIT && parts.iter().all(|part| are_right(part, &solution));
-        good.then(|| Resolved { parts: parts.to_vec(), solution, excess: excess.max(1.0) })
+        let good = solution.converged && excess < MOST_MISFIT && parts.iter().all(|part| are_right(part, &solution));
+        good.then(|| Resolved { parts: parts.to_vec(), solution, ends, excess: excess.max(1.0) })
     };
-    for (choice, short, middle) in middle {
-        let mut x = longer(&short, &parts, &middle.x);
+    for (rank, (choice, short, start)) in middle.iter().enumerate() {
+        let mut x = longer(short, &parts, &start.x);
         let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
-        if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&parts, solution)) {
+        if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&parts, choice.ends, solution)) {
+            let others = middle.iter().enumerate().filter(|(other, _)| *other != rank);
+            for (_, (choice, short, middle)) in others {
+                let other = System { parts: &parts, ends: choice.ends, tolerance: FINE };
+                let other =
+                    other.gauss_newton(longer(short, &parts, &middle.x)).and_then(|s| judged(&parts, choice.ends, s));
+                if other.is_some_and(|other| contradict(&found, &other)) {
+                    return Err(Unresolved::Ambiguous);
+                }
+            }
             return Ok(found);
         }
         // If the choice is right, the last step was too long for the least squares: go there in shorter steps, and keep the
         // last one that succeeds.
-        if middle.cost > MOST_MISFIT * measured as f64 {
+        if start.cost > MOST_MISFIT * measured as f64 {
             continue;
         }
         let mut best = None;
@@ -107,7 +124,7 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
             let system = System { parts: &parts, ends: choice.ends, tolerance: Tolerance { floor, ..FINE } };
             let Some(solution) = system.solve(x.clone()) else { break };
             x = solution.x.clone();
-            let Some(found) = judged(&parts, solution) else { break };
+            let Some(found) = judged(&parts, choice.ends, solution) else { break };
             best = Some(found);
         }
         if let Some(found) = best {
@@ -115,6 +132,15 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
         }
     }
     Err(Unresolved::Inconsistent)
+}
+
+/// Whether two solutions explain the reactions nearly as well and differ in the first contact.
+fn contradict(found: &Resolved, other: &Resolved) -> bool {
+    let differ = |part: &Part| {
+        let s1 = |resolved: &Resolved| part.local(&resolved.solution.x, 0.0).values[Unknown::S1];
+        (s1(found) - s1(other)).abs() > ANOTHER
+    };
+    other.solution.cost < found.solution.cost + AS_GOOD && found.parts.iter().any(differ)
 }
 
 /// The stretches with series of the reactions of at most `short` terms, and this many terms of the others.

@@ -22,6 +22,10 @@ const ATTEMPTS: usize = 10;
 const COST_ROUNDING: f64 = 1e-9;
 /// Predicted relative decrease of the cost below which the iteration has converged. The weights are updated once then.
 const CONVERGED: f64 = 1e-6;
+/// Length of a Gauss-Newton step, relative to the sizes of the unknowns, below which the iteration has converged: rounding.
+const SETTLED: f64 = 1e-13;
+/// Smallest share of a Gauss-Newton step that is tried. Smaller: more time before a start that is too far away is given up.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// A run of stretches, and how its unknowns are weighted.
 pub(super) struct System<'a> {
@@ -36,6 +40,8 @@ pub(super) struct Solution {
     pub x: DVector<f64>,
     pub covariance: DMatrix<f64>,
     pub cost: f64,
+    /// Whether the iteration converged.
+    pub converged: bool,
 }
 
 impl System<'_> {
@@ -107,8 +113,7 @@ impl System<'_> {
 
     /// Arc lengths and the first force are smooth.
     fn smooth(part: &Part, x: &DVector<f64>, normal: &mut Normal) {
-        let [f0x, f0y] = [Unknown::F0x, Unknown::F0y].map(|u| part.series.reactions[(0, u as usize)]);
-        let at_clamp = f0x.hypot(f0y);
+        let at_clamp = part.force_at_clamp();
         for unknown in Unknown::CONTACTS {
             let (from, n) = part.columns(unknown);
             for j in 0..n {
@@ -159,22 +164,94 @@ impl System<'_> {
         let mut row = Vec::new();
         match end {
             End::Open => {}
-            End::Last { place, normal: there, sigma, way } => {
+            End::Last { place, normal: there, sigma, way, .. } => {
                 let second = second(&local.pose[0], &local.values, part.tip);
                 let [x, y, nx, ny] = [place.x, place.y, there.x, there.y].map(Dual::constant);
                 let Chord { across, by: [_, by] } = Chord::between(&ContourPoint { x, y, normal: [nx, ny] }, &second);
                 part.spread(&local, &by, &mut row);
                 normal.add(&row, across, weights::chord(way, sigma.hypot(weights::PLACE_SHARE * floor)));
             }
-            End::First { s, way } => {
+            End::First { s, way, .. } => {
                 part.spread(&local, &Gradient::of_values(Unknowns::unit(Unknown::S1)), &mut row);
                 normal.add(&row, local.values[Unknown::S1] - s, weights::arc_length_step(way, floor));
             }
         }
     }
 
-    /// The solution from a first guess x, by the Levenberg-Marquardt method; none where it fails.
-    pub fn solve(&self, mut x: DVector<f64>) -> Option<Solution> {
+    /// The solution from a first guess x; none where the equations have no solution.
+    ///
+    /// First by the Gauss-Newton method with steps that the natural monotonicity test admits (Deuflhard 2004, section 4.4): it asks
+    /// that the next step be shorter, not that the cost fall, which along the narrow curved valley of stiff conditions allows tiny steps
+    /// only. Where that does not converge, by the Levenberg-Marquardt method.
+    pub fn solve(&self, x: DVector<f64>) -> Option<Solution> {
+        let descended = self.gauss_newton(x.clone());
+        match descended {
+            Some(solution) => Some(solution),
+            None => self.marquardt(x),
+        }
+    }
+
+    /// Sizes of the unknowns, in which the lengths of steps are measured: 1 rod length, and 1 + the force at the clamp.
+    fn sizes(&self) -> DVector<f64> {
+        let mut sizes = DVector::repeat(self.parts.iter().map(Part::width).sum(), 1.0);
+        for part in self.parts {
+            let size = 1.0 + part.force_at_clamp();
+            for unknown in Unknown::ALL.into_iter().filter(|u| !matches!(u, Unknown::S1 | Unknown::S2)) {
+                let (from, count) = part.columns(unknown);
+                sizes.rows_mut(from, count).fill(size);
+            }
+        }
+        sizes
+    }
+
+    /// By the Gauss-Newton method alone.
+    pub fn gauss_newton(&self, mut x: DVector<f64>) -> Option<Solution> {
+        let sizes = self.sizes();
+        let mut weights = self.weights(&x);
+        let mut now = self.normal(&x, &weights);
+        let mut step = now.step()?;
+        let mut length = step.component_div(&sizes).norm();
+        let (mut share, mut settled) = (1.0_f64, 0);
+        for _ in 0..self.tolerance.steps {
+            let mut next = None;
+            while share > LEAST_SHARE {
+                let there = &x - &step * share;
+                let normal = self.normal(&there, &weights);
+                let ahead = normal.step().filter(|_| normal.cost.is_finite());
+                if let Some(ahead) = ahead {
+                    let shorter = ahead.component_div(&sizes).norm();
+                    if shorter <= (1.0 - 0.25 * share) * length || shorter < SETTLED {
+                        next = Some((there, normal, ahead, shorter));
+                        break;
+                    }
+                }
+                share *= 0.5;
+            }
+            (x, now, step, length) = next?;
+            share = (2.0 * share).min(1.0);
+            let fall = step.dot(&now.gradient) / (1.0 + now.cost);
+            if length < SETTLED || fall < CONVERGED {
+                settled += 1;
+                if settled > 1 {
+                    return self.solution(x, &now, true);
+                }
+                weights = self.weights(&x);
+                now = self.normal(&x, &weights);
+                step = now.step()?;
+                length = step.component_div(&sizes).norm();
+            }
+        }
+        None
+    }
+
+    fn solution(&self, x: DVector<f64>, normal: &Normal, converged: bool) -> Option<Solution> {
+        let (scale, scaled) = normal.scaled();
+        let inverse = scaled.cholesky()?.inverse();
+        let covariance = DMatrix::from_fn(x.len(), x.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]);
+        Some(Solution { x, covariance, cost: normal.cost, converged })
+    }
+
+    fn marquardt(&self, mut x: DVector<f64>) -> Option<Solution> {
         let mut damping = DAMPING;
         let mut weights = self.weights(&x);
         let mut now = self.normal(&x, &weights);
@@ -211,9 +288,6 @@ impl System<'_> {
                 now = self.normal(&x, &weights);
             }
         }
-        let (scale, scaled) = now.scaled();
-        let inverse = scaled.cholesky()?.inverse();
-        let covariance = DMatrix::from_fn(x.len(), x.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]);
-        Some(Solution { x, covariance, cost: now.cost })
+        self.solution(x, &now, settled > 1)
     }
 }

@@ -176,6 +176,8 @@ impl Errors {
                         Unresolved::TooShort { .. } => "too short",
                         Unresolved::NoTouch => "no touch",
                         Unresolved::ForceVanishes => "force vanishes",
+                        Unresolved::FirstForceVanishes => "first force vanishes",
+                        Unresolved::Ambiguous => "ambiguous",
                         Unresolved::NoAnchor => "no anchor",
                         Unresolved::TooNoisy { .. } => "too noisy",
                         Unresolved::Inconsistent => "inconsistent",

@@ -18,6 +18,12 @@ pub enum Unresolved {
     /// The force of the second contact is within its noise of zero, so that its place is not defined.
     #[error("the force of the second contact is within its noise of zero")]
     ForceVanishes,
+    /// The force of the first contact is within its noise of zero along the whole stretch, so that its existence is not certain.
+    #[error("the force of the first contact is within its noise of zero along the whole stretch")]
+    FirstForceVanishes,
+    /// Contacts at different places explain the reactions within their noise.
+    #[error("contacts at different places explain the reactions equally well")]
+    Ambiguous,
     /// The force of the first contact is known at neither end of the stretch.
     #[error("the force of the first contact is known at no end of the stretch")]
     NoAnchor,
