@@ -3,8 +3,8 @@
 //! The reactions determine the rod up to its first contact, and with the force there up to the second one. Without friction
 //! each contact moves along its own tangent; at the second one the moment vanishes, because it is the last.
 
+use super::part::Local;
 use super::unknowns::{Gradient, UNKNOWNS, Unknown, Unknowns};
-use nalgebra::Vector3;
 use rod_core::{Dual, Scalar, Section, advance};
 
 /// A condition: a number that vanishes.
@@ -28,9 +28,9 @@ pub(super) struct Two<T> {
     pub force: [T; 2],
 }
 
-/// The two contacts of a rod with its clamp at `pose` (x0, y0, phi0).
-pub(super) fn two<T: Scalar>(pose: [T; 3], v: &Unknowns<T>) -> Two<T> {
-    let start = Section { x: pose[0], y: pose[1], phi: pose[2], kappa: -v[Unknown::M0z] };
+/// The two contacts of a rod of this natural curvature with its clamp at `pose` (x0, y0, phi0).
+pub(super) fn two<T: Scalar>(pose: [T; 3], natural: T, v: &Unknowns<T>) -> Two<T> {
+    let start = Section { x: pose[0], y: pose[1], phi: pose[2], kappa: natural - v[Unknown::M0z] };
     let (a, b) = (v[Unknown::F0y], -v[Unknown::F0x]);
     let first = advance(&start, a, b, v[Unknown::S1]);
     let (sin, cos) = first.phi.sin_cos();
@@ -40,8 +40,9 @@ pub(super) fn two<T: Scalar>(pose: [T; 3], v: &Unknowns<T>) -> Two<T> {
 }
 
 /// The conditions, violated by their values: [`WITH_TIP`] of them where the second contact is at the tip, otherwise
-/// [`TANGENTIAL`]. `pose` is the pose of the clamp and its rate.
-pub(super) fn conditions(pose: &[Vector3<f64>; 2], values: &Unknowns, rates: &Unknowns, tip: bool) -> Vec<Condition> {
+/// [`TANGENTIAL`].
+pub(super) fn conditions(local: &Local, tip: bool) -> Vec<Condition> {
+    let Local { pose, natural, values, rates, .. } = local;
     /// Derivatives by the unknowns and by their rates.
     type Wide = Dual<f64, { 2 * UNKNOWNS }>;
     let timed = |value, rate| Dual::<Wide, 1> { value, derivatives: [rate] };
@@ -50,11 +51,12 @@ pub(super) fn conditions(pose: &[Vector3<f64>; 2], values: &Unknowns, rates: &Un
         timed(Wide::variable(values[u], k), Wide::variable(rates[u], UNKNOWNS + k))
     });
     let clamp = std::array::from_fn(|i| timed(Wide::constant(pose[0][i]), Wide::constant(pose[1][i])));
-    let two = two(clamp, &inputs);
+    let natural = Wide::constant(*natural);
+    let two = two(clamp, timed(natural, Wide::constant(0.0)), &inputs);
     let across = |s: &Section<Dual<Wide, 1>>, cos: Wide, sin: Wide| cos * s.y.derivatives[0] - sin * s.x.derivatives[0];
     let (sin, cos) = two.first.phi.value.sin_cos();
     let first = across(&two.first, cos, sin);
-    let kappa = two.second.kappa.value;
+    let kappa = two.second.kappa.value - natural;
     let condition = |number: Wide| Condition {
         value: number.value,
         gradient: Gradient {
@@ -71,7 +73,7 @@ pub(super) fn conditions(pose: &[Vector3<f64>; 2], values: &Unknowns, rates: &Un
     let second = across(&two.second, cos, sin);
     let (sin, cos) = pose[0].z.sin_cos();
     let [fx, fy, m] = Unknown::REACTIONS.map(|u| inputs[u].value);
-    let k = m * m - Wide::constant(2.0 * sin) * fy - Wide::constant(2.0 * cos) * fx;
+    let k = m * (m - natural - natural) - Wide::constant(2.0 * sin) * fy - Wide::constant(2.0 * cos) * fx;
     [first, kappa, second, k].map(condition).into()
 }
 
@@ -84,9 +86,10 @@ pub(super) struct ContourPoint {
 }
 
 /// The second contact as a point of the contour.
-pub(super) fn second(pose: &Vector3<f64>, values: &Unknowns, tip: bool) -> ContourPoint {
-    let variables = Unknowns::from_fn(|u| Dual::variable(values[u], u as usize));
-    let two = two(std::array::from_fn(|i| Dual::constant(pose[i])), &variables);
+pub(super) fn second(local: &Local, tip: bool) -> ContourPoint {
+    let variables = Unknowns::from_fn(|u| Dual::variable(local.values[u], u as usize));
+    let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
+    let two = two(pose, Dual::constant(local.natural), &variables);
     let (sin, cos) = if tip {
         let [a, b] = two.force;
         let f = (a * a + b * b).sqrt();

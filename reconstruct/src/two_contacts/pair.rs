@@ -90,7 +90,8 @@ pub(super) fn answer(found: &Resolved, part: &Part, tau: &[f64], limits: &Limits
 
 fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], limits: &Limits) -> Pair {
     let values = Unknowns::from_fn(|unknown| Dual::variable(local.values[unknown], unknown as usize));
-    let two = two(std::array::from_fn(|i| Dual::constant(local.pose[0][i])), &values);
+    let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
+    let two = two(pose, Dual::constant(local.natural), &values);
     let bend = |s: &Section<Dual<f64, UNKNOWNS>>| {
         let by =
             SMatrix::<f64, 2, UNKNOWNS>::from_fn(|r, c| if r == 0 { s.x.derivatives[c] } else { s.y.derivatives[c] });

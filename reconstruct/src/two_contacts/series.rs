@@ -54,6 +54,8 @@ pub(super) struct Series {
     pub normal: DMatrix<f64>,
     pub inverse: DMatrix<f64>,
     pub variance: Vector3<f64>,
+    /// Natural curvature of the rod.
+    pub natural: f64,
 }
 
 impl Series {
@@ -112,7 +114,8 @@ impl Series {
         let variance = noise.variance.sup(&found).component_mul(&noise.long_run).map(|v| v.max(EXACT * EXACT));
         let inverse = normal.clone().cholesky()?.inverse();
         let part = |from| coefficients.columns(from, 3).into_owned();
-        Some(Self { interval, pose: part(0), reactions: part(3), normal, inverse, variance })
+        let (pose, reactions, natural) = (part(0), part(3), track.natural);
+        Some(Self { interval, pose, reactions, normal, inverse, variance, natural })
     }
 
     /// The first terms alone. They are nearly the best series of that length, because Legendre polynomials are nearly orthogonal.
@@ -126,6 +129,7 @@ impl Series {
             normal: block(&self.normal),
             inverse: block(&self.inverse),
             variance: self.variance,
+            natural: self.natural,
         }
     }
 
@@ -139,7 +143,11 @@ impl Series {
         let by = |b: Vec<f64>, m: &DMatrix<f64>| {
             Vector3::from_fn(|c, _| m.column(c).iter().zip(&b).map(|(m, b)| m * b).sum())
         };
-        [p, d].map(|b| Clamp { pose: by(b.clone(), &self.pose), reactions: by(b, &self.reactions), natural: 0.0 })
+        [(p, self.natural), (d, 0.0)].map(|(b, natural)| Clamp {
+            pose: by(b.clone(), &self.pose),
+            reactions: by(b, &self.reactions),
+            natural,
+        })
     }
 }
 

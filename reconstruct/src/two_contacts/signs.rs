@@ -36,7 +36,7 @@ pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
         let clamp = |i: usize, v: &Unknowns| Clamp {
             pose: local.pose[i],
             reactions: Vector3::from(Unknown::REACTIONS.map(|unknown| v[unknown])),
-            natural: 0.0,
+            natural: if i == 0 { local.natural } else { 0.0 },
         };
         let estimate = Estimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
         let speed = NormalSpeed::at(&estimate, s1);

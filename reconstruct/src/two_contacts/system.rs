@@ -51,7 +51,7 @@ impl System<'_> {
         let of = |part: &Part, t: f64| -> Vec<f64> {
             let local = part.local(x, t);
             let weight = |c: &Condition| 1.0 / (floor * floor + share * share * part.noise(&local, &c.gradient));
-            conditions(&local.pose, &local.values, &local.rates, part.tip).iter().map(weight).collect()
+            conditions(&local, part.tip).iter().map(weight).collect()
         };
         self.parts.iter().flat_map(|part| part.instants().flat_map(move |t| of(part, t))).collect()
     }
@@ -70,7 +70,7 @@ impl System<'_> {
             let mut residual = DVector::<f64>::zeros(each * instants.len());
             for (k, t) in instants.into_iter().enumerate() {
                 let local = part.local(x, t);
-                let conditions = conditions(&local.pose, &local.values, &local.rates, part.tip);
+                let conditions = conditions(&local, part.tip);
                 for (i, (condition, weight)) in conditions.iter().zip(&mut weight).enumerate() {
                     let (at, scale) = (each * k + i, weight.sqrt());
                     row.clear();
@@ -150,7 +150,7 @@ impl System<'_> {
             to.spread(&b, &Gradient::of_values(unit), &mut row);
             normal.add(&row, b.values[unknown] - a.values[unknown], sigma);
         }
-        let (p, q) = (second(&a.pose[0], &a.values, from.tip), second(&b.pose[0], &b.values, to.tip));
+        let (p, q) = (second(&a, from.tip), second(&b, to.tip));
         let Chord { across, by: [by_p, by_q] } = Chord::between(&p, &q);
         let mut row = Vec::new();
         from.spread(&a, &by_p, &mut row);
@@ -165,7 +165,7 @@ impl System<'_> {
         match end {
             End::Open => {}
             End::Last { place, normal: there, sigma, way, .. } => {
-                let second = second(&local.pose[0], &local.values, part.tip);
+                let second = second(&local, part.tip);
                 let [x, y, nx, ny] = [place.x, place.y, there.x, there.y].map(Dual::constant);
                 let Chord { across, by: [_, by] } = Chord::between(&ContourPoint { x, y, normal: [nx, ny] }, &second);
                 part.spread(&local, &by, &mut row);
