@@ -14,6 +14,11 @@ const MISFIT_LENGTH: f64 = 0.2;
 /// not fit the rod.
 const MISFIT_SHIFT: f64 = 0.1;
 
+/// Angle of the clamp, radians, from which on it must be in degrees.
+const MISFIT_ANGLE: f64 = 20.0;
+/// Way of the clamp, rod lengths, from which on it must be in another unit.
+const MISFIT_WAY: f64 = 200.0;
+
 /// Units by the power of ten that they give the slope.
 pub(super) const UNITS: [(i32, &str); 8] = [
     (-6, "forces are in uN, or moments in kN mm or N km"),
@@ -112,6 +117,18 @@ pub enum Finding {
         /// Share of the samples with a single contact.
         share: f64,
     },
+    /// A channel is given in steps that are larger than its noise and hide transitions.
+    Coarse {
+        /// f0x, f0y or m0z.
+        channel: &'static str,
+        /// The step, N or N m.
+        step: f64,
+    },
+    /// Hardly any sample in contact has a contact point.
+    Lost {
+        /// Share of the samples in contact without one.
+        share: f64,
+    },
     /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
     Unexplained {
         /// The shares of what a single contact explains or not.
@@ -126,13 +143,15 @@ impl Finding {
     /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {
-            Self::NoContact | Self::NoLine | Self::Angle { .. } | Self::Way { .. } => false,
+            Self::NoContact | Self::NoLine => false,
             Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT_STIFFNESS,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
             Self::Sign | Self::Units { .. } | Self::MomentSign | Self::NoFreeStretch | Self::Budget { .. } => true,
-            Self::Misfit { .. } | Self::Unanswered { .. } => true,
+            Self::Misfit { .. } | Self::Unanswered { .. } | Self::Lost { .. } | Self::Coarse { .. } => true,
+            Self::Angle { largest } => *largest > MISFIT_ANGLE,
+            Self::Way { lengths } => *lengths > MISFIT_WAY,
         }
     }
 }
@@ -201,6 +220,17 @@ impl fmt::Display for Finding {
             Self::Unanswered { share } => write!(
                 f,
                 "{:.0} % of the samples with a single contact have no contact point: see the reasons of the samples",
+                100.0 * share
+            ),
+            Self::Coarse { channel, step } => write!(
+                f,
+                "{channel} has steps of {step:.1e} {}, larger than its noise, which hide transitions: record more digits",
+                if channel == "m0z" { "N m" } else { "N" }
+            ),
+            Self::Lost { share } => write!(
+                f,
+                "{:.0} % of the samples in contact have no contact point, as where the stage moves the other way, or f0x and m0z both \
+                 have the wrong sign",
                 100.0 * share
             ),
             Self::Angle { largest } => {

@@ -11,6 +11,8 @@ const MISFIT: f64 = 0.2;
 const BEYOND: f64 = 3.0;
 /// Share of single contacts without a contact point that is reported.
 const UNANSWERED: f64 = 0.25;
+/// Share of all contacts without a contact point that is reported.
+const LOST: f64 = 0.75;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
 
@@ -29,6 +31,13 @@ impl Reconstruction {
         let share = unanswered as f64 / single().count().max(1) as f64;
         if share > UNANSWERED {
             findings.push(Finding::Unanswered { share });
+        }
+        let channels = ["f0x", "f0y", "m0z"].into_iter().zip(self.steps).zip(self.coarse).filter(|(_, coarse)| *coarse);
+        findings.extend(channels.filter_map(|((channel, step), _)| Some(Finding::Coarse { channel, step: step? })));
+        let touching = || self.readings.iter().filter(|reading| reading.label != Label::Free);
+        let (touched, lost) = (touching().count(), touching().filter(|reading| reading.touch.is_err()).count());
+        if lost as f64 > LOST * touched as f64 {
+            findings.push(Finding::Lost { share: lost as f64 / touched as f64 });
         }
         findings
     }

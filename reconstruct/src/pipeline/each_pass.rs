@@ -26,8 +26,8 @@ pub fn reconstruct_passes(
     let each = |pass: &Range<usize>| reconstruct(rod, samples.get(pass.clone()).unwrap_or_default(), settings);
     let found: Vec<_> = ranges.iter().map(each).collect();
     let longest = (0..found.len()).max_by_key(|k| (found[*k].is_ok(), ranges[*k].len()));
-    let noise = match longest.map(|k| &found[k]) {
-        Some(Ok(result)) => result.noise,
+    let (noise, steps) = match longest.map(|k| &found[k]) {
+        Some(Ok(result)) => (result.noise, result.steps),
         Some(Err(error)) => return Err(error.clone()),
         None => return reconstruct(rod, samples, settings),
     };
@@ -36,6 +36,8 @@ pub fn reconstruct_passes(
         runs: Vec::new(),
         kinks: Vec::new(),
         noise,
+        steps,
+        coarse: [false; 3],
         passes: Vec::with_capacity(ranges.len()),
         evidence: Vec::new(),
         windows: Vec::new(),

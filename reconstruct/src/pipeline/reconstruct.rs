@@ -7,9 +7,12 @@ use super::settings::{ReconstructError, Settings, positive};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Label, identify, places};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
-use crate::scan::{FEWEST_SAMPLES, Noise, Track, dimensionless};
+use crate::scan::{FEWEST_SAMPLES, Noise, Track, dimensionless, quantum};
 use crate::systematic::{Budget, Errors, calibrate};
 use rod_core::{Rod, Sample};
+
+/// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
+const COARSE: f64 = 0.02;
 
 /// Computes from the reactions of a scan the phase of each sample and the places where the rod touched the object.
 ///
@@ -43,6 +46,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     let options = KinkOptions { false_alarms: settings.false_alarms, ..KinkOptions::default() };
     let kinks = find_kinks(&track.tau, [f0x, f0y, m0z], &found, options);
     let noise = Noise::new(&found);
+    let steps = channels.each_ref().map(|channel| quantum(channel));
     let breaks: Vec<Break> = kinks
         .iter()
         .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
@@ -59,6 +63,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
             nodes = places(&track, &noise, &breaks);
             units = told.rod(rod).units();
         }
+        shared.doubt(&mut nodes);
         shared.judge(&Errors::zeros(), &track, &mut nodes);
         calibration = Some((shared, told));
     }
@@ -114,6 +119,8 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
         windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
+        steps: std::array::from_fn(|c| steps[c].map(|step| step * size[c])),
+        coarse: steps.map(|step| step.is_some_and(|step| step > COARSE)),
         passes: vec![Pass { samples: 0..samples.len(), calibration: calibration.map(|calibration| calibration.1) }],
     })
 }

@@ -36,6 +36,10 @@ pub struct Reconstruction {
     pub kinks: Vec<Kink>,
     /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
     pub noise: [ChannelNoise; 3],
+    /// Steps in which f0x, f0y (N) and m0z (N m) are given, where these are larger than the noise.
+    pub steps: [Option<f64>; 3],
+    /// Whether they hide transitions.
+    pub(super) coarse: [bool; 3],
     /// The passes, one unless the clamp turns back.
     pub passes: Vec<Pass>,
     pub(super) evidence: Vec<Evidence>,

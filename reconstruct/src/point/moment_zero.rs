@@ -13,6 +13,8 @@ pub(super) const NOISE_SIGMAS: f64 = 4.0;
 
 /// Newton steps from where the curvature is 0 to where it is the natural one; a natural curvature of 0.1 / L takes 3 to rounding.
 const NEWTON_STEPS: usize = 4;
+/// Largest distance between the two, rod lengths. Larger: steps that do not converge give contact points anywhere.
+const FARTHEST: f64 = 0.2;
 
 /// Whether the reactions are within the noise of zero in each channel.
 pub(super) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
@@ -88,9 +90,15 @@ impl<T: Number> MomentZero<T> {
     fn at(clamp: &Clamp<T>, mut s: T, derived: bool) -> Option<Self> {
         let [a, b] = clamp.force();
         if clamp.natural != T::zero() {
+            let start = s;
             for _ in 0..NEWTON_STEPS {
                 let (section, gradient) = clamp.slide_at(s);
                 s -= (section.kappa - clamp.natural) / gradient.by_s[3];
+            }
+            // of a weak force the curvature changes too little along the rod
+            let near = (s - start).abs() <= T::from_f64(FARTHEST);
+            if !near {
+                return None;
             }
         }
         let (section, gradient) = if derived { clamp.gradient_at(s) } else { clamp.slide_at(s) };

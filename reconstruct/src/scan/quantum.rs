@@ -6,7 +6,7 @@ const LONGEST: usize = 1024;
 
 /// The quantum of a channel: the smallest difference of neighbours, where at least a third of the neighbours are equal and the
 /// others differ by multiples of it.
-pub(super) fn quantum(channel: &[f64]) -> Option<f64> {
+pub(crate) fn quantum(channel: &[f64]) -> Option<f64> {
     let steps = || channel.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| d.is_finite());
     let (equal, all) = steps().fold((0, 0), |(e, n), d| (e + usize::from(d == 0.0), n + 1));
     if 3 * equal < all || equal == all {

@@ -3,6 +3,7 @@
 use super::FEWEST_SAMPLES;
 use super::passes::{passes, trembling};
 use super::smooth_path::smooth_path;
+use super::spikes::spikes;
 use super::stops::stops;
 use super::travel::{Halt, Travel};
 use crate::point::Clamp;
@@ -16,6 +17,9 @@ pub enum Fault {
     /// The pose, the reactions or their standard deviations are not finite.
     #[error("a number is not finite")]
     NotFinite,
+    /// A reaction stands out of those of the neighbouring samples by far more than the noise.
+    #[error("a spike: a reaction stands out of its neighbours by more than 10 standard deviations")]
+    Spike,
     /// The scan ends before there are enough samples for a phase.
     #[error("too few samples")]
     TooFew,
@@ -85,7 +89,11 @@ impl Track {
             Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()), natural: 0.0 };
         let places = samples
             .iter()
-            .map(|sample| {
+            .zip(spikes(samples))
+            .map(|(sample, spike)| {
+                if spike {
+                    return Err(Fault::Spike);
+                }
                 let (tau, clamp) = intake.take(sample)?;
                 track.tau.push(tau);
                 track.clamps.push(clamp);
@@ -102,7 +110,7 @@ impl Track {
         places: &[Result<usize, Fault>],
     ) -> Option<(Self, Vec<Result<usize, Fault>>)> {
         let units = rod.units();
-        let usable = |place: &Result<usize, Fault>| *place != Err(Fault::NotFinite);
+        let usable = |place: &Result<usize, Fault>| !matches!(place, Err(Fault::NotFinite | Fault::Spike));
         let clamps: Vec<Clamp> = samples
             .iter()
             .zip(places)

@@ -104,11 +104,17 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
+/// Robust root mean square, 1 at least.
+pub(super) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let sizes = values.map(f64::abs).filter(|size| size.is_finite()).collect();
+    median(sizes).map_or(1.0, |median| (median / NORMAL_MEDIAN).max(1.0))
+}
+
 /// Robust root mean square of the residuals of each criterion, 1 at least.
 fn scatters(residuals: &[Residual]) -> [f64; CRITERIA] {
     std::array::from_fn(|c| {
         let of = residuals.iter().filter(|residual| residual.criterion == c);
-        median(of.map(|residual| residual.z.abs()).collect()).map_or(1.0, |median| (median / NORMAL_MEDIAN).max(1.0))
+        root_mean_square(of.map(|residual| residual.z))
     })
 }
 
@@ -122,15 +128,25 @@ fn objective(residuals: &[Residual], scatter: &[f64; CRITERIA]) -> f64 {
 }
 
 /// The errors that agree best with the budget (`sigmas`) and with what the phases of the places require, from `start` on.
-pub(super) fn adjust(frame: Frame, sigmas: &Errors, start: &Errors, places: &[Labelled]) -> Adjusted {
+///
+/// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise.
+pub(super) fn adjust(
+    frame: Frame,
+    sigmas: &Errors,
+    start: &Errors,
+    places: &[Labelled],
+    least: &[f64; CRITERIA],
+) -> Adjusted {
     let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
     let mut z = start.component_mul(&known);
     // R of the QR decomposition: R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
-    let (mut scatter, mut allowed) = ([1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
+    let (mut own, mut scatter, mut allowed) = ([1.0; CRITERIA], [1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
     for _ in 0..STEPS {
         let here = residuals(frame, &z.component_mul(sigmas), sigmas, places);
-        (scatter, allowed) = (scatters(&here), allowances(&here));
+        (own, allowed) = (scatters(&here), allowances(&here));
+        scatter = own;
+        scatter.iter_mut().zip(least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
         let mut rows = DMatrix::<f64>::zeros(SOURCES + here.len(), SOURCES);
         let mut right = DVector::<f64>::zeros(SOURCES + here.len());
         rows.view_mut((0, 0), (SOURCES, SOURCES)).fill_with_identity();
@@ -156,7 +172,7 @@ pub(super) fn adjust(frame: Frame, sigmas: &Errors, start: &Errors, places: &[La
     let inverse = upper.solve_upper_triangular(&Joint::identity()).unwrap_or_else(Joint::identity);
     let factor = Joint::from_diagonal(sigmas) * inverse;
     let normal = upper.transpose() * upper;
-    let misfit = std::array::from_fn(|c| (scatter[c] * scatter[c] - 1.0).sqrt() / allowed[c]);
+    let misfit = std::array::from_fn(|c| (own[c] * own[c] - 1.0).sqrt() / allowed[c]);
     Adjusted { errors, factor, normal, scatter, misfit }
 }
 

@@ -57,7 +57,7 @@ impl Budget {
             drift: channels(0.08, 0.05),
             bow: channels(0.016, 0.008),
             gain: [0.01; 3],
-            cross_talk: 5e-3,
+            cross_talk: 0.01,
             clamp_angle: 0.5_f64.to_radians(),
             lever: 0.01 * length,
             stiffness: 0.05,

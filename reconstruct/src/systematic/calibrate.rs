@@ -1,6 +1,6 @@
 //! Labels and shared errors in turns.
 
-use super::adjust::{Adjusted, Labelled, adjust, gain};
+use super::adjust::{Adjusted, Labelled, adjust, gain, root_mean_square};
 use super::budget::Budget;
 use super::calibration::{Calibration, SourceEstimate};
 use super::correction::{Correction, Frame};
@@ -9,7 +9,7 @@ use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
 use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node, labels};
 use crate::scan::{Noise, Track};
-use nalgebra::{Matrix2, Matrix3, SymmetricEigen};
+use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector3};
 use rod_core::Rod;
 
 /// Most turns of labelling and estimating.
@@ -34,6 +34,8 @@ pub(crate) struct Shared {
     pub factor: Joint,
     /// Residuals of each criterion in standard deviations of the noise, 1 at least.
     pub scatter: [f64; CRITERIA],
+    /// Rates of the free rod's reactions in standard deviations of the noise, 1 at least: more where the sensor drifts at random.
+    pub rates: f64,
 }
 
 impl Shared {
@@ -61,6 +63,13 @@ impl Shared {
                 }));
             }
             node.judged(evidence);
+        }
+    }
+
+    /// Makes kinks as doubtful as the rates of the reactions are.
+    pub fn doubt(&self, nodes: &mut [Node]) {
+        for between in nodes.iter_mut().filter_map(|node| node.place.between.as_mut()) {
+            between.score /= self.rates * self.rates;
         }
     }
 
@@ -111,15 +120,19 @@ pub(crate) fn calibrate(
     };
     let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
     let tared = labelled(&vec![(Label::Free, 1.0); nodes.len()], &|node, _| in_free(node));
-    let mut found = adjust(frame, &sigmas, &Errors::zeros(), &tared);
+    let mut found = adjust(frame, &sigmas, &Errors::zeros(), &tared, &[1.0; CRITERIA]);
+    let least = least(frame, &found, &tared);
     let mut raised = [false; SOURCES];
     let mut judged = nodes.clone();
+    let rates = least[Criterion::Tangent as usize];
+    let shared = |found: &Adjusted| Shared { frame, factor: found.factor, scatter: found.scatter, rates };
+    shared(&found).doubt(&mut judged);
     let mut before: Vec<Label> = Vec::new();
     for _ in 0..TURNS {
-        Shared { frame, factor: found.factor, scatter: found.scatter }.judge(&found.errors, track, &mut judged);
+        shared(&found).judge(&found.errors, track, &mut judged);
         let now = labels(&judged);
         let names: Vec<Label> = now.iter().map(|found| found.0).collect();
-        found = adjust(frame, &sigmas, &found.errors, &labelled(&now, &|_, _| true));
+        found = adjust(frame, &sigmas, &found.errors, &labelled(&now, &|_, _| true), &least);
         let mut again = false;
         for k in 0..SOURCES {
             if !raised[k] && found.errors[k].abs() > BEYOND * sigmas[k] {
@@ -133,11 +146,33 @@ pub(crate) fn calibrate(
         before = names;
     }
     let last = labelled(&labels(&judged), &|_, _| true);
-    let taken = fewest(frame, &sigmas, &found, &last);
+    let taken = fewest(frame, &sigmas, &found, &last, &least);
     let calibration = told(rod, &sigmas, &raised, &found, &taken, free);
-    let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter };
+    let shared = Shared { factor: about(&found, &taken), ..shared(&found) };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
+}
+
+/// The smallest residuals of each criterion to be expected, in standard deviations of the noise: those of the reactions and of their
+/// rates where the rod is free. They are more than 1 where the sensor drifts at random.
+fn least(frame: Frame, found: &Adjusted, free: &[Labelled]) -> [f64; CRITERIA] {
+    let mut least = [1.0; CRITERIA];
+    let Some(correction) = Correction::new(frame, &found.errors) else { return least };
+    let of_values = found.scatter[..3].iter().fold(1.0, |a: f64, b| a.max(*b));
+    let of_rates = (0..3).map(|c| {
+        let unit = Vector3::from_fn(|i, _| f64::from(u8::from(i == c)));
+        let z = |place: &Labelled| {
+            let rate = correction.apply(place.tau, &place.measured.clamp, &place.measured.rate).1;
+            rate.reactions[c] / place.measured.variance(&Vector3::zeros(), &unit).sqrt()
+        };
+        root_mean_square(free.iter().map(z))
+    });
+    let of_rates = of_rates.fold(1.0, f64::max);
+    for (c, least) in least.iter_mut().enumerate().skip(3) {
+        let values = [Criterion::K, Criterion::Length, Criterion::LengthByTip].iter().any(|own| *own as usize == c);
+        *least = if values { of_values } else { of_rates };
+    }
+    least
 }
 
 /// Every so many of the places, and the first one after each break.
@@ -148,7 +183,7 @@ fn thinned(nodes: &[Node], stride: usize) -> Vec<Node> {
 
 /// The fewest corrections that the places need: none, or tare and drift and then one source after the other, each the one that explains
 /// most of what is left.
-fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled]) -> Errors {
+fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled], least: &[f64; CRITERIA]) -> Errors {
     let is_enough = |errors: &Errors| gain(frame, sigmas, errors, found, places) < SIGNIFICANT;
     if is_enough(&Errors::zeros()) {
         return Errors::zeros();
@@ -156,7 +191,7 @@ fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled]) 
     let mut free: [bool; SOURCES] = std::array::from_fn(|k| k <= Source::BowM0z as usize && sigmas[k] > 0.0);
     loop {
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
-        let taken = adjust(frame, &only, &restricted(found, sigmas, &free), places).errors;
+        let taken = adjust(frame, &only, &restricted(found, sigmas, &free), places, least).errors;
         if is_enough(&taken) {
             return taken;
         }
