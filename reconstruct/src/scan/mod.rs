@@ -26,4 +26,4 @@ pub(crate) use track::{Intake, Track};
 pub use travel::{Halt, Travel};
 
 /// Fewest usable samples of a scan, or of a pass of it. Fewer do not determine the noise, nor the rates of the reactions.
-pub const FEWEST_SAMPLES: usize = 20;
+pub const FEWEST_SAMPLES: usize = 10;
