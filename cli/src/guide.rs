@@ -53,6 +53,13 @@ Example:
 
 Next: open contour.svg and phases.svg of the results in a browser; docs/output-files.md explains every field of the others.";
 
+pub const CALIBRATE: &str = "\
+Examples:
+  vibrissa calibrate first.csv second.csv --rod rod.toml --out calibrated.toml
+  vibrissa calibrate first.csv --rod rod.toml --free stiffness,angle --out calibrated.toml
+
+Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md says what a scan can tell.";
+
 pub const LIVE: &str = "\
 Example, without a sensor, in two terminals:
   vibrissa fake-sensor scene.toml --protocol rdt --speed 0.01
