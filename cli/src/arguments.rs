@@ -1,6 +1,6 @@
 //! The command line.
 
-use crate::accuracy_arguments::Calibrate;
+use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
 use crate::values::{directory, meaning, no_quiet, number, pair, seed};
 use clap::builder::PossibleValuesParser;
@@ -37,8 +37,15 @@ The errors are those that all samples of a scan share and that stay the same fro
 conditions that the phases impose, and from the free rod; the object need not be known. Several recordings count together,
 and are compared with each other. Bias and drift are taken off each recording, too, but not written. Writes a TOML file with
 the rod and with value and standard deviation of each error, which `reconstruct --rod` takes off its recording, and
-calibration.svg, the conditions before and after. Exit status 2: the recordings contradict each other or their rod, or an
-estimate is beyond three times its budget.";
+calibration.svg, the conditions before and after. Exit status 2: the recordings contradict each other (then nothing
+is written) or their rod, or an estimate is beyond three times its budget.";
+
+const BUDGET: &str = "\
+Say what accuracy to expect of a scene, by source of error, before and after self-calibration.
+
+Simulates the recording of the scene. By derivatives of the contact points with respect to each error that all samples share
+it tells the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
+all errors from the budget, puts them on the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
 
 const LIVE: &str = "\
 Listen to a sensor and tell contact points and phases as they come.
@@ -112,6 +119,9 @@ pub enum Command {
     /// Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings
     #[command(long_about = CALIBRATE, after_help = guide::CALIBRATE)]
     Calibrate(Calibrate),
+    /// Say what accuracy to expect of a scene, by source of error, before and after self-calibration
+    #[command(long_about = BUDGET, after_help = guide::BUDGET)]
+    Budget(Expect),
     /// Listen to a sensor: contact points, phases and flags as they come
     #[command(long_about = LIVE, after_help = guide::LIVE)]
     Live {

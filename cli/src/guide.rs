@@ -60,6 +60,13 @@ Examples:
 
 Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md says what a scan can tell.";
 
+pub const BUDGET: &str = "\
+Examples:
+  vibrissa budget scene.toml --rate 100
+  vibrissa budget scene.toml --setup sensor.toml --noise noise.toml --runs 100
+
+Next: state your own errors in the table [errors] of sensor.toml (docs/laboratory.md), and see which one matters.";
+
 pub const LIVE: &str = "\
 Example, without a sensor, in two terminals:
   vibrissa fake-sensor scene.toml --protocol rdt --speed 0.01

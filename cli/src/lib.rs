@@ -4,6 +4,7 @@
 //! contours, recordings and what they tell, the nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod budget;
 mod calibrate;
 mod cycle;
 mod error;
@@ -30,6 +31,7 @@ mod simulation;
 mod table;
 mod toml_file;
 
+pub use budget::{BudgetError, BudgetStudy, Expected};
 pub use calibrate::{CalibrateError, Freed, RodCalibration};
 pub use cycle::Cycle;
 pub use error::Error;

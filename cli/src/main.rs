@@ -50,6 +50,7 @@ fn main() -> ExitCode {
         Command::Reconstruct { recording, written, trust, rod, truth, out } => {
             reconstruct(&recording, &written.into(), trust, &rod, truth, out)
         }
+        Command::Budget(arguments) => accuracy::expect(arguments),
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live { sensor, written, rod, stage, path, setup, out } => {
             live(&sensor, written.into(), &rod, stage, path.as_deref(), setup.as_deref(), &out)

@@ -24,7 +24,7 @@ const TIED: f64 = 0.9;
 /// prior counts once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combined {
-    /// The sources. What is `taken` is the estimate.
+    /// The sources. The estimates that are `taken` are the fewest that agree with the scans; the other sources keep what was known.
     pub sources: Vec<SourceEstimate>,
     /// Covariance of the estimates, in the order and the units of the sources.
     pub covariance: DMatrix<f64>,
@@ -90,13 +90,15 @@ impl Combined {
         }
         let covariance = &factor * factor.transpose();
         let covariance = DMatrix::from_fn(count, count, |i, j| covariance[(i, j)] * unit(i) * unit(j));
+        let active: Vec<usize> = (0..count).filter(|k| budgets[*k] > 0.0).collect();
+        let taken = fewest(&found, &(&factor * factor.transpose()), &active);
         let sources: Vec<SourceEstimate> = (0..count)
             .map(|k| {
                 let first = of(first, k);
-                let value = first.known + found[k] * unit(k);
+                let [value, taken] = [found[k], taken[k]].map(|off| first.known + off * unit(k));
                 let raised = scans.iter().any(|scan| of(scan, k).raised);
                 let sigma = covariance[(k, k)].max(0.0).sqrt();
-                SourceEstimate { budget: budgets[k], value, sigma, taken: value, raised, ..first }
+                SourceEstimate { budget: budgets[k], value, sigma, taken, raised, ..first }
             })
             .collect();
         let ties = ties(&sources, &covariance);
@@ -113,14 +115,16 @@ impl Combined {
         self.sources.iter().find(|estimate| estimate.source == source)
     }
 
-    /// The rod with length and stiffness as found, and what is known of it then. For [`Settings`](crate::Settings) of later scans.
+    /// The rod with length and stiffness as they are taken, and what is known of it then. For [`Settings`](crate::Settings) of later scans.
+    /// The standard deviations contain what of an estimate is not taken.
     pub fn known(&self, given: &Rod) -> (Rod, Known) {
-        let value = |source| self.source(source).map_or(0.0, |estimate| estimate.value);
+        let value = |source| self.source(source).map_or(0.0, |estimate| estimate.taken);
         let (length, stiffness) = (1.0 + value(Source::Length), 1.0 + value(Source::Stiffness));
         let rod = Rod::new(given.length() * length, given.bending_stiffness() * stiffness);
         let Ok(rod) = rod else { return (*given, Known::NOTHING) };
         let known = self.sources.iter().fold(Known::NOTHING, |known, estimate| {
-            let SourceEstimate { source, value, sigma, .. } = *estimate;
+            let SourceEstimate { source, taken: value, sigma, .. } = *estimate;
+            let sigma = sigma.hypot(estimate.value - value);
             match source {
                 Source::Length => known.with(source, 0.0, sigma / length),
                 Source::Stiffness => known.with(source, 0.0, sigma / stiffness),
@@ -132,6 +136,38 @@ impl Combined {
         });
         (rod, known)
     }
+}
+
+/// The sparsest estimate that agrees with `found` and its covariance, one source after the other, each the one that explains most of what
+/// is left.
+fn fewest(found: &DVector<f64>, covariance: &DMatrix<f64>, active: &[usize]) -> DVector<f64> {
+    let count = active.len();
+    let part = DMatrix::from_fn(count, count, |i, j| covariance[(active[i], active[j])]);
+    let information = mapped(part, |variance| 1.0 / variance.max(FINEST));
+    let off = DVector::from_fn(count, |k, _| found[active[k]]);
+    let allowed = wilson_hilferty(count, QUANTILE);
+    // the estimate with these sources alone, and by how much its sum of squares is larger
+    let with = |kept: &[usize]| {
+        let right = &information * &off;
+        let only = DMatrix::from_fn(kept.len(), kept.len(), |i, j| information[(kept[i], kept[j])]);
+        let solved = only.cholesky()?.solve(&DVector::from_fn(kept.len(), |k, _| right[kept[k]]));
+        let mut taken = DVector::<f64>::zeros(count);
+        kept.iter().zip(solved.iter()).for_each(|(k, value)| taken[*k] = *value);
+        let left = &off - &taken;
+        Some((left.dot(&(&information * &left)), taken))
+    };
+    let mut kept: Vec<usize> = Vec::new();
+    let mut best = (off.dot(&(&information * &off)), DVector::zeros(count));
+    while best.0 > allowed && kept.len() < count {
+        let others = (0..count).filter(|k| !kept.contains(k));
+        let tried = others.filter_map(|k| Some((k, with(&[kept.as_slice(), &[k]].concat())?)));
+        let Some((k, next)) = tried.min_by(|a, b| a.1.0.total_cmp(&b.1.0)) else { break };
+        kept.push(k);
+        best = next;
+    }
+    let mut taken = DVector::zeros(found.len());
+    active.iter().zip(best.1.iter()).for_each(|(k, value)| taken[*k] = *value);
+    taken
 }
 
 /// A symmetric matrix with other eigenvalues.
@@ -212,8 +248,16 @@ mod tests {
         let combined = Combined::of(&[scan(1.0, 0.2)]).unwrap();
         let (found, known) = combined.known(&rod);
         let stiffness = combined.source(Source::Stiffness).unwrap();
-        assert!((found.bending_stiffness() - 1e-3 * (1.0 + stiffness.value)).abs() < 1e-18);
-        assert_eq!(known.of(Source::Stiffness), Some((0.0, stiffness.sigma / (1.0 + stiffness.value))));
+        // one of the two explains the sum, no more than the other
+        let (taken, left) = (1.0 + stiffness.taken, stiffness.value - stiffness.taken);
+        assert!((found.bending_stiffness() - 1e-3 * taken).abs() < 1e-18);
+        assert_eq!(known.of(Source::Stiffness), Some((0.0, stiffness.sigma.hypot(left) / taken)));
+        let gain = combined.source(Source::GainF0x).unwrap();
+        assert!((stiffness.taken == 0.0) != (gain.taken == 0.0));
+        assert!((stiffness.taken + gain.taken - 1.0).abs() < 0.02, "{stiffness:?} {gain:?}");
+        // little is nothing
+        let combined = Combined::of(&[scan(0.1, 0.2)]).unwrap();
+        assert!(combined.sources.iter().all(|source| source.taken == 0.0));
         assert_eq!(known.of(Source::BiasF0x), None);
     }
 }
