@@ -11,7 +11,7 @@ const BAR: i32 = 17;
 const HEAD: i32 = 116;
 const FOOT: i32 = 96;
 /// Where the bars begin and end, pixels.
-const LEFT: i32 = 430;
+const LEFT: i32 = 470;
 const RIGHT: i32 = PAGE as i32 - 40;
 /// Decades of mm that are seen at most: smaller displacements have no bar.
 const DECADES: f64 = 5.0;
