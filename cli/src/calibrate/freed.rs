@@ -58,8 +58,17 @@ pub(super) fn limited(known: &Known, budget: &Budget, free: &[Freed]) -> Known {
     Source::ALL.into_iter().filter(|source| Freed::of(*source).is_some_and(|of| free.contains(&of))).fold(
         held,
         |held, source| match known.of(source) {
-            Some((value, sigma)) if sigma == 0.0 => held.with(source, value, budget.of(source)),
+            Some((value, 0.0)) => held.with(source, value, budget.of(source)),
             _ => held,
         },
     )
+}
+
+/// What is known after a calibration, where only some sources were looked for: of the others, what was known before.
+pub(super) fn with_held(found: Known, before: &Known, free: &[Freed]) -> Known {
+    let held = |source: &Source| !free.is_empty() && Freed::of(*source).is_some_and(|of| !free.contains(&of));
+    Source::ALL.into_iter().filter(held).fold(found, |known, source| match before.of(source) {
+        Some((value, sigma)) => known.with(source, value, sigma),
+        None => known,
+    })
 }

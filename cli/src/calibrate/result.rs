@@ -1,6 +1,6 @@
 //! What the recordings tell.
 
-use super::freed::{Freed, limited};
+use super::freed::{Freed, limited, with_held};
 use crate::figure::Residual;
 use crate::{Error, KnownRod, Reconstructed, Recording};
 use std::path::PathBuf;
@@ -58,11 +58,10 @@ impl RodCalibration {
             let misfits = found.check.findings.iter().filter(|finding| finding.is_misfit());
             findings.extend(misfits.map(|finding| format!("{}: {finding}", recording.file.display())));
         }
-        let combined =
-            Combined::of(&calibrations).filter(|found| found.sources.iter().any(|source| source.budget > 0.0));
-        let combined = combined.ok_or(CalibrateError::Nothing)?;
+        let combined = Combined::of(&calibrations).ok_or(CalibrateError::Nothing)?;
         findings.extend(contradictions(&combined));
         let (found, known) = combined.known(&rod);
+        let known = with_held(known, &given.known, free);
         let after = Settings { known, ..*settings };
         let before = Settings { budget: Some(Budget::NONE), known: Known::NOTHING, ..*settings };
         let mut residuals = [Vec::new(), Vec::new()];

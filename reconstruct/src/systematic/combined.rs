@@ -37,7 +37,8 @@ pub struct Combined {
 }
 
 impl Combined {
-    /// Of the calibrations of scans with the same budget and rod. None without a scan, or where the scans have other sources.
+    /// Of the calibrations of scans with the same budget and rod. None without a scan, where the scans have other sources, and where all
+    /// budgets are 0.
     pub fn of(scans: &[Calibration]) -> Option<Self> {
         let first = scans.first()?;
         let numbers: Vec<usize> = (0..first.sources.len()).filter(|k| !first.sources[*k].source.is_of_scan()).collect();
@@ -54,6 +55,9 @@ impl Combined {
         let largest = |k: usize| scans.iter().map(|scan| of(scan, k).budget).fold(0.0, f64::max);
         let budgets: Vec<f64> = (0..count).map(largest).collect();
         let unit = |k: usize| if budgets[k] > 0.0 { budgets[k] } else { 1.0 };
+        if budgets.iter().all(|budget| *budget == 0.0) {
+            return None;
+        }
         let mut found = DVector::<f64>::zeros(count);
         let mut factor = DMatrix::from_fn(count, count, |i, j| f64::from(u8::from(i == j && budgets[i] > 0.0)));
         let (mut chi_squared, mut freedom) = (0.0, 0);

@@ -135,7 +135,6 @@ mod tests {
             let worst = (0..samples.len()).map(off).fold(0.0, f64::max);
             // the recorded angle of a clamp that yields changes along the scan, and so does the direction of the lag
             let bound = if only.is_none() { 2e-5 } else { 1e-12 };
-            println!("{only:?}: {worst:.1e}");
             assert!(worst < bound, "{only:?}: {worst}");
         }
     }
