@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
 use crate::values::{directory, meaning, no_quiet, number, pair, seed};
 use clap::builder::PossibleValuesParser;
@@ -28,6 +29,23 @@ Turn a recording of clamp reactions back into contact points, phases and the con
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
 labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout.";
+
+const CALIBRATE: &str = "\
+Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings.
+
+The errors are those that all samples of a scan share and that stay the same from scan to scan. They are estimated from the
+conditions that the phases impose, and from the free rod; the object need not be known. Several recordings count together,
+and are compared with each other. Bias and drift are taken off each recording, too, but not written. Writes a TOML file with
+the rod and with value and standard deviation of each error, which `reconstruct --rod` takes off its recording, and
+calibration.svg, the conditions before and after. Exit status 2: the recordings contradict each other (then nothing
+is written) or their rod, or an estimate is beyond three times its budget.";
+
+const BUDGET: &str = "\
+Say what accuracy to expect of a scene, by source of error, before and after self-calibration.
+
+Simulates the recording of the scene. By derivatives of the contact points with respect to each error that all samples share
+it tells the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
+all errors from the budget, puts them on the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
 
 const LIVE: &str = "\
 Listen to a sensor and tell contact points and phases as they come.
@@ -84,7 +102,7 @@ pub enum Command {
         /// The recording: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
         /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z; other units in the names, as `f0x [mN]`
         recording: PathBuf,
-        /// The rod, a TOML file with the table [rod] of a scene; or a scene
+        /// The rod, a TOML file with the table [rod] of a scene, perhaps with what `calibrate` found; or a scene
         #[arg(long, value_name = "FILE")]
         rod: PathBuf,
         /// The scene that the recording is of, to compare with
@@ -98,6 +116,12 @@ pub enum Command {
         #[command(flatten)]
         written: Written,
     },
+    /// Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings
+    #[command(long_about = CALIBRATE, after_help = guide::CALIBRATE)]
+    Calibrate(Calibrate),
+    /// Say what accuracy to expect of a scene, by source of error, before and after self-calibration
+    #[command(long_about = BUDGET, after_help = guide::BUDGET)]
+    Budget(Expect),
     /// Listen to a sensor: contact points, phases and flags as they come
     #[command(long_about = LIVE, after_help = guide::LIVE)]
     Live {

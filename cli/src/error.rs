@@ -1,8 +1,8 @@
 //! Why a command fails.
 
 use crate::{
-    FakeError, FigureError, LiveError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError,
-    SimulationError, TruthError,
+    BudgetError, CalibrateError, FakeError, FigureError, LiveError, OutputError, ProfileError, ReconstructionError,
+    RecordingError, SceneError, SimulationError, TruthError,
 };
 use vibrissa::contact::ContactError;
 use vibrissa::reconstruct::NoiseError;
@@ -45,6 +45,12 @@ pub enum Error {
     /// The scene that a recording is said to be of.
     #[error(transparent)]
     Truth(#[from] TruthError),
+    /// The accuracy that a scene allows.
+    #[error(transparent)]
+    Budget(#[from] BudgetError),
+    /// A calibration.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] FigureError),

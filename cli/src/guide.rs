@@ -7,9 +7,9 @@ First steps:
 Then open out/scene/sweep.svg in a browser, change the scene and sweep again. `vibrissa help COMMAND` explains a command.
 
 Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording \
-that does not fit its rod or its units, a sensor that does not suit the rod or fell silent, wrong options, 130 interrupted with Ctrl-C (143 \
-with SIGTERM). Interrupted, sweep, simulate and paper write what they have and mark it as incomplete, reconstruct and contour \
-write nothing; live and fake-sensor end as usual. A second time ends any of them at once.
+that does not fit its rod or its units, recordings that contradict each other, a sensor that does not suit the rod or fell silent, wrong options, 130 interrupted with Ctrl-C (143 \
+with SIGTERM). Interrupted, sweep, simulate and paper write what they have and mark it as incomplete, reconstruct, calibrate, \
+budget and contour write nothing; live and fake-sensor end as usual. A second time ends any of them at once.
 
 No command replaces a link, a device or one of its own inputs.";
 
@@ -52,6 +52,20 @@ Example:
   vibrissa reconstruct recording.csv --rod rod.toml
 
 Next: open contour.svg and phases.svg of the results in a browser; docs/output-files.md explains every field of the others.";
+
+pub const CALIBRATE: &str = "\
+Examples:
+  vibrissa calibrate first.csv second.csv --rod rod.toml --out calibrated.toml
+  vibrissa calibrate first.csv --rod rod.toml --free stiffness,angle --out calibrated.toml
+
+Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md says what a scan can tell.";
+
+pub const BUDGET: &str = "\
+Examples:
+  vibrissa budget scene.toml --rate 100
+  vibrissa budget scene.toml --setup sensor.toml --noise noise.toml --runs 100
+
+Next: state your own errors in the table [errors] of sensor.toml (docs/laboratory.md), and see which one matters.";
 
 pub const LIVE: &str = "\
 Example, without a sensor, in two terminals:

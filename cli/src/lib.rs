@@ -4,6 +4,8 @@
 //! contours, recordings and what they tell, the nine scans of the paper and the reports on them.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod budget;
+mod calibrate;
 mod cycle;
 mod error;
 mod fake_sensor;
@@ -29,6 +31,8 @@ mod simulation;
 mod table;
 mod toml_file;
 
+pub use budget::{BudgetError, BudgetStudy, Expected};
+pub use calibrate::{CalibrateError, Freed, RodCalibration};
 pub use cycle::Cycle;
 pub use error::Error;
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
@@ -48,7 +52,7 @@ pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
 pub use recording::{ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
-pub use scene::{Scene, read_rod};
+pub use scene::{KnownRod, Scene, read_known_rod, read_rod};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use shapes::shapes_list;
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};

@@ -1,5 +1,7 @@
 //! The command `vibrissa`.
 
+mod accuracy;
+mod accuracy_arguments;
 mod arguments;
 mod guide;
 mod signals;
@@ -12,13 +14,14 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
+use vibrissa::Settings;
 use vibrissa::contact::Stop;
-use vibrissa::reconstruct::{Budget, NoiseModel};
-use vibrissa::{Rod, Settings};
+use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
-    Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Reconstructed, Recording, Scan,
-    Scene, SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output,
-    read_noise, read_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
+    Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Reconstructed,
+    Recording, Scan, Scene, SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged,
+    check_output, read_known_rod, read_noise, read_rod, shapes_list, write_first_scene, write_profile_table,
+    write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -47,6 +50,8 @@ fn main() -> ExitCode {
         Command::Reconstruct { recording, written, trust, rod, truth, out } => {
             reconstruct(&recording, &written.into(), trust, &rod, truth, out)
         }
+        Command::Budget(arguments) => accuracy::expect(arguments),
+        Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live { sensor, written, rod, stage, path, setup, out } => {
             live(&sensor, written.into(), &rod, stage, path.as_deref(), setup.as_deref(), &out)
         }
@@ -211,8 +216,8 @@ fn reconstruct(
     signals::end();
     let mut inputs = vec![file.to_path_buf(), rod.to_path_buf()];
     inputs.extend(trust.setup.iter().chain(&trust.noise).cloned());
-    let rod = read_rod(rod)?;
-    let settings = settings(trust, &rod)?;
+    let given = read_known_rod(rod)?;
+    let (rod, settings) = (given.rod, settings(trust, &given)?);
     let truth = truth.map(|scene| read_scene(&scene)).transpose()?;
     let recording = Recording::read(file, &rod, how)?;
     for warning in recording.warnings() {
@@ -240,13 +245,9 @@ fn reconstruct(
 }
 
 /// The settings of a reconstruction.
-fn settings(trust: Trust, rod: &Rod) -> Result<Settings, Error> {
+fn settings(trust: Trust, given: &KnownRod) -> Result<Settings, Error> {
     let Trust { as_is, setup, noise, false_alarms, largest_sigma } = trust;
-    let budget = setup
-        .map(|file| read_setup(&file))
-        .transpose()?
-        .and_then(|setup| setup.errors)
-        .map(|errors| errors.budget(rod));
+    let budget = accuracy::budget(setup.as_deref(), &given.rod)?;
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let default = Settings::default();
     Ok(Settings {
@@ -254,6 +255,7 @@ fn settings(trust: Trust, rod: &Rod) -> Result<Settings, Error> {
         false_alarms: false_alarms.unwrap_or(default.false_alarms),
         largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
         budget: if as_is { Some(Budget::NONE) } else { budget },
+        known: if as_is { Known::NOTHING } else { given.known },
     })
 }
 

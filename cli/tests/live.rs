@@ -69,7 +69,7 @@ fn truth(directory: &Path, rate: f64, speed: f64) -> Vec<Sample> {
     let scene = Scene::read(&directory.join("scene.toml")).unwrap();
     let simulation = Simulation { scene, noise: NoiseModel::default(), rate, speed, seed: 0, sigmas: false };
     let ticks = simulation.ticks().unwrap().map(|tick| tick.unwrap());
-    let of = |Tick { number, pose, reactions }| Sample {
+    let of = |Tick { number, pose, reactions, .. }| Sample {
         t: Some(number as f64 / rate),
         ..Sample::new(pose, reactions.unwrap())
     };

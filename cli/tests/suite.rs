@@ -13,6 +13,8 @@ mod witness;
 mod writer;
 
 mod angle_warnings;
+mod budget;
+mod calibrate;
 mod contour;
 mod defects;
 mod documents;

@@ -71,6 +71,6 @@ pub use scan::{FEWEST_SAMPLES, Fault, Halt, Travel, noise_estimate, passes};
 #[cfg(feature = "sensor-noise")]
 pub use sensor_noise::{Ar1, Dropout, NoiseError, NoiseGenerator, NoiseModel};
 #[cfg(feature = "std")]
-pub use systematic::{Budget, Calibration, Source, SourceEstimate};
+pub use systematic::{Budget, Calibration, Combined, Influence, Known, Source, SourceEstimate, disturb, influences};
 #[cfg(feature = "std")]
 pub use two_contacts::Unresolved;

@@ -176,7 +176,7 @@ fn make(
     let Ok(ticks) = simulation.ticks() else { return (0, None) };
     for tick in ticks {
         match tick {
-            Ok(Tick { number, pose, reactions }) => {
+            Ok(Tick { number, pose, reactions, .. }) => {
                 let now = reactions.unwrap_or(felt);
                 for reactions in std::iter::repeat_n(felt, (number as u64).saturating_sub(made) as usize).chain([now]) {
                     let wrench = setup.mounting.wrench(&reactions, &OutOfPlane::default(), pose);

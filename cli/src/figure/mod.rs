@@ -4,6 +4,8 @@
 //! A phase has the same colour in all figures, and nothing else has it.
 
 mod abscissa;
+mod budget;
+mod calibration;
 pub(crate) mod canvas;
 pub(crate) mod chart;
 pub(crate) mod cloud;
@@ -24,6 +26,8 @@ mod sweep;
 mod text;
 pub(crate) mod trace;
 
+pub(crate) use budget::budget;
+pub(crate) use calibration::{Residual, calibration};
 pub use canvas::FigureError;
 pub(crate) use profile::profile;
 pub(crate) use reactions::reactions;

@@ -7,12 +7,15 @@
 mod check;
 mod document;
 mod files;
+mod known_rod;
 mod object;
 mod plausible;
 mod rod;
 mod shape;
 
 pub(crate) use check::MOST_STATES;
+pub(crate) use known_rod::written;
+pub use known_rod::{KnownRod, read_known_rod};
 pub use rod::read_rod;
 
 use crate::SceneError;

@@ -2,6 +2,7 @@
 
 use super::check;
 use super::document::RodTable;
+use super::known_rod::CalibrationTable;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -10,11 +11,12 @@ use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
 
-/// A file with a rod in it: that alone, or a scene, of which nothing else is looked at.
+/// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RodFile {
-    rod: Spanned<RodTable>,
+pub(super) struct RodFile {
+    pub rod: Spanned<RodTable>,
+    pub calibration: Option<CalibrationTable>,
     #[serde(rename = "contour")]
     _contour: Option<IgnoredAny>,
     #[serde(rename = "object")]

@@ -193,7 +193,7 @@ impl Samples<'_> {
                 break;
             }
             match self.ticks.next() {
-                Some(Ok(Tick { number, pose, reactions })) => {
+                Some(Ok(Tick { number, pose, reactions, .. })) => {
                     last = Some(pose);
                     let Some(reactions) = reactions else {
                         recorded.lost += 1;

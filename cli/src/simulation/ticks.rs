@@ -5,7 +5,7 @@ use crate::Error;
 use vibrissa::contact::{Item, Stop};
 use vibrissa::reconstruct::NoiseGenerator;
 use vibrissa::rod::Reactions;
-use vibrissa::{Pose, State, Sweep};
+use vibrissa::{Label, Pose, State, Sweep};
 
 /// One sample that the sensor took.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Tick {
     pub number: usize,
     /// The clamp.
     pub pose: Pose,
+    /// The true phase.
+    pub label: Label,
     /// What the sensor read; none where that was lost.
     pub reactions: Option<Reactions>,
 }
@@ -54,7 +56,9 @@ impl Ticks<'_> {
             self.sensor.sample(Reactions::default());
         }
         self.next = number + 1;
-        Tick { number, pose: state.pose, reactions: self.sensor.sample(state.reactions) }
+        let phase = state.phase();
+        let label = Label::of(phase.contacts, phase.tip);
+        Tick { number, pose: state.pose, label, reactions: self.sensor.sample(state.reactions) }
     }
 }
 

@@ -49,7 +49,7 @@ fn of_calibration(calibration: &Calibration) -> Vec<Finding> {
     if calibration.free.is_empty() && biases.iter().flatten().any(|bias| bias.sigma > KNOWN * bias.budget) {
         findings.push(Finding::NoFreeStretch);
     }
-    for estimate in calibration.sources.iter().filter(|estimate| estimate.value.abs() > BEYOND * estimate.given) {
+    for estimate in calibration.sources.iter().filter(|estimate| estimate.off() > BEYOND) {
         let (of, value, sigma, budget) = (estimate.source, estimate.value, estimate.sigma, estimate.given);
         findings.push(Finding::Budget { of, value, sigma, budget });
     }

@@ -56,8 +56,12 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     if let Some((of, value)) = budget.fault() {
         return Err(ReconstructError::Budget { of, value });
     }
+    if let Some((of, value)) = settings.known.fault() {
+        return Err(ReconstructError::Known { of, value });
+    }
     let mut calibration = None;
-    if let Some((correction, shared, told)) = calibrate(rod, &track, &noise, &breaks, &nodes, &budget) {
+    if let Some((correction, shared, told)) = calibrate(rod, &track, &noise, &breaks, &nodes, &budget, &settings.known)
+    {
         if let Some(correction) = correction {
             track = correction.track(&track);
             nodes = places(&track, &noise, &breaks);

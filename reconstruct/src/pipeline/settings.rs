@@ -2,7 +2,7 @@
 
 use crate::kink::KinkOptions;
 use crate::scan::noise_estimate::ChannelNoise;
-use crate::systematic::{Budget, Source};
+use crate::systematic::{Budget, Known, Source};
 
 /// Settings of a reconstruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,11 +16,19 @@ pub struct Settings {
     /// How large the errors may be that all samples share: those of an ordinary laboratory ([`Budget::laboratory`]) if none is given.
     /// [`Budget::NONE`] takes samples and rod as they are.
     pub budget: Option<Budget>,
+    /// What a calibration says of single sources of error, in place of the budget of these sources.
+    pub known: Known,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { noise: None, false_alarms: KinkOptions::default().false_alarms, largest_sigma: 0.02, budget: None }
+        Self {
+            noise: None,
+            false_alarms: KinkOptions::default().false_alarms,
+            largest_sigma: 0.02,
+            budget: None,
+            known: Known::NOTHING,
+        }
     }
 }
 
@@ -46,6 +54,14 @@ pub enum ReconstructError {
         /// Of which source.
         of: Source,
         /// Its value.
+        value: f64,
+    },
+    /// A value or standard deviation of a calibration that is not possible.
+    #[error("what is known of the {of} is {value}, expected a finite number and a standard deviation, 0 or larger")]
+    Known {
+        /// Of which source.
+        of: Source,
+        /// The number that is wrong.
         value: f64,
     },
     /// A setting that is not possible.

@@ -127,23 +127,32 @@ fn objective(residuals: &[Residual], scatter: &[f64; CRITERIA]) -> f64 {
     residuals.iter().map(square).sum()
 }
 
-/// The errors that agree best with the budget (`sigmas`) and with what the phases of the places require, from `start` on.
+/// What is known of the errors before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Prior {
+    pub means: Errors,
+    /// Standard deviations; an error with 0 keeps its mean.
+    pub sigmas: Errors,
+}
+
+/// The errors that agree best with what is known before and with what the phases of the places require, from `start` on.
 ///
 /// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise.
 pub(super) fn adjust(
     frame: Frame,
-    sigmas: &Errors,
+    prior: &Prior,
     start: &Errors,
     places: &[Labelled],
     least: &[f64; CRITERIA],
 ) -> Adjusted {
+    let Prior { means, sigmas } = prior;
     let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
-    let mut z = start.component_mul(&known);
+    let mut z = (start - means).component_mul(&known);
     // R of the QR decomposition: R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
     let (mut own, mut scatter, mut allowed) = ([1.0; CRITERIA], [1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
     for _ in 0..STEPS {
-        let here = residuals(frame, &z.component_mul(sigmas), sigmas, places);
+        let here = residuals(frame, &(means + z.component_mul(sigmas)), sigmas, places);
         (own, allowed) = (scatters(&here), allowances(&here));
         scatter = own;
         scatter.iter_mut().zip(least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
@@ -167,12 +176,15 @@ pub(super) fn adjust(
             break;
         }
     }
-    let errors = z.component_mul(sigmas);
+    let errors = means + z.component_mul(sigmas);
     // the covariance is (R^T R)^-1 = R^-1 R^-T
     let inverse = upper.solve_upper_triangular(&Joint::identity()).unwrap_or_else(Joint::identity);
     let factor = Joint::from_diagonal(sigmas) * inverse;
     let normal = upper.transpose() * upper;
-    let misfit = std::array::from_fn(|c| (own[c] * own[c] - 1.0).sqrt() / allowed[c]);
+    let misfit = std::array::from_fn(|c| {
+        let excess = (own[c] * own[c] - 1.0).sqrt();
+        if excess > 0.0 { excess / allowed[c] } else { 0.0 }
+    });
     Adjusted { errors, factor, normal, scatter, misfit }
 }
 

@@ -1,15 +1,16 @@
 //! Labels and shared errors in turns.
 
-use super::adjust::{Adjusted, Labelled, adjust, gain, root_mean_square};
+use super::adjust::{Adjusted, Labelled, Prior, adjust, gain, root_mean_square};
 use super::budget::Budget;
 use super::calibration::{Calibration, SourceEstimate};
 use super::correction::{Correction, Frame};
 use super::free::stretches;
 use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
+use super::known::Known;
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
 use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node, labels};
 use crate::scan::{Noise, Track};
-use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector3};
+use nalgebra::{DMatrix, Matrix2, Matrix3, SymmetricEigen, Vector3};
 use rod_core::Rod;
 
 /// Most turns of labelling and estimating.
@@ -93,7 +94,7 @@ impl Shared {
     }
 }
 
-/// The correction of a scan, if it needs one; what is left; and what to tell. None without a budget.
+/// The correction of a scan, if it needs one; what is left; and what to tell. None without a budget where nothing is known.
 pub(crate) fn calibrate(
     rod: &Rod,
     track: &Track,
@@ -101,13 +102,18 @@ pub(crate) fn calibrate(
     breaks: &[Break],
     nodes: &[Node],
     budget: &Budget,
+    known: &Known,
 ) -> Option<(Option<Correction>, Shared, Calibration)> {
-    if budget.is_none() {
+    if budget.is_none() && known.is_nothing() {
         return None;
     }
     let frame = Frame::of(track)?;
-    let mut sigmas = deviations(budget, rod);
-    let free = stretches(track, noise, breaks, &sigmas);
+    let means = known.means(rod);
+    let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
+    let free = match Correction::new(frame, &means).filter(|_| means != Errors::zeros()) {
+        Some(correction) => stretches(&correction.track(track), noise, breaks, &prior.sigmas),
+        None => stretches(track, noise, breaks, &prior.sigmas),
+    };
     let stride = nodes.len().div_ceil(PLACES).max(1);
     let nodes = thinned(nodes, stride);
     let labelled = |found: &[(Label, f64)], only: &dyn Fn(&Node, Label) -> bool| -> Vec<Labelled> {
@@ -120,7 +126,7 @@ pub(crate) fn calibrate(
     };
     let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
     let tared = labelled(&vec![(Label::Free, 1.0); nodes.len()], &|node, _| in_free(node));
-    let mut found = adjust(frame, &sigmas, &Errors::zeros(), &tared, &[1.0; CRITERIA]);
+    let mut found = adjust(frame, &prior, &means, &tared, &[1.0; CRITERIA]);
     let least = least(frame, &found, &tared);
     let mut raised = [false; SOURCES];
     let mut judged = nodes.clone();
@@ -132,11 +138,12 @@ pub(crate) fn calibrate(
         shared(&found).judge(&found.errors, track, &mut judged);
         let now = labels(&judged);
         let names: Vec<Label> = now.iter().map(|found| found.0).collect();
-        found = adjust(frame, &sigmas, &found.errors, &labelled(&now, &|_, _| true), &least);
+        found = adjust(frame, &prior, &found.errors, &labelled(&now, &|_, _| true), &least);
         let mut again = false;
         for k in 0..SOURCES {
-            if !raised[k] && found.errors[k].abs() > BEYOND * sigmas[k] {
-                sigmas[k] *= RAISED;
+            let off = (found.errors[k] - means[k]).abs();
+            if !raised[k] && off > BEYOND * prior.sigmas[k] {
+                prior.sigmas[k] *= RAISED;
                 (raised[k], again) = (true, true);
             }
         }
@@ -146,8 +153,8 @@ pub(crate) fn calibrate(
         before = names;
     }
     let last = labelled(&labels(&judged), &|_, _| true);
-    let taken = fewest(frame, &sigmas, &found, &last, &least);
-    let calibration = told(rod, &sigmas, &raised, &found, &taken, free);
+    let taken = fewest(frame, &prior, &found, &last, &least);
+    let calibration = told(rod, &prior, &raised, &found, &taken, free);
     let shared = Shared { factor: about(&found, &taken), ..shared(&found) };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
@@ -181,17 +188,19 @@ fn thinned(nodes: &[Node], stride: usize) -> Vec<Node> {
     kept.map(|(_, node)| Node { weight: (node.weight * stride as f64).min(1.0), ..node.clone() }).collect()
 }
 
-/// The fewest corrections that the places need: none, or tare and drift and then one source after the other, each the one that explains
-/// most of what is left.
-fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled], least: &[f64; CRITERIA]) -> Errors {
+/// The fewest corrections that the places need: what is known before alone, or tare and drift and then one source after the other, each
+/// the one that explains most of what is left.
+fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], least: &[f64; CRITERIA]) -> Errors {
+    let Prior { means, sigmas } = prior;
     let is_enough = |errors: &Errors| gain(frame, sigmas, errors, found, places) < SIGNIFICANT;
-    if is_enough(&Errors::zeros()) {
-        return Errors::zeros();
+    if is_enough(means) {
+        return *means;
     }
     let mut free: [bool; SOURCES] = std::array::from_fn(|k| k <= Source::BowM0z as usize && sigmas[k] > 0.0);
     loop {
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
-        let taken = adjust(frame, &only, &restricted(found, sigmas, &free), places, least).errors;
+        let only = Prior { sigmas: only, ..*prior };
+        let taken = adjust(frame, &only, &restricted(found, prior, &free), places, least).errors;
         if is_enough(&taken) {
             return taken;
         }
@@ -200,7 +209,7 @@ fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled], 
             let with = |k: usize| {
                 let mut free = free;
                 free[k] = true;
-                let left = (found.errors - restricted(found, sigmas, &free))
+                let left = (found.errors - restricted(found, prior, &free))
                     .component_div(&sigmas.map(|s| s.max(f64::MIN_POSITIVE)));
                 (left.transpose() * found.normal * left).x
             };
@@ -213,15 +222,16 @@ fn fewest(frame: Frame, sigmas: &Errors, found: &Adjusted, places: &[Labelled], 
     }
 }
 
-/// The estimate where only some of the errors are not 0, to first order.
-fn restricted(found: &Adjusted, sigmas: &Errors, free: &[bool; SOURCES]) -> Errors {
+/// The estimate where only some of the errors differ from what is known before, to first order.
+fn restricted(found: &Adjusted, prior: &Prior, free: &[bool; SOURCES]) -> Errors {
+    let Prior { means, sigmas } = prior;
     let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
-    let right = found.normal * found.errors.component_mul(&known);
+    let right = found.normal * (found.errors - means).component_mul(&known);
     // rows and columns of the others are those of the identity
     let of = |i: usize, j: usize| if free[i] && free[j] { found.normal[(i, j)] } else { f64::from(u8::from(i == j)) };
     let right = Errors::from_fn(|k, _| if free[k] { right[k] } else { 0.0 });
     let solved = Joint::from_fn(of).cholesky().map_or_else(Errors::zeros, |normal| normal.solve(&right));
-    solved.component_mul(sigmas)
+    means + solved.component_mul(sigmas)
 }
 
 /// A factor of the second moments of the errors about those that are taken off.
@@ -237,7 +247,7 @@ fn about(found: &Adjusted, taken: &Errors) -> Joint {
 
 fn told(
     rod: &Rod,
-    sigmas: &Errors,
+    prior: &Prior,
     raised: &[bool; SOURCES],
     found: &Adjusted,
     taken: &Errors,
@@ -245,15 +255,20 @@ fn told(
 ) -> Calibration {
     let covariance = found.factor * found.factor.transpose();
     let sigma = |k: usize| covariance[(k, k)].max(0.0).sqrt();
+    let Prior { means, sigmas } = prior;
     let has = |k: &usize| sigmas[*k] > 0.0;
-    let sources = (0..SOURCES)
-        .filter(has)
-        .map(|k| {
+    let told = |k: &usize| has(k) || means[*k] != 0.0;
+    let numbers: Vec<usize> = (0..SOURCES).filter(told).collect();
+    let units: Vec<f64> = numbers.iter().map(|&k| Source::ALL[k].unit(rod)).collect();
+    let sources = numbers
+        .iter()
+        .map(|&k| {
             let source = Source::ALL[k];
             let unit = source.unit(rod);
-            let [budget, value, sigma] = [sigmas[k], found.errors[k], sigma(k)].map(|v| v * unit);
+            let [known, budget, value, sigma] = [means[k], sigmas[k], found.errors[k], sigma(k)].map(|v| v * unit);
             SourceEstimate {
                 source,
+                known,
                 given: if raised[k] { budget / RAISED } else { budget },
                 budget,
                 value,
@@ -273,8 +288,12 @@ fn told(
         }
     }
     let misfit = |criterion: Criterion| found.misfit[criterion as usize];
+    let covariance = DMatrix::from_fn(numbers.len(), numbers.len(), |i, j| {
+        covariance[(numbers[i], numbers[j])] * units[i] * units[j]
+    });
     Calibration {
         sources,
+        covariance,
         ties,
         free,
         misfit_criterion: misfit(Criterion::K),

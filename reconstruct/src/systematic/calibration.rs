@@ -3,6 +3,7 @@
 use super::correction::{Correction, Frame};
 use super::source::{Errors, Source};
 use crate::scan::{Fault, Track};
+use nalgebra::DMatrix;
 use rod_core::{Rod, Sample};
 use std::ops::Range;
 
@@ -12,7 +13,9 @@ use std::ops::Range;
 pub struct SourceEstimate {
     /// Which.
     pub source: Source,
-    /// Standard deviation of the budget that was given, in the unit of the source.
+    /// What was known of it before, 0 where nothing was, in the unit of the source.
+    pub known: f64,
+    /// Standard deviation of that, or of the budget that was given.
     pub given: f64,
     /// The one that was used: larger where the data ask for it.
     pub budget: f64,
@@ -20,7 +23,7 @@ pub struct SourceEstimate {
     pub value: f64,
     /// Its standard deviation.
     pub sigma: f64,
-    /// What was taken off the samples: the estimate, or 0 where the scan agrees with its model without that. Then the standard deviations
+    /// What was taken off the samples: the estimate, or what was known where the scan agrees with its model without a change of that. Then the standard deviations
     /// of the contact points contain the estimate.
     pub taken: f64,
     /// Whether the budget was too small for the data, and was raised.
@@ -28,9 +31,14 @@ pub struct SourceEstimate {
 }
 
 impl SourceEstimate {
+    /// How many standard deviations of what was known before the estimate is off that.
+    pub fn off(&self) -> f64 {
+        if self.value == self.known { 0.0 } else { (self.value - self.known).abs() / self.given }
+    }
+
     /// Whether the scan says more of it than the budget: its standard deviation is at most half of that.
     pub fn is_identified(&self) -> bool {
-        self.sigma <= 0.5 * self.budget
+        self.sigma <= 0.5 * self.budget && self.budget > 0.0
     }
 }
 
@@ -38,8 +46,12 @@ impl SourceEstimate {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Calibration {
-    /// The sources that the budget has.
+    /// The sources that the budget has, and those of which something was known.
     pub sources: Vec<SourceEstimate>,
+    /// Covariance of their estimates, in the order and the units of the sources. It is not a part of serialised data; deserialised, it
+    /// has no rows.
+    #[cfg_attr(feature = "serde", serde(skip, default = "empty"))]
+    pub covariance: DMatrix<f64>,
     /// Pairs that the scan does not tell apart: their estimates have a correlation beyond 0.9 in size, which is given.
     pub ties: Vec<(Source, Source, f64)>,
     /// Stretches of samples in which the rod is free, by the numbers of usable samples.
@@ -51,6 +63,11 @@ pub struct Calibration {
     pub misfit_length: f64,
     /// The same of the tangent criterion along single contacts.
     pub misfit_tangent: f64,
+}
+
+#[cfg(feature = "serde")]
+fn empty() -> DMatrix<f64> {
+    DMatrix::zeros(0, 0)
 }
 
 impl Calibration {

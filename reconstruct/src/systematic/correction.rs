@@ -119,7 +119,7 @@ impl Correction {
 }
 
 /// Rate of the pose at a sample, from its neighbours.
-fn motion(track: &Track, index: usize) -> Vector3<f64> {
+pub(super) fn motion(track: &Track, index: usize) -> Vector3<f64> {
     let (from, to) = (index.saturating_sub(1), (index + 1).min(track.len() - 1));
     let by = track.tau[to] - track.tau[from];
     if by > 0.0 { (track.clamps[to].pose - track.clamps[from].pose) / by } else { Vector3::zeros() }

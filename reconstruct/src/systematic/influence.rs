@@ -86,6 +86,20 @@ pub(crate) fn of_point(
     factor: &Joint,
     misfit: f64,
 ) -> Option<Matrix2<f64>> {
+    let (by_errors, by_reactions) = point_by_errors(frame, tau, measured, noise, label)?;
+    let spread = by_errors * factor;
+    let covariance = spread * spread.transpose() + by_reactions * noise * by_reactions.transpose() * misfit;
+    covariance.iter().all(|v| v.is_finite()).then_some(covariance)
+}
+
+/// Derivatives of the contact point at a place of phase A or B by the errors, and by the reactions.
+pub(super) fn point_by_errors(
+    frame: Frame,
+    tau: f64,
+    measured: &Estimate,
+    noise: &Matrix3<f64>,
+    label: Label,
+) -> Option<(SMatrix<f64, 2, SOURCES>, SMatrix<f64, 2, 3>)> {
     let none = Errors::zeros();
     let by_errors = of_inputs_by_errors(frame, &none, tau, measured)?;
     let here = inputs(&Correction::new(frame, &none)?.apply(tau, &measured.clamp, &measured.rate));
@@ -99,8 +113,5 @@ pub(crate) fn of_point(
         };
         by_inputs.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
     }
-    let spread = by_inputs * by_errors.fixed_rows::<OF_POINT>(0) * factor;
-    let by_reactions = by_inputs.fixed_columns::<3>(3);
-    let covariance = spread * spread.transpose() + by_reactions * noise * by_reactions.transpose() * misfit;
-    covariance.iter().all(|v| v.is_finite()).then_some(covariance)
+    Some((by_inputs * by_errors.fixed_rows::<OF_POINT>(0), by_inputs.fixed_columns::<3>(3).into_owned()))
 }

@@ -3,21 +3,30 @@
 //!
 //! They do not average out. `Budget` says how large each may be. `Correction` takes them off a sample, `influence` says how the
 //! criteria of a place depend on them, `free` finds the stretches of the free rod, `adjust` estimates them from labelled places, and
-//! `calibrate` estimates labels and errors in turns.
+//! `calibrate` estimates labels and errors in turns. `known` is what a calibration tells of later scans, `combined` what several scans
+//! tell together. For simulations `disturb` puts errors on true samples, and `across` says how far they displace contact points.
 
+mod across;
 mod adjust;
 mod budget;
 mod calibrate;
 mod calibration;
+mod combined;
 mod components;
 mod correction;
+mod disturb;
 mod free;
 mod influence;
+mod known;
 mod source;
 
+pub use across::{Influence, influences};
 pub use budget::Budget;
 pub(crate) use calibrate::{Shared, calibrate};
 pub use calibration::{Calibration, SourceEstimate};
+pub use combined::Combined;
 pub(crate) use components::DISPLACED;
+pub use disturb::disturb;
+pub use known::Known;
 pub(crate) use source::Errors;
 pub use source::Source;

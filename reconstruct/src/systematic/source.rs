@@ -139,6 +139,11 @@ impl Source {
         }
     }
 
+    /// Whether each scan has its own, as bias and drift. All others stay the same as long as rod, sensor, clamp and stage do.
+    pub fn is_of_scan(self) -> bool {
+        self <= Self::BowM0z
+    }
+
     /// What one dimensionless unit of it is, SI.
     pub(crate) fn unit(self, rod: &Rod) -> f64 {
         let units = rod.units();

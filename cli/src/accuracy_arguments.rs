@@ -1,0 +1,68 @@
+//! Options of the commands about accuracy: `calibrate` and `budget`.
+
+use crate::arguments::Written;
+use crate::values::{directory, seed};
+use clap::Args;
+use std::path::PathBuf;
+use vibrissa_cli::Freed;
+
+/// Most recordings with random errors: hours of work.
+const MOST_RUNS: usize = 100_000;
+
+/// What recordings tell of rod, sensor, clamp and stage.
+#[derive(Debug, Args)]
+pub struct Calibrate {
+    /// The recordings, as for `reconstruct`: of one rod, clamped once, with one sensor
+    #[arg(required = true, value_name = "RECORDING")]
+    pub recordings: Vec<PathBuf>,
+    /// The rod, a TOML file with the table [rod] of a scene, perhaps with an earlier calibration; or a scene
+    #[arg(long, value_name = "FILE")]
+    pub rod: PathBuf,
+    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+    /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recordings]
+    #[arg(long, value_name = "FILE")]
+    pub noise: Option<PathBuf>,
+    /// The errors to look for, with commas between them [default: all that have a budget]
+    #[arg(long, value_name = "ERRORS", value_enum, value_delimiter = ',')]
+    pub free: Vec<Freed>,
+    /// The TOML file of the calibrated rod; calibration.svg is written beside it
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub written: Written,
+}
+
+/// What accuracy to expect of a scene.
+#[derive(Debug, Args)]
+pub struct Expect {
+    /// The scene, a TOML file; its step is not used
+    pub scene: PathBuf,
+    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+    /// The noise of the sensor, a TOML file as for `simulate` [default: white, 0.008 E I / L^2 and 0.003 E I / L]
+    #[arg(long, value_name = "FILE")]
+    pub noise: Option<PathBuf>,
+    /// Samples in a second
+    #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
+    pub rate: f64,
+    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
+    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
+    pub speed: f64,
+    /// Number of recordings with random errors
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = runs)]
+    pub runs: usize,
+    /// Seed of errors and noise: the same one gives the same results
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
+    pub seed: u64,
+    /// Directory of the results [default: out/<name of the scene>]
+    #[arg(long, value_name = "DIR", value_parser = directory)]
+    pub out: Option<PathBuf>,
+}
+
+fn runs(text: &str) -> Result<usize, String> {
+    let runs = text.parse().ok().filter(|runs| *runs <= MOST_RUNS);
+    runs.ok_or_else(|| format!("expected a whole number from 0 to {MOST_RUNS}"))
+}

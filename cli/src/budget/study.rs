@@ -1,0 +1,107 @@
+//! A study of the accuracy that a scene allows.
+
+use super::forecast::Forecast;
+use super::needed::Needed;
+use super::trials::{Trial, Trials};
+use super::truth::Truth;
+use crate::{Error, Scene};
+use vibrissa::contact::Stop;
+use vibrissa::reconstruct::{Budget, Known, NoiseModel, reconstruct_passes};
+use vibrissa::rod::{Reactions, Units};
+use vibrissa::{Rod, Settings};
+
+/// White noise of a sensor where none is stated, in E I / L^2 and E I / L: 0.5 mN and 0.02 mN m for a steel rod of 0.1 m and 0.5 mm.
+const NOISE: [f64; 2] = [8e-3, 3e-3];
+
+/// A scene, and how it is measured.
+#[derive(Debug)]
+pub struct BudgetStudy {
+    /// What the clamp is led along. Its own step is not used.
+    pub scene: Scene,
+    /// How large the errors may be that all samples share: those of an ordinary laboratory if none is given.
+    pub budget: Option<Budget>,
+    /// The sensor: white noise of 0.008 E I / L^2 and 0.003 E I / L if none is given.
+    pub noise: Option<NoiseModel>,
+    /// Samples in a second, 1/s.
+    pub rate: f64,
+    /// Speed of the clamp: m/s, or rad/s where it only turns.
+    pub speed: f64,
+    /// Number of recordings with random errors.
+    pub runs: usize,
+    /// Of errors and noise.
+    pub seed: u64,
+}
+
+/// Why no accuracy can be told.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BudgetError {
+    /// The sweep has no single contact.
+    #[error(
+        "{scene}: no sample of the sweep has a single contact, expected some: contact points of single contacts are judged"
+    )]
+    NoContact {
+        /// Name of the scene.
+        scene: String,
+    },
+    /// The simulated recording cannot be reconstructed at all.
+    #[error("{scene}: the simulated recording cannot be reconstructed: {source}; raise --rate or lower --speed")]
+    Reconstruct {
+        /// Name of the scene.
+        scene: String,
+        /// Why.
+        source: vibrissa::reconstruct::ReconstructError,
+    },
+}
+
+/// What to expect.
+#[derive(Debug)]
+pub struct Expected {
+    /// The scene.
+    pub scene: Scene,
+    /// Samples of its sweep.
+    pub samples: usize,
+    /// Why the sweep stopped early.
+    pub stop: Option<Stop>,
+    /// The budget.
+    pub budget: Budget,
+    /// Standard deviation of the noise of a sample, N and N m.
+    pub sigma: Reactions,
+    pub(crate) forecast: Forecast,
+    pub(super) needed: Option<Needed>,
+    pub(super) runs: Vec<Trial>,
+}
+
+impl BudgetStudy {
+    /// Simulates, forecasts and tries.
+    ///
+    /// # Errors
+    /// [`Error::Budget`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
+    pub fn run(self) -> Result<Expected, Error> {
+        let rod = self.scene.rod;
+        let budget = self.budget.unwrap_or_else(|| Budget::laboratory(&rod));
+        let noise = self.noise.unwrap_or_else(|| usual(&rod));
+        noise.check()?;
+        let (truth, scene) = Truth::of(self.scene, self.rate, self.speed)?;
+        let settings = Settings { budget: Some(budget), known: Known::NOTHING, ..Settings::default() };
+        let (read, _) = truth.read(&truth.samples, &noise, self.seed)?;
+        let found = reconstruct_passes(&rod, &read, &settings)
+            .map_err(|source| BudgetError::Reconstruct { scene: scene.name.clone(), source })?;
+        let sigma = noise.sigma();
+        let forecast = Forecast::of(&rod, &truth, &budget, sigma, &found)
+            .ok_or_else(|| BudgetError::NoContact { scene: scene.name.clone() })?;
+        let needed = Needed::of(&forecast);
+        let trials =
+            Trials { truth: &truth, scene: &scene, budget, noise: &noise, settings, seed: self.seed.wrapping_add(1) };
+        let runs = trials.run(self.runs)?;
+        let Truth { samples, stop, .. } = truth;
+        Ok(Expected { samples: samples.len(), stop, budget, sigma, forecast, needed, runs, scene })
+    }
+}
+
+/// The noise of a sensor that suits the rod.
+fn usual(rod: &Rod) -> NoiseModel {
+    let Units { force, moment, .. } = rod.units();
+    let white = Reactions { f0x: NOISE[0] * force, f0y: NOISE[0] * force, m0z: NOISE[1] * moment };
+    NoiseModel { white, ..NoiseModel::default() }
+}

@@ -1,0 +1,99 @@
+//! What the recordings tell.
+
+use super::freed::{Freed, limited, with_held};
+use crate::figure::Residual;
+use crate::{Error, KnownRod, Reconstructed, Recording};
+use std::path::PathBuf;
+use vibrissa::reconstruct::{Budget, Calibration, Combined, Known};
+use vibrissa::{Rod, Settings};
+
+/// Estimates beyond so many standard deviations of their budget contradict it.
+const BEYOND: f64 = 3.0;
+
+/// Why recordings tell nothing of the rod.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CalibrateError {
+    /// No source has a budget.
+    #[error(
+        "nothing to calibrate: the budget of every source that is looked for is 0; change the table [errors] of --setup, or --free"
+    )]
+    Nothing,
+}
+
+/// What recordings of one rod tell of rod, sensor, clamp and stage.
+#[derive(Debug)]
+pub struct RodCalibration {
+    /// The recordings.
+    pub recordings: Vec<PathBuf>,
+    /// The rod as it was given.
+    pub given: Rod,
+    /// The rod as it was found.
+    pub rod: Rod,
+    /// What is known of the errors, relative to the rod as it was found.
+    pub known: Known,
+    /// The estimates, relative to the rod as it was given.
+    pub combined: Combined,
+    /// What does not fit, in words.
+    pub findings: Vec<String>,
+    /// How far the criteria are from 0 with recordings and rod as they are, and after the calibration.
+    pub(crate) residuals: [Vec<Residual>; 2],
+}
+
+impl RodCalibration {
+    /// From recordings of the rod. Only the errors that `free` names are looked for, all where it is empty; bias and drift are taken off
+    /// each recording.
+    ///
+    /// # Errors
+    /// [`Error::Calibrate`], [`Error::Reconstruction`].
+    pub fn new(recordings: &[Recording], given: &KnownRod, settings: &Settings, free: &[Freed]) -> Result<Self, Error> {
+        let rod = given.rod;
+        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(&rod));
+        let known = if free.is_empty() { given.known } else { limited(&given.known, &budget, free) };
+        let (mut calibrations, mut findings) = (Vec::<Calibration>::new(), Vec::new());
+        for recording in recordings {
+            let settings = Settings { known, ..*settings };
+            let found = Reconstructed::new(recording.clone(), rod, &settings)?;
+            calibrations.extend(found.found.passes.iter().filter_map(|pass| pass.calibration.clone()));
+            let misfits = found.check.findings.iter().filter(|finding| finding.is_misfit());
+            findings.extend(misfits.map(|finding| format!("{}: {finding}", recording.file.display())));
+        }
+        let combined = Combined::of(&calibrations).ok_or(CalibrateError::Nothing)?;
+        findings.extend(contradictions(&combined));
+        let (found, known) = combined.known(&rod);
+        let known = with_held(known, &given.known, free);
+        let after = Settings { known, ..*settings };
+        let before = Settings { budget: Some(Budget::NONE), known: Known::NOTHING, ..*settings };
+        let mut residuals = [Vec::new(), Vec::new()];
+        for recording in recordings {
+            let before = Reconstructed::new(recording.clone(), rod, &before)?;
+            let after = Reconstructed::new(recording.clone(), found, &after)?;
+            residuals[0].extend(Residual::all(&before, &after));
+            residuals[1].extend(Residual::all(&after, &after));
+        }
+        let files = recordings.iter().map(|recording| recording.file.clone()).collect();
+        Ok(Self { recordings: files, given: rod, rod: found, known, combined, findings, residuals })
+    }
+}
+
+/// Recordings that contradict each other, and estimates beyond their budgets.
+fn contradictions(combined: &Combined) -> Vec<String> {
+    let mut found = Vec::new();
+    if combined.contradicts() {
+        let Combined { chi_squared, freedom, .. } = combined;
+        found.push(format!(
+            "the recordings contradict each other: chi-squared of their estimates is {chi_squared:.0} with {freedom} degrees of \
+             freedom; was the rod clamped anew, or the sensor changed between them?"
+        ));
+    }
+    for estimate in combined.sources.iter().filter(|estimate| estimate.off() > BEYOND) {
+        let (name, unit) = estimate.source.name();
+        let space = if unit.is_empty() { "" } else { " " };
+        found.push(format!(
+            "{name}: the estimate {:+.3e}{space}{unit} is {:.1} standard deviations off what was known",
+            estimate.value,
+            estimate.off()
+        ));
+    }
+    found
+}

@@ -1,0 +1,56 @@
+//! How far errors that all samples share displace single contact points across the contour.
+
+use super::correction::{Frame, motion};
+use super::influence::point_by_errors;
+use super::source::{SOURCES, Source};
+use crate::phase::{Label, constrained};
+use crate::point::Clamp;
+use crate::scan::{Estimate, Track};
+use nalgebra::{Matrix3, Vector3};
+use rod_core::{Rod, Sample};
+
+/// Displacement across the contour of a single contact point by errors that all samples share, to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Influence {
+    /// In the order of [`Source::ALL`], m per unit of the source.
+    by: [f64; SOURCES],
+}
+
+impl Influence {
+    /// Of an error of one source, m per unit of that.
+    pub fn of(&self, source: Source) -> f64 {
+        self.by[source as usize]
+    }
+}
+
+/// The influence of the errors on the contact point of every `stride`-th sample of a scan, with its number, where the label is A or B and
+/// there is one. The samples are exact: take them from a simulation. `sigma` is the noise of f0x, f0y (N) and m0z (N m), by whose
+/// ratios a reconstruction moves reactions onto the conditions of a phase.
+pub fn influences(
+    rod: &Rod,
+    samples: &[Sample],
+    labels: &[Label],
+    sigma: [f64; 3],
+    stride: usize,
+) -> Vec<(usize, Influence)> {
+    let (track, places) = Track::new(rod, samples);
+    let units = rod.units();
+    let Some(frame) = Frame::of(&track) else { return Vec::new() };
+    let noise = Vector3::from(sigma).component_div(&Vector3::new(units.force, units.force, units.moment));
+    // without noise there are no ratios
+    let least = noise.amax().max(f64::MIN_POSITIVE) * 1e-6;
+    let noise = Matrix3::from_diagonal(&noise.map(|sigma| sigma.max(least).powi(2)));
+    let one = |number: usize, label: Label, index: usize| {
+        let clamp = track.clamps[index];
+        let rate = Clamp { pose: motion(&track, index), reactions: Vector3::zeros(), natural: 0.0 };
+        let place = Estimate::exact(clamp, rate);
+        let (by, _) = point_by_errors(frame, track.tau[index], &place, &noise, label)?;
+        let alpha = constrained(&clamp, &noise, label).ok()?.alpha;
+        let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];
+        let by = std::array::from_fn(|k| across(k) * units.length / Source::ALL[k].unit(rod));
+        by.iter().all(|v| v.is_finite()).then_some((number, Influence { by }))
+    };
+    let all = places.iter().zip(labels).enumerate().step_by(stride.max(1));
+    let single = all.filter(|(_, (_, label))| matches!(label, Label::A | Label::B));
+    single.filter_map(|(number, (place, label))| one(number, *label, *place.as_ref().ok()?)).collect()
+}

@@ -1,0 +1,267 @@
+//! What several scans say of the errors that stay the same from scan to scan.
+
+use super::calibration::{Calibration, SourceEstimate};
+use super::known::Known;
+use super::source::Source;
+use crate::numeric::chi_squared::wilson_hilferty;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rod_core::Rod;
+
+/// Smallest variance of an estimate, in parts of the variance of its budget: 1e-6 of a standard deviation, what rounding leaves of
+/// noise-free scans. Larger: scans count for less than they say.
+const FINEST: f64 = 1e-12;
+/// What a scan must say of a combination of sources, in parts of what is known already, to be compared with that. Smaller: rounding
+/// errors count.
+const TELLING: f64 = 0.01;
+/// Standard normal quantile of the probability 1e-3, with which scans that agree are said to contradict each other.
+const QUANTILE: f64 = 3.09;
+/// Correlation of two estimates from which on the scans do not tell them apart.
+const TIED: f64 = 0.9;
+
+/// The errors that stay the same from scan to scan, as several scans of one rod and sensor tell them together: all but bias and drift.
+///
+/// Each scan gives an estimate with covariance that contains the same prior knowledge. Their information matrices are added, and the
+/// prior counts once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Combined {
+    /// The sources. The estimates that are `taken` are the fewest that agree with the scans; the other sources keep what was known.
+    pub sources: Vec<SourceEstimate>,
+    /// Covariance of the estimates, in the order and the units of the sources.
+    pub covariance: DMatrix<f64>,
+    /// Pairs that the scans do not tell apart: their estimates have a correlation beyond 0.9 in size, which is given.
+    pub ties: Vec<(Source, Source, f64)>,
+    /// Squared differences of each scan from those before it, in standard deviations: chi-squared where the scans agree.
+    pub chi_squared: f64,
+    /// Its degrees of freedom: 0 for one scan.
+    pub freedom: usize,
+}
+
+impl Combined {
+    /// Of the calibrations of scans with the same budget and rod. None without a scan, where the scans have other sources, and where all
+    /// budgets are 0.
+    pub fn of(scans: &[Calibration]) -> Option<Self> {
+        let first = scans.first()?;
+        let numbers: Vec<usize> = (0..first.sources.len()).filter(|k| !first.sources[*k].source.is_of_scan()).collect();
+        let alike = |scan: &Calibration| {
+            scan.covariance.nrows() == scan.sources.len()
+                && scan.sources.iter().map(|estimate| estimate.source).eq(first.sources.iter().map(|e| e.source))
+        };
+        if !scans.iter().all(alike) {
+            return None;
+        }
+        let of = |scan: &Calibration, k: usize| scan.sources[numbers[k]];
+        let count = numbers.len();
+        // in units of the largest budget; where that is 0, nothing changes
+        let largest = |k: usize| scans.iter().map(|scan| of(scan, k).budget).fold(0.0, f64::max);
+        let budgets: Vec<f64> = (0..count).map(largest).collect();
+        let unit = |k: usize| if budgets[k] > 0.0 { budgets[k] } else { 1.0 };
+        if budgets.iter().all(|budget| *budget == 0.0) {
+            return None;
+        }
+        let mut found = DVector::<f64>::zeros(count);
+        let mut factor = DMatrix::from_fn(count, count, |i, j| f64::from(u8::from(i == j && budgets[i] > 0.0)));
+        let (mut chi_squared, mut freedom) = (0.0, 0);
+        for (number, scan) in scans.iter().enumerate() {
+            let covariance = DMatrix::from_fn(count, count, |i, j| {
+                let own = scan.covariance[(numbers[i], numbers[j])] / (unit(i) * unit(j));
+                if budgets[i] > 0.0 { own } else { f64::from(u8::from(i == j)) }
+            });
+            let prior =
+                DVector::from_fn(
+                    count,
+                    |k, _| {
+                        if budgets[k] > 0.0 { (budgets[k] / of(scan, k).budget).powi(2) } else { 1.0 }
+                    },
+                );
+            let off = DVector::from_fn(count, |k, _| (of(scan, k).value - of(scan, k).known) / unit(k));
+            let whole = mapped(covariance, |variance| 1.0 / variance.max(FINEST));
+            let told = mapped(&whole - DMatrix::from_diagonal(&prior), |information| information.max(0.0));
+            let right = &whole * off;
+            // what the scan says, in combinations of which nothing is known but a standard deviation of 1
+            let eigen = SymmetricEigen::new(factor.transpose() * &told * &factor);
+            let surprise = eigen.eigenvectors.transpose() * factor.transpose() * (right - told * &found);
+            let information = eigen.eigenvalues.map(|value| value.max(0.0));
+            if number > 0 {
+                let telling = (0..count).filter(|k| information[*k] > TELLING);
+                for k in telling {
+                    chi_squared += surprise[k].powi(2) / (information[k] * (1.0 + information[k]));
+                    freedom += 1;
+                }
+            }
+            let combinations = &factor * eigen.eigenvectors;
+            found += &combinations * surprise.zip_map(&information, |s, i| s / (1.0 + i));
+            factor = combinations * DMatrix::from_diagonal(&information.map(|i| 1.0 / (1.0 + i).sqrt()));
+        }
+        let covariance = &factor * factor.transpose();
+        let covariance = DMatrix::from_fn(count, count, |i, j| covariance[(i, j)] * unit(i) * unit(j));
+        let active: Vec<usize> = (0..count).filter(|k| budgets[*k] > 0.0).collect();
+        let taken = fewest(&found, &(&factor * factor.transpose()), &active);
+        let sources: Vec<SourceEstimate> = (0..count)
+            .map(|k| {
+                let first = of(first, k);
+                let [value, taken] = [found[k], taken[k]].map(|off| first.known + off * unit(k));
+                let raised = scans.iter().any(|scan| of(scan, k).raised);
+                let sigma = covariance[(k, k)].max(0.0).sqrt();
+                SourceEstimate { budget: budgets[k], value, sigma, taken, raised, ..first }
+            })
+            .collect();
+        let ties = ties(&sources, &covariance);
+        Some(Self { sources, covariance, ties, chi_squared, freedom })
+    }
+
+    /// Whether the scans contradict each other: agreeing ones differ as much with a probability of 1e-3.
+    pub fn contradicts(&self) -> bool {
+        self.freedom > 0 && self.chi_squared > wilson_hilferty(self.freedom, QUANTILE)
+    }
+
+    /// The estimate of one source.
+    pub fn source(&self, source: Source) -> Option<&SourceEstimate> {
+        self.sources.iter().find(|estimate| estimate.source == source)
+    }
+
+    /// The rod with length and stiffness as they are taken, and what is known of it then. For [`Settings`](crate::Settings) of later scans.
+    /// The standard deviations contain what of an estimate is not taken.
+    pub fn known(&self, given: &Rod) -> (Rod, Known) {
+        let value = |source| self.source(source).map_or(0.0, |estimate| estimate.taken);
+        let (length, stiffness) = (1.0 + value(Source::Length), 1.0 + value(Source::Stiffness));
+        let rod = Rod::new(given.length() * length, given.bending_stiffness() * stiffness);
+        let Ok(rod) = rod else { return (*given, Known::NOTHING) };
+        let known = self.sources.iter().fold(Known::NOTHING, |known, estimate| {
+            let SourceEstimate { source, taken: value, sigma, .. } = *estimate;
+            let sigma = sigma.hypot(estimate.value - value);
+            match source {
+                Source::Length => known.with(source, 0.0, sigma / length),
+                Source::Stiffness => known.with(source, 0.0, sigma / stiffness),
+                // relative to the length of the rod
+                Source::M0zInF0x | Source::M0zInF0y => known.with(source, value * length, sigma * length),
+                Source::F0xInM0z | Source::F0yInM0z => known.with(source, value / length, sigma / length),
+                _ => known.with(source, value, sigma),
+            }
+        });
+        (rod, known)
+    }
+}
+
+/// The sparsest estimate that agrees with `found` and its covariance, one source after the other, each the one that explains most of what
+/// is left.
+fn fewest(found: &DVector<f64>, covariance: &DMatrix<f64>, active: &[usize]) -> DVector<f64> {
+    let count = active.len();
+    let part = DMatrix::from_fn(count, count, |i, j| covariance[(active[i], active[j])]);
+    let information = mapped(part, |variance| 1.0 / variance.max(FINEST));
+    let off = DVector::from_fn(count, |k, _| found[active[k]]);
+    let allowed = wilson_hilferty(count, QUANTILE);
+    // the estimate with these sources alone, and by how much its sum of squares is larger
+    let with = |kept: &[usize]| {
+        let right = &information * &off;
+        let only = DMatrix::from_fn(kept.len(), kept.len(), |i, j| information[(kept[i], kept[j])]);
+        let solved = only.cholesky()?.solve(&DVector::from_fn(kept.len(), |k, _| right[kept[k]]));
+        let mut taken = DVector::<f64>::zeros(count);
+        kept.iter().zip(solved.iter()).for_each(|(k, value)| taken[*k] = *value);
+        let left = &off - &taken;
+        Some((left.dot(&(&information * &left)), taken))
+    };
+    let mut kept: Vec<usize> = Vec::new();
+    let mut best = (off.dot(&(&information * &off)), DVector::zeros(count));
+    while best.0 > allowed && kept.len() < count {
+        let others = (0..count).filter(|k| !kept.contains(k));
+        let tried = others.filter_map(|k| Some((k, with(&[kept.as_slice(), &[k]].concat())?)));
+        let Some((k, next)) = tried.min_by(|a, b| a.1.0.total_cmp(&b.1.0)) else { break };
+        kept.push(k);
+        best = next;
+    }
+    let mut taken = DVector::zeros(found.len());
+    active.iter().zip(best.1.iter()).for_each(|(k, value)| taken[*k] = *value);
+    taken
+}
+
+/// A symmetric matrix with other eigenvalues.
+fn mapped(matrix: DMatrix<f64>, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
+    let eigen = SymmetricEigen::new(matrix);
+    let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(of));
+    &eigen.eigenvectors * values * eigen.eigenvectors.transpose()
+}
+
+fn ties(sources: &[SourceEstimate], covariance: &DMatrix<f64>) -> Vec<(Source, Source, f64)> {
+    let pairs = (0..sources.len()).flat_map(|i| (i + 1..sources.len()).map(move |j| (i, j)));
+    let correlated = pairs.map(|(i, j)| {
+        let correlation = covariance[(i, j)] / (sources[i].sigma * sources[j].sigma);
+        (sources[i].source, sources[j].source, correlation)
+    });
+    correlated.filter(|tie| tie.2.abs() > TIED).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scan that measures the sum of two sources and nothing else.
+    fn scan(sum: f64, sigma: f64) -> Calibration {
+        let budget = 2.0;
+        let estimate = |source| {
+            // posterior of two independent variables of variance b^2 whose sum is measured
+            let gain = budget * budget / (2.0 * budget * budget + sigma * sigma);
+            let deviation = (budget * budget * (1.0 - gain)).sqrt();
+            SourceEstimate {
+                source,
+                known: 0.0,
+                given: budget,
+                budget,
+                value: gain * sum,
+                sigma: deviation,
+                taken: gain * sum,
+                raised: false,
+            }
+        };
+        let sources = vec![estimate(Source::GainF0x), estimate(Source::Stiffness)];
+        let (variance, both) = (sources[0].sigma.powi(2), -budget.powi(4) / (2.0 * budget * budget + sigma * sigma));
+        Calibration {
+            sources,
+            covariance: DMatrix::from_row_slice(2, 2, &[variance, both, both, variance]),
+            ties: Vec::new(),
+            free: Vec::new(),
+            misfit_criterion: 0.0,
+            misfit_length: 0.0,
+            misfit_tangent: 0.0,
+        }
+    }
+
+    #[test]
+    fn scans_add_their_information_and_the_prior_counts_once() {
+        let alone = Combined::of(&[scan(1.0, 0.2)]).unwrap();
+        assert_eq!(alone.freedom, 0);
+        assert!((alone.sources[0].value - scan(1.0, 0.2).sources[0].value).abs() < 1e-12);
+        assert!((&alone.covariance - scan(1.0, 0.2).covariance).amax() < 1e-12);
+        // four scans are one with half the noise
+        let four = Combined::of(&[0.9, 1.1, 0.8, 1.2].map(|sum| scan(sum, 0.2))).unwrap();
+        let one = scan(1.0, 0.1);
+        assert!((&four.covariance - one.covariance).amax() < 1e-10, "{}", four.covariance);
+        assert!((four.sources[1].value - one.sources[1].value).abs() < 1e-10);
+        // the differences are of one combination only
+        assert_eq!((four.freedom, four.contradicts()), (3, false));
+        assert_eq!(four.ties.len(), 1);
+        // chi-squared is the sum of squares about the mean, but for the prior, which is weak
+        let expected = [0.1_f64, 0.1, 0.2, 0.2].iter().map(|off| (off / 0.2).powi(2)).sum::<f64>();
+        assert!((four.chi_squared - expected).abs() < 0.01 * expected, "{} {expected}", four.chi_squared);
+        let apart = Combined::of(&[scan(1.0, 0.2), scan(3.0, 0.2)]).unwrap();
+        assert!(apart.contradicts());
+    }
+
+    #[test]
+    fn what_is_found_of_the_rod_goes_into_the_rod() {
+        let rod = Rod::new(0.1, 1e-3).unwrap();
+        let combined = Combined::of(&[scan(1.0, 0.2)]).unwrap();
+        let (found, known) = combined.known(&rod);
+        let stiffness = combined.source(Source::Stiffness).unwrap();
+        // one of the two explains the sum, no more than the other
+        let (taken, left) = (1.0 + stiffness.taken, stiffness.value - stiffness.taken);
+        assert!((found.bending_stiffness() - 1e-3 * taken).abs() < 1e-18);
+        assert_eq!(known.of(Source::Stiffness), Some((0.0, stiffness.sigma.hypot(left) / taken)));
+        let gain = combined.source(Source::GainF0x).unwrap();
+        assert!((stiffness.taken == 0.0) != (gain.taken == 0.0));
+        assert!((stiffness.taken + gain.taken - 1.0).abs() < 0.02, "{stiffness:?} {gain:?}");
+        // little is nothing
+        let combined = Combined::of(&[scan(0.1, 0.2)]).unwrap();
+        assert!(combined.sources.iter().all(|source| source.taken == 0.0));
+        assert_eq!(known.of(Source::BiasF0x), None);
+    }
+}
