@@ -157,15 +157,10 @@ fn a_scan_there_and_back() {
     for k in (0..30).chain((0..30).rev()) {
         text += &format!("{k},0,0,0,0,0\n");
     }
+    // its passes are reconstructed one by one
     let recording = parse(&text).unwrap();
-    assert_eq!(recording.samples().count(), 30);
-    assert_eq!(
-        recording.warnings(),
-        [
-            "rec.csv: 1 of 60 rows cannot be used, line 32: the pose of line 31 is repeated, expected a clamp that moves",
-            "rec.csv: 29 of 60 rows cannot be used, lines 33, 34, 35, 36, 37 and 24 more: the pose turns back behind that of line 31, expected a clamp that goes on in one direction",
-        ]
-    );
+    assert_eq!(recording.samples().count(), 60);
+    assert!(recording.warnings().is_empty(), "{:?}", recording.warnings());
 }
 
 #[test]

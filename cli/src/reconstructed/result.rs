@@ -5,7 +5,9 @@ use crate::{Error, Recording};
 use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
-use vibrissa::reconstruct::{Assembly, ContourEstimate, Plausibility, Travel, plausibility, reconstruct_passes};
+use vibrissa::reconstruct::{
+    Assembly, Budget, ContourEstimate, Finding, Plausibility, Travel, plausibility, reconstruct_passes,
+};
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
 
 /// Why a recording cannot be reconstructed.
@@ -49,12 +51,16 @@ impl Reconstructed {
     pub fn new(recording: Recording, rod: Rod, settings: &Settings) -> Result<Self, Error> {
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
-        let found = reconstruct_passes(&rod, &samples, settings)
+        let raw = plausibility(&rod, &samples);
+        let gross = raw.findings.iter().any(Finding::is_gross);
+        // small errors mean nothing where units, signs or rod are wrong
+        let settings = if gross { Settings { budget: Some(Budget::NONE), ..*settings } } else { *settings };
+        let found = reconstruct_passes(&rod, &samples, &settings)
             .map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
         let contour = found.contour(&Assembly::default());
         // the physics of what is left after the corrections
         let (corrected, used) = found.corrected(&rod, &samples);
-        let mut check = plausibility(&corrected, &used);
+        let mut check = if gross { raw } else { plausibility(&corrected, &used) };
         check.findings.extend(found.findings());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self { name, recording, rod, samples, rows, found, contour, check, comparison: None })

@@ -14,6 +14,8 @@ const MISFIT_LENGTH: f64 = 0.2;
 /// not fit the rod.
 const MISFIT_SHIFT: f64 = 0.1;
 
+/// Relative difference of the stiffness from which on it is another rod.
+const GROSS_STIFFNESS: f64 = 0.3;
 /// Angle of the clamp, radians, from which on it must be in degrees.
 const MISFIT_ANGLE: f64 = 20.0;
 /// Way of the clamp, rod lengths, from which on it must be in another unit.
@@ -140,6 +142,16 @@ pub enum Finding {
 }
 
 impl Finding {
+    /// Whether units, signs or rod are so wrong that no small errors can be told from the recording.
+    pub fn is_gross(&self) -> bool {
+        match self {
+            Self::Sign | Self::Units { .. } | Self::MomentSign => true,
+            Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > GROSS_STIFFNESS,
+            Self::Angle { .. } | Self::Way { .. } => self.is_misfit(),
+            _ => false,
+        }
+    }
+
     /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {

@@ -4,7 +4,7 @@ use super::border::border;
 use super::diagram::Break;
 use super::evidence::Evidence;
 use super::label::Label;
-use super::trellis::{Place, Trellis};
+use super::trellis::{Place, Trellis, forward};
 use crate::scan::{LocalCubic, Noise, Track};
 use std::ops::Range;
 
@@ -95,6 +95,12 @@ pub(crate) fn places(track: &Track, noise: &Noise, breaks: &[Break]) -> Vec<Node
 /// The label of each place and its margin.
 pub(crate) fn labels(nodes: &[Node]) -> Vec<(Label, f64)> {
     Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec()
+}
+
+/// Log of the likelihood of the most likely labels.
+pub(crate) fn likelihood(nodes: &[Node]) -> f64 {
+    let last = nodes.iter().fold([0.0; 5], |before, node| forward(&before, &node.place).0);
+    last.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The phases of a scan with these places.

@@ -33,7 +33,7 @@ pub use evidence::Evidence;
 #[cfg(feature = "std")]
 pub(crate) use evidence::{CRITERIA, Criterion};
 #[cfg(feature = "std")]
-pub(crate) use identify::{Identified, Node, identify, labels, parts, places};
+pub(crate) use identify::{Identified, Node, identify, labels, likelihood, parts, places};
 pub use label::Label;
 #[cfg(feature = "std")]
 pub use quantity::Quantity;

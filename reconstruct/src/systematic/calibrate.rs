@@ -8,22 +8,21 @@ use super::free::stretches;
 use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
 use super::known::Known;
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
-use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node, labels};
+use super::turns::{Found, RAISED, Turns};
+use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node};
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SymmetricEigen, Vector3};
 use rod_core::Rod;
+use std::ops::Range;
 
-/// Most turns of labelling and estimating.
-const TURNS: usize = 6;
 /// Most places that the errors are estimated from, besides those next to kinks. More: more time.
 const PLACES: usize = 800;
 /// Fall of the sum of squares from which on the estimates are taken off the samples: chance lets it fall by as much as the number of
 /// sources, with a standard deviation of 7.
 const SIGNIFICANT: f64 = 60.0;
-/// Prior standard deviations beyond which a budget is too small.
-const BEYOND: f64 = 3.0;
-/// Factor by which it is raised then.
-const RAISED: f64 = 3.0;
+/// Residuals of the free rod's reactions, in standard deviations of the noise, from which on some stretch is not free. Larger than what a
+/// sensor that drifts at random leaves.
+const UNLIKE: f64 = 100.0;
 /// Correlation of two estimates from which on the scan does not tell them apart.
 const TIED: f64 = 0.9;
 
@@ -109,53 +108,31 @@ pub(crate) fn calibrate(
     }
     let frame = Frame::of(track)?;
     let means = known.means(rod);
-    let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
+    let prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
     let free = match Correction::new(frame, &means).filter(|_| means != Errors::zeros()) {
         Some(correction) => stretches(&correction.track(track), noise, breaks, &prior.sigmas),
         None => stretches(track, noise, breaks, &prior.sigmas),
     };
     let stride = nodes.len().div_ceil(PLACES).max(1);
     let nodes = thinned(nodes, stride);
-    let labelled = |found: &[(Label, f64)], only: &dyn Fn(&Node, Label) -> bool| -> Vec<Labelled> {
-        let places = nodes.iter().zip(found).filter(|(node, found)| only(node, found.0));
-        let of = |(node, found): (&Node, &(Label, f64))| {
-            let tau = track.tau[node.index];
-            Labelled { tau, measured: node.fit.at(tau), weight: node.weight, label: found.0 }
-        };
-        places.map(of).collect()
-    };
     let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
-    let tared = labelled(&vec![(Label::Free, 1.0); nodes.len()], &|node, _| in_free(node));
-    let mut found = adjust(frame, &prior, &means, &tared, &[1.0; CRITERIA]);
-    let least = least(frame, &found, &tared);
-    let mut raised = [false; SOURCES];
-    let mut judged = nodes.clone();
-    let rates = least[Criterion::Tangent as usize];
-    let shared = |found: &Adjusted| Shared { frame, factor: found.factor, scatter: found.scatter, rates };
-    shared(&found).doubt(&mut judged);
-    let mut before: Vec<Label> = Vec::new();
-    for _ in 0..TURNS {
-        shared(&found).judge(&found.errors, track, &mut judged);
-        let now = labels(&judged);
-        let names: Vec<Label> = now.iter().map(|found| found.0).collect();
-        found = adjust(frame, &prior, &found.errors, &labelled(&now, &|_, _| true), &least);
-        let mut again = false;
-        for k in 0..SOURCES {
-            let off = (found.errors[k] - means[k]).abs();
-            if !raised[k] && off > BEYOND * prior.sigmas[k] {
-                prior.sigmas[k] *= RAISED;
-                (raised[k], again) = (true, true);
-            }
-        }
-        if !again && names == before {
-            break;
-        }
-        before = names;
+    let inside: Vec<Node> = nodes.iter().filter(|node| in_free(node)).cloned().collect();
+    let mut turns = Turns { frame, track, nodes: &inside, least: [1.0; CRITERIA], rates: 1.0 };
+    let tare = turns.labelled(&vec![(Label::Free, 1.0); inside.len()]);
+    let mut tared = adjust(frame, &prior, &means, &tare, &turns.least);
+    if tared.scatter[..3].iter().any(|times| *times > UNLIKE) {
+        tared = adjust(frame, &prior, &means, &[], &turns.least);
+    } else {
+        turns.least = least(frame, &tared, &tare);
+        turns.rates = turns.least[Criterion::Tangent as usize];
     }
-    let last = labelled(&labels(&judged), &|_, _| true);
-    let taken = fewest(frame, &prior, &found, &last, &least);
+    turns.nodes = &nodes;
+    let Found { adjusted: found, prior, raised, labels, .. } = turns.found(&prior, &tared);
+    let last = turns.labelled(&labels);
+    let taken = fewest(frame, &prior, &found, &last, &turns.least);
+    let free = free.into_iter().filter(|range| are_free(range, &nodes, &labels)).collect();
     let calibration = told(rod, &prior, &raised, &found, &taken, free);
-    let shared = Shared { factor: about(&found, &taken), ..shared(&found) };
+    let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
 }
@@ -180,6 +157,12 @@ fn least(frame: Frame, found: &Adjusted, free: &[Labelled]) -> [f64; CRITERIA] {
         *least = if values { of_values } else { of_rates };
     }
     least
+}
+
+/// Whether all places in a stretch are labelled so.
+fn are_free(stretch: &Range<usize>, nodes: &[Node], labels: &[(Label, f64)]) -> bool {
+    let mut inside = nodes.iter().zip(labels).filter(|(node, _)| stretch.contains(&node.index));
+    inside.all(|(_, label)| label.0 == Label::Free)
 }
 
 /// Every so many of the places, and the first one after each break.

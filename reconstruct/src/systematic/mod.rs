@@ -19,6 +19,7 @@ mod free;
 mod influence;
 mod known;
 mod source;
+mod turns;
 
 pub use across::{Influence, influences};
 pub use budget::Budget;

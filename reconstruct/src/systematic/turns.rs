@@ -1,0 +1,98 @@
+//! Labels and shared errors in turns, from a given start.
+
+use super::adjust::{Adjusted, Labelled, Prior, adjust};
+use super::calibrate::Shared;
+use super::correction::Frame;
+use super::source::{Joint, SOURCES};
+use crate::phase::{CRITERIA, Label, Node, labels, likelihood};
+use crate::scan::Track;
+
+/// Most turns of labelling and estimating.
+const TURNS: usize = 6;
+/// Prior standard deviations beyond which a budget is too small.
+const BEYOND: f64 = 3.0;
+/// Factor by which it is raised then.
+pub(super) const RAISED: f64 = 3.0;
+
+/// A scan whose labels and errors are to be found.
+pub(super) struct Turns<'a> {
+    pub frame: Frame,
+    pub track: &'a Track,
+    pub nodes: &'a [Node],
+    /// The smallest residuals of each criterion to be expected, in standard deviations of the noise.
+    pub least: [f64; CRITERIA],
+    /// Rates of the free rod's reactions in standard deviations of the noise.
+    pub rates: f64,
+}
+
+/// Labels and errors that agree with each other.
+#[derive(Clone)]
+pub(super) struct Found {
+    pub adjusted: Adjusted,
+    pub prior: Prior,
+    pub raised: [bool; SOURCES],
+    pub labels: Vec<(Label, f64)>,
+    /// Log of the likelihood of labels and errors together.
+    likelihood: f64,
+}
+
+impl Turns<'_> {
+    /// The likelier of what two starts lead to: the recording as it is, and any recording within the budget. From the second one a scan
+    /// with large errors is labelled; with it alone, wrong labels of a good scan might agree with large errors.
+    pub fn found(&self, prior: &Prior, tared: &Adjusted) -> Found {
+        let as_is = Adjusted { errors: prior.means, factor: Joint::zeros(), ..tared.clone() };
+        let [as_is, any] = [&as_is, tared].map(|start| self.lead(prior, start));
+        if as_is.likelihood >= any.likelihood { as_is } else { any }
+    }
+
+    fn lead(&self, prior: &Prior, start: &Adjusted) -> Found {
+        let (mut adjusted, mut prior, mut raised) = (start.clone(), prior.clone(), [false; SOURCES]);
+        let mut judged = self.nodes.to_vec();
+        self.left(&adjusted).doubt(&mut judged);
+        let mut before: Vec<(Label, f64)> = Vec::new();
+        for _ in 0..TURNS {
+            self.left(&adjusted).judge(&adjusted.errors, self.track, &mut judged);
+            let now = labels(&judged);
+            adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least);
+            let mut again = false;
+            for k in 0..SOURCES {
+                let off = (adjusted.errors[k] - prior.means[k]).abs();
+                if !raised[k] && off > BEYOND * prior.sigmas[k] {
+                    prior.sigmas[k] *= RAISED;
+                    (raised[k], again) = (true, true);
+                }
+            }
+            let same = now.iter().zip(&before).all(|(now, before)| now.0 == before.0) && now.len() == before.len();
+            before = now;
+            if same && !again {
+                break;
+            }
+        }
+        let likelihood = self.likelihood(&adjusted, &prior, judged);
+        Found { adjusted, prior, raised, labels: before, likelihood }
+    }
+
+    fn left(&self, adjusted: &Adjusted) -> Shared {
+        Shared { frame: self.frame, factor: adjusted.factor, scatter: adjusted.scatter, rates: self.rates }
+    }
+
+    /// The likelihood with exactly these errors: no others widen the evidence.
+    fn likelihood(&self, adjusted: &Adjusted, prior: &Prior, mut judged: Vec<Node>) -> f64 {
+        let exact = Shared { factor: Joint::zeros(), ..self.left(adjusted) };
+        exact.judge(&adjusted.errors, self.track, &mut judged);
+        let square = |k: usize| {
+            let sigma = prior.sigmas[k];
+            if sigma > 0.0 { ((adjusted.errors[k] - prior.means[k]) / sigma).powi(2) } else { 0.0 }
+        };
+        likelihood(&judged) - 0.5 * (0..SOURCES).map(square).sum::<f64>()
+    }
+
+    /// The places with their labels, as measured.
+    pub fn labelled(&self, found: &[(Label, f64)]) -> Vec<Labelled> {
+        let of = |(node, found): (&Node, &(Label, f64))| {
+            let tau = self.track.tau[node.index];
+            Labelled { tau, measured: node.fit.at(tau), weight: node.weight, label: found.0 }
+        };
+        self.nodes.iter().zip(found).map(of).collect()
+    }
+}
