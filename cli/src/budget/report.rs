@@ -6,6 +6,8 @@ use super::trials::Trial;
 use crate::table::Table;
 use std::fmt::Write;
 
+/// Share of right labels below which the derivatives say nothing of a recording.
+const RIGHT: f64 = 0.95;
 /// How many errors are named that a better sensor does not help against.
 const LARGEST: usize = 3;
 
@@ -117,6 +119,15 @@ impl Expected {
         let mean =
             |values: &Vec<f64>| cell((!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64));
         table.row(["mean".to_owned()].into_iter().chain(sorted.iter().map(mean)));
-        write!(text, "{table}")
+        write!(text, "{table}")?;
+        let wrong = self.runs.iter().filter(|run| run.labels_right < RIGHT).count();
+        if wrong > 0 {
+            writeln!(
+                text,
+                "in {wrong} of them fewer than {:.0} % of the labels are right: the forecast does not hold for these errors",
+                100.0 * RIGHT
+            )?;
+        }
+        Ok(())
     }
 }
