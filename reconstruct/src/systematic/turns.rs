@@ -45,8 +45,8 @@ impl Turns<'_> {
         if as_is.likelihood >= any.likelihood { as_is } else { any }
     }
 
-    fn lead(&self, prior: &Prior, start: &Adjusted) -> Found {
-        let (mut adjusted, mut prior, mut raised) = (start.clone(), prior.clone(), [false; SOURCES]);
+    fn lead(&self, given: &Prior, start: &Adjusted) -> Found {
+        let (mut adjusted, mut prior, mut raised) = (start.clone(), given.clone(), [false; SOURCES]);
         let mut judged = self.nodes.to_vec();
         self.left(&adjusted).doubt(&mut judged);
         let mut before: Vec<(Label, f64)> = Vec::new();
@@ -68,7 +68,7 @@ impl Turns<'_> {
                 break;
             }
         }
-        let likelihood = self.likelihood(&adjusted, &prior, judged);
+        let likelihood = self.likelihood(&adjusted, given, judged);
         Found { adjusted, prior, raised, labels: before, likelihood }
     }
 
@@ -77,12 +77,12 @@ impl Turns<'_> {
     }
 
     /// The likelihood with exactly these errors: no others widen the evidence.
-    fn likelihood(&self, adjusted: &Adjusted, prior: &Prior, mut judged: Vec<Node>) -> f64 {
-        let exact = Shared { factor: Joint::zeros(), ..self.left(adjusted) };
+    fn likelihood(&self, adjusted: &Adjusted, given: &Prior, mut judged: Vec<Node>) -> f64 {
+        let exact = Shared { factor: Joint::zeros(), scatter: self.least, ..self.left(adjusted) };
         exact.judge(&adjusted.errors, self.track, &mut judged);
         let square = |k: usize| {
-            let sigma = prior.sigmas[k];
-            if sigma > 0.0 { ((adjusted.errors[k] - prior.means[k]) / sigma).powi(2) } else { 0.0 }
+            let sigma = given.sigmas[k];
+            if sigma > 0.0 { ((adjusted.errors[k] - given.means[k]) / sigma).powi(2) } else { 0.0 }
         };
         likelihood(&judged) - 0.5 * (0..SOURCES).map(square).sum::<f64>()
     }
