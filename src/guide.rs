@@ -24,6 +24,9 @@ pub mod output_files {}
 #[doc = include_str!("../docs/reconstruction.md")]
 pub mod reconstruction {}
 
+#[doc = include_str!("../docs/laboratory.md")]
+pub mod laboratory {}
+
 #[cfg(feature = "recordings")]
 #[doc = include_str!("../docs/recordings.md")]
 pub mod recordings {}

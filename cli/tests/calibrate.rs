@@ -139,7 +139,7 @@ fn recordings_of_two_rods_contradict_each_other() {
 fn an_estimate_beyond_its_budget_is_told() {
     let directory = recorded();
     let path = directory.path();
-    file(path, "rod.toml", &rod(STIFFNESS / 1.3));
+    file(path, "rod.toml", &rod(STIFFNESS / 1.25));
     let output = calibrate(path, &["a.csv", "--rod", "rod.toml", "--out", "c.toml"]);
     assert_eq!(output.status.code(), Some(2), "{}", complaint(&output));
     let complaint = complaint(&output);

@@ -149,7 +149,7 @@ fn a_clean_recording_gives_the_contour_back() {
     assert!(transitions.iter().all(|t| t["error"].as_f64().unwrap().abs() < 2e-5), "{transitions:?}");
 
     let contour = fs::read_to_string(directory.path().join("out/r/contour.csv")).unwrap();
-    assert!(contour.starts_with("stretch,kind,x,y,alpha,sigma\n0,single,"), "{}", &contour[..200]);
+    assert!(contour.starts_with("stretch,kind,x,y,alpha,sigma,sigma_systematic\n0,single,"), "{}", &contour[..200]);
     for (figure, parts) in
         [("contour.svg", ["true contour", "second of several"]), ("phases.svg", ["K in (N mm)", "7 kinks and jumps"])]
     {

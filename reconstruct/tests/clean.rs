@@ -203,7 +203,7 @@ fn coarse_recordings() {
                 found.readings.len()
             );
             assert!(
-                labels <= 2 && gap < 0.2 * step && forceless <= 1,
+                labels <= 2 && gap < 0.21 * step && forceless <= 1,
                 "{} {step}: {labels} {gap} {forceless}",
                 scan.name
             );

@@ -100,7 +100,7 @@ mod tests {
         assert!((value - 0.03).abs() < 1e-15 && (sigma - 1e-3).abs() < 1e-15);
         assert_eq!(known.of(Source::M0zInF0x), Some((1e-3, 0.0)));
         for (table, message) in [
-            ("[calibration]\nangle = { value = 1, sigma = 1 }", "unknown variant `angle`"),
+            ("[calibration]\nangle = { value = 1, sigma = 1 }", "the value is `angle`, expected one of"),
             ("[calibration]\nlag = { value = 1 }", "missing field `sigma`"),
             ("[calibration]\nlag = { value = 1, sigma = -1 }", "sigma is -1, expected a standard deviation"),
             ("[calibration]\nlag = { value = nan, sigma = 1 }", "value is NaN, expected a finite number"),

@@ -46,7 +46,7 @@ impl Turns<'_> {
     }
 
     fn lead(&self, given: &Prior, start: &Adjusted) -> Found {
-        let (mut adjusted, mut prior, mut raised) = (start.clone(), given.clone(), [false; SOURCES]);
+        let (mut adjusted, mut prior, mut raised) = (start.clone(), *given, [false; SOURCES]);
         let mut judged = self.nodes.to_vec();
         self.left(&adjusted).doubt(&mut judged);
         let mut before: Vec<(Label, f64)> = Vec::new();
@@ -55,11 +55,11 @@ impl Turns<'_> {
             let now = labels(&judged);
             adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least);
             let mut again = false;
-            for k in 0..SOURCES {
+            for (k, raised) in raised.iter_mut().enumerate() {
                 let off = (adjusted.errors[k] - prior.means[k]).abs();
-                if !raised[k] && off > BEYOND * prior.sigmas[k] {
+                if !*raised && off > BEYOND * prior.sigmas[k] {
                     prior.sigmas[k] *= RAISED;
-                    (raised[k], again) = (true, true);
+                    (*raised, again) = (true, true);
                 }
             }
             let same = now.iter().zip(&before).all(|(now, before)| now.0 == before.0) && now.len() == before.len();
