@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use std::path::Path;
 use vibrissa::contact::ContactKind;
-use vibrissa::reconstruct::NoiseModel;
 use vibrissa::reconstruct::kink::KinkKind;
+use vibrissa::reconstruct::{Budget, NoiseModel};
 use vibrissa::rod::Reactions;
 use vibrissa::{Label, Sample, Settings, State, reconstruct};
 use vibrissa_cli::{Scan, Scene};
@@ -56,13 +56,13 @@ struct Tally {
     error: f64,
 }
 
-fn tally(states: &[State], white: Reactions) -> Tally {
+fn tally(states: &[State], white: Reactions, settings: &Settings) -> Tally {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/saw.toml");
     let rod = Scene::read(&scene).unwrap().rod;
     let mut sensor = NoiseModel { white, ..NoiseModel::default() }.generator(1).unwrap();
     let samples: Vec<Sample> =
         states.iter().map(|state| Sample::new(state.pose, sensor.sample(state.reactions).unwrap())).collect();
-    let found = reconstruct(&rod, &samples, &Settings::default()).unwrap();
+    let found = reconstruct(&rod, &samples, settings).unwrap();
     let mut tally = Tally { samples: states.len(), ..Tally::default() };
     for (state, reading) in states.iter().zip(&found.readings) {
         let phase = state.phase();
@@ -84,6 +84,9 @@ fn tally(states: &[State], white: Reactions) -> Tally {
     tally
 }
 
+/// Scenes in which errors that all samples share are looked for in clean scans, too.
+const HARD: [&str; 3] = ["bay", "channel", "pegs"];
+
 #[test]
 fn clean_scans_of_any_object_are_labelled_but_for_single_samples_at_transitions() {
     let tallies: Vec<_> = SCENES
@@ -91,7 +94,9 @@ fn clean_scans_of_any_object_are_labelled_but_for_single_samples_at_transitions(
         .map(|(name, step, most)| {
             let states = swept(name, step);
             assert_eq!(states.iter().map(|state| state.contacts.len()).max(), Some(most), "{name}");
-            (name, tally(&states, Reactions::default()))
+            // where scans have few single contacts, errors of the laboratory could agree with wrong labels
+            let budget = (!HARD.contains(&name)).then_some(Budget::NONE);
+            (name, tally(&states, Reactions::default(), &Settings { budget, ..Settings::default() }))
         })
         .collect();
     for (name, tally) in &tallies {
@@ -113,7 +118,7 @@ fn noisy_scans_of_vertices_notches_and_pegs() {
         ("square_tilted", 0.999, 0.0),
         ("triangle", 0.999, 0.0),
     ] {
-        let tally = tally(&swept(name, 2e-6), MIDDLE);
+        let tally = tally(&swept(name, 2e-6), MIDDLE, &Settings::default());
         let share = |part: usize, of: usize| part as f64 / of as f64;
         assert!(share(tally.samples - tally.wrong, tally.samples) >= right, "{name}: {tally:?}");
         assert!(share(tally.flagged, tally.single) <= flagged, "{name}: {tally:?}");
