@@ -3,7 +3,7 @@
 use crate::common::nine_scans::{Clean, scan};
 use crate::common::noise::Noise;
 use rod_core::{Pose, Reactions, Rod, Sample};
-use rod_reconstruct::{Assembly, Label, Settings, passes, reconstruct, reconstruct_passes};
+use rod_reconstruct::{Assembly, Finding, Label, Settings, passes, reconstruct, reconstruct_passes};
 use std::f64::consts::FRAC_PI_2;
 
 /// Rod length, m, and units of force and moment.
@@ -101,6 +101,19 @@ fn forth_and_back_are_two_passes() {
     assert!(
         traces.len().abs_diff(2 * once.len()) <= 1 && traces.iter().any(|trace| trace.samples.start >= passes[1].start)
     );
+}
+
+#[test]
+fn coarse_steps_are_told_of_several_passes_too() {
+    let mut forth = samples(&scan(1, 0.4, 1e-4), |_, x| x);
+    let step = 0.05 * rod().units().force;
+    forth.iter_mut().for_each(|sample| sample.reactions.f0y = (sample.reactions.f0y / step).round() * step);
+    let both: Vec<Sample> = forth.iter().chain(forth.iter().rev()).copied().collect();
+    for recorded in [&forth, &both] {
+        let found = reconstruct_passes(&rod(), recorded, &Settings::default()).unwrap();
+        let told = found.findings().iter().any(|finding| matches!(finding, Finding::Coarse { channel: "f0y", .. }));
+        assert!(told, "{} passes: {:?}", found.passes.len(), found.findings());
+    }
 }
 
 #[test]

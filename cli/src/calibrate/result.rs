@@ -7,9 +7,6 @@ use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Calibration, Combined, Known};
 use vibrissa::{Rod, Settings};
 
-/// Estimates beyond so many standard deviations of their budget contradict it.
-const BEYOND: f64 = 3.0;
-
 /// Why recordings tell nothing of the rod.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -86,7 +83,7 @@ fn contradictions(combined: &Combined) -> Vec<String> {
              freedom; was the rod clamped anew, or the sensor changed between them?"
         ));
     }
-    for estimate in combined.sources.iter().filter(|estimate| estimate.off() > BEYOND) {
+    for estimate in combined.sources.iter().filter(|estimate| estimate.is_beyond()) {
         let (name, unit) = estimate.source.name();
         let space = if unit.is_empty() { "" } else { " " };
         found.push(format!(

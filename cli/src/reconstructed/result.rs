@@ -59,8 +59,12 @@ impl Reconstructed {
             .map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
         let contour = found.contour(&Assembly::default());
         // the physics of what is left after the corrections
-        let (corrected, used) = found.corrected(&rod, &samples);
-        let mut check = if gross { raw } else { plausibility(&corrected, &used) };
+        let mut check = if found.is_corrected() && !gross {
+            let (corrected, used) = found.corrected(&rod, &samples);
+            plausibility(&corrected, &used)
+        } else {
+            raw
+        };
         check.findings.extend(found.findings());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self { name, recording, rod, samples, rows, found, contour, check, comparison: None })

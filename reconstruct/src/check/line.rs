@@ -2,6 +2,7 @@
 
 use super::bins::Bin;
 use super::fit::{Columns, Fit, sigma, straight, with_offset};
+use crate::numeric::robust_sigma;
 
 /// Bins of the windows through which lines are tried.
 const WINDOWS: [usize; 3] = [8, 24, 72];
@@ -36,8 +37,6 @@ const SCATTER_WITH_OFFSET: f64 = 1e-3;
 const NEIGHBOURS: usize = 8;
 /// Most rounds of fitting and choosing.
 const ROUNDS: usize = 30;
-/// Median of |z| of a standard normal variable z.
-const NORMAL_MEDIAN: f64 = 0.6745;
 
 /// The straight line that m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) follows wherever the last contact is tangential;
 /// its slope is the bending stiffness, and it goes through the origin.
@@ -194,9 +193,7 @@ fn with_neighbours(alone: &[f64]) -> Vec<f64> {
 
 /// Standard deviation of those that are on the line, by their median.
 fn scatter(z: &[f64], on: &[bool]) -> f64 {
-    let mut sizes: Vec<f64> = z.iter().zip(on).filter(|(_, on)| **on).map(|(z, _)| z.abs()).collect();
-    sizes.sort_unstable_by(f64::total_cmp);
-    sizes.get(sizes.len() / 2).map_or(0.0, |median| median / NORMAL_MEDIAN)
+    robust_sigma(z.iter().zip(on).filter(|(_, on)| **on).map(|(z, _)| *z)).unwrap_or(0.0)
 }
 
 /// Whether a parabola fits significantly better than the line, and departs from it.

@@ -12,6 +12,8 @@ pub(crate) mod legendre;
 #[cfg(feature = "std")]
 mod normal_equations;
 mod number;
+#[cfg(feature = "std")]
+mod robust;
 #[cfg(test)]
 pub(crate) mod seeded;
 
@@ -25,3 +27,5 @@ pub(crate) use gram_schmidt::{dot, orthonormalise, subtract};
 #[cfg(feature = "std")]
 pub(crate) use normal_equations::NormalEquations;
 pub use number::Number;
+#[cfg(feature = "std")]
+pub(crate) use robust::{median, robust_sigma};

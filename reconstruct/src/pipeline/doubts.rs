@@ -7,8 +7,6 @@ use crate::systematic::{Calibration, Source};
 
 /// What is left of a criterion, in parts of what the budget let it be, from which on the model does not explain the scan.
 const MISFIT: f64 = 0.2;
-/// Standard deviations of its budget beyond which an estimate contradicts what is known.
-const BEYOND: f64 = 3.0;
 /// Share of single contacts without a contact point that is reported.
 const UNANSWERED: f64 = 0.25;
 /// Share of all contacts without a contact point that is reported.
@@ -32,8 +30,8 @@ impl Reconstruction {
         if share > UNANSWERED {
             findings.push(Finding::Unanswered { share });
         }
-        let channels = ["f0x", "f0y", "m0z"].into_iter().zip(self.steps).zip(self.coarse).filter(|(_, coarse)| *coarse);
-        findings.extend(channels.filter_map(|((channel, step), _)| Some(Finding::Coarse { channel, step: step? })));
+        let channels = ["f0x", "f0y", "m0z"].into_iter().zip(self.steps);
+        findings.extend(channels.filter_map(|(channel, step)| Some(Finding::Coarse { channel, step: step? })));
         let touching = || self.readings.iter().filter(|reading| reading.label != Label::Free);
         let (touched, lost) = (touching().count(), touching().filter(|reading| reading.touch.is_err()).count());
         if lost as f64 > LOST * touched as f64 {
@@ -49,7 +47,7 @@ fn of_calibration(calibration: &Calibration) -> Vec<Finding> {
     if calibration.free.is_empty() && biases.iter().flatten().any(|bias| bias.sigma > KNOWN * bias.budget) {
         findings.push(Finding::NoFreeStretch);
     }
-    for estimate in calibration.sources.iter().filter(|estimate| estimate.off() > BEYOND) {
+    for estimate in calibration.sources.iter().filter(|estimate| estimate.is_beyond()) {
         let (of, value, sigma, budget) = (estimate.source, estimate.value, estimate.sigma, estimate.given);
         findings.push(Finding::Budget { of, value, sigma, budget });
     }

@@ -37,7 +37,6 @@ pub fn reconstruct_passes(
         kinks: Vec::new(),
         noise,
         steps,
-        coarse: [false; 3],
         passes: Vec::with_capacity(ranges.len()),
         evidence: Vec::new(),
         windows: Vec::new(),

@@ -46,7 +46,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     let options = KinkOptions { false_alarms: settings.false_alarms, ..KinkOptions::default() };
     let kinks = find_kinks(&track.tau, [f0x, f0y, m0z], &found, options);
     let noise = Noise::new(&found);
-    let steps = channels.each_ref().map(|channel| quantum(channel));
+    let steps = channels.each_ref().map(|channel| quantum(channel).filter(|step| *step > COARSE));
     let breaks: Vec<Break> = kinks
         .iter()
         .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
@@ -124,7 +124,6 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
         steps: std::array::from_fn(|c| steps[c].map(|step| step * size[c])),
-        coarse: steps.map(|step| step.is_some_and(|step| step > COARSE)),
         passes: vec![Pass { samples: 0..samples.len(), calibration: calibration.map(|calibration| calibration.1) }],
     })
 }

@@ -36,10 +36,8 @@ pub struct Reconstruction {
     pub kinks: Vec<Kink>,
     /// Noise of f0x, f0y (N) and m0z (N m) that was found or given.
     pub noise: [ChannelNoise; 3],
-    /// Steps in which f0x, f0y (N) and m0z (N m) are given, where these are larger than the noise.
+    /// Steps in which f0x, f0y (N) and m0z (N m) are given, where these are larger than the noise and hide transitions.
     pub steps: [Option<f64>; 3],
-    /// Whether they hide transitions.
-    pub(super) coarse: [bool; 3],
     /// The passes, one unless the clamp turns back.
     pub passes: Vec<Pass>,
     pub(super) evidence: Vec<Evidence>,
@@ -51,6 +49,11 @@ impl Reconstruction {
     /// What was found of the errors that all samples share, in the first pass that says something of them.
     pub fn calibration(&self) -> Option<&Calibration> {
         self.passes.iter().find_map(|pass| pass.calibration.as_ref())
+    }
+
+    /// Whether anything was taken off the samples of any pass.
+    pub fn is_corrected(&self) -> bool {
+        self.passes.iter().filter_map(|pass| pass.calibration.as_ref()).any(Calibration::is_applied)
     }
 
     /// The rod and the samples as they were used: without what was taken off in each pass.

@@ -1,5 +1,6 @@
 //! Single samples that stand out of their neighbours by far more than the noise.
 
+use crate::numeric::robust_sigma;
 use rod_core::Sample;
 
 /// Samples of the median on either side.
@@ -8,8 +9,6 @@ const BESIDE: usize = 2;
 const SIGMAS: f64 = 10.0;
 /// The same in ranges of the neighbours. Smaller: a peak of exact reactions counts as a spike.
 const RANGES: f64 = 2.0;
-/// Median of |z| of a standard normal variable z.
-const NORMAL_MEDIAN: f64 = 0.6745;
 
 /// Whether each sample is a spike in one of its reactions.
 pub(super) fn spikes(samples: &[Sample]) -> Vec<bool> {
@@ -20,9 +19,8 @@ pub(super) fn spikes(samples: &[Sample]) -> Vec<bool> {
     let channels: [fn(&Sample) -> f64; 3] = [|s| s.reactions.f0x, |s| s.reactions.f0y, |s| s.reactions.m0z];
     for channel in channels {
         let distances: Vec<(f64, f64)> = (0..samples.len()).map(|k| distance(samples, k, channel)).collect();
-        let mut sizes: Vec<f64> = distances.iter().map(|(off, _)| *off).filter(|off| off.is_finite()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        let sigma = sizes.get(sizes.len() / 2).map_or(f64::INFINITY, |median| median / NORMAL_MEDIAN);
+        let finite = distances.iter().map(|(off, _)| *off).filter(|off| off.is_finite());
+        let sigma = robust_sigma(finite).unwrap_or(f64::INFINITY);
         for (found, (off, range)) in found.iter_mut().zip(distances) {
             *found |= off > SIGMAS * sigma && off > RANGES * range;
         }

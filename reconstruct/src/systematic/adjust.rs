@@ -3,6 +3,7 @@
 use super::correction::{Correction, Frame};
 use super::influence::{of_criteria, of_inputs_by_errors};
 use super::source::{Errors, Joint, SOURCES};
+use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
 use crate::scan::Estimate;
 use nalgebra::{DMatrix, DVector, SVector};
@@ -13,8 +14,6 @@ const STEPS: usize = 8;
 const SMALL: f64 = 1e-4;
 /// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the phase may be wrong.
 const OUTLYING: f64 = 3.0;
-/// Median of |z| of a standard normal variable z.
-const NORMAL_MEDIAN: f64 = 0.6745;
 
 /// A place with its phase, as measured.
 pub(super) struct Labelled {
@@ -99,15 +98,9 @@ fn allowances(residuals: &[Residual]) -> [f64; CRITERIA] {
     })
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
-}
-
 /// Robust root mean square, 1 at least.
 pub(super) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
-    let sizes = values.map(f64::abs).filter(|size| size.is_finite()).collect();
-    median(sizes).map_or(1.0, |median| (median / NORMAL_MEDIAN).max(1.0))
+    robust_sigma(values.filter(|value| value.is_finite())).map_or(1.0, |sigma| sigma.max(1.0))
 }
 
 /// Robust root mean square of the residuals of each criterion, 1 at least.
@@ -188,8 +181,7 @@ pub(super) fn adjust(
     Adjusted { errors, factor, normal, scatter, misfit }
 }
 
-/// By how much the robust sum of squares with `fewer` errors exceeds that with those that were found.
-pub(super) fn gain(frame: Frame, sigmas: &Errors, fewer: &Errors, found: &Adjusted, places: &[Labelled]) -> f64 {
-    let of = |errors: &Errors| objective(&residuals(frame, errors, sigmas, places), &found.scatter);
-    of(fewer) - of(&found.errors)
+/// The robust sum of squares with these errors; residuals are expected to be as large as those that were found leave.
+pub(super) fn misfit(frame: Frame, sigmas: &Errors, errors: &Errors, found: &Adjusted, places: &[Labelled]) -> f64 {
+    objective(&residuals(frame, errors, sigmas, places), &found.scatter)
 }

@@ -1,8 +1,8 @@
 //! Labels and shared errors in turns.
 
-use super::adjust::{Adjusted, Labelled, Prior, adjust, gain, root_mean_square};
+use super::adjust::{Adjusted, Labelled, Prior, adjust, misfit, root_mean_square};
 use super::budget::Budget;
-use super::calibration::{Calibration, SourceEstimate};
+use super::calibration::{Calibration, SourceEstimate, ties};
 use super::correction::{Correction, Frame};
 use super::free::stretches;
 use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
@@ -23,8 +23,6 @@ const SIGNIFICANT: f64 = 60.0;
 /// Residuals of the free rod's reactions, in standard deviations of the noise, from which on some stretch is not free. Larger than what a
 /// sensor that drifts at random leaves.
 const UNLIKE: f64 = 100.0;
-/// Correlation of two estimates from which on the scan does not tell them apart.
-const TIED: f64 = 0.9;
 
 /// What is left of the shared errors after the correction.
 #[derive(Clone, Debug)]
@@ -43,18 +41,18 @@ impl Shared {
     pub fn judge(&self, errors: &Errors, track: &Track, nodes: &mut [Node]) {
         let Some(correction) = Correction::new(self.frame, errors) else { return };
         let stride = nodes.len().div_ceil(PLACES).max(1);
-        let mut by_errors = None;
+        let mut shared = None;
         for (k, node) in nodes.iter_mut().enumerate() {
             let tau = track.tau[node.index];
             let measured = node.fit.at(tau);
             let here = correction.apply(tau, &measured.clamp, &measured.rate);
             let mut evidence = Evidence::of(&measured.moved(here.0, here.1));
             // the influence of the errors changes little from place to place
-            if k % stride == 0 || node.place.between.is_some() || by_errors.is_none() {
+            if k % stride == 0 || node.place.between.is_some() || shared.is_none() {
                 let by = of_inputs_by_errors(self.frame, errors, tau, &measured);
-                by_errors = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));
+                shared = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));
             }
-            if let Some(shared) = by_errors {
+            if let Some(shared) = shared {
                 let quantities = evidence.quantities();
                 evidence.widen(&std::array::from_fn(|c| {
                     let misfit = quantities[c].sigma.powi(2) * (self.scatter[c].powi(2) - 1.0);
@@ -117,14 +115,13 @@ pub(crate) fn calibrate(
     let nodes = thinned(nodes, stride);
     let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
     let inside: Vec<Node> = nodes.iter().filter(|node| in_free(node)).cloned().collect();
-    let mut turns = Turns { frame, track, nodes: &inside, least: [1.0; CRITERIA], rates: 1.0 };
+    let mut turns = Turns { frame, track, nodes: &inside, least: [1.0; CRITERIA] };
     let tare = turns.labelled(&vec![(Label::Free, 1.0); inside.len()]);
     let mut tared = adjust(frame, &prior, &means, &tare, &turns.least);
     if tared.scatter[..3].iter().any(|times| *times > UNLIKE) {
         tared = adjust(frame, &prior, &means, &[], &turns.least);
     } else {
         turns.least = least(frame, &tared, &tare);
-        turns.rates = turns.least[Criterion::Tangent as usize];
     }
     turns.nodes = &nodes;
     let Found { adjusted: found, prior, raised, labels, .. } = turns.found(&prior, &tared);
@@ -132,7 +129,7 @@ pub(crate) fn calibrate(
     let taken = fewest(frame, &prior, &found, &last, &turns.least);
     let free = free.into_iter().filter(|range| are_free(range, &nodes, &labels)).collect();
     let calibration = told(rod, &prior, &raised, &found, &taken, free);
-    let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates };
+    let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates() };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
 }
@@ -175,7 +172,9 @@ fn thinned(nodes: &[Node], stride: usize) -> Vec<Node> {
 /// the one that explains most of what is left.
 fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], least: &[f64; CRITERIA]) -> Errors {
     let Prior { means, sigmas } = prior;
-    let is_enough = |errors: &Errors| gain(frame, sigmas, errors, found, places) < SIGNIFICANT;
+    let with = |errors: &Errors| misfit(frame, sigmas, errors, found, places);
+    let least_misfit = with(&found.errors);
+    let is_enough = |errors: &Errors| with(errors) - least_misfit < SIGNIFICANT;
     if is_enough(means) {
         return *means;
     }
@@ -189,14 +188,14 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
         }
         let others = (0..SOURCES).filter(|k| !free[*k] && sigmas[*k] > 0.0);
         let best = others.min_by(|i, j| {
-            let with = |k: usize| {
+            let left_by = |k: usize| {
                 let mut free = free;
                 free[k] = true;
                 let left = (found.errors - restricted(found, prior, &free))
                     .component_div(&sigmas.map(|s| s.max(f64::MIN_POSITIVE)));
                 (left.transpose() * found.normal * left).x
             };
-            with(*i).total_cmp(&with(*j))
+            left_by(*i).total_cmp(&left_by(*j))
         });
         match best {
             Some(best) => free[best] = true,
@@ -234,20 +233,19 @@ fn told(
     raised: &[bool; SOURCES],
     found: &Adjusted,
     taken: &Errors,
-    free: Vec<std::ops::Range<usize>>,
+    free: Vec<Range<usize>>,
 ) -> Calibration {
     let covariance = found.factor * found.factor.transpose();
     let sigma = |k: usize| covariance[(k, k)].max(0.0).sqrt();
     let Prior { means, sigmas } = prior;
-    let has = |k: &usize| sigmas[*k] > 0.0;
-    let told = |k: &usize| has(k) || means[*k] != 0.0;
+    let told = |k: &usize| sigmas[*k] > 0.0 || means[*k] != 0.0;
     let numbers: Vec<usize> = (0..SOURCES).filter(told).collect();
     let units: Vec<f64> = numbers.iter().map(|&k| Source::ALL[k].unit(rod)).collect();
-    let sources = numbers
+    let sources: Vec<SourceEstimate> = numbers
         .iter()
-        .map(|&k| {
+        .zip(&units)
+        .map(|(&k, &unit)| {
             let source = Source::ALL[k];
-            let unit = source.unit(rod);
             let [known, budget, value, sigma] = [means[k], sigmas[k], found.errors[k], sigma(k)].map(|v| v * unit);
             SourceEstimate {
                 source,
@@ -261,26 +259,18 @@ fn told(
             }
         })
         .collect();
-    let mut ties = Vec::new();
-    for i in (0..SOURCES).filter(has) {
-        for j in (i + 1..SOURCES).filter(has) {
-            let correlation = covariance[(i, j)] / (sigma(i) * sigma(j));
-            if correlation.abs() > TIED {
-                ties.push((Source::ALL[i], Source::ALL[j], correlation));
-            }
-        }
-    }
-    let misfit = |criterion: Criterion| found.misfit[criterion as usize];
+    let left = |criterion: Criterion| found.misfit[criterion as usize];
     let covariance = DMatrix::from_fn(numbers.len(), numbers.len(), |i, j| {
         covariance[(numbers[i], numbers[j])] * units[i] * units[j]
     });
+    let ties = ties(&sources, &covariance);
     Calibration {
         sources,
         covariance,
         ties,
         free,
-        misfit_criterion: misfit(Criterion::K),
-        misfit_length: misfit(Criterion::Length).max(misfit(Criterion::LengthByTip)),
-        misfit_tangent: misfit(Criterion::Tangent).max(misfit(Criterion::TangentByTip)),
+        misfit_criterion: left(Criterion::K),
+        misfit_length: left(Criterion::Length).max(left(Criterion::LengthByTip)),
+        misfit_tangent: left(Criterion::Tangent).max(left(Criterion::TangentByTip)),
     }
 }

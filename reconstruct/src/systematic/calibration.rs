@@ -7,6 +7,11 @@ use nalgebra::DMatrix;
 use rod_core::{Rod, Sample};
 use std::ops::Range;
 
+/// Correlation of two estimates from which on scans do not tell them apart.
+const TIED: f64 = 0.9;
+/// Standard deviations beyond which an estimate contradicts what was known.
+pub(super) const BEYOND: f64 = 3.0;
+
 /// One source of error: what was known, and what the scan says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -23,8 +28,8 @@ pub struct SourceEstimate {
     pub value: f64,
     /// Its standard deviation.
     pub sigma: f64,
-    /// What was taken off the samples: the estimate, or what was known where the scan agrees with its model without a change of that. Then the standard deviations
-    /// of the contact points contain the estimate.
+    /// What was taken off the samples: the estimate, or, where the scan agrees with the model without it, what was known before. In the
+    /// second case the standard deviations of the contact points contain the estimate.
     pub taken: f64,
     /// Whether the budget was too small for the data, and was raised.
     pub raised: bool,
@@ -34,6 +39,11 @@ impl SourceEstimate {
     /// How many standard deviations of what was known before the estimate is off that.
     pub fn off(&self) -> f64 {
         if self.value == self.known { 0.0 } else { (self.value - self.known).abs() / self.given }
+    }
+
+    /// Whether it contradicts what was known before: it is off by more than three standard deviations.
+    pub fn is_beyond(&self) -> bool {
+        self.off() > BEYOND
     }
 
     /// Whether the scan says more of it than the budget: its standard deviation is at most half of that.
@@ -106,4 +116,14 @@ impl Calibration {
     pub fn source(&self, source: Source) -> Option<&SourceEstimate> {
         self.sources.iter().find(|estimate| estimate.source == source)
     }
+}
+
+/// The pairs of sources that scans do not tell apart, with the correlation of their estimates.
+pub(super) fn ties(sources: &[SourceEstimate], covariance: &DMatrix<f64>) -> Vec<(Source, Source, f64)> {
+    let pairs = (0..sources.len()).flat_map(|i| (i + 1..sources.len()).map(move |j| (i, j)));
+    let correlated = pairs.map(|(i, j)| {
+        let correlation = covariance[(i, j)] / (sources[i].sigma * sources[j].sigma);
+        (sources[i].source, sources[j].source, correlation)
+    });
+    correlated.filter(|tie| tie.2.abs() > TIED).collect()
 }

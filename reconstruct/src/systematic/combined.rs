@@ -1,6 +1,6 @@
 //! What several scans say of the errors that stay the same from scan to scan.
 
-use super::calibration::{Calibration, SourceEstimate};
+use super::calibration::{Calibration, SourceEstimate, ties};
 use super::known::Known;
 use super::source::Source;
 use crate::numeric::chi_squared::wilson_hilferty;
@@ -15,8 +15,6 @@ const FINEST: f64 = 1e-12;
 const TELLING: f64 = 0.01;
 /// Standard normal quantile of the probability 1e-3, with which scans that agree are said to contradict each other.
 const QUANTILE: f64 = 3.09;
-/// Correlation of two estimates from which on the scans do not tell them apart.
-const TIED: f64 = 0.9;
 
 /// The errors that stay the same from scan to scan, as several scans of one rod and sensor tell them together: all but bias and drift.
 ///
@@ -179,15 +177,6 @@ fn mapped(matrix: DMatrix<f64>, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(matrix);
     let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(of));
     &eigen.eigenvectors * values * eigen.eigenvectors.transpose()
-}
-
-fn ties(sources: &[SourceEstimate], covariance: &DMatrix<f64>) -> Vec<(Source, Source, f64)> {
-    let pairs = (0..sources.len()).flat_map(|i| (i + 1..sources.len()).map(move |j| (i, j)));
-    let correlated = pairs.map(|(i, j)| {
-        let correlation = covariance[(i, j)] / (sources[i].sigma * sources[j].sigma);
-        (sources[i].source, sources[j].source, correlation)
-    });
-    correlated.filter(|tie| tie.2.abs() > TIED).collect()
 }
 
 #[cfg(test)]

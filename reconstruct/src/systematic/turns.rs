@@ -2,16 +2,15 @@
 
 use super::adjust::{Adjusted, Labelled, Prior, adjust};
 use super::calibrate::Shared;
+use super::calibration::BEYOND;
 use super::correction::Frame;
 use super::source::{Joint, SOURCES};
-use crate::phase::{CRITERIA, Label, Node, labels, likelihood};
+use crate::phase::{CRITERIA, Criterion, Label, Node, labels, likelihood};
 use crate::scan::Track;
 
 /// Most turns of labelling and estimating.
 const TURNS: usize = 6;
-/// Prior standard deviations beyond which a budget is too small.
-const BEYOND: f64 = 3.0;
-/// Factor by which it is raised then.
+/// Factor by which a budget is raised that an estimate contradicts.
 pub(super) const RAISED: f64 = 3.0;
 
 /// A scan whose labels and errors are to be found.
@@ -21,8 +20,6 @@ pub(super) struct Turns<'a> {
     pub nodes: &'a [Node],
     /// The smallest residuals of each criterion to be expected, in standard deviations of the noise.
     pub least: [f64; CRITERIA],
-    /// Rates of the free rod's reactions in standard deviations of the noise.
-    pub rates: f64,
 }
 
 /// Labels and errors that agree with each other.
@@ -72,8 +69,13 @@ impl Turns<'_> {
         Found { adjusted, prior, raised, labels: before, likelihood }
     }
 
+    /// Rates of the free rod's reactions in standard deviations of the noise, which the tangent criterion is of, too.
+    pub fn rates(&self) -> f64 {
+        self.least[Criterion::Tangent as usize]
+    }
+
     fn left(&self, adjusted: &Adjusted) -> Shared {
-        Shared { frame: self.frame, factor: adjusted.factor, scatter: adjusted.scatter, rates: self.rates }
+        Shared { frame: self.frame, factor: adjusted.factor, scatter: adjusted.scatter, rates: self.rates() }
     }
 
     /// The likelihood with exactly these errors: no others widen the evidence.
