@@ -7,9 +7,9 @@ use crate::kink::Kink;
 use crate::phase::{Break, Identified, Label, contact};
 use crate::point::Touch;
 use crate::scan::{Noise, Track};
-use crate::systematic::{DISPLACED, Shared};
-use crate::two_contacts::{Limits, Neighbour, Pair, Piece, Unresolved, resolve};
-use nalgebra::{Matrix2, Vector2};
+use crate::systematic::Shared;
+use crate::two_contacts::{Limits, Neighbour, Piece, Unresolved, resolve};
+use nalgebra::Matrix2;
 use rod_core::Units;
 use std::ops::Range;
 
@@ -141,27 +141,23 @@ impl Answers<'_> {
         let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
         let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
         let mut limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
-        let mut pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
+        let displacements = match (self.shared, pieces.first(), pieces.last()) {
+            (Some(shared), Some(first), Some(last)) => {
+                let stretch = first.range.start..last.range.end;
+                shared.displacements(self.track, &self.identified.nodes, &stretch)
+            }
+            _ => Vec::new(),
+        };
+        let beside = [before.as_ref(), after.as_ref()];
+        let of = |limits: &Limits| resolve(self.track, self.noise, &pieces, beside, limits, &displacements);
+        let mut pairs = of(&limits);
         for wider in WIDER {
             // a border that is misplaced by more than the uncertainty of its kink makes all conditions fail: leave out more samples
             if self.noise.is_clean() || pairs.iter().any(|pair| pair.first.is_ok()) {
                 break;
             }
             limits.margin = margin * wider;
-            pairs = resolve(self.track, self.noise, &pieces, before.clone(), after.clone(), &limits);
-        }
-        if let (Some(shared), Some(first), Some(last)) = (self.shared, pieces.first(), pieces.last()) {
-            let from = before.as_ref().map_or(first.range.start, |neighbour| neighbour.range.start);
-            let to = after.as_ref().map_or(last.range.end, |neighbour| neighbour.range.end);
-            let mut spread = vec![[Matrix2::zeros(); 2]; pairs.len()];
-            for track in shared.displaced(self.track, &self.identified.nodes, &(from..to)) {
-                let moved = resolve(&track, self.noise, &pieces, before.clone(), after.clone(), &limits);
-                add_displacement(&pairs, &moved, &mut spread);
-            }
-            for (pair, [first, second]) in pairs.iter_mut().zip(spread) {
-                pair.first = pair.first.map(|touch| touch.with_systematic(first));
-                pair.second = pair.second.map(|touch| touch.with_systematic(second));
-            }
+            pairs = of(&limits);
         }
         let sure = |found: Result<Touch, Unresolved>| match found {
             Ok(touch) => self.sure(touch),
@@ -175,22 +171,6 @@ impl Answers<'_> {
                 let reading = self.reading(&mut nodes, index, label, sure(pair.first));
                 readings.push(Reading { second: Some(sure(pair.second)), ..reading });
             }
-        }
-    }
-}
-
-/// Adds to the systematic covariance of each pair that of a displacement of the samples. A contact that only one
-/// of both has is taken to move as the one before.
-fn add_displacement(pairs: &[Pair], moved: &[Pair], spread: &mut [[Matrix2<f64>; 2]]) {
-    let mut last = [Matrix2::zeros(); 2];
-    for ((pair, moved), spread) in pairs.iter().zip(moved).zip(spread) {
-        let contacts = [(&pair.first, &moved.first), (&pair.second, &moved.second)];
-        for ((both, last), spread) in contacts.into_iter().zip(&mut last).zip(spread) {
-            if let (Ok(here), Ok(there)) = both {
-                let by = Vector2::new(there.x - here.x, there.y - here.y) / DISPLACED;
-                *last = by * by.transpose();
-            }
-            *spread += *last;
         }
     }
 }

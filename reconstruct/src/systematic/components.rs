@@ -9,21 +9,19 @@ use crate::scan::Track;
 use nalgebra::SymmetricEigen;
 use std::ops::Range;
 
-/// Most combinations. More: more time, as each costs as much as the stretch itself.
+/// Most combinations. More: more time, as each costs a step of the stretch's least squares.
 const MOST: usize = 6;
 /// Smallest part of the largest combination's standard deviation that counts.
 const SMALLEST: f64 = 0.03;
-/// The displacement in standard deviations. Larger: a stretch that is displaced does not agree with its phases any more.
+/// The displacement in standard deviations. Larger: terms of second order count; smaller: rounding does.
 pub(crate) const DISPLACED: f64 = 0.03;
 /// Places of a stretch from which the combinations are found.
 const PLACES: usize = 16;
 
 impl Shared {
-    /// The track of a stretch displaced by [`DISPLACED`] standard deviations of each combination of errors that matters there. Other samples stay
-    /// as they are.
-    pub fn displaced(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Track> {
-        let moved =
-            |errors: &Errors| Some(Correction::new(self.frame, &(errors * DISPLACED))?.stretch(track, stretch.clone()));
+    /// Displacements of the samples of a stretch, by [`DISPLACED`] standard deviations of each combination of errors that matters there.
+    pub fn displacements(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Correction> {
+        let moved = |errors: &Errors| Correction::new(self.frame, &(errors * DISPLACED));
         self.combinations(track, nodes, stretch).iter().filter_map(moved).collect()
     }
 

@@ -5,7 +5,6 @@ use crate::point::Clamp;
 use crate::scan::Track;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
-use std::ops::Range;
 
 /// What the place of a sample in its scan is measured by: the first pose and the range of the path parameter.
 #[derive(Clone, Copy, Debug)]
@@ -101,20 +100,15 @@ impl Correction {
         (Clamp { pose, reactions: force, natural }, Clamp { pose: pose_rate, reactions: force_rate, natural: 0.0 })
     }
 
-    /// Some samples of a scan without the errors; the others stay as they are.
-    pub fn stretch(&self, track: &Track, stretch: Range<usize>) -> Track {
+    /// A scan without the errors.
+    pub fn track(&self, track: &Track) -> Track {
         let mut corrected = track.clone();
-        for index in stretch {
+        for (index, clamp) in corrected.clamps.iter_mut().enumerate() {
             let motion = Clamp { pose: motion(track, index), reactions: Vector3::zeros(), natural: 0.0 };
-            corrected.clamps[index] = self.apply(track.tau[index], &track.clamps[index], &motion).0;
+            *clamp = self.apply(track.tau[index], clamp, &motion).0;
         }
         corrected.natural += self.error(Source::NaturalCurvature);
         corrected
-    }
-
-    /// A scan without the errors.
-    pub fn track(&self, track: &Track) -> Track {
-        self.stretch(track, 0..track.len())
     }
 }
 

@@ -27,6 +27,9 @@ pub(crate) use calibrate::{Shared, calibrate};
 pub use calibration::{Calibration, SourceEstimate};
 pub use combined::Combined;
 pub(crate) use components::DISPLACED;
+pub(crate) use correction::Correction;
+#[cfg(test)]
+pub(crate) use correction::Frame;
 pub use disturb::disturb;
 pub use known::Known;
 pub(crate) use source::Errors;

@@ -14,6 +14,7 @@ mod beyond;
 mod choice;
 mod chord;
 mod conditions;
+mod displaced;
 mod ends;
 mod envelope;
 mod guess;
@@ -24,6 +25,7 @@ mod resolve;
 mod run;
 mod series;
 mod signs;
+mod single;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -32,6 +34,6 @@ mod unknowns;
 mod unresolved;
 mod weights;
 
-pub(crate) use pair::{Limits, Pair};
+pub(crate) use pair::Limits;
 pub(crate) use resolve::{Neighbour, Piece, resolve};
 pub use unresolved::Unresolved;

@@ -2,13 +2,14 @@
 
 use super::bend::bends;
 use super::conditions::two;
+use super::displaced::Spread;
 use super::part::{Local, Part};
 use super::run::Resolved;
 use super::unknowns::{UNKNOWNS, Unknown, Unknowns};
 use super::unresolved::Unresolved;
 use crate::numeric::variance;
 use crate::point::Touch;
-use nalgebra::{Matrix6, SMatrix, SVector, Vector2};
+use nalgebra::{Matrix2, Matrix6, SMatrix, SVector, Vector2};
 use rod_core::{Dual, Section};
 
 /// Instants of a stretch at which covariances are computed; they are interpolated linearly in between.
@@ -50,13 +51,32 @@ pub(crate) struct Pair {
     pub second: Result<Touch, Unresolved>,
 }
 
+impl Pair {
+    fn with_systematic(self, covariance: [Matrix2<f64>; 2]) -> Self {
+        let [first, second] = covariance;
+        Self {
+            first: self.first.map(|touch| touch.with_systematic(first)),
+            second: self.second.map(|touch| touch.with_systematic(second)),
+        }
+    }
+}
+
 /// The t of an instant.
 pub(super) fn place(k: usize) -> f64 {
     -1.0 + 2.0 * k as f64 / (INSTANTS - 1) as f64
 }
 
 /// The contacts of the samples at these path parameters of a part, appended to `pairs`.
-pub(super) fn answer(found: &Resolved, part: &Part, tau: &[f64], limits: &Limits, pairs: &mut Vec<Pair>) {
+///
+/// `spread` is the covariance of the contacts by errors that all samples share.
+pub(super) fn answer(
+    found: &Resolved,
+    part: &Part,
+    tau: &[f64],
+    limits: &Limits,
+    spread: &Spread,
+    pairs: &mut Vec<Pair>,
+) {
     let x = &found.solution.x;
     let covariances: Vec<Matrix6<f64>> = (0..INSTANTS)
         .map(|k| part.covariance(&part.local(x, place(k)), &found.solution.covariance) * found.excess)
@@ -84,7 +104,8 @@ pub(super) fn answer(found: &Resolved, part: &Part, tau: &[f64], limits: &Limits
             covariances[k] * (1.0 - w) + covariances[k + 1] * w
         };
         let bend = [0, 1].map(|i| bends[k][i].max(bends[k + 1][i]));
-        pairs.push(pair(part, &local, &covariance, bend, limits));
+        let shared = [0, 1].map(|i| spread[k][i] * (1.0 - w) + spread[k + 1][i] * w);
+        pairs.push(pair(part, &local, &covariance, bend, limits).with_systematic(shared));
     }
 }
 
@@ -109,7 +130,7 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
         alpha,
         force: f1.abs(),
         covariance: spread1,
-        systematic: nalgebra::Matrix2::zeros(),
+        systematic: Matrix2::zeros(),
     };
     let kappa = two.first.kappa.value;
     let first = judged(first, bends[0].abs() + kappa.abs(), covariance[(S1, S1)].max(0.0).sqrt(), limits);
@@ -128,7 +149,7 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
         alpha: b.value.atan2(a.value),
         force,
         covariance: spread2,
-        systematic: nalgebra::Matrix2::zeros(),
+        systematic: Matrix2::zeros(),
     };
     let second = if force < VANISHES * sigma_force {
         Err(Unresolved::ForceVanishes)

@@ -1,22 +1,18 @@
 //! Stretches with several contacts, resolved.
 
-use super::bend::UNSURE;
-use super::ends::{Beside, End};
+use super::displaced::displaced;
 use super::pair::{Limits, Pair, answer};
 use super::run::solve;
 use super::series::Series;
+use super::single::Single;
 use super::unresolved::Unresolved;
-use crate::numeric::propagated;
 use crate::phase::Label;
-use crate::point::MomentZero;
 use crate::scan::{Noise, Track};
-use nalgebra::{DVector, Matrix2x3, Matrix3, Vector2};
+use crate::systematic::Correction;
 use std::ops::Range;
 
 /// Fewest samples of a stretch: fewer do not determine rates.
 const FEWEST_SAMPLES: usize = 16;
-/// Samples of a neighbouring stretch from which its contact is computed, unless the stretch itself has more.
-const BESIDE: usize = 200;
 
 /// A stretch with several contacts.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,14 +29,14 @@ pub(crate) struct Neighbour {
 }
 
 /// Both contacts of each sample of a run of consecutive stretches, dimensionless. `before` and `after` are the neighbouring
-/// stretches with one contact, if the reactions do not jump there.
+/// stretches with one contact, if the reactions do not jump there. `displacements` are those of the samples by errors that all of them share.
 pub(crate) fn resolve(
     track: &Track,
     noise: &Noise,
     pieces: &[Piece],
-    before: Option<Neighbour>,
-    after: Option<Neighbour>,
+    [before, after]: [Option<&Neighbour>; 2],
     limits: &Limits,
+    displacements: &[Correction],
 ) -> Vec<Pair> {
     let mut pairs = Vec::with_capacity(pieces.iter().map(|p| p.range.len()).sum());
     let inside = |range: &Range<usize>| {
@@ -63,19 +59,21 @@ pub(crate) fn resolve(
             k += 1;
             continue;
         }
-        let at_end = |neighbour: &Option<Neighbour>, side: usize, here: bool| {
-            let neighbour = neighbour.as_ref().filter(|_| here)?;
+        let at_end = |neighbour: Option<&Neighbour>, side: usize, here: bool| {
+            let neighbour = neighbour.filter(|_| here)?;
             let piece = &pieces[if side == 0 { k } else { end - 1 }];
             let own = inside(&piece.range);
             let edge = track.tau[if side == 0 { own.start } else { own.end - 1 }];
-            beside(track, noise, &inside(&neighbour.range), side, own.len(), edge)
+            Single::beside(track, noise, &inside(&neighbour.range), side, own.len(), edge)
         };
-        let ends = [at_end(&before, 0, k == 0), at_end(&after, 1, end == pieces.len())];
+        let singles = [at_end(before, 0, k == 0), at_end(after, 1, end == pieces.len())];
+        let ends = singles.each_ref().map(|single| single.as_ref()?.contact());
         let stretches = (k..end).filter_map(|j| Some((fitted[j].clone()?, pieces[j].label.tip()))).collect::<Vec<_>>();
         match solve(stretches, ends) {
             Ok(found) => {
-                for (part, piece) in found.parts.iter().zip(&pieces[k..end]) {
-                    answer(&found, part, &track.tau[piece.range.clone()], limits, &mut pairs);
+                let spread = displaced(&found, &singles, displacements);
+                for ((part, piece), spread) in found.parts.iter().zip(&pieces[k..end]).zip(&spread) {
+                    answer(&found, part, &track.tau[piece.range.clone()], limits, spread, &mut pairs);
                 }
             }
             Err(error) => {
@@ -86,32 +84,4 @@ pub(crate) fn resolve(
         k = end;
     }
     pairs
-}
-
-/// The neighbour's contact at its end next to the run.
-fn beside(track: &Track, noise: &Noise, range: &Range<usize>, side: usize, like: usize, edge: f64) -> Option<Beside> {
-    let count = range.len().min(like.max(BESIDE));
-    let range = if side == 0 { range.end - count..range.end } else { range.start..range.start + count };
-    let tau = track.tau[if side == 0 { range.end - 1 } else { range.start }];
-    let series = Series::through(track, range, noise)?;
-    let t = series.interval.local(tau);
-    let [clamp, _] = series.clamps(t);
-    let p = DVector::from_vec(series.interval.basis(t, series.terms()).0);
-    let covariance = Matrix3::from_diagonal(&(series.variance * p.dot(&(&series.inverse * &p))));
-    let found = MomentZero::of(&clamp, &covariance).ok()?;
-    let normal = found.normal();
-    let by: Matrix2x3<f64> = found.by_reactions.fixed_rows::<2>(0).into_owned();
-    let sigma = propagated(&(normal.transpose() * by), &covariance).x.sqrt();
-    let sigma_s = propagated(&found.s_by_reactions.transpose(), &covariance).x.sqrt();
-    let way = (edge - tau).abs();
-    let place = Vector2::new(found.section.x, found.section.y);
-    // the other end of the neighbour's samples
-    let far = MomentZero::of(&series.clamps(-t)[0], &covariance).ok();
-    let bend = far.map_or(f64::INFINITY, |far| {
-        let passed = (Vector2::new(far.section.x, far.section.y) - place).norm();
-        let least = passed - UNSURE * (sigma_s * std::f64::consts::SQRT_2);
-        let turned = far.normal().perp(&normal).abs();
-        if least > 0.0 { turned / least } else { f64::INFINITY }
-    });
-    Some(Beside { last: End::Last { place, normal, sigma, way, bend }, s: found.s, sigma_s, way, bend })
 }

@@ -45,6 +45,8 @@ pub(super) struct Resolved {
     pub solution: Solution,
     /// What is assumed at the ends of the run.
     pub ends: [End; 2],
+    /// How tightly the conditions are kept.
+    pub tolerance: Tolerance,
     /// Factor on the covariance: the sum of weighted squares per measured coefficient, at least 1.
     pub excess: f64,
 }
@@ -93,20 +95,20 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
     middle.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
     let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE_TERMS);
     let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
-    let judged = |parts: &[Part], ends: [End; 2], solution: Solution| {
+    let judged = |system: &System<'_>, solution: Solution| {
+        let System { parts, ends, tolerance } = *system;
         let excess = solution.cost / measured as f64;
         let good = solution.converged && excess < MOST_MISFIT && parts.iter().all(|part| are_right(part, &solution));
-        good.then(|| Resolved { parts: parts.to_vec(), solution, ends, excess: excess.max(1.0) })
+        good.then(|| Resolved { parts: parts.to_vec(), solution, ends, tolerance, excess: excess.max(1.0) })
     };
     for (rank, (choice, short, start)) in middle.iter().enumerate() {
         let mut x = longer(short, &parts, &start.x);
         let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
-        if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&parts, choice.ends, solution)) {
+        if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&fine, solution)) {
             let others = middle.iter().enumerate().filter(|(other, _)| *other != rank);
             for (_, (choice, short, middle)) in others {
                 let other = System { parts: &parts, ends: choice.ends, tolerance: FINE };
-                let other =
-                    other.gauss_newton(longer(short, &parts, &middle.x)).and_then(|s| judged(&parts, choice.ends, s));
+                let other = other.gauss_newton(longer(short, &parts, &middle.x)).and_then(|s| judged(&other, s));
                 if other.is_some_and(|other| contradict(&found, &other)) {
                     return Err(Unresolved::Ambiguous);
                 }
@@ -124,7 +126,7 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
             let system = System { parts: &parts, ends: choice.ends, tolerance: Tolerance { floor, ..FINE } };
             let Some(solution) = system.solve(x.clone()) else { break };
             x = solution.x.clone();
-            let Some(found) = judged(&parts, choice.ends, solution) else { break };
+            let Some(found) = judged(&system, solution) else { break };
             best = Some(found);
         }
         if let Some(found) = best {

@@ -3,6 +3,7 @@
 use crate::numeric::legendre;
 use crate::point::Clamp;
 use crate::scan::{Noise, Track};
+use crate::systematic::Correction;
 use nalgebra::{DMatrix, Vector3};
 use std::ops::Range;
 
@@ -130,6 +131,32 @@ impl Series {
             inverse: block(&self.inverse),
             variance: self.variance,
             natural: self.natural,
+        }
+    }
+
+    /// The series through displaced samples: that of the displacement, which is smooth, is added.
+    pub fn displaced(&self, by: &Correction) -> Self {
+        let terms = self.terms();
+        let nodes = 2 * terms;
+        let mut rows = DMatrix::zeros(terms, nodes);
+        let mut moved = DMatrix::zeros(nodes, 6);
+        let mut natural = self.natural;
+        for k in 0..nodes {
+            let t = -(std::f64::consts::PI * (k as f64 + 0.5) / nodes as f64).cos();
+            let [clamp, rate] = self.clamps(t);
+            let there = by.apply(self.interval.centre + self.interval.half * t, &clamp, &rate).0;
+            natural = there.natural;
+            let (from, to) = (six(&clamp), six(&there));
+            (0..6).for_each(|c| moved[(k, c)] = to[c] - from[c]);
+            legendre::values(t, rows.column_mut(k).as_mut_slice());
+        }
+        let (normal, right) = (&rows * rows.transpose(), rows * moved);
+        let moved = normal.cholesky().map_or_else(|| DMatrix::zeros(terms, 6), |normal| normal.solve(&right));
+        Self {
+            pose: &self.pose + moved.columns(0, 3),
+            reactions: &self.reactions + moved.columns(3, 3),
+            natural,
+            ..self.clone()
         }
     }
 

@@ -46,7 +46,7 @@ pub(super) struct Solution {
 
 impl System<'_> {
     /// Weights of the conditions at all instants, from their noise at x.
-    fn weights(&self, x: &DVector<f64>) -> Vec<f64> {
+    pub fn weights(&self, x: &DVector<f64>) -> Vec<f64> {
         let Tolerance { share, floor, .. } = self.tolerance;
         let of = |part: &Part, t: f64| -> Vec<f64> {
             let local = part.local(x, t);
@@ -56,7 +56,8 @@ impl System<'_> {
         self.parts.iter().flat_map(|part| part.instants().flat_map(move |t| of(part, t))).collect()
     }
 
-    fn normal(&self, x: &DVector<f64>, weights: &[f64]) -> Normal {
+    /// The Gauss-Newton equations at x.
+    pub fn normal(&self, x: &DVector<f64>, weights: &[f64]) -> Normal {
         let mut normal = Normal::empty(x.len());
         let mut weight = weights.iter();
         let mut row = Vec::new();

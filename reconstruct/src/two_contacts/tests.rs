@@ -5,7 +5,8 @@ use super::*;
 use crate::phase::Label;
 use crate::point::Clamp;
 use crate::scan::{Noise, Track};
-use nalgebra::Vector3;
+use crate::systematic::{self, Correction, DISPLACED, Frame};
+use nalgebra::{Vector2, Vector3};
 use rod_contact::{ClampPath, Item, State, Sweep};
 use rod_contours::{Composite, Contour, Parabola};
 use rod_core::{Pose, Rod, Units};
@@ -109,6 +110,18 @@ fn measured(scan: &Scan, sigma: Vector3<f64>, rho: f64, seed: u64) -> (Track, No
 /// Runs of stretches with several contacts, resolved: first sample and answers. With a seed the transitions are wrong
 /// by up to 20 samples.
 fn resolved(scan: &Scan, track: &Track, noise: &Noise, limits: &Limits, seed: u64) -> Vec<(usize, Vec<Pair>)> {
+    displaced(scan, track, noise, limits, seed, &[])
+}
+
+/// The same with displacements.
+fn displaced(
+    scan: &Scan,
+    track: &Track,
+    noise: &Noise,
+    limits: &Limits,
+    seed: u64,
+    by: &[Correction],
+) -> Vec<(usize, Vec<Pair>)> {
     let mut all = scan.stretches.clone();
     if seed > 0 {
         let mut dice = Dice { seed, rho: 0.0, last: [0.0; 3] };
@@ -136,7 +149,7 @@ fn resolved(scan: &Scan, track: &Track, noise: &Noise, limits: &Limits, seed: u6
         let single = |j: usize| matches!(all[j].1, Label::A | Label::B);
         let before = (k > 0 && !all[k - 1].2 && single(k - 1)).then(|| neighbour(k - 1));
         let after = (end < all.len() && !all[end - 1].2 && single(end)).then(|| neighbour(end));
-        out.push((all[k].0.start, resolve(track, noise, &pieces, before, after, limits)));
+        out.push((all[k].0.start, resolve(track, noise, &pieces, [before.as_ref(), after.as_ref()], limits, by)));
         k = end;
     }
     out
@@ -296,7 +309,7 @@ fn what_cannot_be_told_is_given_up_with_a_reason() {
     let limits = Limits::default();
     let (track, noise) = measured(&scan, Vector3::zeros(), 0.0, 0);
     let piece = |range, label| Piece { range, label };
-    let of = |pieces: &[Piece], track: &Track, noise: &Noise| resolve(track, noise, pieces, None, None, &limits);
+    let of = |pieces: &[Piece], track: &Track, noise: &Noise| resolve(track, noise, pieces, [None, None], &limits, &[]);
     // ten samples
     let short = of(&[piece(1235..1245, Label::BB)], &track, &noise);
     assert!(short.len() == 10 && short.iter().all(|p| matches!(p.first, Err(Unresolved::TooShort { .. }))));
@@ -356,5 +369,34 @@ fn time() {
         let began = std::time::Instant::now();
         let samples: usize = resolved(&scan, &track, &noise, &Limits::default(), 0).iter().map(|r| r.1.len()).sum();
         println!("O{} q{q}: {samples} samples in {:.0?}", object + 1, began.elapsed());
+    }
+}
+
+/// The covariance by a displacement of the samples agrees with the contacts of displaced samples.
+#[test]
+fn a_displacement_moves_the_contacts_as_displaced_samples_do() {
+    for object in 0..3 {
+        let scan = scan(object, 0.4, 1e-3);
+        let (track, _) = measured(&scan, Vector3::zeros(), 0.0, 0);
+        // displaced samples contradict the conditions: by less than the noise
+        let noise = Noise { variance: Vector3::repeat(1e-10), long_run: Vector3::repeat(1.0) };
+        let frame = Frame::of(&track).unwrap();
+        let errors = systematic::Errors::from_fn(|k, _| 1e-7 * (1.0 + (7 * k % 5) as f64));
+        let by = Correction::new(frame, &errors).unwrap();
+        let limits = Limits::default();
+        let told = displaced(&scan, &track, &noise, &limits, 0, &[by]);
+        let moved = resolved(&scan, &by.track(&track), &noise, &limits, 0);
+        let mut compared = 0;
+        for (here, there) in told.iter().flat_map(|run| &run.1).zip(moved.iter().flat_map(|run| &run.1)) {
+            for (here, there) in [(here.first, there.first), (here.second, there.second)] {
+                let (Ok(here), Ok(there)) = (here, there) else { continue };
+                let way = Vector2::new(there.x - here.x, there.y - here.y) / DISPLACED;
+                let (told, moved) = (here.systematic.trace().sqrt(), way.norm());
+                let noise = (here.covariance - here.systematic).trace().sqrt();
+                assert!((told - moved).abs() < 0.2 * (moved + noise), "s {}: {told:e}, {moved:e}, {noise:e}", here.s);
+                compared += 1;
+            }
+        }
+        assert!(compared > 100, "object {object}: {compared}");
     }
 }
