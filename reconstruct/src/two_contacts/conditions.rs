@@ -43,38 +43,44 @@ pub(super) fn two<T: Scalar>(pose: [T; 3], natural: T, v: &Unknowns<T>) -> Two<T
 /// [`TANGENTIAL`].
 pub(super) fn conditions(local: &Local, tip: bool) -> Vec<Condition> {
     let Local { pose, natural, values, rates, .. } = local;
-    /// Derivatives by the unknowns and by their rates.
-    type Wide = Dual<f64, { 2 * UNKNOWNS }>;
-    let timed = |value, rate| Dual::<Wide, 1> { value, derivatives: [rate] };
-    let inputs = Unknowns::from_fn(|u| {
-        let k = u as usize;
-        timed(Wide::variable(values[u], k), Wide::variable(rates[u], UNKNOWNS + k))
+    /// A number with its derivatives by the unknowns.
+    type By = Dual<f64, UNKNOWNS>;
+    // the one derivative of these is the rate along the scan
+    let inputs = Unknowns::from_fn(|u| Dual::<By, 1> {
+        value: By::variable(values[u], u as usize),
+        derivatives: [By::constant(rates[u])],
     });
-    let clamp = std::array::from_fn(|i| timed(Wide::constant(pose[0][i]), Wide::constant(pose[1][i])));
-    let natural = Wide::constant(*natural);
-    let two = two(clamp, timed(natural, Wide::constant(0.0)), &inputs);
-    let across = |s: &Section<Dual<Wide, 1>>, cos: Wide, sin: Wide| cos * s.y.derivatives[0] - sin * s.x.derivatives[0];
+    let clamp = std::array::from_fn(|i| Dual::<By, 1> {
+        value: By::constant(pose[0][i]),
+        derivatives: [By::constant(pose[1][i])],
+    });
+    let natural = By::constant(*natural);
+    let two = two(clamp, Dual::<By, 1>::constant(natural), &inputs);
+    let still = |number: By| Condition {
+        value: number.value,
+        gradient: Gradient::of_values(Unknowns::from_fn(|u| number.derivatives[u as usize])),
+    };
+    // the velocity is linear in the rates of the unknowns: by these it has the derivatives that the place has by the unknowns
+    let across = |s: &Section<Dual<By, 1>>, cos: By, sin: By| {
+        let speed = still(cos * s.y.derivatives[0] - sin * s.x.derivatives[0]);
+        let by =
+            |u: Unknown| cos.value * s.y.value.derivatives[u as usize] - sin.value * s.x.value.derivatives[u as usize];
+        Condition { gradient: Gradient { by_rate: Unknowns::from_fn(by), ..speed.gradient }, ..speed }
+    };
     let (sin, cos) = two.first.phi.value.sin_cos();
     let first = across(&two.first, cos, sin);
-    let kappa = two.second.kappa.value - natural;
-    let condition = |number: Wide| Condition {
-        value: number.value,
-        gradient: Gradient {
-            by_value: Unknowns::from_fn(|u| number.derivatives[u as usize]),
-            by_rate: Unknowns::from_fn(|u| number.derivatives[UNKNOWNS + u as usize]),
-        },
-    };
+    let kappa = still(two.second.kappa.value - natural);
     if tip {
         // along the contour means across the force; times the force, because its direction is lost where it vanishes
         let second = across(&two.second, two.force[0].value, two.force[1].value);
-        return [first, kappa, second].map(condition).into();
+        return vec![first, kappa, second];
     }
     let (sin, cos) = two.second.phi.value.sin_cos();
     let second = across(&two.second, cos, sin);
     let (sin, cos) = pose[0].z.sin_cos();
     let [fx, fy, m] = Unknown::REACTIONS.map(|u| inputs[u].value);
-    let k = m * (m - natural - natural) - Wide::constant(2.0 * sin) * fy - Wide::constant(2.0 * cos) * fx;
-    [first, kappa, second, k].map(condition).into()
+    let k = still(m * (m - natural - natural) - By::constant(2.0 * sin) * fy - By::constant(2.0 * cos) * fx);
+    vec![first, kappa, second, k]
 }
 
 /// A point of the contour with the normal there (up to its sign), with derivatives by the unknowns.
