@@ -30,7 +30,7 @@ use imperfections::{Acts, IMPERFECTIONS};
 use judge::{Verdict, judge};
 use making::{Wrong, make};
 use rayon::prelude::*;
-use report::{Judged, table, totals};
+use report::{Judged, reliability, table, totals};
 use settings::Settings;
 use truth::{SCENES, Site, TrueState, Truth};
 use world::World;
@@ -66,7 +66,7 @@ fn the_laboratory_table() {
     let judged: Vec<Judged> = work.into_par_iter().map(one).collect();
     let time: f64 = judged.iter().map(|one| one.time.as_secs_f64()).sum();
     let longest = judged.iter().map(|one| one.time.as_secs_f64()).fold(0.0, f64::max);
-    println!("\n{}\n{}", table(&judged), totals(&judged));
+    println!("\n{}\n{}\n{}", table(&judged), totals(&judged), reliability(&judged));
     println!("{} recordings, {:.2} s on average and {longest:.2} s at most", judged.len(), time / judged.len() as f64);
 }
 

@@ -13,7 +13,7 @@ const NOISE: &str = "[ar1]\nforce = 2.5e-3\nm0z = 6e-5\ncorrelation = 0.45\n";
 const ROD: &str = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n";
 /// In the order in which they are written.
 const FIELDS: [&str; 16] = [
-    "x0", "y0", "phi0", "x", "y", "s", "alpha", "force", "sigma_x", "sigma_y", "reason", "label", "several", "margin",
+    "x0", "y0", "phi0", "x", "y", "s", "alpha", "force", "sigma_x", "sigma_y", "reason", "label", "several", "probability",
     "basis", "second",
 ];
 
@@ -91,7 +91,7 @@ fn a_clean_recording_gives_the_contour_back() {
         for (field, value) in ["x0", "y0", "phi0"].iter().zip(&row[1..]) {
             assert_eq!(line[*field].as_f64().unwrap().to_bits(), value.to_bits());
         }
-        assert!((0.0..=1.0).contains(&line["margin"].as_f64().unwrap()));
+        assert!((0.0..=1.0).contains(&line["probability"].as_f64().unwrap()));
         assert!(["force", "criterion", "length", "tangent", "diagram"].contains(&line["basis"].as_str().unwrap()));
         match line["label"].as_str().unwrap() {
             "free" => {
@@ -205,7 +205,7 @@ fn rows_that_cannot_be_used_keep_their_place() {
         let line = &lines[place];
         assert!(line["reason"].as_str().unwrap().starts_with(reason), "{line}");
         assert_eq!(line["x0"].is_f64(), pose, "{line}");
-        let rest = ["x", "y", "s", "alpha", "force", "label", "several", "margin", "sigma_x", "basis", "second"];
+        let rest = ["x", "y", "s", "alpha", "force", "label", "several", "probability", "sigma_x", "basis", "second"];
         assert!(rest.iter().all(|field| line[*field].is_null()), "{line}");
     }
     assert!(lines[999]["x"].is_f64() && lines[1503]["x"].is_f64(), "their neighbours are answered");

@@ -99,7 +99,7 @@ impl Scan {
             errors.point = errors.point.max(off);
             errors.contour = errors.contour.max(self.object.closest(touch.x, touch.y).gap.abs());
             assert!((touch.force - contacts[0].force).abs() < 1e-9 * (1.0 + contacts[0].force));
-            assert!(reading.margin > 0.0 || self.near_transition(index), "{}: sample {index}", self.name);
+            assert!(reading.probability > 0.5 || self.near_transition(index), "{}: sample {index}", self.name);
         }
         errors
     }

@@ -27,7 +27,7 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
         ("f_{0y} in N", &|sample, _| sample.reactions.f0y),
         ("m_{0z} in N mm", &|sample, _| 1e3 * sample.reactions.m0z),
         ("K in (N mm)²", &|sample, _| 1e6 * sample.reactions.phase_criterion(sample.pose.phi, stiffness)),
-        ("margin", &|_, reading| reading.margin),
+        ("probability", &|_, reading| reading.probability),
     ];
     let last = quantities.len() - 1;
     let row = |index: usize| PLOT + trace::trimmings(index == 0, index == last);

@@ -16,7 +16,7 @@ pub(crate) struct PointRecord {
     touch: TouchRecord,
     label: Option<Label>,
     several: Option<bool>,
-    margin: Option<f64>,
+    probability: Option<f64>,
     basis: Option<Basis>,
     second: Option<TouchRecord>,
 }
@@ -38,7 +38,7 @@ impl PointRecord {
             touch: TouchRecord::of(&reading.touch),
             label: Some(reading.label),
             several: Some(reading.label.several()),
-            margin: Some(reading.margin),
+            probability: Some(reading.probability),
             basis: None,
             second: reading.second.as_ref().map(TouchRecord::of),
         }
@@ -53,7 +53,7 @@ impl PointRecord {
     pub fn without(pose: Option<Pose>, reason: String) -> Self {
         let touch = TouchRecord { reason: Some(reason), ..TouchRecord::default() };
         let (x0, y0, phi0) = (pose.map(|p| p.x), pose.map(|p| p.y), pose.map(|p| p.phi));
-        Self { x0, y0, phi0, touch, label: None, several: None, margin: None, basis: None, second: None }
+        Self { x0, y0, phi0, touch, label: None, several: None, probability: None, basis: None, second: None }
     }
 }
 

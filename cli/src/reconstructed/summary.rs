@@ -82,18 +82,18 @@ impl Reconstructed {
     }
 
     fn run_table(&self) -> Table {
-        let mut table = Table::new(["label", "samples", "x0 mm", "y0 mm", "phi0 deg", "median margin"]);
+        let mut table = Table::new(["label", "samples", "x0 mm", "y0 mm", "phi0 deg", "median probability"]);
         for (run, label) in self.runs() {
             let pose = self.samples[run.start].pose;
-            let mut margins: Vec<f64> = self.found.readings[run.clone()].iter().map(|r| r.margin).collect();
-            margins.sort_unstable_by(f64::total_cmp);
+            let mut sure: Vec<f64> = self.found.readings[run.clone()].iter().map(|r| r.probability).collect();
+            sure.sort_unstable_by(f64::total_cmp);
             table.row([
                 label.to_string(),
                 run.len().to_string(),
                 format!("{:.4}", 1e3 * pose.x),
                 format!("{:.4}", 1e3 * pose.y),
                 format!("{:.4}", pose.phi.to_degrees()),
-                margins.get(margins.len() / 2).map_or_else(|| "-".into(), |margin| format!("{margin:.3}")),
+                sure.get(sure.len() / 2).map_or_else(|| "-".into(), |sure| format!("{sure:.3}")),
             ]);
         }
         table

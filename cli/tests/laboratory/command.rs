@@ -56,6 +56,8 @@ impl Point {
 pub struct Line {
     /// None where the command does not say.
     pub label: Option<String>,
+    /// Reported probability that it is right.
+    pub probability: Option<f64>,
     pub point: Option<Point>,
     pub second: Option<Point>,
 }
@@ -99,7 +101,8 @@ fn lines(file: fs::File) -> Vec<Line> {
     let read = |line: std::io::Result<String>| {
         let value: Value = serde_json::from_str(&line.unwrap()).unwrap();
         let second = value.get("second").and_then(Point::read);
-        Line { label: value["label"].as_str().map(str::to_owned), point: Point::read(&value), second }
+        let label = value["label"].as_str().map(str::to_owned);
+        Line { label, probability: value["probability"].as_f64(), point: Point::read(&value), second }
     };
     BufReader::new(file).lines().map(read).collect()
 }

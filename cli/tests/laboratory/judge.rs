@@ -58,6 +58,30 @@ pub struct Score {
     pub beyond: Option<f64>,
     /// Share of the samples with one contact in truth that have no point.
     pub unanswered: Option<f64>,
+    pub reliability: Reliability,
+}
+
+/// Lower ends of the ranges of probability for which labels are counted.
+pub const RANGES: [f64; 11] = [0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.999, 0.9999, 0.99999];
+
+/// For each range of reported probability the number of labels, of those that are right, and the sum of the probabilities.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reliability(pub [[f64; 3]; RANGES.len()]);
+
+impl Reliability {
+    fn count(&mut self, probability: f64, right: bool) {
+        let range = RANGES.iter().rposition(|least| probability >= *least).unwrap_or(0);
+        let [all, of_them, sum] = &mut self.0[range];
+        *all += 1.0;
+        *of_them += f64::from(u8::from(right));
+        *sum += probability;
+    }
+
+    pub fn add(&mut self, other: &Self) {
+        for (sum, other) in self.0.iter_mut().flatten().zip(other.0.iter().flatten()) {
+            *sum += other;
+        }
+    }
 }
 
 /// Judges an answer.
@@ -65,6 +89,7 @@ pub fn judge(scene: &Scene, made: &Made, answer: &Answer) -> Score {
     let (mut right, mut counted) = (0, 0);
     let (mut single, mut points) = (0, 0);
     let (mut distances, mut beyond, mut tested) = (Vec::new(), 0, 0);
+    let mut reliability = Reliability::default();
     assert!(answer.lines.is_empty() || answer.lines.len() == made.recording.rows.len(), "a line for each row");
     let mut test = |point: &Point| {
         let (distance, sigma) = across(scene, point);
@@ -76,7 +101,9 @@ pub fn judge(scene: &Scene, made: &Made, answer: &Answer) -> Score {
         let state = &made.truth.states[row.truth];
         if !made.truth.is_near_a_change(state.way) {
             counted += 1;
-            right += usize::from(line.label.as_deref() == Some(state.label.to_string().as_str()));
+            let is_right = line.label.as_deref() == Some(state.label.to_string().as_str());
+            right += usize::from(is_right);
+            line.probability.into_iter().for_each(|probability| reliability.count(probability, is_right));
         }
         if matches!(state.label, Label::A | Label::B) {
             single += 1;
@@ -108,6 +135,7 @@ pub fn judge(scene: &Scene, made: &Made, answer: &Answer) -> Score {
         p999: quantile(0.999),
         beyond,
         unanswered: share(single - points, single),
+        reliability,
     }
 }
 

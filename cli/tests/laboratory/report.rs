@@ -1,6 +1,6 @@
 //! The table of all recordings, and totals.
 
-use super::judge::{Score, Verdict};
+use super::judge::{RANGES, Reliability, Score, Verdict};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -88,4 +88,17 @@ fn verdicts(of: &[Judged]) -> String {
     let count = |verdict: Verdict| of.iter().filter(|one| one.score.verdict == verdict).count();
     let counts = Verdict::ALL.into_iter().map(|verdict| (verdict, count(verdict))).filter(|pair| pair.1 > 0);
     counts.map(|(verdict, count)| format!("{count} {verdict}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Of the labels with a probability in each range, the share that is right, in the recordings that were not refused.
+pub fn reliability(judged: &[Judged]) -> String {
+    let mut sum = Reliability::default();
+    let answered = judged.iter().filter(|one| one.score.verdict != Verdict::Refused);
+    answered.for_each(|one| sum.add(&one.score.reliability));
+    let mut text = String::from("| probability | labels | mean probability % | right % |\n|---|---|---|---|\n");
+    for (least, [all, right, probabilities]) in RANGES.iter().zip(sum.0) {
+        let percent = |of: f64| 100.0 * of / all;
+        writeln!(text, "| {least} and more | {all} | {:.3} | {:.3} |", percent(probabilities), percent(right)).unwrap();
+    }
+    text
 }

@@ -1,7 +1,7 @@
 //! A conclusion of the check by the physics.
 
 use super::shares::Shares;
-use crate::phase::Basis;
+use crate::phase::{Basis, Label};
 use crate::systematic::Source;
 use std::fmt;
 
@@ -32,6 +32,9 @@ pub(super) const UNITS: [(i32, &str); 8] = [
     (9, "moments are in mN mm and forces in mN"),
     (12, "moments are in mN mm"),
 ];
+
+/// Share of wrong labels to be expected from which on the labels are no answer.
+const MISFIT_LABELS: f64 = 0.05;
 
 /// A conclusion of the check by the physics. Displays as a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,6 +134,17 @@ pub enum Finding {
         /// Share of the samples in contact without one.
         share: f64,
     },
+    /// Many labels may be wrong.
+    Uncertain {
+        /// Share of wrong labels to be expected: the mean of 1 - probability.
+        share: f64,
+        /// The label of the run that has most of them.
+        label: Label,
+        /// Its first sample.
+        from: usize,
+        /// The first sample after it.
+        to: usize,
+    },
     /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
     Unexplained {
         /// The shares of what a single contact explains or not.
@@ -162,6 +176,7 @@ impl Finding {
             Self::Unexplained { tangential, .. } => *tangential,
             Self::Sign | Self::Units { .. } | Self::MomentSign | Self::NoFreeStretch | Self::Budget { .. } => true,
             Self::Misfit { .. } | Self::Unanswered { .. } | Self::Lost { .. } | Self::Coarse { .. } => true,
+            Self::Uncertain { share, .. } => *share > MISFIT_LABELS,
             Self::Angle { largest } => *largest > MISFIT_ANGLE,
             Self::Way { lengths } => *lengths > MISFIT_WAY,
         }
@@ -244,6 +259,13 @@ impl fmt::Display for Finding {
                 "{:.0} % of the samples in contact have no contact point, as where the stage moves the other way, or f0x and m0z both \
                  have the wrong sign",
                 100.0 * share
+            ),
+            Self::Uncertain { share, label, from, to } => write!(
+                f,
+                "about {:.0} % of the labels may be wrong (mean of 1 - probability), most of them {label} in samples {from} to {}: \
+                 scan more slowly, or with less noise",
+                100.0 * share,
+                to - 1
             ),
             Self::Angle { largest } => {
                 write!(f, "phi0 is up to {largest:.4} rad in size: is it in degrees? Expected radians")

@@ -179,6 +179,22 @@ impl Evidence {
         Label::ALL.map(|label| self.terms(label).iter().map(|term| term.1).sum::<f64>().max(UNLIKELIEST))
     }
 
+    /// The criterion that a single contact of this label contradicts most, with its size in standard deviations.
+    pub(crate) fn against(&self, label: Label) -> Option<(Basis, f64)> {
+        let [k, one_sided_k] = [self.criterion.z().abs(), self.criterion.z().max(0.0)];
+        let of =
+            |k: f64, s: f64, v: &Quantity| [(Basis::Criterion, k), (Basis::Length, s), (Basis::Tangent, v.z().abs())];
+        let all = match label {
+            Label::A => {
+                let [s, v, _] = self.again.unwrap_or([self.length, self.tangent, self.motion]);
+                of(one_sided_k, s.z().abs(), &v)
+            }
+            Label::B => of(k, self.length.z().max(0.0), &self.tangent),
+            Label::Free | Label::BA | Label::BB => return None,
+        };
+        all.into_iter().filter(|(_, z)| z.is_finite()).max_by(|u, v| u.1.total_cmp(&v.1))
+    }
+
     /// The criterion that decided for this label against the next best one; the diagram, where no criterion does.
     pub fn basis(&self, label: Label) -> Basis {
         let scores = self.scores();

@@ -55,7 +55,7 @@ pub(crate) struct Identified {
     pub nodes: Vec<Node>,
     /// Runs of samples with one label, in order, without gaps.
     pub runs: Vec<(Range<usize>, Label)>,
-    /// The label of each node and its margin.
+    /// The label of each node and its probability.
     pub labels: Vec<(Label, f64)>,
 }
 
@@ -92,7 +92,7 @@ pub(crate) fn places(track: &Track, noise: &Noise, breaks: &[Break]) -> Vec<Node
     nodes
 }
 
-/// The label of each place and its margin.
+/// The label of each place and its probability.
 pub(crate) fn labels(nodes: &[Node]) -> Vec<(Label, f64)> {
     Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec()
 }

@@ -3,6 +3,11 @@
 use super::diagram::{Break, passage};
 use super::label::Label;
 
+/// Factor on all log-odds for the probabilities of labels. The criteria of neighbouring places and the breaks share errors, so that their
+/// evidence counts several times. Larger: labels claim more than they hold; smaller: less. Chosen on 98 recordings of eleven scenes with noise
+/// and shared errors: the log-likelihood of the true labels is largest, and the shares of right labels are those claimed.
+const SHARED: f64 = 0.3;
+
 /// A place of a scan: the log-likelihood of each label there, and the break between it and the place before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
@@ -29,7 +34,7 @@ impl Trellis {
         trellis
     }
 
-    /// The label of each place, and by how much its probability exceeds that of the next best label there. `before` are the scores of
+    /// The label of each place and its probability. `before` are the scores of
     /// the best sequences up to the first place for each label: equal where there are none.
     pub fn run(
         &mut self,
@@ -50,29 +55,28 @@ impl Trellis {
             label = usize::from(step[label]);
         }
         self.labels.reverse();
-        self.margins(before, places);
+        self.probabilities(before, places);
         &self.labels
     }
 
-    fn margins(&mut self, before: &[f64; 5], places: impl DoubleEndedIterator<Item = Place> + Clone) {
+    fn probabilities(&mut self, before: &[f64; 5], places: impl DoubleEndedIterator<Item = Place> + Clone) {
         self.ahead.clear();
+        let scaled = |scores: &[f64; 5]| scores.map(|score| SHARED * score);
         let mut ahead = [0.0; 5];
         for place in places.clone().rev() {
             self.ahead.push(ahead);
-            let joined = std::array::from_fn(|i| ahead[i] + place.scores[i]);
+            let own = scaled(&place.scores);
+            let joined = std::array::from_fn(|i| ahead[i] + own[i]);
             ahead = carry(&joined, place.between, true);
         }
-        let mut behind = *before;
+        let mut behind = scaled(before);
         for ((place, ahead), found) in places.zip(self.ahead.iter().rev()).zip(&mut self.labels) {
             behind = carry(&behind, place.between, false);
-            behind = std::array::from_fn(|i| behind[i] + place.scores[i]);
+            let own = scaled(&place.scores);
+            behind = std::array::from_fn(|i| behind[i] + own[i]);
             let both: [f64; 5] = std::array::from_fn(|i| behind[i] + ahead[i]);
             let total = sum(both);
-            let (own, mut other) = (found.0 as usize, f64::NEG_INFINITY);
-            for (k, score) in both.into_iter().enumerate() {
-                other = if k == own { other } else { other.max(score) };
-            }
-            found.1 = (both[own] - total).exp() - (other - total).exp();
+            found.1 = (both[found.0 as usize] - total).exp();
         }
     }
 }
@@ -102,7 +106,7 @@ fn carry(scores: &[f64; 5], between: Option<Break>, back: bool) -> [f64; 5] {
     std::array::from_fn(|to| {
         sum(std::array::from_fn(|from| {
             let (u, v) = if back { (to, from) } else { (from, to) };
-            scores[from] + passage(Label::ALL[u], Label::ALL[v], between)
+            scores[from] + SHARED * passage(Label::ALL[u], Label::ALL[v], between)
         }))
     })
 }

@@ -25,6 +25,9 @@ const SURE: f64 = 60.0;
 /// Largest standard deviation of one of several contacts across the contour, in rod lengths.
 const ACROSS: f64 = 5e-3;
 
+/// Standard deviations by which a criterion may contradict the phase of a single contact: as many as a contact point may be off.
+const CONTRADICTED: f64 = 6.0;
+
 /// Whether the reactions jump before this sample.
 fn jumps(breaks: &[Break], index: usize) -> bool {
     breaks.iter().any(|here| here.jump && here.index == index)
@@ -65,14 +68,14 @@ impl Answers<'_> {
         readings
     }
 
-    /// The reading of a sample, with the margin of the nearest place of its label.
+    /// The reading of a sample, with the probability of the nearest place of its label.
     fn reading(&self, nodes: &mut Nearest<'_>, index: usize, label: Label, touch: Result<Touch, Reason>) -> Reading {
         let place = nodes.of(index);
-        let margin = match self.identified.labels[place] {
-            (found, margin) if found == label => margin,
+        let probability = match self.identified.labels[place] {
+            (found, probability) if found == label => probability,
             _ => 0.0,
         };
-        Reading { label, margin, touch, second: None, place }
+        Reading { label, probability, touch, second: None, place }
     }
 
     /// The answer to a sample with one contact or none.
@@ -81,7 +84,11 @@ impl Answers<'_> {
             return self.reading(nodes, index, label, Err(Reason::Free));
         }
         let place = nodes.of(index);
-        let fit = &self.identified.nodes[place].fit;
+        let node = &self.identified.nodes[place];
+        if let Some((criterion, z)) = node.evidence.against(label).filter(|(_, z)| *z > CONTRADICTED) {
+            return self.reading(nodes, index, label, Err(Reason::Contradicted { criterion, z }));
+        }
+        let fit = &node.fit;
         let touch = contact(&self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
         let systematic = self.systematic.get(place).copied().unwrap_or_default();
         let touch = touch.map_err(Reason::NoContact).and_then(|touch| self.sure(touch.with_systematic(systematic)));

@@ -1,5 +1,6 @@
 //! What a reconstruction itself finds wrong with the recording.
 
+use super::reading::{Reading, Reason};
 use super::reconstruction::Reconstruction;
 use crate::check::Finding;
 use crate::phase::{Basis, Label};
@@ -11,6 +12,8 @@ const MISFIT: f64 = 0.2;
 const UNANSWERED: f64 = 0.25;
 /// Share of all contacts without a contact point that is reported.
 const LOST: f64 = 0.75;
+/// Share of wrong labels to be expected that is reported.
+const UNCERTAIN: f64 = 0.02;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
 
@@ -37,7 +40,22 @@ impl Reconstruction {
         if lost as f64 > LOST * touched as f64 {
             findings.push(Finding::Lost { share: lost as f64 / touched as f64 });
         }
+        findings.extend(self.uncertain());
         findings
+    }
+
+    /// The labels that are to be expected wrong, where there are many, with the run that has most of them.
+    fn uncertain(&self) -> Option<Finding> {
+        let wrong = |samples: &[Reading]| {
+            let used = samples.iter().filter(|reading| !matches!(reading.touch, Err(Reason::Fault(_))));
+            used.map(|reading| 1.0 - reading.probability).sum::<f64>()
+        };
+        let share = wrong(&self.readings) / self.readings.len().max(1) as f64;
+        let ends = self.runs.iter().skip(1).map(|run| run.0).chain([self.readings.len()]);
+        let runs = self.runs.iter().zip(ends).map(|((start, label), end)| (*start..end, *label));
+        let counted = runs.map(|(run, label)| (wrong(self.readings.get(run.clone()).unwrap_or_default()), run, label));
+        let (_, run, label) = counted.max_by(|u, v| u.0.total_cmp(&v.0))?;
+        (share > UNCERTAIN).then_some(Finding::Uncertain { share, label, from: run.start, to: run.end })
     }
 }
 

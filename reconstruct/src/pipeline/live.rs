@@ -218,9 +218,9 @@ impl Live {
     /// Decides the label of the oldest open place.
     fn decide(&mut self) {
         let found = self.trellis.run(&self.before, self.open.iter().map(|node| node.place));
-        let (Some((label, margin)), Some(node)) = (found.first().copied(), self.open.pop_front()) else { return };
+        let (Some((label, probability)), Some(node)) = (found.first().copied(), self.open.pop_front()) else { return };
         self.before = forward(&self.before, &node.place).0;
-        self.decided.push_back((node, label, margin));
+        self.decided.push_back((node, label, probability));
     }
 
     /// The answer to the sample that has waited longest.
@@ -238,7 +238,7 @@ impl Live {
             let border = after.place.between.map_or((from + after.index) / 2, |here| here.index);
             index >= border
         });
-        let Some((node, label, margin)) = beyond.or_else(|| self.decided.front()) else {
+        let Some((node, label, probability)) = beyond.or_else(|| self.decided.front()) else {
             return Some(Reading::without(self.last, Reason::Fault(Fault::TooFew)));
         };
         self.last = *label;
@@ -250,6 +250,6 @@ impl Live {
                 .and_then(|touch| sure(touch, self.units, self.largest_sigma, false)),
             Label::BA | Label::BB => Err(Reason::Live),
         };
-        Some(Reading { label: *label, margin: *margin, touch, ..Reading::without(*label, Reason::Free) })
+        Some(Reading { label: *label, probability: *probability, touch, ..Reading::without(*label, Reason::Free) })
     }
 }

@@ -1,6 +1,6 @@
 //! The answer to one sample.
 
-use crate::phase::Label;
+use crate::phase::{Basis, Label};
 use crate::point::{NoContact, Touch};
 use crate::scan::Fault;
 use crate::two_contacts::Unresolved;
@@ -19,6 +19,14 @@ pub enum Reason {
     /// No single contact fits, though the label says there is one.
     #[error("{0}")]
     NoContact(#[from] NoContact),
+    /// A criterion that holds in this phase does not: the phase, or the model, is wrong here.
+    #[error("the {criterion} criterion contradicts the phase by {z:.0} standard deviations")]
+    Contradicted {
+        /// Which.
+        criterion: Basis,
+        /// By how many standard deviations.
+        z: f64,
+    },
     /// The point is too uncertain.
     #[error("the point is uncertain by {sigma:.1e} m")]
     TooNoisy {
@@ -38,8 +46,8 @@ pub enum Reason {
 pub struct Reading {
     /// The phase.
     pub label: Label,
-    /// By how much the probability of the label exceeds that of the next best one, 0 to 1.
-    pub margin: f64,
+    /// Probability of the label, 0 to 1.
+    pub probability: f64,
     /// The contact, or the first of several.
     pub touch: Result<Touch, Reason>,
     /// The second of several; none where the label is of a single contact or none.
@@ -51,7 +59,7 @@ pub struct Reading {
 impl Reading {
     /// A sample of this label that has no contact point.
     pub(super) fn without(label: Label, reason: Reason) -> Self {
-        Self { label, margin: 0.0, touch: Err(reason), second: None, place: usize::MAX }
+        Self { label, probability: 0.0, touch: Err(reason), second: None, place: usize::MAX }
     }
 }
 
