@@ -13,7 +13,7 @@ const UNANSWERED: f64 = 0.25;
 /// Share of all contacts without a contact point that is reported.
 const LOST: f64 = 0.75;
 /// Share of wrong labels to be expected that is reported.
-const UNCERTAIN: f64 = 0.02;
+const UNCERTAIN: f64 = 0.01;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
 
