@@ -3,6 +3,7 @@
 
 mod clean;
 mod common;
+mod free_rod;
 mod kink_filter;
 mod kinks;
 mod kinks_of_the_paper;

@@ -2,7 +2,7 @@
 
 use super::correction::{Correction, Frame};
 use super::influence::{of_criteria, of_inputs_by_errors};
-use super::source::{Errors, Joint, SOURCES};
+use super::source::{Errors, Joint, SOURCES, Source};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
 use crate::scan::Estimate;
@@ -54,6 +54,9 @@ fn conditions(label: Label, evidence: &Evidence) -> &'static [Criterion] {
 /// whose condition number is its inverse, lose all digits.
 const FINEST: f64 = 1e-10;
 
+/// The first sources are those of a sensor without load.
+const WITHOUT_LOAD: usize = Source::BowM0z as usize + 1;
+
 /// A residual: its criterion, its value in standard deviations of the noise, its weight, and its derivatives by the errors.
 struct Residual {
     criterion: usize,
@@ -64,9 +67,15 @@ struct Residual {
 
 /// The residuals of the places after a correction by `errors`. Derivatives are by errors in units of `sigmas`.
 fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]) -> Vec<Residual> {
-    let Some(correction) = Correction::new(frame, errors) else { return Vec::new() };
+    // the reactions of a free rod are what the sensor shows without load, whatever gains, stiffness and the others are
+    let without_load = errors.map_with_location(|k, _, error| if k < WITHOUT_LOAD { error } else { 0.0 });
+    let Some(all) = Correction::new(frame, errors).zip(Correction::new(frame, &without_load)) else {
+        return Vec::new();
+    };
     let mut residuals = Vec::with_capacity(2 * places.len());
     for place in places {
+        let is_free = place.label == Label::Free;
+        let (correction, errors) = if is_free { (&all.1, &without_load) } else { (&all.0, errors) };
         let here = correction.apply(place.tau, &place.measured.clamp, &place.measured.rate);
         let evidence = Evidence::of(&place.measured.moved(here.0, here.1));
         let quantities = evidence.quantities();
@@ -77,7 +86,10 @@ fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]
             if !(quantity.sigma.is_finite() && quantity.value.is_finite()) {
                 continue;
             }
-            let by_errors = by.row(c).transpose().component_mul(sigmas);
+            let mut by_errors = by.row(c).transpose().component_mul(sigmas);
+            if is_free {
+                by_errors.iter_mut().skip(WITHOUT_LOAD).for_each(|by| *by = 0.0);
+            }
             let sigma = quantity.sigma.max(FINEST * by_errors.norm());
             residuals.push(Residual {
                 criterion: c,
