@@ -33,8 +33,12 @@ struct Fake {
 
 impl Fake {
     fn start(directory: &Path, arguments: &[&str]) -> Self {
+        Self::on_port("0", directory, arguments)
+    }
+
+    fn on_port(port: &str, directory: &Path, arguments: &[&str]) -> Self {
         let mut process = Command::new(env!("CARGO_BIN_EXE_vibrissa"))
-            .args([&["fake-sensor", "scene.toml", "--port", "0", "--scaling-port", "0"], arguments].concat())
+            .args([&["fake-sensor", "scene.toml", "--port", port, "--scaling-port", "0"], arguments].concat())
             .current_dir(directory)
             .stdout(Stdio::piped())
             .spawn()
@@ -221,6 +225,57 @@ fn a_sensor_that_falls_silent_loses_nothing() {
     let samples = summary["samples"].as_u64().unwrap() as usize;
     assert!(samples >= 100, "{samples}");
     assert_eq!(fs::read_to_string(dir.join("out/points.jsonl")).unwrap().lines().count(), samples);
+}
+
+#[test]
+#[ignore = "takes 9 s; the counting itself is tested beside `Losses`"]
+fn a_sensor_that_starts_anew_has_lost_what_its_counter_does_not_tell() {
+    let directory = prepared("[sensor]\nrate = 1000\n[tare]\nseconds = 0.3\n");
+    let dir = directory.path();
+    let arguments = ["--protocol", "rdt", "--rate", "1000", "--speed", "0.02"];
+    let fake = Fake::start(dir, &arguments);
+    let address = fake.address.clone();
+    let port = address.split([':', '?']).nth(2).unwrap().to_owned();
+    let there = dir.to_path_buf();
+    let restarted = std::thread::spawn(move || {
+        std::thread::sleep(std::time::Duration::from_secs(3));
+        drop(fake);
+        std::thread::sleep(std::time::Duration::from_millis(1500));
+        Fake::on_port(&port, &there, &arguments)
+    });
+    let (output, summary) = listen(dir, &address, &["--stage", "constant:0.02"]);
+    drop(restarted.join().unwrap());
+    assert_eq!((output.status.code(), &summary["end"]), (Some(0), &Value::from("stage")), "{}", complaint(&output));
+    let lost = summary["link"]["lost"].as_u64().unwrap();
+    assert!((1300..4000).contains(&lost), "{lost} {summary}");
+    let all = summary["samples"].as_u64().unwrap() + lost;
+    assert!((8000..8800).contains(&all), "{all} of 8500");
+}
+
+#[cfg(unix)]
+#[test]
+#[ignore = "takes 9 s"]
+fn a_short_silence_is_not_the_end() {
+    let directory = prepared("[sensor]\nrate = 1000\n[tare]\nseconds = 0.3\n");
+    let dir = directory.path();
+    let fake = Fake::start(dir, &["--protocol", "rdt", "--rate", "1000", "--speed", "0.02"]);
+    let pid = fake.process.id().to_string();
+    let paused = std::thread::spawn(move || {
+        let signal = |name: &str| Command::new("kill").args([name, &pid]).status().unwrap();
+        // the second silence begins with the first sample after the first one, or nearly so
+        for [run, pause] in [[2000, 1400], [20, 1400]] {
+            std::thread::sleep(std::time::Duration::from_millis(run));
+            signal("-STOP");
+            std::thread::sleep(std::time::Duration::from_millis(pause));
+            signal("-CONT");
+        }
+    });
+    let (output, summary) = listen(dir, &fake.address, &["--stage", "constant:0.02"]);
+    paused.join().unwrap();
+    assert_eq!((output.status.code(), &summary["end"]), (Some(0), &Value::from("stage")), "{}", complaint(&output));
+    let text = fs::read_to_string(dir.join("out/points.jsonl")).unwrap();
+    let last: Value = serde_json::from_str(text.lines().last().unwrap()).unwrap();
+    assert!(last["x0"].as_f64().unwrap() < -0.085, "{last}");
 }
 
 /// Checks that `live` with these arguments fails like this.

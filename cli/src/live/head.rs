@@ -72,7 +72,11 @@ pub(super) fn head<'a>(
         if stopped() || (enough && wrenches.len().max(samples.len()) >= FEWEST) {
             break;
         }
-        match sensor.feed.next() {
+        let fed = sensor.feed.next();
+        if matches!(fed, Some(Ok(_))) {
+            silent = 0.0;
+        }
+        match fed {
             None => break,
             Some(Ok(Fed::Raw(raw))) => {
                 let chain = chain.get_or_insert_with(|| {

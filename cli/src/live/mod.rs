@@ -2,7 +2,7 @@
 //!
 //! `address` and `stage` are the arguments of the command line for the sensor and the clamp. `connect` opens a [`Sensor`], or `played` a
 //! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise (`rounding`). `session` is the
-//! scan from the first sample to the last, `record` writes its files and `summary` its report.
+//! scan from the first sample to the last, `losses` counts what no counter tells of, `record` writes its files and `summary` its report.
 
 mod address;
 mod connect;
@@ -10,6 +10,7 @@ mod error;
 mod feed;
 mod head;
 mod latency;
+mod losses;
 mod motion;
 mod played;
 mod record;

@@ -63,7 +63,7 @@ impl LiveScan {
             recorded.sample(&sample);
             session.push(sample, usable(&sample).as_ref(), |sample, reading| recorded.answer(&sample, reading));
         }
-        let (mut last, mut period) = (f64::NEG_INFINITY, 0.0);
+        let mut last = f64::NEG_INFINITY;
         // the latency of earlier samples includes the wait for the tare
         let ready = sensor.feed.now();
         let end = loop {
@@ -78,7 +78,7 @@ impl LiveScan {
                 Some(Ok(fed)) => fed,
                 Some(Err(Miss::Silence(text))) => {
                     // the next sample would be after the end of the path
-                    if last + period >= chain.wrenches().stage().end() {
+                    if last + recorded.report.losses.period().unwrap_or(0.0) >= chain.wrenches().stage().end() {
                         break End::Stage;
                     }
                     if recorded.silent(&text) {
@@ -97,7 +97,7 @@ impl LiveScan {
             };
             match taken {
                 Ok(sample) => {
-                    (period, last) = (sample.t - last, sample.t);
+                    last = sample.t;
                     recorded.sample(&sample);
                     if let Some((now, ready)) = sensor.feed.now().zip(ready)
                         && sample.raw.host_time > ready

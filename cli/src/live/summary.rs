@@ -1,6 +1,7 @@
 //! The report of a live scan.
 
 use super::latency::Latency;
+use super::losses::Losses;
 use super::scan::LiveScan;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -41,6 +42,7 @@ pub struct LiveReport {
     noise: [f64; 3],
     spacing: f64,
     delay: usize,
+    pub(super) losses: Losses,
     labels: BTreeMap<String, u64>,
     qualities: BTreeMap<&'static str, u64>,
     points: u64,
@@ -64,6 +66,7 @@ impl LiveReport {
             noise: [0.0; 3],
             spacing: 0.0,
             delay: 0,
+            losses: Losses::default(),
             labels: BTreeMap::new(),
             qualities: BTreeMap::new(),
             points: 0,
@@ -91,6 +94,7 @@ impl LiveReport {
     pub(super) fn sample(&mut self, sample: &ReactionSample) {
         self.samples += 1;
         self.silent = 0;
+        self.losses.push(sample);
         for name in sample.quality.names() {
             *self.qualities.entry(name).or_default() += 1;
         }
@@ -120,6 +124,7 @@ impl LiveReport {
 
     pub(super) fn end(&mut self, end: End, counters: LinkCounters, timekeeper: &Timekeeper) {
         (self.end, self.counters, self.jitter) = (Some(end), counters, timekeeper.jitter());
+        self.counters.lost += self.losses.lost();
     }
 
     /// A line of progress: the answer, and the label `before` if it has changed.
