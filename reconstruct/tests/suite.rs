@@ -7,6 +7,7 @@ mod free_rod;
 mod kink_filter;
 mod kinks;
 mod kinks_of_the_paper;
+mod live_labels;
 mod noise;
 mod noise_estimate;
 mod plausibility;

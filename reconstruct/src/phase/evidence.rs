@@ -29,6 +29,11 @@ const MOST_STILL: f64 = 30.0;
 /// Standard deviations of the quantities about 0 in the phases that do not require them to vanish: forces, criterion, arc length and
 /// normal speed, dimensionless. Larger: noise counts more in favour of the phase that requires 0.
 const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
+/// Size of the phase criterion over that of the force, where it does not vanish. Larger: weak contacts at the tip are called tangential.
+const MOST_CRITERION: f64 = 2.0;
+/// Standard deviations of a force that counts as strong: a contact may begin as gently as this. Larger: a contact that has just begun is
+/// taken for noise of the free rod.
+const STRONG: f64 = 100.0;
 
 /// Number of criteria of a place.
 pub(crate) const CRITERIA: usize = 10;
@@ -65,6 +70,10 @@ pub struct Evidence {
     pub motion: Quantity,
     /// Length, tangent criterion and motion of a later zero of the moment, where one is nearer to the tip than the first.
     again: Option<[Quantity; 3]>,
+    /// Weights of the terms of force, criterion, length and tangent: less where neighbouring places say the same.
+    trust: [f64; 4],
+    /// Whether a contact may be so weak that the criterion is small in every phase.
+    weak: bool,
 }
 
 impl Evidence {
@@ -115,6 +124,8 @@ impl Evidence {
                 let [tangent, motion] = speed(&found, true);
                 [length_of(&found), tangent, motion]
             }),
+            trust: [1.0; 4],
+            weak: false,
         };
         let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
         let size = force.norm();
@@ -128,6 +139,11 @@ impl Evidence {
     /// The log-likelihood of a label by each criterion, up to constants common to all labels.
     fn terms(&self, label: Label) -> [(Basis, f64); 4] {
         let [force, criterion, length, tangent] = SPREAD;
+        // the criterion is -2 f at most
+        let size = self.force[0].value.hypot(self.force[1].value);
+        let criterion = if self.weak { criterion * (MOST_CRITERION * size).min(1.0) } else { criterion };
+        let of_force =
+            |quantity: &Quantity| quantity.vanishes(if self.weak { force.min(STRONG * quantity.sigma) } else { force });
         let (tip, touch) = (self.criterion.not_positive(), self.criterion.vanishes(criterion));
         // A single contact moves along its tangent, or, at a vertex or in a notch, not at all. The point computed from two
         // contacts does neither.
@@ -136,7 +152,7 @@ impl Evidence {
             across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
         };
         let [free, k, s, v] = match label {
-            Label::Free => [self.force.iter().map(|quantity| quantity.vanishes(force)).sum::<f64>(), 0.0, 0.0, 0.0],
+            Label::Free => [self.force.iter().map(of_force).sum::<f64>(), 0.0, 0.0, 0.0],
             Label::A => {
                 let [s, v, along] = self.again.unwrap_or([self.length, self.tangent, self.motion]);
                 [0.0, tip, s.vanishes(length), single(&v, &along)]
@@ -145,7 +161,13 @@ impl Evidence {
             Label::BA => [0.0, tip, 0.0, 0.0],
             Label::BB => [0.0, touch, 0.0, 0.0],
         };
-        [(Basis::Force, free), (Basis::Criterion, k), (Basis::Length, s), (Basis::Tangent, v)]
+        let [force, criterion, length, tangent] = self.trust;
+        [
+            (Basis::Force, force * free),
+            (Basis::Criterion, criterion * k),
+            (Basis::Length, length * s),
+            (Basis::Tangent, tangent * v),
+        ]
     }
 
     /// The values of the criteria, in the order of [`Criterion`]; NaN where there is none.
@@ -165,13 +187,31 @@ impl Evidence {
         self.again.is_some()
     }
 
-    /// Adds variances of errors that are not of the noise.
-    pub(crate) fn widen(&mut self, variances: &[f64; CRITERIA]) {
+    /// Adds variances of errors that are not of the noise. So many `places` have the same errors: where these exceed the noise, the
+    /// places together tell little more than one.
+    pub(crate) fn widen(&mut self, variances: &[f64; CRITERIA], places: f64) {
+        let trust = |c: usize, quantity: &Quantity| {
+            let (own, shared) = (quantity.sigma * quantity.sigma, variances[c]);
+            if own.is_finite() && shared > 0.0 { (own + shared) / (own + places * shared) } else { 1.0 }
+        };
+        let by_tip = self.again.unwrap_or([self.length, self.tangent, self.motion]);
+        let force = [0, 1, 2].map(|c| trust(c, &self.force[c]));
+        self.trust = [
+            force.into_iter().fold(1.0, f64::min),
+            trust(Criterion::K as usize, &self.criterion),
+            trust(Criterion::Length as usize, &self.length).min(trust(Criterion::LengthByTip as usize, &by_tip[0])),
+            trust(Criterion::Tangent as usize, &self.tangent).min(trust(Criterion::TangentByTip as usize, &by_tip[1])),
+        ];
         let own =
             self.force.iter_mut().chain([&mut self.criterion, &mut self.length, &mut self.tangent, &mut self.motion]);
         for (quantity, variance) in own.chain(self.again.iter_mut().flatten()).zip(variances) {
             quantity.sigma = (quantity.sigma * quantity.sigma + variance).sqrt();
         }
+    }
+
+    /// The same for a scan that goes on, of whose contacts nothing is known beforehand: they may be weak.
+    pub(crate) fn weak(self) -> Self {
+        Self { weak: true, ..self }
     }
 
     /// Log-likelihood of each label, in the order of [`Label::ALL`], up to a common constant.

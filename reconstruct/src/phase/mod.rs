@@ -38,4 +38,4 @@ pub use label::Label;
 #[cfg(feature = "std")]
 pub use quantity::Quantity;
 #[cfg(feature = "std")]
-pub(crate) use trellis::{Trellis, forward};
+pub(crate) use trellis::{Trellis, forward, greatest, passed};

@@ -59,6 +59,31 @@ impl Trellis {
         &self.labels
     }
 
+    /// The probability of each label at each place, from evidence that allows for shared errors itself. `before` are the logs of the
+    /// [probabilities](passed) up to there.
+    pub fn chances(
+        &mut self,
+        before: &[f64; 5],
+        places: impl DoubleEndedIterator<Item = Place> + Clone,
+    ) -> &[[f64; 5]] {
+        self.ahead.clear();
+        let mut ahead = [0.0; 5];
+        for place in places.clone().rev() {
+            self.ahead.push(ahead);
+            let joined = std::array::from_fn(|i| ahead[i] + place.scores[i]);
+            ahead = carry(&joined, place.between, true, 1.0);
+        }
+        let mut behind = *before;
+        for (place, ahead) in places.zip(self.ahead.iter_mut().rev()) {
+            behind = passed(&behind, &place);
+            let both: [f64; 5] = std::array::from_fn(|i| behind[i] + ahead[i]);
+            let total = sum(both);
+            *ahead = both.map(|score| (score - total).exp());
+        }
+        self.ahead.reverse();
+        &self.ahead
+    }
+
     fn probabilities(&mut self, before: &[f64; 5], places: impl DoubleEndedIterator<Item = Place> + Clone) {
         self.ahead.clear();
         let scaled = |scores: &[f64; 5]| scores.map(|score| SHARED * score);
@@ -67,11 +92,11 @@ impl Trellis {
             self.ahead.push(ahead);
             let own = scaled(&place.scores);
             let joined = std::array::from_fn(|i| ahead[i] + own[i]);
-            ahead = carry(&joined, place.between, true);
+            ahead = carry(&joined, place.between, true, SHARED);
         }
         let mut behind = scaled(before);
         for ((place, ahead), found) in places.zip(self.ahead.iter().rev()).zip(&mut self.labels) {
-            behind = carry(&behind, place.between, false);
+            behind = carry(&behind, place.between, false, SHARED);
             let own = scaled(&place.scores);
             behind = std::array::from_fn(|i| behind[i] + own[i]);
             let both: [f64; 5] = std::array::from_fn(|i| behind[i] + ahead[i]);
@@ -79,6 +104,14 @@ impl Trellis {
             found.1 = (both[found.0 as usize] - total).exp();
         }
     }
+}
+
+/// Log of the probability of each label at a place, given the places up to it, from that at the place before.
+pub(crate) fn passed(before: &[f64; 5], place: &Place) -> [f64; 5] {
+    let carried = carry(before, place.between, false, 1.0);
+    let joined: [f64; 5] = std::array::from_fn(|k| carried[k] + place.scores[k]);
+    let total = sum(joined);
+    joined.map(|score| score - total)
 }
 
 /// One step of Viterbi's algorithm: the best score of a sequence that ends in each label, and the label before it.
@@ -97,16 +130,17 @@ pub(crate) fn forward(before: &[f64; 5], place: &Place) -> ([f64; 5], [u8; 5]) {
     (best, from)
 }
 
-fn greatest(scores: &[f64; 5]) -> usize {
+/// The number of the label with the greatest score.
+pub(crate) fn greatest(scores: &[f64; 5]) -> usize {
     (1..5).fold(0, |best, k| if scores[k] > scores[best] { k } else { best })
 }
 
-/// Scores carried over the transition between two places, forwards or (`back`) backwards.
-fn carry(scores: &[f64; 5], between: Option<Break>, back: bool) -> [f64; 5] {
+/// Scores carried over the transition between two places, forwards or (`back`) backwards, with this factor on its log-odds.
+fn carry(scores: &[f64; 5], between: Option<Break>, back: bool, factor: f64) -> [f64; 5] {
     std::array::from_fn(|to| {
         sum(std::array::from_fn(|from| {
             let (u, v) = if back { (to, from) } else { (from, to) };
-            scores[from] + SHARED * passage(Label::ALL[u], Label::ALL[v], between)
+            scores[from] + factor * passage(Label::ALL[u], Label::ALL[v], between)
         }))
     })
 }

@@ -1,10 +1,11 @@
 //! Phases and contact points sample by sample, a fixed number of samples late.
 
+use super::learned::Learned;
 use super::live_settings::LiveSettings;
 use super::reading::{Reading, Reason, sure};
 use super::settings::{ReconstructError, positive};
 use crate::kink::{Kink, KinkFilter, KinkKind, KinkOptions};
-use crate::phase::{Break, Label, Node, Trellis, contact, forward};
+use crate::phase::{Break, Label, Node, Trellis, contact, forward, greatest, passed};
 use crate::scan::{Fault, Intake, Noise, Track, dimensionless};
 use rod_core::{Rod, Sample, Units};
 use std::collections::VecDeque;
@@ -12,7 +13,13 @@ use std::collections::VecDeque;
 /// Places per half-window.
 const PLACES: usize = 8;
 /// Number of places after a place that take part in the decision on its label. Larger: fewer wrong labels, later.
-const LAG: usize = 16;
+pub(super) const LAG: usize = 16;
+/// Neighbouring places on either side whose windows overlap so much that they do not tell at which of them a phase ends: the border of A
+/// and B is off by as much. Larger: labels near a border are less sure than they might be.
+const SMEARED: usize = 3;
+/// Share of labels that nothing is known of, however sure the criteria are: a break was not found, or wrong errors agree with wrong labels.
+/// Measured by `tests/live_labels.rs`.
+const MISTAKEN: f64 = 0.02;
 /// Fewest samples of a half-window.
 const NARROWEST: usize = 8;
 /// Most samples of a half-window, which limits the memory.
@@ -50,21 +57,35 @@ pub struct Live {
     kinks: KinkFilter,
     /// Samples in memory, and the number of samples before them.
     track: Track,
-    passed: usize,
+    dropped: usize,
     breaks: VecDeque<Break>,
     window: Window,
     /// Places whose label is not decided, the oldest first, and the scores of the sequences up to them.
     open: VecDeque<Node>,
     before: [f64; 5],
+    /// Log of the probability of each label at the last decided place, given the places up to it.
+    passed: [f64; 5],
+    /// What the scan so far has told of errors that all samples share.
+    learned: Option<Learned>,
     trellis: Trellis,
     /// Next place, by the number of its sample.
     next: usize,
     /// Places whose label is decided: that of the next sample to be answered, and those after it.
-    decided: VecDeque<(Node, Label, f64)>,
+    decided: VecDeque<Decided>,
     /// Samples that are not answered yet: the numbers of usable ones, and the faults of others.
     waiting: VecDeque<Result<usize, Fault>>,
     last: Label,
     ended: bool,
+}
+
+/// A place with its label.
+#[derive(Clone, Debug)]
+struct Decided {
+    node: Node,
+    label: Label,
+    /// The probability of each label by itself, and that of the label among its neighbours.
+    chances: [f64; 5],
+    probability: f64,
 }
 
 /// Lengths, all in samples.
@@ -114,11 +135,13 @@ impl Live {
             intake: Intake::new(rod),
             kinks,
             track,
-            passed: 0,
+            dropped: 0,
             breaks: VecDeque::with_capacity(2 * BREAKS),
             window,
             open: VecDeque::with_capacity(2 * LAG),
             before: [0.0; 5],
+            passed: [0.0; 5],
+            learned: None,
             trellis: Trellis::with_capacity(2 * LAG),
             next: 0,
             decided: VecDeque::with_capacity(window.capacity / stride),
@@ -141,7 +164,7 @@ impl Live {
                     let drop = self.window.capacity - self.window.kept;
                     self.track.tau.drain(..drop);
                     self.track.clamps.drain(..drop);
-                    self.passed += drop;
+                    self.dropped += drop;
                 }
                 self.waiting.push_back(Ok(self.count()));
                 self.track.tau.push(tau);
@@ -181,9 +204,23 @@ impl Live {
         self.answer()
     }
 
+    /// The places that are not decided yet, with their path parameters, the oldest first.
+    pub(super) fn open(&self) -> impl DoubleEndedIterator<Item = (f64, &Node)> {
+        self.open.iter().map(|node| (self.track.tau[node.index - self.dropped], node))
+    }
+
+    /// From now on takes off the samples what was learned, and has the rest in its answers. `passed` is the log of the probability of each
+    /// label at the last decided place, given the places up to it.
+    pub(super) fn learn(&mut self, learned: Learned, passed: [f64; 5]) {
+        for node in &mut self.open {
+            learned.judge(self.track.tau[node.index - self.dropped], node);
+        }
+        (self.learned, self.passed) = (Some(learned), passed);
+    }
+
     /// Usable samples so far.
     fn count(&self) -> usize {
-        self.passed + self.track.len()
+        self.dropped + self.track.len()
     }
 
     /// Keeps a transition, in order.
@@ -202,25 +239,52 @@ impl Live {
         let (index, Window { half, stride, .. }) = (self.next, self.window);
         self.next += stride;
         let earlier = self.breaks.partition_point(|here| here.index <= index);
-        let lower = earlier.checked_sub(1).map_or(0, |last| self.breaks[last].index).max(self.passed);
+        let lower = earlier.checked_sub(1).map_or(0, |last| self.breaks[last].index).max(self.dropped);
         let upper = self.breaks.get(earlier).map_or(usize::MAX, |here| here.index).min(self.count());
-        let part = lower - self.passed..upper - self.passed;
+        let part = lower - self.dropped..upper - self.dropped;
         let since =
-            self.open.back().or_else(|| self.decided.back().map(|place| &place.0)).map_or(0, |node| node.index + 1);
+            self.open.back().or_else(|| self.decided.back().map(|place| &place.node)).map_or(0, |node| node.index + 1);
         let between = self.breaks.range(..earlier).filter(|here| here.index >= since);
         let between = between.copied().max_by(|u, v| u.score.total_cmp(&v.score));
-        if let Some(node) = Node::about(&self.track, index - self.passed, part, &self.noise, half) {
-            let node = Node { index, ..node.placed(stride, between) };
+        if let Some(node) = Node::about(&self.track, index - self.dropped, part, &self.noise, half) {
+            let mut node = Node { index, ..node.placed(stride, between) };
+            if let Some(learned) = &self.learned {
+                learned.judge(self.track.tau[index - self.dropped], &mut node);
+            }
             self.open.push_back(node);
         }
     }
 
-    /// Decides the label of the oldest open place.
+    /// Decides the label of the oldest open place: that of the most likely sequence; with errors that all samples share, the most likely
+    /// one by itself.
     fn decide(&mut self) {
-        let found = self.trellis.run(&self.before, self.open.iter().map(|node| node.place));
-        let (Some((label, probability)), Some(node)) = (found.first().copied(), self.open.pop_front()) else { return };
+        let places = || self.open.iter().map(|node| node.place);
+        let sequence = match self.learned {
+            Some(_) => None,
+            None => self.trellis.run(&self.before, places()).first().copied(),
+        };
+        let chances = self.trellis.chances(&self.passed, places());
+        let Some(own) = chances.first().copied() else { return };
+        let best = greatest(&own);
+        let label = sequence.map_or(Label::ALL[best], |found| found.0);
+        // the windows of neighbouring places overlap: where their labels differ, the border is as uncertain as the windows are wide
+        let (mut sum, mut count) = (own[label as usize], 1.0);
+        let after = self.open.iter().skip(1).zip(&chances[1..]);
+        for (_, chances) in after.take(SMEARED).take_while(|(node, _)| node.place.between.is_none()) {
+            (sum, count) = (sum + chances[label as usize], count + 1.0);
+        }
+        let starts = self.open.front().is_some_and(|node| node.place.between.is_some());
+        for place in self.decided.iter().rev().take(if starts { 0 } else { SMEARED }) {
+            (sum, count) = (sum + place.chances[label as usize], count + 1.0);
+            if place.node.place.between.is_some() {
+                break;
+            }
+        }
+        let Some(node) = self.open.pop_front() else { return };
         self.before = forward(&self.before, &node.place).0;
-        self.decided.push_back((node, label, probability));
+        self.passed = passed(&self.passed, &node.place);
+        let probability = sequence.map_or((1.0 - MISTAKEN) * sum / count + MISTAKEN / 5.0, |found| found.1);
+        self.decided.push_back(Decided { node, label, chances: own, probability });
     }
 
     /// The answer to the sample that has waited longest.
@@ -229,27 +293,32 @@ impl Live {
             Ok(index) => index,
             Err(fault) => return Some(Reading::without(self.last, Reason::Fault(fault))),
         };
-        while self.decided.get(1).is_some_and(|(node, ..)| node.index <= index) {
+        while self.decided.get(1).is_some_and(|place| place.node.index <= index) {
             self.decided.pop_front();
         }
         // between two places of different labels the border is at the break, or else in the middle
-        let beyond = self.decided.get(1).filter(|(after, ..)| {
-            let from = self.decided.front().map_or(0, |place| place.0.index);
-            let border = after.place.between.map_or((from + after.index) / 2, |here| here.index);
+        let beyond = self.decided.get(1).filter(|after| {
+            let from = self.decided.front().map_or(0, |place| place.node.index);
+            let border = after.node.place.between.map_or((from + after.node.index) / 2, |here| here.index);
             index >= border
         });
-        let Some((node, label, probability)) = beyond.or_else(|| self.decided.front()) else {
+        let Some(Decided { node, label, probability, .. }) = beyond.or_else(|| self.decided.front()) else {
             return Some(Reading::without(self.last, Reason::Fault(Fault::TooFew)));
         };
         self.last = *label;
-        let at = index - self.passed;
-        let touch = match label {
-            Label::Free => Err(Reason::Free),
-            Label::A | Label::B => contact(&self.track.clamps[at], self.track.tau[at], &node.fit, &self.noise, *label)
+        let at = index - self.dropped;
+        let (tau, clamp) = (self.track.tau[at], &self.track.clamps[at]);
+        let touch = match (label, &mut self.learned) {
+            (Label::Free, _) => Err(Reason::Free),
+            (Label::BA | Label::BB, _) => Err(Reason::Live),
+            (Label::A | Label::B, None) => contact(clamp, tau, &node.fit, &self.noise, *label)
                 .map_err(Reason::NoContact)
                 .and_then(|touch| sure(touch, self.units, self.largest_sigma, false)),
-            Label::BA | Label::BB => Err(Reason::Live),
+            (Label::A | Label::B, Some(learned)) => learned
+                .contact(clamp, tau, node, &self.noise, *label)
+                .map_err(Reason::NoContact)
+                .and_then(|touch| sure(touch, learned.units(), self.largest_sigma, self.noise.is_clean())),
         };
-        Some(Reading { label: *label, probability: *probability, touch, ..Reading::without(*label, Reason::Free) })
+        Some(Reading { probability: *probability, touch, ..Reading::without(*label, Reason::Free) })
     }
 }

@@ -1,11 +1,14 @@
 //! From samples to labels, contact points and the contour: a whole scan at once, or sample by sample.
 //!
 //! [`reconstruct`] joins the rooms of this crate: kinks, phases, single and double contacts (`answers`). [`Live`] does the same as
-//! samples come, except for several contacts; [`LiveSession`] keeps the answers together with the samples that they are for.
+//! samples come, except for several contacts; [`LiveSession`] keeps the answers together with the samples that they are for, and
+//! estimates the errors that all samples share from the places so far (`history`, `learned`).
 
 mod answers;
 mod doubts;
 mod each_pass;
+mod history;
+mod learned;
 mod live;
 mod live_settings;
 mod nearest;

@@ -3,7 +3,7 @@
 use super::answers::Answers;
 use super::reading::{Reading, Reason};
 use super::reconstruction::{Pass, Reconstruction};
-use super::settings::{ReconstructError, Settings, positive};
+use super::settings::{ReconstructError, Settings, positive, possible};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Label, identify, places};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
@@ -53,12 +53,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         .collect();
     let mut nodes = places(&track, &noise, &breaks);
     let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
-    if let Some((of, value)) = budget.fault() {
-        return Err(ReconstructError::Budget { of, value });
-    }
-    if let Some((of, value)) = settings.known.fault() {
-        return Err(ReconstructError::Known { of, value });
-    }
+    possible(&budget, &settings.known)?;
     let mut calibration = None;
     if let Some((correction, shared, told)) = calibrate(rod, &track, &noise, &breaks, &nodes, &budget, &settings.known)
     {

@@ -1,8 +1,12 @@
 //! A live scan with samples of which some cannot be used.
 
-use super::live::Live;
+use super::history::History;
+use super::live::{LAG, Live};
+use super::live_settings::LiveSettings;
 use super::reading::Reading;
-use rod_core::Sample;
+use super::settings::{ReconstructError, possible};
+use crate::systematic::{Budget, Calibration, Known};
+use rod_core::{Rod, Sample};
 use std::collections::VecDeque;
 
 /// [`Live`] for samples of type `S`, of which some may not be usable. Each sample is returned with its answer, in order; one that is not
@@ -29,13 +33,46 @@ pub struct LiveSession<S> {
     live: Live,
     /// Samples without an answer, and whether they are usable.
     waiting: VecDeque<(S, bool)>,
+    /// The places so far, where errors are estimated that all samples share.
+    history: Option<History>,
+    /// Number of the sample after the last place in `history`.
+    next: usize,
 }
 
 impl<S> LiveSession<S> {
-    /// Before the first sample.
+    /// Before the first sample. Samples and rod are taken as they are.
     pub fn new(live: Live) -> Self {
         let waiting = VecDeque::with_capacity(live.delay() + 1);
-        Self { live, waiting }
+        Self { live, waiting, history: None, next: 0 }
+    }
+
+    /// Before the first sample of a scan whose samples share errors of this budget, but for what a calibration tells of them. The scan begins
+    /// with a free rod. The errors are estimated as the scan goes on, taken off, and what is left of them is in labels and standard
+    /// deviations, as in [`reconstruct`](crate::reconstruct): from at most 400 places, each time their number has grown by a fifth. Then a
+    /// sample takes up to some tenths of a second; all others take microseconds.
+    ///
+    /// # Errors
+    /// [`ReconstructError`]: a setting, a budget or a calibration that is not possible.
+    pub fn with_errors(
+        rod: &Rod,
+        settings: &LiveSettings,
+        budget: &Budget,
+        known: &Known,
+    ) -> Result<Self, ReconstructError> {
+        possible(budget, known)?;
+        let exact = budget.is_none() && known.is_nothing();
+        let history = (!exact).then(|| History::new(rod, budget, known, LAG));
+        Ok(Self { history, ..Self::new(Live::new(rod, settings)?) })
+    }
+
+    /// The number of usable samples after a sample at which its answer comes.
+    pub fn delay(&self) -> usize {
+        self.live.delay()
+    }
+
+    /// What was found so far of the errors that all samples share.
+    pub fn calibration(&self) -> Option<&Calibration> {
+        self.history.as_ref().and_then(History::calibration)
     }
 
     /// Takes a sample, with its pose and reactions if it is usable, and calls `answer` for each sample whose answer is due.
@@ -44,6 +81,7 @@ impl<S> LiveSession<S> {
         if let Some(reading) = usable.and_then(|usable| self.live.push(usable)) {
             self.settle(reading, &mut answer);
         }
+        self.learn();
         self.skip(&mut answer);
     }
 
@@ -53,6 +91,22 @@ impl<S> LiveSession<S> {
             self.settle(reading, &mut answer);
         }
         self.skip(&mut answer);
+    }
+
+    /// Adds new places to those before, and gives what they tell to the answers that follow.
+    fn learn(&mut self) {
+        let Some(history) = &mut self.history else { return };
+        if self.live.open().next_back().is_none_or(|(_, node)| node.index < self.next) {
+            return;
+        }
+        for (tau, node) in self.live.open().filter(|(_, node)| node.index >= self.next) {
+            history.push(tau, node);
+        }
+        let first = self.live.open().next().map(|(_, node)| node.index);
+        self.next = self.live.open().next_back().map_or(self.next, |(_, node)| node.index + 1);
+        if let Some((learned, passed)) = first.and_then(|first| history.learn(first)) {
+            self.live.learn(learned, passed);
+        }
     }
 
     /// A reading is for the oldest usable sample; those before it have none.

@@ -74,6 +74,17 @@ pub enum ReconstructError {
     },
 }
 
+/// Checks a budget and a calibration.
+pub(super) fn possible(budget: &Budget, known: &Known) -> Result<(), ReconstructError> {
+    if let Some((of, value)) = budget.fault() {
+        return Err(ReconstructError::Budget { of, value });
+    }
+    if let Some((of, value)) = known.fault() {
+        return Err(ReconstructError::Known { of, value });
+    }
+    Ok(())
+}
+
 /// Checks settings that must be positive, finite numbers.
 pub(super) fn positive(settings: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ReconstructError> {
     match settings.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {

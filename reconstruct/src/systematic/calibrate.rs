@@ -8,7 +8,7 @@ use super::free::stretches;
 use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
 use super::known::Known;
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
-use super::turns::{Found, RAISED, Turns};
+use super::turns::{Found, RAISED, Turns, raise};
 use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node};
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SymmetricEigen, Vector3};
@@ -17,6 +17,8 @@ use std::ops::Range;
 
 /// Most places that the errors are estimated from, besides those next to kinks. More: more time.
 const PLACES: usize = 800;
+/// Way of the clamp, rod lengths, on which the drift of the budget builds up at least: the length of a scan that goes on is not known.
+const WAY: f64 = 1.0;
 /// Fall of the sum of squares from which on the estimates are taken off the samples: chance lets it fall by as much as the number of
 /// sources, with a standard deviation of 7.
 const SIGNIFICANT: f64 = 60.0;
@@ -43,25 +45,43 @@ impl Shared {
         let stride = nodes.len().div_ceil(PLACES).max(1);
         let mut shared = None;
         for (k, node) in nodes.iter_mut().enumerate() {
-            let tau = track.tau[node.index];
-            let measured = node.fit.at(tau);
-            let here = correction.apply(tau, &measured.clamp, &measured.rate);
-            let mut evidence = Evidence::of(&measured.moved(here.0, here.1));
             // the influence of the errors changes little from place to place
-            if k % stride == 0 || node.place.between.is_some() || shared.is_none() {
-                let by = of_inputs_by_errors(self.frame, errors, tau, &measured);
-                shared = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));
+            if k % stride == 0 || node.place.between.is_some() {
+                shared = None;
             }
-            if let Some(shared) = shared {
-                let quantities = evidence.quantities();
-                evidence.widen(&std::array::from_fn(|c| {
-                    let misfit = quantities[c].sigma.powi(2) * (self.scatter[c].powi(2) - 1.0);
-                    let both = shared[c] + misfit;
-                    if both.is_finite() { both } else { 0.0 }
-                }));
-            }
+            let evidence = self.evidence(&correction, errors, track.tau[node.index], node, &mut shared, 1.0);
             node.judged(evidence);
         }
+    }
+
+    /// The evidence of one place. `shared` are the variances of the criteria by the errors: none where they are to be computed anew. So many
+    /// `places` have the same errors.
+    pub fn evidence(
+        &self,
+        correction: &Correction,
+        errors: &Errors,
+        tau: f64,
+        node: &Node,
+        shared: &mut Option<[f64; CRITERIA]>,
+        places: f64,
+    ) -> Evidence {
+        let measured = node.fit.at(tau);
+        let here = correction.apply(tau, &measured.clamp, &measured.rate);
+        let mut evidence = Evidence::of(&measured.moved(here.0, here.1));
+        if shared.is_none() {
+            let by = of_inputs_by_errors(self.frame, errors, tau, &measured);
+            *shared = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));
+        }
+        if let Some(shared) = shared {
+            let quantities = evidence.quantities();
+            let variances = std::array::from_fn(|c| {
+                let misfit = quantities[c].sigma.powi(2) * (self.scatter[c].powi(2) - 1.0);
+                let both = shared[c] + misfit;
+                if both.is_finite() { both } else { 0.0 }
+            });
+            evidence.widen(&variances, places);
+        }
+        evidence
     }
 
     /// Makes kinks as doubtful as the rates of the reactions are.
@@ -132,6 +152,42 @@ pub(crate) fn calibrate(
     let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates() };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
+}
+
+/// What is known of the errors before the first sample of a scan that goes on, whose places are in `track`.
+pub(crate) fn known_before(rod: &Rod, track: &Track, budget: &Budget, known: &Known) -> Option<(Errors, Shared)> {
+    // the drift of the budget is that of a whole scan
+    let frame = Frame::of(track)?.on_way(WAY);
+    let factor = Joint::from_diagonal(&known.deviations(&deviations(budget, rod), rod));
+    Some((known.means(rod), Shared { frame, factor, scatter: [1.0; CRITERIA], rates: 1.0 }))
+}
+
+/// The same after places whose labels are known; `track` has a sample for each place, and nothing else. The first value is what is to be
+/// taken off.
+pub(crate) fn calibrate_labelled(
+    rod: &Rod,
+    track: &Track,
+    nodes: &[Node],
+    labels: &[(Label, f64)],
+    budget: &Budget,
+    known: &Known,
+) -> Option<(Errors, Shared, Calibration)> {
+    let frame = Frame::of(track)?.on_way(WAY);
+    let means = known.means(rod);
+    let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
+    let mut turns = Turns { frame, track, nodes, least: [1.0; CRITERIA] };
+    let places = turns.labelled(labels);
+    let mut found = adjust(frame, &prior, &means, &places, &turns.least);
+    let free: Vec<Labelled> = turns.labelled(labels).into_iter().filter(|place| place.label == Label::Free).collect();
+    turns.least = least(frame, &found, &free);
+    let mut raised = [false; SOURCES];
+    found = adjust(frame, &prior, &found.errors, &places, &turns.least);
+    if raise(&mut prior, &found.errors, &mut raised) {
+        found = adjust(frame, &prior, &found.errors, &places, &turns.least);
+    }
+    let calibration = told(rod, &prior, &raised, &found, &found.errors, Vec::new());
+    let shared = Shared { frame, factor: found.factor, scatter: found.scatter, rates: turns.rates() };
+    Some((found.errors, shared, calibration))
 }
 
 /// The smallest residuals of each criterion to be expected, in standard deviations of the noise: those of the reactions and of their

@@ -20,6 +20,11 @@ impl Frame {
         let (from, to) = (*track.tau.first()?, *track.tau.last()?);
         Some(Self { start: track.clamps.first()?.pose, from, length: (to - from).max(f64::MIN_POSITIVE) })
     }
+
+    /// The same for a scan that goes on: drift is counted on this way at least.
+    pub fn on_way(self, least: f64) -> Self {
+        Self { length: self.length.max(least), ..self }
+    }
 }
 
 /// Takes given errors off samples.

@@ -23,7 +23,7 @@ mod turns;
 
 pub use across::{Influence, influences};
 pub use budget::Budget;
-pub(crate) use calibrate::{Shared, calibrate};
+pub(crate) use calibrate::{Shared, calibrate, calibrate_labelled, known_before};
 pub use calibration::{Calibration, SourceEstimate};
 pub use combined::Combined;
 pub(crate) use components::DISPLACED;
@@ -31,6 +31,7 @@ pub(crate) use correction::Correction;
 #[cfg(test)]
 pub(crate) use correction::Frame;
 pub use disturb::disturb;
+pub(crate) use influence::of_point;
 pub use known::Known;
 pub(crate) use source::Errors;
 pub use source::Source;

@@ -4,7 +4,7 @@ use super::adjust::{Adjusted, Labelled, Prior, adjust};
 use super::calibrate::Shared;
 use super::calibration::BEYOND;
 use super::correction::Frame;
-use super::source::{Joint, SOURCES};
+use super::source::{Errors, Joint, SOURCES};
 use crate::phase::{CRITERIA, Criterion, Label, Node, labels, likelihood};
 use crate::scan::Track;
 
@@ -33,6 +33,19 @@ pub(super) struct Found {
     likelihood: f64,
 }
 
+/// Raises each budget, once, that an estimate contradicts; whether there are any.
+pub(super) fn raise(prior: &mut Prior, errors: &Errors, raised: &mut [bool; SOURCES]) -> bool {
+    let mut any = false;
+    for (k, raised) in raised.iter_mut().enumerate() {
+        let off = (errors[k] - prior.means[k]).abs();
+        if !*raised && off > BEYOND * prior.sigmas[k] {
+            prior.sigmas[k] *= RAISED;
+            (*raised, any) = (true, true);
+        }
+    }
+    any
+}
+
 impl Turns<'_> {
     /// The likelier of what two starts lead to: the recording as it is, and any recording within the budget. From the second one a scan
     /// with large errors is labelled; with it alone, wrong labels of a good scan might agree with large errors.
@@ -51,14 +64,7 @@ impl Turns<'_> {
             self.left(&adjusted).judge(&adjusted.errors, self.track, &mut judged);
             let now = labels(&judged);
             adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least);
-            let mut again = false;
-            for (k, raised) in raised.iter_mut().enumerate() {
-                let off = (adjusted.errors[k] - prior.means[k]).abs();
-                if !*raised && off > BEYOND * prior.sigmas[k] {
-                    prior.sigmas[k] *= RAISED;
-                    (*raised, again) = (true, true);
-                }
-            }
+            let again = raise(&mut prior, &adjusted.errors, &mut raised);
             let same = now.iter().zip(&before).all(|(now, before)| now.0 == before.0) && now.len() == before.len();
             before = now;
             if same && !again {

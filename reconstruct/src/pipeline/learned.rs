@@ -1,0 +1,71 @@
+//! What a live scan has learned of the errors that all samples share.
+
+use crate::phase::{Label, Node, constrained};
+use crate::point::{Clamp, NoContact, Touch};
+use crate::scan::Noise;
+use crate::systematic::{Correction, Errors, Shared, of_point};
+use nalgebra::{Matrix2, Matrix3};
+use rod_core::Units;
+
+/// Places that the same errors count as one for, about. Smaller: labels are too sure of themselves. Larger: they are less sure than they
+/// might be. Chosen by `tests/live_labels.rs` with other seeds.
+const PLACES: f64 = 3.0;
+/// What is taken off the samples of a live scan, and the errors that are left.
+#[derive(Clone, Debug)]
+pub(super) struct Learned {
+    correction: Correction,
+    taken: Errors,
+    shared: Shared,
+    /// Units of the rod as it was found.
+    units: Units,
+    /// The place and the label for which this covariance of the point was computed.
+    point: Option<(usize, Label, Matrix2<f64>)>,
+}
+
+impl Learned {
+    /// None where what is to be taken off leaves fewer than three channels.
+    pub fn new(taken: Errors, shared: Shared, units: Units) -> Option<Self> {
+        let correction = Correction::new(shared.frame, &taken)?;
+        Some(Self { correction, taken, shared, units, point: None })
+    }
+
+    pub fn units(&self) -> Units {
+        self.units
+    }
+
+    /// Gives a place the evidence of corrected samples, with the errors that are left in its standard deviations.
+    pub fn judge(&self, tau: f64, node: &mut Node) {
+        let evidence = self.shared.evidence(&self.correction, &self.taken, tau, node, &mut None, PLACES);
+        node.judged(evidence.weak());
+    }
+
+    /// The contact at a sample of phase A or B, dimensionless in the units of the rod as it was found.
+    pub fn contact(
+        &mut self,
+        sample: &Clamp,
+        tau: f64,
+        node: &Node,
+        noise: &Noise,
+        label: Label,
+    ) -> Result<Touch, NoContact> {
+        let measured = node.fit.at(tau);
+        let (clamp, covariance) = if noise.is_clean() {
+            (*sample, Matrix3::from_diagonal(&noise.variance))
+        } else {
+            (measured.clamp, measured.covariance())
+        };
+        let here = self.correction.apply(tau, &clamp, &measured.rate);
+        let touch = constrained(&here.0, &covariance, label)?;
+        let systematic = match self.point {
+            Some((index, of, found)) if index == node.index && of == label => found,
+            _ => {
+                let place = measured.moved(here.0, here.1);
+                let found = of_point(self.shared.frame, tau, &place, &covariance, label, &self.shared.factor, 0.0);
+                let found = found.unwrap_or_else(|| self.point.map_or_else(Matrix2::zeros, |point| point.2));
+                self.point = Some((node.index, label, found));
+                found
+            }
+        };
+        Ok(touch.with_systematic(systematic))
+    }
+}
