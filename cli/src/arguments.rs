@@ -124,30 +124,7 @@ pub enum Command {
     Budget(Expect),
     /// Listen to a sensor: contact points, phases and flags as they come
     #[command(long_about = LIVE, after_help = guide::LIVE)]
-    Live {
-        /// Where it is: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
-        /// or file:RECORDING (CSV, TSV, LVM, TDMS, MCAP)
-        #[arg(long, value_name = "ADDRESS")]
-        sensor: SensorAddress,
-        /// The rod, a TOML file with the table [rod] of a scene; or a scene
-        #[arg(long, value_name = "FILE")]
-        rod: PathBuf,
-        /// How the clamp moves: constant:SPEED (m/s, or rad/s where it only turns) or table:FILE (t,x0,y0,phi0)
-        #[arg(long, value_name = "STAGE")]
-        stage: Option<StageSpec>,
-        /// The scene whose path a constant speed is along [default: that of --rod]
-        #[arg(long, value_name = "SCENE")]
-        path: Option<PathBuf>,
-        /// How the sensor is set up, a TOML file: units and counts, calibration, mounting, accuracy, tare,
-        /// what of a recording is meant
-        #[arg(long, value_name = "FILE")]
-        setup: Option<PathBuf>,
-        /// Directory of the results
-        #[arg(long, value_name = "DIR", default_value = "out/live", value_parser = directory)]
-        out: PathBuf,
-        #[command(flatten)]
-        written: Written,
-    },
+    Live(Live),
     /// Play what a sensor would send along a scene, for tests without one
     #[command(after_help = guide::FAKE_SENSOR)]
     FakeSensor(FakeSensor),
@@ -170,6 +147,36 @@ pub enum Command {
         /// The command
         command: Option<String>,
     },
+}
+
+/// A scan with a sensor.
+#[derive(Debug, Args)]
+pub struct Live {
+    /// Where it is: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
+    /// or file:RECORDING (CSV, TSV, LVM, TDMS, MCAP)
+    #[arg(long, value_name = "ADDRESS")]
+    pub sensor: SensorAddress,
+    /// The rod, a TOML file with the table [rod] of a scene, perhaps with a calibration; or a scene
+    #[arg(long, value_name = "FILE")]
+    pub rod: PathBuf,
+    /// How the clamp moves: constant:SPEED (m/s, or rad/s where it only turns) or table:FILE (t,x0,y0,phi0)
+    #[arg(long, value_name = "STAGE")]
+    pub stage: Option<StageSpec>,
+    /// The scene whose path a constant speed is along [default: that of --rod]
+    #[arg(long, value_name = "SCENE")]
+    pub path: Option<PathBuf>,
+    /// How the sensor is set up, a TOML file: units and counts, calibration, mounting, accuracy, tare,
+    /// what of a recording is meant, and how large the errors may be that all samples share [errors]
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+    /// Take samples and rod as they are: no errors that all samples share are estimated, whatever --setup says of them
+    #[arg(long)]
+    pub as_is: bool,
+    /// Directory of the results
+    #[arg(long, value_name = "DIR", default_value = "out/live", value_parser = directory)]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub written: Written,
 }
 
 /// How far a recording and its rod can be trusted.

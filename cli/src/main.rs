@@ -7,7 +7,7 @@ mod guide;
 mod signals;
 mod values;
 
-use arguments::{Arguments, Command, FakeSensor, Simulate, Trust};
+use arguments::{Arguments, Command, FakeSensor, Live, Simulate, Trust};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
@@ -20,8 +20,7 @@ use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
     Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Reconstructed,
     Recording, Scan, Scene, SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged,
-    check_output, read_known_rod, read_noise, read_rod, shapes_list, write_first_scene, write_profile_table,
-    write_profiles,
+    check_output, read_known_rod, read_noise, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -52,9 +51,7 @@ fn main() -> ExitCode {
         }
         Command::Budget(arguments) => accuracy::expect(arguments),
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
-        Command::Live { sensor, written, rod, stage, path, setup, out } => {
-            live(&sensor, written.into(), &rod, stage, path.as_deref(), setup.as_deref(), &out)
-        }
+        Command::Live(arguments) => live(arguments),
         Command::FakeSensor(arguments) => fake_sensor(arguments),
         Command::Paper { out } => paper(&out),
     };
@@ -259,35 +256,31 @@ fn settings(trust: Trust, given: &KnownRod) -> Result<Settings, Error> {
     })
 }
 
-fn live(
-    address: &SensorAddress,
-    read: ReadOptions,
-    rod: &Path,
-    stage: Option<StageSpec>,
-    path: Option<&Path>,
-    setup: Option<&Path>,
-    out: &Path,
-) -> Result<ExitCode, Error> {
-    let setup = setup.map_or_else(|| Ok(Setup::default()), read_setup)?;
-    let mut inputs = vec![rod.to_path_buf()];
+fn live(arguments: Live) -> Result<ExitCode, Error> {
+    let Live { sensor: address, rod: rod_file, stage, path, setup, as_is, out, written } = arguments;
+    let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
+    let mut inputs = vec![rod_file.clone()];
     inputs.extend(setup.files.iter().cloned());
-    inputs.extend(path.map(Path::to_path_buf));
+    inputs.extend(path.iter().cloned());
     if let Some(StageSpec::Table(file)) = &stage {
         inputs.push(file.clone());
     }
-    if let SensorAddress::File(file) = address {
+    if let SensorAddress::File(file) = &address {
         inputs.push(file.clone());
     }
     let path = match (path, &stage) {
-        (Some(scene), _) => Some(read_scene(scene)?.path),
+        (Some(scene), _) => Some(read_scene(&scene)?.path),
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
-        (None, Some(StageSpec::Constant(_))) => read_scene(rod).ok().map(|scene| scene.path),
+        (None, Some(StageSpec::Constant(_))) => read_scene(&rod_file).ok().map(|scene| scene.path),
         (None, _) => None,
     };
-    let scan = LiveScan { rod: read_rod(rod)?, setup, stage, path, read, inputs };
-    let sensor = Sensor::open(address, &scan.setup, &scan.read)?;
+    let KnownRod { rod, known } = read_known_rod(&rod_file)?;
+    let (budget, known) =
+        if as_is { (Budget::NONE, Known::NOTHING) } else { (setup.errors.unwrap_or_default().budget(&rod), known) };
+    let scan = LiveScan { rod, budget, known, setup, stage, path, read: written.into(), inputs };
+    let sensor = Sensor::open(&address, &scan.setup, &scan.read)?;
     let interrupt = signals::ask().interrupt;
-    let report = scan.run(sensor, out, &mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
+    let report = scan.run(sensor, &out, &mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
     say(&report.text());
     say(&format!("written to {}\n", out.display()));
     Ok(if report.is_complete() { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })

@@ -59,10 +59,10 @@ impl Drop for Fake {
 
 /// Listens with `live` and returns what it said and its summary.
 fn listen(directory: &Path, address: &str, arguments: &[&str]) -> (Output, Value) {
+    let rod: &[&str] = if arguments.contains(&"--rod") { &[] } else { &["--rod", "scene.toml"] };
     let output = vibrissa(
         directory,
-        &[&["live", "--sensor", address, "--rod", "scene.toml", "--out", "out", "--setup", "setup.toml"], arguments]
-            .concat(),
+        &[&["live", "--sensor", address, "--out", "out", "--setup", "setup.toml"], rod, arguments].concat(),
     );
     let summary = fs::read(directory.join("out/summary.json")).unwrap_or_else(|_| panic!("{}", complaint(&output)));
     (output, serde_json::from_slice(&summary).unwrap())
@@ -276,6 +276,31 @@ fn a_short_silence_is_not_the_end() {
     let text = fs::read_to_string(dir.join("out/points.jsonl")).unwrap();
     let last: Value = serde_json::from_str(text.lines().last().unwrap()).unwrap();
     assert!(last["x0"].as_f64().unwrap() < -0.085, "{last}");
+}
+
+#[test]
+fn the_budget_and_the_calibration_are_used_and_told() {
+    let directory = prepared("[errors]\nclamp_angle = 2.0\ngain = 0.02\n");
+    let dir = directory.path();
+    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "200", "--speed", "0.02", "--out", "clean.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+    let rod = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n\
+               [calibration]\nlever_along = { value = 1e-3, sigma = 1e-5, unit = \"m\" }\n";
+    fs::write(dir.join("rod.toml"), rod).unwrap();
+    let (_, summary) = listen(dir, "file:clean.csv", &["--rod", "rod.toml"]);
+    let error = |name: &str| {
+        let errors = summary["errors"].as_array().unwrap();
+        errors.iter().find(|error| error["source"] == name).unwrap_or_else(|| panic!("{summary}")).clone()
+    };
+    assert!((error("clamp_angle")["given"].as_f64().unwrap() - 2.0_f64.to_radians()).abs() < 1e-15);
+    assert_eq!((&error("gain_f0y")["given"], &error("stiffness")["given"]), (&Value::from(0.02), &Value::from(0.05)));
+    let lever = error("lever_along");
+    assert!((lever["known"].as_f64().unwrap() - 1e-3).abs() < 1e-12, "{lever}");
+    let text = fs::read_to_string(dir.join("out/points.jsonl")).unwrap();
+    let told = text.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()["probability"].as_f64().unwrap());
+    assert!(told.clone().all(|p| (0.0..=1.0).contains(&p)) && told.clone().any(|p| p < 0.95), "all labels are sure");
+    let (_, summary) = listen(dir, "file:clean.csv", &["--as-is"]);
+    assert_eq!(summary["errors"], Value::Array(Vec::new()));
 }
 
 /// Checks that `live` with these arguments fails like this.

@@ -3,6 +3,7 @@
 use super::stage::StageSpec;
 use crate::{ReadOptions, Setup};
 use std::path::PathBuf;
+use vibrissa::reconstruct::{Budget, Known};
 use vibrissa::{ClampPath, Rod};
 
 /// A scan to be made with a sensor.
@@ -10,6 +11,10 @@ use vibrissa::{ClampPath, Rod};
 pub struct LiveScan {
     /// The rod.
     pub rod: Rod,
+    /// How large the errors may be that all samples share.
+    pub budget: Budget,
+    /// What a calibration says of them.
+    pub known: Known,
     /// How the sensor is set up.
     pub setup: Setup,
     /// How the clamp moves; none where the samples contain its poses.

@@ -13,7 +13,7 @@ use std::path::Path;
 use vibrissa::Label;
 use vibrissa::Sample;
 use vibrissa::hw::{ChainError, ReactionSample, StageError};
-use vibrissa::reconstruct::{Live, LiveSession, LiveSettings, Reading, ReconstructError};
+use vibrissa::reconstruct::{LiveSession, LiveSettings, Reading, ReconstructError};
 use vibrissa::rod::Reactions;
 
 /// Seconds between two lines of progress.
@@ -44,21 +44,20 @@ impl LiveScan {
         let Head { mut chain, samples, tare } = head(self, &mut sensor, &mut report, tell, stopped)?;
         tell(&format!("tare: {tare}"));
         let settings = settings(self, &samples, rounding(chain.calibration(), &self.setup.mounting, &samples[0]))?;
-        let (noise, spacing) = (settings.noise, settings.spacing);
-        let live = Live::new(&self.rod, &settings)?;
-        report.begin(noise, spacing, live.delay());
+        let noise = settings.noise;
+        let mut session = LiveSession::with_errors(&self.rod, &settings, &self.budget, &self.known)?;
+        report.begin(&settings, session.delay());
         tell(&format!(
             "noise: f0x {:.1e} N, f0y {:.1e} N, m0z {:.1e} N m; answers {} samples late",
             noise[0].sigma,
             noise[1].sigma,
             noise[2].sigma,
-            live.delay()
+            session.delay()
         ));
         let clock = "seconds from the first sample".to_owned();
         let notes = vec![("sensor", sensor.name.clone()), ("tare", tare), ("clock", clock)];
         let mut recorded =
             Recorded { record: Record::new(out, notes)?, report, label: None, told: 0.0, tell, fault: None };
-        let mut session = LiveSession::new(live);
         for sample in samples {
             recorded.sample(&sample);
             session.push(sample, usable(&sample).as_ref(), |sample, reading| recorded.answer(&sample, reading));
@@ -112,7 +111,7 @@ impl LiveScan {
         };
         session.finish(|sample, reading| recorded.answer(&sample, reading));
         let Recorded { record, mut report, fault, .. } = recorded;
-        report.end(end, sensor.feed.counters(), chain.timekeeper());
+        report.end(end, sensor.feed.counters(), chain.timekeeper(), session.calibration());
         record.finish(&report.counters, &report.record())?;
         fault.map_or(Ok(report), |error| Err(error.into()))
     }

@@ -8,8 +8,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use vibrissa::Label;
 use vibrissa::hw::{LinkCounters, Quality, ReactionSample, SensorCheck, SensorFinding, Timekeeper};
-use vibrissa::reconstruct::noise_estimate::ChannelNoise;
-use vibrissa::reconstruct::{Reading, Touch};
+use vibrissa::reconstruct::{Calibration, LiveSettings, Reading, SourceEstimate, Touch};
+
+/// Probability of a label below which it is told.
+const UNSURE: f64 = 0.95;
 
 /// Why a live scan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -44,6 +46,8 @@ pub struct LiveReport {
     delay: usize,
     pub(super) losses: Losses,
     labels: BTreeMap<String, u64>,
+    unsure: u64,
+    errors: Vec<SourceEstimate>,
     qualities: BTreeMap<&'static str, u64>,
     points: u64,
     misses: u64,
@@ -68,6 +72,8 @@ impl LiveReport {
             delay: 0,
             losses: Losses::default(),
             labels: BTreeMap::new(),
+            unsure: 0,
+            errors: Vec::new(),
             qualities: BTreeMap::new(),
             points: 0,
             misses: 0,
@@ -87,8 +93,9 @@ impl LiveReport {
         !matches!(self.end, None | Some(End::Silence)) && !self.findings.iter().any(SensorFinding::is_misfit)
     }
 
-    pub(super) fn begin(&mut self, noise: [ChannelNoise; 3], spacing: f64, delay: usize) {
-        (self.noise, self.spacing, self.delay) = (noise.map(|noise| noise.sigma), spacing, delay);
+    pub(super) fn begin(&mut self, settings: &LiveSettings, delay: usize) {
+        (self.noise, self.spacing) = (settings.noise.map(|noise| noise.sigma), settings.spacing);
+        self.delay = delay;
     }
 
     pub(super) fn sample(&mut self, sample: &ReactionSample) {
@@ -104,6 +111,7 @@ impl LiveReport {
         let Some(reading) = reading else { return };
         *self.labels.entry(reading.label.to_string()).or_default() += 1;
         self.points += u64::from(reading.touch.is_ok());
+        self.unsure += u64::from(reading.probability < UNSURE);
     }
 
     /// A sample without reactions.
@@ -122,9 +130,16 @@ impl LiveReport {
         self.silent
     }
 
-    pub(super) fn end(&mut self, end: End, counters: LinkCounters, timekeeper: &Timekeeper) {
+    pub(super) fn end(
+        &mut self,
+        end: End,
+        counters: LinkCounters,
+        timekeeper: &Timekeeper,
+        calibration: Option<&Calibration>,
+    ) {
         (self.end, self.counters, self.jitter) = (Some(end), counters, timekeeper.jitter());
         self.counters.lost += self.losses.lost();
+        self.errors = calibration.map_or_else(Vec::new, |calibration| calibration.sources.clone());
     }
 
     /// A line of progress: the answer, and the label `before` if it has changed.
@@ -133,6 +148,8 @@ impl LiveReport {
             Some(before) => format!("{before} -> {}", reading.label),
             None => reading.label.to_string(),
         };
+        let sure = reading.probability >= UNSURE;
+        let phase = if sure { phase } else { format!("{phase} ({:.0} %)", 100.0 * reading.probability) };
         let point = match &reading.touch {
             Ok(touch @ Touch { x, y, force, .. }) => format!(
                 "contact ({:.3}, {:.3}) mm +- {:.0e} mm, {force:.4} N",
@@ -164,6 +181,17 @@ impl LiveReport {
         writeln!(text, "{}: {end}; link: {}", self.sensor, self.counters)?;
         let labels: Vec<String> = self.labels.iter().map(|(label, count)| format!("{label} {count}")).collect();
         writeln!(text, "{} samples, {} contact points; {}", self.samples, self.points, labels.join(", "))?;
+        if self.unsure > 0 {
+            writeln!(text, "{} labels have a probability below {:.0} %", self.unsure, 100.0 * UNSURE)?;
+        }
+        for error in self.errors.iter().filter(|error| error.is_beyond()) {
+            let SourceEstimate { source, value, sigma, given, .. } = error;
+            let unit = source.name().1;
+            writeln!(
+                text,
+                "{source}: {value:.2e} +- {sigma:.0e} {unit}, more than three times its budget of {given:.0e}"
+            )?;
+        }
         if let (Some(median), Some(most)) = (self.latency.quantile(0.5), self.latency.quantile(0.999)) {
             writeln!(
                 text,
@@ -192,6 +220,8 @@ impl LiveReport {
             samples: self.samples,
             points: self.points,
             labels: self.labels.clone(),
+            unsure: self.unsure,
+            errors: self.errors.clone(),
             flagged: self.qualities.clone(),
             without_reactions: self.misses,
             first_without: self.first_miss.clone(),
@@ -219,6 +249,10 @@ struct SummaryRecord {
     samples: u64,
     points: u64,
     labels: BTreeMap<String, u64>,
+    /// Labels with a probability below 0.95.
+    unsure: u64,
+    /// What was found of the errors that all samples share.
+    errors: Vec<SourceEstimate>,
     flagged: BTreeMap<&'static str, u64>,
     without_reactions: u64,
     first_without: Option<String>,
