@@ -4,8 +4,10 @@
 //! samples come, except for several contacts; [`LiveSession`] keeps the answers together with the samples that they are for.
 
 mod answers;
+mod calibrated;
 mod doubts;
 mod each_pass;
+mod explanation;
 mod live;
 mod live_settings;
 mod nearest;
@@ -16,6 +18,7 @@ mod session;
 mod settings;
 
 pub use each_pass::reconstruct_passes;
+pub use explanation::{Explanation, explanations};
 pub use live::Live;
 pub use live_settings::LiveSettings;
 pub use reading::{Reading, Reason};
