@@ -8,9 +8,13 @@ use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
 use rod_core::{Rod, Sample};
 use std::fmt;
 
-/// Most samples that labels and errors are found from, and most of them that are checked by the physics. More: more time.
-const MOST_SAMPLES: usize = 2000;
-const MOST_CHECKED: usize = 400;
+/// Most samples that the likelihood of a mistake is first found from. Fewer: the likeliest ones may be missed; more: more time.
+const FIRST: usize = 150;
+/// So many of the mistakes that are likeliest by these are looked at again.
+const KEPT: usize = 3;
+/// Most samples that the likelihoods are found from then, and most of them that are checked by the physics. More: more time.
+const MOST_SAMPLES: usize = 600;
+const MOST_CHECKED: usize = 300;
 
 /// Logarithm of the factor by which a source must be more likely than bias and drift alone: strong evidence (Jeffreys 1961, appendix B).
 /// Smaller: where bias and drift explain everything, all sources that are as known are told, too.
@@ -55,7 +59,8 @@ impl fmt::Display for Explanation {
 ///
 /// For each mistake the likelihood is that of the best labels and errors of the recording without it. That of the recording as it is
 /// divides among the sources in proportion to their evidence by Laplace's method, to second order about the estimate with all sources
-/// free; sources that are not at least 20 times as likely as bias and drift alone are left out. At most 2000 samples are looked at. Two mistakes at once, and errors that are not in the budget, are not tried. Empty where
+/// free; sources that are not at least 20 times as likely as bias and drift alone are left out. At most 600 samples are looked at, and of
+/// the mistakes only the three that are likeliest by 150. Two mistakes at once, and errors that are not in the budget, are not tried. Empty where
 /// nothing that is tried gives a possible recording.
 pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &[Finding]) -> Vec<(Explanation, f64)> {
     let usual = settings.budget.filter(|budget| !budget.is_none()).unwrap_or_else(|| Budget::laboratory(rod));
@@ -65,13 +70,16 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
         Finding::Stiffness { given, suggested, .. } => Mistake::of_slope(*given, *suggested).to_vec(),
         _ => Vec::new(),
     });
-    let mut found: Vec<(Explanation, f64)> = Vec::new();
-    for mistake in Mistake::ALL.into_iter().chain(of_slope).filter(|mistake| mistake.is_possible(&thin)) {
-        let (rod, undone) = mistake.undone(rod, &thin);
-        if let Some(calibration) = interpreted(&rod, &undone, &settings) {
-            found.push((Explanation::Mistake(mistake), calibration.log_likelihood));
-        }
-    }
+    let log = |mistake: Mistake, samples: &[Sample]| {
+        let (rod, undone) = mistake.undone(rod, samples);
+        Some((mistake, interpreted(&rod, &undone, &settings)?.log_likelihood))
+    };
+    let possible = Mistake::ALL.into_iter().chain(of_slope).filter(|mistake| mistake.is_possible(&thin));
+    let few = thinned(samples, FIRST);
+    let mut likely: Vec<(Mistake, f64)> = possible.filter_map(|mistake| log(mistake, &few)).collect();
+    likely.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let again = likely.into_iter().take(KEPT).filter_map(|(mistake, _)| log(mistake, &thin));
+    let mut found: Vec<(Explanation, f64)> = again.map(|(mistake, log)| (Explanation::Mistake(mistake), log)).collect();
     if let Some(calibration) = interpreted(rod, &thin, &settings) {
         let mut parts = candidates(&calibration);
         let tare = parts.iter().find(|part| part.0 == Candidate::Tare).map(|part| part.1);
