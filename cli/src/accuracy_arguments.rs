@@ -1,6 +1,6 @@
 //! Options of the commands about accuracy: `calibrate` and `budget`.
 
-use crate::arguments::Written;
+use crate::arguments::{Moved, Written};
 use crate::values::{directory, seed};
 use clap::Args;
 use std::path::PathBuf;
@@ -18,7 +18,8 @@ pub struct Calibrate {
     /// The rod, a TOML file with the table [rod] of a scene, perhaps with an earlier calibration; or a scene
     #[arg(long, value_name = "FILE")]
     pub rod: PathBuf,
-    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]
+    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]; of raw
+    /// values and wrenches also calibration, mounting and tare, as for `live`
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
     /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recordings]
@@ -30,6 +31,8 @@ pub struct Calibrate {
     /// The TOML file of the calibrated rod; calibration.svg is written beside it
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    #[command(flatten)]
+    pub moved: Moved,
     #[command(flatten)]
     pub written: Written,
 }

@@ -2,7 +2,7 @@
 
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
-use crate::values::{directory, meaning, no_quiet, number, pair, seed};
+use crate::values::{degrees, directory, meaning, no_quiet, number, pair, seed};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -28,7 +28,10 @@ Turn a recording of clamp reactions back into contact points, phases and the con
 
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
-labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout.";
+labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout.
+
+Several recordings are of one object, with one rod in one frame. Each is reconstructed on its own, into a folder of its name, and
+contour.csv, contour.svg and merged.json beside the folders are of all of them together.";
 
 const CALIBRATE: &str = "\
 Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings.
@@ -98,24 +101,7 @@ pub enum Command {
     Simulate(Simulate),
     /// Turn a recording of clamp reactions back into contact points, phases and the contour
     #[command(long_about = RECONSTRUCT, after_help = guide::RECONSTRUCT)]
-    Reconstruct {
-        /// The recording: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
-        /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z; other units in the names, as `f0x [mN]`
-        recording: PathBuf,
-        /// The rod, a TOML file with the table [rod] of a scene, perhaps with what `calibrate` found; or a scene
-        #[arg(long, value_name = "FILE")]
-        rod: PathBuf,
-        /// The scene that the recording is of, to compare with
-        #[arg(long, value_name = "SCENE")]
-        truth: Option<PathBuf>,
-        /// Directory of the results [default: out/<name of the recording>]
-        #[arg(long, value_name = "DIR", value_parser = directory)]
-        out: Option<PathBuf>,
-        #[command(flatten)]
-        trust: Trust,
-        #[command(flatten)]
-        written: Written,
-    },
+    Reconstruct(Reconstruct),
     /// Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings
     #[command(long_about = CALIBRATE, after_help = guide::CALIBRATE)]
     Calibrate(Calibrate),
@@ -159,12 +145,8 @@ pub struct Live {
     /// The rod, a TOML file with the table [rod] of a scene, perhaps with a calibration; or a scene
     #[arg(long, value_name = "FILE")]
     pub rod: PathBuf,
-    /// How the clamp moves: constant:SPEED (m/s, or rad/s where it only turns) or table:FILE (t,x0,y0,phi0)
-    #[arg(long, value_name = "STAGE")]
-    pub stage: Option<StageSpec>,
-    /// The scene whose path a constant speed is along [default: that of --rod]
-    #[arg(long, value_name = "SCENE")]
-    pub path: Option<PathBuf>,
+    #[command(flatten)]
+    pub moved: Moved,
     /// How the sensor is set up, a TOML file: units and counts, calibration, mounting, accuracy, tare,
     /// what of a recording is meant, and how large the errors may be that all samples share [errors]
     #[arg(long, value_name = "FILE")]
@@ -179,14 +161,55 @@ pub struct Live {
     pub written: Written,
 }
 
+/// Recordings to be turned back.
+#[derive(Debug, Args)]
+pub struct Reconstruct {
+    /// The recordings: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
+    /// standard deviations sigma_f0x,sigma_f0y,sigma_m0z; other units in the names, as `f0x [mN]`. With --stage also wrenches and raw
+    /// values, in these files, TDMS and MCAP. Several are of one object and one rod
+    #[arg(required = true, value_name = "RECORDING")]
+    pub recordings: Vec<PathBuf>,
+    /// The rod, a TOML file with the table [rod] of a scene, perhaps with what `calibrate` found; or a scene
+    #[arg(long, value_name = "FILE")]
+    pub rod: PathBuf,
+    /// The scene that the recordings are of, to compare with
+    #[arg(long, value_name = "SCENE")]
+    pub truth: Option<PathBuf>,
+    /// Directory of the results [default: out/<name of the recording>, of several out/merged]
+    #[arg(long, value_name = "DIR", value_parser = directory)]
+    pub out: Option<PathBuf>,
+    /// Of several recordings: move them onto each other along this direction, degrees from x, before their contours are merged
+    /// [default: none is moved]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
+    pub align: Option<f64>,
+    #[command(flatten)]
+    pub moved: Moved,
+    #[command(flatten)]
+    pub trust: Trust,
+    #[command(flatten)]
+    pub written: Written,
+}
+
+/// How the clamp moves, where the samples have no poses.
+#[derive(Debug, Args)]
+pub struct Moved {
+    /// How the clamp moves: constant:SPEED (m/s, or rad/s where it only turns) or table:FILE (t,x0,y0,phi0)
+    #[arg(long, value_name = "STAGE")]
+    pub stage: Option<StageSpec>,
+    /// The scene whose path a constant speed is along [default: that of --rod]
+    #[arg(long, value_name = "SCENE")]
+    pub path: Option<PathBuf>,
+}
+
 /// How far a recording and its rod can be trusted.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "How far recording and rod can be trusted")]
 pub struct Trust {
     /// Take samples, rod and poses as they are: nothing is corrected, and standard deviations are of the noise only
-    #[arg(long, conflicts_with = "setup")]
+    #[arg(long)]
     pub as_is: bool,
-    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]
+    /// A TOML file: how large the errors may be that all samples share, the table [errors] [default: an ordinary laboratory]; of raw
+    /// values and wrenches also calibration, mounting, tare and what of a recording is meant, as for `live`
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
     /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recording]

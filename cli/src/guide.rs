@@ -48,8 +48,10 @@ Examples:
 Next: `vibrissa reconstruct recording.csv --rod scene.toml --truth scene.toml`.";
 
 pub const RECONSTRUCT: &str = "\
-Example:
+Examples:
   vibrissa reconstruct recording.csv --rod rod.toml
+  vibrissa reconstruct near.csv far.csv --rod rod.toml --out object
+  vibrissa reconstruct volts.tdms --rod scene.toml --setup sensor.toml --stage constant:1e-3
 
 Next: open contour.svg and phases.svg of the results in a browser; docs/output-files.md explains every field of the others.";
 

@@ -14,6 +14,7 @@ mod init;
 mod interrupt;
 mod interval;
 mod live;
+mod merged;
 mod noise_file;
 mod output;
 mod paper;
@@ -44,13 +45,14 @@ pub use live::{
     AddressError, End, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor, SensorAddress, StageSpec,
     StageSpecError,
 };
+pub use merged::Merged;
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged, abandon, check_output, write_profile_table, write_profiles};
 pub use paper::{Paper, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
-pub use recording::{ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
+pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{KnownRod, Scene, read_known_rod, read_rod};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};

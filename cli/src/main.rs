@@ -4,23 +4,25 @@ mod accuracy;
 mod accuracy_arguments;
 mod arguments;
 mod guide;
+mod progress;
+mod reconstruction;
 mod signals;
 mod values;
 
-use arguments::{Arguments, Command, FakeSensor, Live, Simulate, Trust};
+use arguments::{Arguments, Command, FakeSensor, Live, Moved, Simulate};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
+use progress::Progress;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use vibrissa::Settings;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
-    Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Reconstructed,
-    Recording, Scan, Scene, SceneError, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged,
-    check_output, read_known_rod, read_noise, shapes_list, write_first_scene, write_profile_table, write_profiles,
+    Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError,
+    Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output, read_known_rod, read_noise,
+    shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -46,9 +48,7 @@ fn main() -> ExitCode {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
-        Command::Reconstruct { recording, written, trust, rod, truth, out } => {
-            reconstruct(&recording, &written.into(), trust, &rod, truth, out)
-        }
+        Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
         Command::Budget(arguments) => accuracy::expect(arguments),
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live(arguments) => live(arguments),
@@ -130,7 +130,9 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let caught = signals::ask();
     let staged = Staged::new(&out)?.keeping(scene.files.clone());
+    let progress = Progress::of(&caught.interrupt);
     let scan = Scan::run_until(scene, &caught.interrupt)?;
+    drop(progress);
     if let Some(at) = scan.interrupted.filter(|_| scan.outcome.states.is_empty()) {
         return Ok(interrupted(&scan.scene.name, &at, None, &caught));
     }
@@ -184,11 +186,13 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
     let caught = signals::ask();
     let tell: fn(&str) = if standard { tell_beside } else { say };
+    let progress = Progress::of(&caught.interrupt);
     let Simulated { samples, lost, stop, interrupted: at } = if standard {
         simulation.write_to(&mut BufWriter::new(io::stdout().lock()), &caught.interrupt)?
     } else {
         simulation.write(&out, &caught.interrupt)?
     };
+    drop(progress);
     let name = &simulation.scene.name;
     if let Some(at) = at.filter(|_| samples == 0) {
         return Ok(interrupted(name, &at, None, &caught));
@@ -202,88 +206,38 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     })
 }
 
-fn reconstruct(
-    file: &Path,
-    how: &ReadOptions,
-    trust: Trust,
-    rod: &Path,
-    truth: Option<PathBuf>,
-    out: Option<PathBuf>,
-) -> Result<ExitCode, Error> {
-    signals::end();
-    let mut inputs = vec![file.to_path_buf(), rod.to_path_buf()];
-    inputs.extend(trust.setup.iter().chain(&trust.noise).cloned());
-    let given = read_known_rod(rod)?;
-    let (rod, settings) = (given.rod, settings(trust, &given)?);
-    let truth = truth.map(|scene| read_scene(&scene)).transpose()?;
-    let recording = Recording::read(file, &rod, how)?;
-    for warning in recording.warnings() {
-        warn(&format!("warning: {warning}\n"));
-    }
-    let mut found = Reconstructed::new(recording, rod, &settings)?;
-    if let Some(scene) = truth {
-        scene.check_start()?;
-        inputs.extend(scene.files.iter().cloned());
-        found.compare(scene)?;
-    }
-    let out = out.unwrap_or_else(|| Path::new("out").join(&found.name));
-    let staged = Staged::new(&out)?.keeping(inputs);
-    found.write(&staged)?;
-    staged.publish()?;
-    say(&found.summary());
-    say(&format!("written to {}\n", out.display()));
-    if found.check.fits() {
-        return Ok(ExitCode::SUCCESS);
-    }
-    for finding in found.check.findings.iter().filter(|finding| finding.is_misfit()) {
-        warn(&format!("warning: {}: {finding}\n", file.display()));
-    }
-    Ok(ExitCode::from(UNFINISHED))
-}
-
-/// The settings of a reconstruction.
-fn settings(trust: Trust, given: &KnownRod) -> Result<Settings, Error> {
-    let Trust { as_is, setup, noise, false_alarms, largest_sigma } = trust;
-    let budget = accuracy::budget(setup.as_deref(), &given.rod)?;
-    let noise = noise.map(|file| read_noise(&file)).transpose()?;
-    let default = Settings::default();
-    Ok(Settings {
-        noise: noise.map(|model| model.channels()),
-        false_alarms: false_alarms.unwrap_or(default.false_alarms),
-        largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
-        budget: if as_is { Some(Budget::NONE) } else { budget },
-        known: if as_is { Known::NOTHING } else { given.known },
-    })
-}
-
 fn live(arguments: Live) -> Result<ExitCode, Error> {
-    let Live { sensor: address, rod: rod_file, stage, path, setup, as_is, out, written } = arguments;
+    let Live { sensor: address, rod, moved, setup, as_is, out, written } = arguments;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let mut inputs = vec![rod_file.clone()];
-    inputs.extend(setup.files.iter().cloned());
-    inputs.extend(path.iter().cloned());
-    if let Some(StageSpec::Table(file)) = &stage {
-        inputs.push(file.clone());
+    let mut scan = scan_of(&read_known_rod(&rod)?, rod, moved, setup, written.into())?;
+    if as_is {
+        (scan.budget, scan.known) = (Budget::NONE, Known::NOTHING);
     }
     if let SensorAddress::File(file) = &address {
-        inputs.push(file.clone());
+        scan.inputs.push(file.clone());
     }
-    let path = match (path, &stage) {
-        (Some(scene), _) => Some(read_scene(&scene)?.path),
-        // a file with nothing but a rod is no scene: then the path is missed where it is needed
-        (None, Some(StageSpec::Constant(_))) => read_scene(&rod_file).ok().map(|scene| scene.path),
-        (None, _) => None,
-    };
-    let KnownRod { rod, known } = read_known_rod(&rod_file)?;
-    let (budget, known) =
-        if as_is { (Budget::NONE, Known::NOTHING) } else { (setup.errors.unwrap_or_default().budget(&rod), known) };
-    let scan = LiveScan { rod, budget, known, setup, stage, path, read: written.into(), inputs };
     let sensor = Sensor::open(&address, &scan.setup, &scan.read)?;
     let interrupt = signals::ask().interrupt;
     let report = scan.run(sensor, &out, &mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
     say(&report.text());
     say(&format!("written to {}\n", out.display()));
     Ok(if report.is_complete() { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })
+}
+
+/// A scan with a sensor whose rod stands in `file`.
+fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: ReadOptions) -> Result<LiveScan, Error> {
+    let Moved { stage, path } = moved;
+    let told = match (&path, &stage) {
+        (Some(scene), _) => Some(read_scene(scene)?.path),
+        // a file with nothing but a rod is no scene: then the path is missed where it is needed
+        (None, Some(StageSpec::Constant(_))) => read_scene(&file).ok().map(|scene| scene.path),
+        (None, _) => None,
+    };
+    let table = if let Some(StageSpec::Table(table)) = &stage { Some(table.clone()) } else { None };
+    let inputs = [file].into_iter().chain(setup.files.iter().cloned()).chain(path).chain(table).collect();
+    let KnownRod { rod, known } = *given;
+    let budget = setup.errors.unwrap_or_default().budget(&rod);
+    Ok(LiveScan { rod, budget, known, setup, stage, path: told, read, inputs })
 }
 
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {

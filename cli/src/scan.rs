@@ -41,6 +41,7 @@ impl Scan {
                 Some(Ok(Item::State(state))) => {
                     pose = Some(state.pose);
                     outcome.states.push(state);
+                    interrupt.pass(outcome.states.len() as f64 * scene.step / scene.path.length());
                 }
                 Some(Ok(Item::Event(event))) => {
                     pose = Some(event.pose());

@@ -19,6 +19,12 @@ pub fn number(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
 }
 
+/// An angle.
+pub fn degrees(text: &str) -> Result<f64, String> {
+    let angle = text.parse().ok().filter(|angle: &f64| angle.is_finite());
+    angle.ok_or_else(|| "expected a finite number of degrees".to_owned())
+}
+
 /// A directory of results: several files have no place on standard output.
 pub fn directory(text: &str) -> Result<PathBuf, String> {
     match text {

@@ -84,6 +84,31 @@ fn same(found: &Heard, expected: &Heard) {
     assert!(points > found.1.len(), "{points} coordinates of {} samples", found.1.len());
 }
 
+/// The volts as a TDMS file.
+fn tdms(rows: &[(f64, [f64; 6], Vector6<f64>)]) -> Vec<u8> {
+    let mut objects = vec![Object::new("/'Measured'/'Time'", Index::Values(F64, rows.len() as u64))];
+    let mut raw = Endian::Little.f64s(&rows.iter().map(|row| row.0).collect::<Vec<_>>());
+    for (i, path) in [
+        "/'Measured'/'Ai0'",
+        "/'Measured'/'Ai1'",
+        "/'Measured'/'Ai2'",
+        "/'Measured'/'Ai3'",
+        "/'Measured'/'Ai4'",
+        "/'Measured'/'Ai5'",
+    ]
+    .iter()
+    .enumerate()
+    {
+        objects.push(Object::new(path, Index::Values(F64, rows.len() as u64)).with(
+            Endian::Little,
+            "wf_increment",
+            1e-3,
+        ));
+        raw.extend(Endian::Little.f64s(&rows.iter().map(|row| row.2[i]).collect::<Vec<_>>()));
+    }
+    segment(Endian::Little, 0, &objects, &raw)
+}
+
 const STAGE: [&str; 2] = ["--stage", "constant:0.02"];
 
 #[test]
@@ -131,27 +156,7 @@ fn volts_give_the_points_of_the_wrench() {
     let table = ["--stage", "table:stage.csv", "--column", "t=Zeit"];
     same(&listen(dir, "volts.csv", &of_rows, &[&table[..], &written].concat()), &expected);
 
-    let mut objects = vec![Object::new("/'Measured'/'Time'", Index::Values(F64, rows.len() as u64))];
-    let mut raw = Endian::Little.f64s(&rows.iter().map(|row| row.0).collect::<Vec<_>>());
-    for (i, path) in [
-        "/'Measured'/'Ai0'",
-        "/'Measured'/'Ai1'",
-        "/'Measured'/'Ai2'",
-        "/'Measured'/'Ai3'",
-        "/'Measured'/'Ai4'",
-        "/'Measured'/'Ai5'",
-    ]
-    .iter()
-    .enumerate()
-    {
-        objects.push(Object::new(path, Index::Values(F64, rows.len() as u64)).with(
-            Endian::Little,
-            "wf_increment",
-            1e-3,
-        ));
-        raw.extend(Endian::Little.f64s(&rows.iter().map(|row| row.2[i]).collect::<Vec<_>>()));
-    }
-    fs::write(dir.join("volts.tdms"), segment(Endian::Little, 0, &objects, &raw)).unwrap();
+    fs::write(dir.join("volts.tdms"), tdms(&rows)).unwrap();
     for time in ["time = 'Time'", "time = 'waveform'", "time = { rate = 1000 }", ""] {
         let setup = of_file.replace("time = 'Zeit'", time) + "\ngroup = 'Measured'";
         same(&listen(dir, "volts.tdms", &setup, &STAGE), &expected);
@@ -245,4 +250,62 @@ fn gauges_cannot_be_played() {
         "{}",
         complaint(&output)
     );
+}
+
+/// Labels and contact points in the points.jsonl of `reconstruct`.
+fn points(out: &Path) -> Vec<(Option<String>, [Option<f64>; 2])> {
+    let text = fs::read_to_string(out.join("points.jsonl")).unwrap();
+    let lines = text.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    lines.map(|line| (line["label"].as_str().map(str::to_owned), [line["x"].as_f64(), line["y"].as_f64()])).collect()
+}
+
+/// `reconstruct` takes volts by the way of `live`: tare, calibration, stage.
+#[test]
+fn volts_are_reconstructed_as_the_reactions_that_they_are_of() {
+    let Felt { directory, rows, .. } = felt();
+    let dir = directory.path();
+    fs::write(dir.join("volts.tdms"), tdms(&rows)).unwrap();
+    let setup = |first: &str| {
+        format!(
+            "[sensor]\ncalibration = 'turned.cal'\n[recording]\ngroup = 'Measured'\ncolumns = ['{first}', 'Ai1', 'Ai2', 'Ai3', \
+             'Ai4', 'Ai5']\n{TARE}"
+        )
+    };
+    fs::write(dir.join("setup.toml"), setup("Ai0")).unwrap();
+    fs::write(dir.join("wrong.toml"), setup("Ai9")).unwrap();
+    let run = |file: &str, arguments: &[&str]| {
+        let always = ["reconstruct", file, "--rod", "scene.toml", "--as-is"];
+        vibrissa(dir, &[&always[..], arguments].concat())
+    };
+    let output = run("felt.csv", &["--out", "of_reactions"]);
+    assert!(matches!(output.status.code(), Some(0 | 2)), "{}", complaint(&output));
+    let status = output.status.code();
+    let output = run("volts.tdms", &[&["--setup", "setup.toml", "--out", "of_volts"], &STAGE[..]].concat());
+    assert_eq!(output.status.code(), status, "{}", complaint(&output));
+    let (found, expected) = (points(&dir.join("of_volts")), points(&dir.join("of_reactions")));
+    assert_eq!(found.len(), rows.len());
+    let (mut same, mut near, mut all) = (0, 0, 0);
+    for (found, expected) in found.iter().zip(&expected) {
+        same += usize::from(found.0 == expected.0);
+        if let (([Some(x), Some(y)], [Some(u), Some(v)]), true) = ((found.1, expected.1), found.0 == expected.0) {
+            all += 1;
+            near += usize::from((x - u).hypot(y - v) < 1e-4);
+        }
+    }
+    assert!(100 * same > 99 * rows.len() && all > rows.len() / 3 && 100 * near > 99 * all, "{same} {all} {near}");
+
+    for (arguments, parts) in [
+        (&["--setup", "setup.toml"][..], &["file:volts.tdms: nothing tells where the clamp is; give --stage"][..]),
+        (&STAGE[..], &["volts.tdms: expected group = .. in the table [recording] of a setup", "`Measured`"]),
+        (
+            &["--setup", "wrong.toml", "--stage", "constant:0.02"],
+            &["file:volts.tdms: no channel `Ai9` in group `Measured`; there are"],
+        ),
+    ] {
+        let output = run("volts.tdms", arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", complaint(&output));
+        parts.iter().for_each(|part| assert!(complaint(&output).contains(part), "{part}: {}", complaint(&output)));
+    }
+    let output = run("felt.csv", &STAGE);
+    assert!(complaint(&output).contains("felt.csv: its rows have poses of the clamp, expected no --stage"));
 }

@@ -242,11 +242,16 @@ fn wrong_units_and_another_rod_are_told_and_everything_is_written() {
         fs::write(directory.path().join("r.csv"), &original).unwrap();
         edit(directory.path(), |_, r| joined(&[r[0], r[1], r[2], r[3], force * r[4], force * r[5], moment * r[6]]));
     };
-    for (force, moment, said) in [
-        (1.0, 1e3, "as if moments are in N mm (or mN m); expected N and N m"),
-        (1e3, 1.0, "as if forces are in mN; expected N and N m"),
-        (-1.0, -1.0, "f0x and f0y have the wrong sign"),
-        (1.0, 0.8, "the bending stiffness is 6.3200e-4 N m^2, the recording suggests 4.04"),
+    for (force, moment, said, cause) in [
+        (1.0, 1e3, "as if moments are in N mm (or mN m); expected N and N m", "moments are in N mm (or mN m)"),
+        (1e3, 1.0, "as if forces are in mN; expected N and N m", "forces are in mN"),
+        (-1.0, -1.0, "f0x and f0y have the wrong sign", "f0x and f0y and m0z have the wrong sign"),
+        (
+            1.0,
+            0.8,
+            "the bending stiffness is 6.3200e-4 N m^2, the recording suggests 4.04",
+            "m0z is 0.800 times what it should be",
+        ),
     ] {
         scaled(force, moment);
         let output = reconstruct(directory.path(), &["--truth", "O1_q40.toml"]);
@@ -257,6 +262,12 @@ fn wrong_units_and_another_rod_are_told_and_everything_is_written() {
         assert_eq!(lines(directory.path()).len(), 3401);
         let findings = report(directory.path())["physics"]["findings"].to_string();
         assert!(findings.contains(said), "{findings}");
+        assert!(
+            message.contains(&format!("likely causes, if it is one of those that are tried: {cause}: ")),
+            "{message}"
+        );
+        let causes = &report(directory.path())["physics"]["causes"];
+        assert!(causes[0]["cause"] == cause && causes[0]["likelihood"].as_f64() > Some(0.9), "{causes}");
         assert!(String::from_utf8(output.stdout).unwrap().contains(said));
     }
 }

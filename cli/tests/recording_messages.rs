@@ -1,7 +1,7 @@
 //! Every fault of a recording is answered with its file and line, the value and what was expected.
 
 use vibrissa::{Pose, Rod};
-use vibrissa_cli::{ReadOptions, Recording, RecordingError, RowProblem};
+use vibrissa_cli::{Place, ReadOptions, Recording, RecordingError, RowProblem};
 
 const HEADER: &str = "x0,y0,phi0,f0x,f0y,m0z";
 
@@ -126,8 +126,9 @@ fn lines_are_those_of_an_editor() {
             });
         }
         let recording = parse(&lines.join(end)).unwrap();
-        let found: Vec<u64> = recording.faults().map(|fault| fault.line).collect();
-        let expected: Vec<u64> = (1..).zip(&lines).filter(|(_, line)| line.ends_with('?')).map(|(k, _)| k).collect();
+        let found: Vec<Place> = recording.faults().map(|fault| fault.place).collect();
+        let expected: Vec<Place> =
+            (1..).zip(&lines).filter(|(_, line)| line.ends_with('?')).map(|(k, _)| Place::Line(k)).collect();
         assert_eq!((found.len(), found), (3, expected));
     }
 }
@@ -143,9 +144,9 @@ fn rows_of_another_length() {
 #[test]
 fn poses_that_do_not_go_on() {
     let problem = leaves_out(7, "76,-0.04,1.5,0,0,0", "the pose of line 6 is repeated, expected a clamp that moves");
-    assert_eq!(problem, RowProblem::Repeated { of: 6 });
+    assert_eq!(problem, RowProblem::Repeated { of: Place::Line(6) });
     let back = "the pose turns back behind that of line 6, expected a clamp that goes on in one direction";
-    assert_eq!(leaves_out(7, "76.5,-0.04,1.5,0,0,0", back), RowProblem::TurnsBack { of: 6 });
+    assert_eq!(leaves_out(7, "76.5,-0.04,1.5,0,0,0", back), RowProblem::TurnsBack { of: Place::Line(6) });
     // A row with a fault is not one that the next may repeat.
     let recording = parse(&with_rows(&[(7, "75,-0.04,1.5,?,0,0"), (8, "75,-0.04,1.5,0,0,0")])).unwrap();
     assert_eq!(recording.samples().count(), 19);
@@ -202,7 +203,7 @@ fn a_time_that_does_not_grow_is_told_of() {
     }
     let recording = parse(&text).unwrap();
     assert_eq!(recording.samples().count(), 20);
-    assert_eq!(recording.late, [5, 10]);
+    assert_eq!(recording.late, [5, 10].map(Place::Line));
     assert_eq!(recording.warnings(), ["rec.csv: the time does not grow in 2 of 20 rows, lines 5, 10"]);
 }
 

@@ -36,5 +36,6 @@ mod reconstruct_objects;
 mod recording_messages;
 mod regression;
 mod scene_messages;
+mod several_recordings;
 mod sharp_scenes;
 mod simulate;

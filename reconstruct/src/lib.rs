@@ -46,7 +46,7 @@ mod two_contacts;
 pub use nalgebra;
 
 #[cfg(feature = "std")]
-pub use check::{Finding, Plausibility, Shares, TangentialLine, plausibility};
+pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibility};
 #[cfg(feature = "std")]
 pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
@@ -59,8 +59,8 @@ pub use phase::Label;
 pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
 pub use pipeline::{
-    Live, LiveSession, LiveSettings, Pass, Reading, Reason, ReconstructError, Reconstruction, Settings, reconstruct,
-    reconstruct_passes,
+    Explanation, Live, LiveSession, LiveSettings, Pass, Reading, Reason, ReconstructError, Reconstruction, Settings,
+    explanations, reconstruct, reconstruct_passes,
 };
 #[cfg(feature = "std")]
 pub use point::{GeneralError, single_general};

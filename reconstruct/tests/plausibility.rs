@@ -112,9 +112,10 @@ fn another_stiffness_is_suggested() {
             assert!((suggested.unwrap() / STIFFNESS - 1.0).abs() < precision, "{check:?}");
             assert!(!check.fits());
         }
-        // Somewhat off is told, but no reason to doubt everything.
+        // Somewhat off does not fit either, but is no gross mistake: the errors that samples share are told from such a recording.
         let check = plausibility(&rod(LENGTH, 0.94 * STIFFNESS), &samples);
-        assert!(check.fits() && matches!(check.findings[..], [Finding::Stiffness { .. }]), "{check:?}");
+        assert!(!check.fits() && !check.findings.iter().any(Finding::is_gross), "{check:?}");
+        assert!(matches!(check.findings[..], [Finding::Stiffness { .. }]), "{check:?}");
     }
 }
 

@@ -3,6 +3,7 @@
 //! `address` and `stage` are the arguments of the command line for the sensor and the clamp. `connect` opens a [`Sensor`], or `played` a
 //! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise (`rounding`). `session` is the
 //! scan from the first sample to the last, `losses` counts what no counter tells of, `record` writes its files and `summary` its report.
+//! `whole` takes a recording at once.
 
 mod address;
 mod connect;
@@ -20,6 +21,7 @@ mod sensor;
 mod session;
 mod stage;
 mod summary;
+mod whole;
 
 pub use address::{AddressError, SensorAddress};
 pub use error::LiveError;

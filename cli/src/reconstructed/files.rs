@@ -9,20 +9,20 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// Columns of contour.csv.
-const COLUMNS: [&str; 7] = ["stretch", "kind", "x", "y", "alpha", "sigma", "sigma_systematic"];
+pub(crate) const COLUMNS: [&str; 7] = ["stretch", "kind", "x", "y", "alpha", "sigma", "sigma_systematic"];
 
 impl Reconstructed {
-    /// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg.
+    /// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg into `folder` of the staged directory.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged) -> Result<(), Error> {
-        staged.write(Path::new("points.jsonl"), |file| self.write_points(file))?;
-        staged.write(Path::new("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
-        staged.write(Path::new("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;
+    pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), Error> {
+        staged.write(&folder.join("points.jsonl"), |file| self.write_points(file))?;
+        staged.write(&folder.join("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
+        staged.write(&folder.join("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;
         for (name, figure) in [("contour.svg", figure::reconstruction(self)?), ("phases.svg", figure::reactions(self)?)]
         {
-            staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
+            staged.write(&folder.join(name), |file| file.write_all(figure.as_bytes()))?;
         }
         Ok(())
     }

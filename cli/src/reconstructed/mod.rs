@@ -13,6 +13,7 @@ mod summary;
 mod truth;
 
 pub use comparison::{Comparison, Transition, TruthError};
+pub(crate) use files::COLUMNS as CONTOUR_COLUMNS;
 pub(crate) use naive::naive_touch;
 pub(crate) use points::PointRecord;
 pub use result::{Reconstructed, ReconstructionError};

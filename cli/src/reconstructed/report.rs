@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
 use vibrissa::reconstruct::score::{Deviation, KinkScore};
-use vibrissa::reconstruct::{Calibration, Gap, Plausibility, Shares};
-use vibrissa::{Label, Pose, Rod};
+use vibrissa::reconstruct::{Calibration, Explanation, Gap, Shares};
+use vibrissa::{Label, Pose};
 
 /// report.json.
 #[derive(Serialize)]
@@ -133,6 +133,14 @@ struct PhysicsRecord {
     pulling: f64,
     no_moment_zero: f64,
     findings: Vec<String>,
+    /// What explains a recording that does not fit.
+    causes: Vec<CauseRecord>,
+}
+
+#[derive(Serialize)]
+struct CauseRecord {
+    cause: String,
+    likelihood: f64,
 }
 
 #[derive(Serialize)]
@@ -146,7 +154,8 @@ struct LineRecord {
 }
 
 impl PhysicsRecord {
-    fn of(check: &Plausibility, rod: &Rod) -> Self {
+    fn of(found: &Reconstructed) -> Self {
+        let Reconstructed { check, rod, .. } = found;
         let line = check.line.map(|line| LineRecord {
             slope: line.slope,
             slope_sigma: line.slope_sigma,
@@ -157,7 +166,10 @@ impl PhysicsRecord {
         });
         let Shares { explained, beyond_tip, pulling, no_moment_zero } = check.shares;
         let findings = check.findings.iter().map(ToString::to_string).collect();
-        Self { fits: check.fits(), line, explained, beyond_tip, pulling, no_moment_zero, findings }
+        let cause =
+            |(what, likelihood): &(Explanation, f64)| CauseRecord { cause: what.to_string(), likelihood: *likelihood };
+        let causes = found.explanations.iter().map(cause).collect();
+        Self { fits: check.fits(), line, explained, beyond_tip, pulling, no_moment_zero, findings, causes }
     }
 }
 
@@ -357,7 +369,7 @@ impl ReportRecord {
             kinks: kinks.collect(),
             gaps: found.contour.gaps.iter().map(gap).collect(),
             calibration: result.calibration().cloned(),
-            physics: PhysicsRecord::of(&found.check, rod),
+            physics: PhysicsRecord::of(found),
             truth: found.comparison.as_ref().map(Into::into),
         }
     }

@@ -6,9 +6,14 @@ use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
-    Assembly, Budget, ContourEstimate, Finding, Plausibility, Travel, plausibility, reconstruct_passes,
+    Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, Travel, explanations, plausibility,
+    reconstruct_passes,
 };
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
+
+/// Most explanations that are told, and the least likelihood of one.
+const MOST: usize = 5;
+const LEAST: f64 = 0.005;
 
 /// Why a recording cannot be reconstructed.
 #[derive(Debug, thiserror::Error)]
@@ -39,6 +44,8 @@ pub struct Reconstructed {
     pub contour: ContourEstimate,
     /// The check of the recording by the physics.
     pub check: Plausibility,
+    /// What explains a recording that does not fit, the most likely first, with likelihoods that add up to 1.
+    pub explanations: Vec<(Explanation, f64)>,
     /// The comparison with the truth, where that is known.
     pub comparison: Option<Comparison>,
 }
@@ -67,7 +74,41 @@ impl Reconstructed {
         };
         check.findings.extend(found.findings());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { name, recording, rod, samples, rows, found, contour, check, comparison: None })
+        Ok(Self {
+            name,
+            recording,
+            rod,
+            samples,
+            rows,
+            found,
+            contour,
+            check,
+            explanations: Vec::new(),
+            comparison: None,
+        })
+    }
+
+    /// Looks for what explains the recording, where it does not fit for reasons that mistakes or errors may have. `settings` are those
+    /// of the reconstruction.
+    pub fn explain(&mut self, settings: &Settings) {
+        let may_be = |finding: &Finding| {
+            finding.is_misfit() && !matches!(finding, Finding::Coarse { .. } | Finding::NoFreeStretch)
+        };
+        if self.check.findings.iter().any(may_be) {
+            self.explanations = explanations(&self.rod, &self.samples, settings, &self.check.findings);
+        }
+    }
+
+    /// The likeliest explanations in words; none where none were looked for.
+    pub fn explained(&self) -> Option<String> {
+        let told = self.explanations.iter().take(MOST).filter(|one| one.1 >= LEAST);
+        let told: Vec<String> = told.map(|(what, share)| format!("{what}: {:.0} %", 100.0 * share)).collect();
+        (!told.is_empty()).then(|| {
+            format!(
+                "likely causes, if it is one of those that are tried: {}; correct what is wrong, and reconstruct again",
+                told.join("; ")
+            )
+        })
     }
 
     /// The runs of samples with one label, in order.

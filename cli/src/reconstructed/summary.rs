@@ -78,7 +78,8 @@ impl Reconstructed {
                 100.0 * line.share
             )?;
         }
-        self.check.findings.iter().try_for_each(|finding| writeln!(text, "physics: {finding}"))
+        self.check.findings.iter().try_for_each(|finding| writeln!(text, "physics: {finding}"))?;
+        self.explained().map_or(Ok(()), |causes| writeln!(text, "physics: {causes}"))
     }
 
     fn run_table(&self) -> Table {

@@ -7,6 +7,9 @@ use vibrissa::hw::recording::{ColumnMap, Columns, Role, Table, TableError, Table
 /// What a recording must have, for messages.
 pub(super) const EXPECTED: &str = "x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N m) in any order, perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m)";
 
+/// What else to do where there are no poses.
+const STAGE: &str = "; of raw values or wrenches, --stage tells the poses";
+
 pub(super) const POSE: [Role; 3] = [Role::X0, Role::Y0, Role::Phi0];
 pub(super) const REACTIONS: [Role; 3] = [Role::F0x, Role::F0y, Role::M0z];
 pub(super) const SIGMAS: [Role; 3] = [Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z];
@@ -17,9 +20,10 @@ pub(super) fn find(file: &Path, table: &Table, map: &ColumnMap) -> Result<Column
         TableProblem::Missing { missing, found, hint } => RecordingError::Missing {
             file: file.to_path_buf(),
             line: error.line.unwrap_or(1),
+            // raw values and wrenches have no poses at all
+            hint: if POSE.iter().all(|role| missing.contains(role)) { hint + STAGE } else { hint },
             missing: missing.iter().map(|role| role.name().to_owned()).collect(),
             found,
-            hint,
         },
         problem => RecordingError::Table(TableError { problem, ..error }),
     };

@@ -40,6 +40,12 @@ pub enum RecordingError {
     /// It is no table, or its columns are ambiguous or without a unit.
     #[error(transparent)]
     Table(TableError),
+    /// A stage is given for a table that has poses.
+    #[error("{}: its rows have poses of the clamp, expected no --stage", file.display())]
+    Posed {
+        /// Which file.
+        file: PathBuf,
+    },
     /// Most rows cannot be used.
     #[error(
         "{}: {} of {rows} rows cannot be used, expected at most half of them; {}",

@@ -1,14 +1,19 @@
-//! Recordings: what a clamp felt along its way, read from a table of text.
+//! Recordings: what a clamp felt along its way, read from a table of text or from what a sensor sent.
 //!
-//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together, and `warnings` says what is wrong with single rows. A row that cannot be used keeps its place.
+//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together. `sensed` reads raw
+//! values and wrenches (tables, TDMS, MCAP) by the way of a live scan. `warnings` says what is wrong with single rows. A row that
+//! cannot be used keeps its `place`.
 
 mod columns;
 mod error;
+mod place;
 mod read;
 mod row;
+mod sensed;
 mod warnings;
 
 pub use error::RecordingError;
+pub use place::Place;
 pub use row::{RowFault, RowProblem};
 
 use std::path::PathBuf;
@@ -37,12 +42,14 @@ pub struct Recording {
     pub rows: Vec<Row>,
     /// Names of the columns that are not looked at.
     pub ignored: Vec<String>,
-    /// Lines of usable rows whose time is not later than that of the usable row before.
-    pub late: Vec<u64>,
+    /// Places of usable rows whose time is not later than that of the usable row before.
+    pub late: Vec<Place>,
     /// Whether the end is missing, as far as that can be told.
     pub cut: bool,
     /// What the file says where it ends early, as `vibrissa simulate` does when it is interrupted.
     pub incomplete: Option<String>,
+    /// What else was noticed, in words.
+    pub notes: Vec<String>,
 }
 
 /// How to read a recording, where the file alone does not determine it.

@@ -2,9 +2,9 @@
 
 use super::columns::find;
 use super::row::{RowFault, RowProblem, sample};
-use super::{ReadOptions, Recording, RecordingError, Row};
+use super::{Place, ReadOptions, Recording, RecordingError, Row};
 use crate::simulation::INCOMPLETE;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use vibrissa::Rod;
 use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError, TableProblem};
 use vibrissa::reconstruct::{FEWEST_SAMPLES, Halt, Travel};
@@ -58,22 +58,37 @@ impl Recording {
             problem => RecordingError::Table(TableError { problem, ..error }),
         })?;
         let columns = find(&file, &table, &how.columns)?;
-        let mut rows: Vec<Row> = Vec::with_capacity(table.len());
-        let (mut late, mut lines) = (Vec::new(), Vec::with_capacity(table.len()));
+        let rows = table.rows().map(|row| {
+            let place = Place::Line(row.line());
+            (place, sample(&row, &columns).map_err(|(pose, problem)| RowFault { place, pose, problem }))
+        });
+        let recording = Self::of_rows(file, rows, rod)?;
+        let ignored = columns.ignored(&table).map(str::to_owned).collect();
+        let cut = |row: &Row| matches!(row, Err(RowFault { problem, .. }) if is_cut(problem));
+        let cut = recording.rows.last().is_some_and(cut) || table.is_whole() == Some(false);
+        let incomplete = table.note(INCOMPLETE).map(str::to_owned);
+        Ok(Self { ignored, cut, incomplete, ..recording })
+    }
+
+    /// From rows with their places. The rod's length says how far a clamp that turns has gone.
+    pub(super) fn of_rows(
+        file: PathBuf,
+        placed: impl Iterator<Item = (Place, Row)>,
+        rod: &Rod,
+    ) -> Result<Self, RecordingError> {
+        let (mut rows, mut late, mut places) = (Vec::<Row>::new(), Vec::new(), Vec::new());
         let mut time = f64::NEG_INFINITY;
-        for row in table.rows() {
-            let line = row.line();
-            let row = sample(&row, &columns);
+        for (place, row) in placed {
             if let Ok(t) = row.as_ref().map(|sample| sample.t.unwrap_or(f64::NAN)) {
                 if t <= time {
-                    late.push(line);
+                    late.push(place);
                 }
                 time = t;
             }
-            rows.push(row.map_err(|(pose, problem)| RowFault { line, pose, problem }));
-            lines.push(line);
+            rows.push(row);
+            places.push(place);
         }
-        let halts = halts(&rows, &lines, rod);
+        let halts = halts(&rows, &places, rod);
         // if there are more, the clamp trembles, stands or turns back on purpose: then the reconstruction needs all rows
         if HALTS * halts.len() <= rows.len() {
             halts.into_iter().for_each(|(row, fault)| rows[row] = Err(fault));
@@ -87,28 +102,24 @@ impl Recording {
         if usable < FEWEST_SAMPLES {
             return Err(RecordingError::TooFew { file, usable, expected: FEWEST_SAMPLES });
         }
-        let ignored = columns.ignored(&table).map(str::to_owned).collect();
-        let cut = rows.last().is_some_and(|row| matches!(row, Err(RowFault { problem, .. }) if is_cut(problem)));
-        let cut = cut || table.is_whole() == Some(false);
-        let incomplete = table.note(INCOMPLETE).map(str::to_owned);
-        Ok(Self { file, rows, ignored, late, cut, incomplete })
+        Ok(Self { file, rows, ignored: Vec::new(), late, cut: false, incomplete: None, notes: Vec::new() })
     }
 }
 
 /// The rows at which the clamp does not go on.
-fn halts(rows: &[Row], lines: &[u64], rod: &Rod) -> Vec<(usize, RowFault)> {
-    let (mut travel, mut of, mut halts) = (Travel::new(rod), 0, Vec::new());
-    for (number, (row, &line)) in rows.iter().zip(lines).enumerate() {
+fn halts(rows: &[Row], places: &[Place], rod: &Rod) -> Vec<(usize, RowFault)> {
+    let (mut travel, mut of, mut halts) = (Travel::new(rod), Place::Line(0), Vec::new());
+    for (number, (row, &place)) in rows.iter().zip(places).enumerate() {
         let Ok(sample) = row else { continue };
         let problem = match travel.go(&sample.pose) {
             Ok(_) => {
-                of = line;
+                of = place;
                 continue;
             }
             Err(Halt::Repeated) => RowProblem::Repeated { of },
             Err(_) => RowProblem::TurnsBack { of },
         };
-        halts.push((number, RowFault { line, pose: Some(sample.pose), problem }));
+        halts.push((number, RowFault { place, pose: Some(sample.pose), problem }));
     }
     halts
 }

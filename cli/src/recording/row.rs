@@ -1,6 +1,7 @@
 //! One row of a recording.
 
 use super::columns::{POSE, REACTIONS, SIGMAS};
+use super::place::Place;
 use std::fmt;
 use vibrissa::hw::Quality;
 use vibrissa::hw::recording::{Columns, Role, Row, RowProblem as CellProblem};
@@ -10,8 +11,8 @@ use vibrissa::{Pose, Sample};
 /// A row that cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowFault {
-    /// Its line in the file, from 1.
-    pub line: u64,
+    /// Where it is.
+    pub place: Place,
     /// Where the clamp was, where the row tells it.
     pub pose: Option<Pose>,
     /// What is wrong.
@@ -20,7 +21,7 @@ pub struct RowFault {
 
 impl fmt::Display for RowFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.problem)
+        write!(f, "{}: {}", self.place, self.problem)
     }
 }
 
@@ -46,17 +47,20 @@ pub enum RowProblem {
         quality: Quality,
     },
     /// The clamp stands where it stood in the last usable row.
-    #[error("the pose of line {of} is repeated, expected a clamp that moves")]
+    #[error("the pose of {of} is repeated, expected a clamp that moves")]
     Repeated {
-        /// Line of that row.
-        of: u64,
+        /// Place of that row.
+        of: Place,
     },
     /// The clamp comes back.
-    #[error("the pose turns back behind that of line {of}, expected a clamp that goes on in one direction")]
+    #[error("the pose turns back behind that of {of}, expected a clamp that goes on in one direction")]
     TurnsBack {
-        /// Line of the last usable row.
-        of: u64,
+        /// Place of the last usable row.
+        of: Place,
     },
+    /// The raw values give no reactions, or nothing tells the pose of the clamp.
+    #[error("{0}")]
+    Sensor(String),
 }
 
 impl RowProblem {
@@ -72,6 +76,7 @@ impl RowProblem {
             Self::NoSigma { .. } => "no standard deviation",
             Self::Repeated { .. } => "pose repeated",
             Self::TurnsBack { .. } => "turns back",
+            Self::Sensor(_) => "no reactions",
         }
     }
 }

@@ -1,7 +1,6 @@
 //! What to say of a recording that can be used in part.
 
-use super::{Recording, RowFault, RowProblem};
-use std::fmt::Write;
+use super::{Place, Recording, RowFault, RowProblem};
 use std::mem::{Discriminant, discriminant};
 use vibrissa::hw::recording::RowProblem as CellProblem;
 
@@ -26,17 +25,17 @@ impl Recording {
             }
         }
         for (_, faults) in kinds {
-            let lines: Vec<u64> = faults.iter().map(|fault| fault.line).collect();
+            let places: Vec<Place> = faults.iter().map(|fault| fault.place).collect();
             let (count, rows) = (faults.len(), self.rows.len());
             warnings.push(format!(
                 "{file}: {count} of {rows} rows cannot be used, {}: {}",
-                place(&lines),
+                Place::several(&places, MOST_LINES),
                 faults[0].problem
             ));
         }
         if !self.late.is_empty() {
             let (count, rows) = (self.late.len(), self.rows.len());
-            let at = place(&self.late);
+            let at = Place::several(&self.late, MOST_LINES);
             warnings.push(format!("{file}: the time does not grow in {count} of {rows} rows, {at}"));
         }
         if self.cut {
@@ -45,6 +44,7 @@ impl Recording {
         if let Some(why) = &self.incomplete {
             warnings.push(format!("{file}: the recording is incomplete: {why}"));
         }
+        warnings.extend(self.notes.iter().map(|note| format!("{file}: {note}")));
         warnings
     }
 }
@@ -55,14 +55,4 @@ pub(super) type Kind = (Discriminant<RowProblem>, Option<Discriminant<CellProble
 pub(super) fn kind_of(problem: &RowProblem) -> Kind {
     let of_cell = if let RowProblem::Cell(problem) = problem { Some(discriminant(problem)) } else { None };
     (discriminant(problem), of_cell)
-}
-
-/// "line 3", or "lines 3, 4, 5, 6, 7 and 12 more".
-fn place(lines: &[u64]) -> String {
-    let shown: Vec<String> = lines.iter().take(MOST_LINES).map(u64::to_string).collect();
-    let mut text = format!("line{} {}", if lines.len() == 1 { "" } else { "s" }, shown.join(", "));
-    if lines.len() > MOST_LINES {
-        let _ = write!(text, " and {} more", lines.len() - MOST_LINES);
-    }
-    text
 }

@@ -195,6 +195,8 @@ impl Samples<'_> {
             match self.ticks.next() {
                 Some(Ok(Tick { number, pose, reactions, .. })) => {
                     last = Some(pose);
+                    let Simulation { rate, speed, scene, .. } = self.simulation;
+                    interrupt.pass(number as f64 * speed / rate / scene.path.length());
                     let Some(reactions) = reactions else {
                         recorded.lost += 1;
                         continue;

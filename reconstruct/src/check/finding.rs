@@ -5,14 +5,12 @@ use crate::phase::{Basis, Label};
 use crate::systematic::Source;
 use std::fmt;
 
-/// Relative difference of the stiffness from which on the recording does not fit the rod.
-const MISFIT_STIFFNESS: f64 = 0.1;
 /// Relative difference of the length from which on the recording does not fit the rod. Larger than that of the stiffness: samples with
 /// several contacts may look like contacts of the tip at another length.
 const MISFIT_LENGTH: f64 = 0.2;
 /// Intercept, relative to the largest m0z^2, or offset of the moment, relative to the largest moment, from which on the recording does
 /// not fit the rod.
-const MISFIT_SHIFT: f64 = 0.1;
+const MISFIT_SHIFT: f64 = 0.02;
 
 /// Relative difference of the stiffness from which on it is another rod.
 const GROSS_STIFFNESS: f64 = 0.3;
@@ -170,11 +168,16 @@ impl Finding {
     pub fn is_misfit(&self) -> bool {
         match self {
             Self::NoContact | Self::NoLine => false,
-            Self::Stiffness { given, suggested, .. } => (suggested / given - 1.0).abs() > MISFIT_STIFFNESS,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
-            Self::Sign | Self::Units { .. } | Self::MomentSign | Self::NoFreeStretch | Self::Budget { .. } => true,
+            // reported from 3 % and four standard errors on
+            Self::Stiffness { .. }
+            | Self::Sign
+            | Self::Units { .. }
+            | Self::MomentSign
+            | Self::NoFreeStretch
+            | Self::Budget { .. } => true,
             Self::Misfit { .. } | Self::Unanswered { .. } | Self::Lost { .. } | Self::Coarse { .. } => true,
             Self::Uncertain { share, .. } => *share > MISFIT_LABELS,
             Self::Angle { largest } => *largest > MISFIT_ANGLE,
@@ -219,7 +222,9 @@ impl fmt::Display for Finding {
                  another point than the clamp",
                 100.0 * part
             ),
-            Self::MomentSign => f.write_str("m0z has the wrong sign: with the other one, contacts are on the rod"),
+            Self::MomentSign => f.write_str(
+                "the moment bends the rod away from its contacts: m0z or f0x has the wrong sign, or the clamp points the other way",
+            ),
             Self::Length { given, suggested } => write!(
                 f,
                 "the rod is {given:.5} m long, but contacts of its tip are {suggested:.5} m from the clamp"
@@ -256,8 +261,7 @@ impl fmt::Display for Finding {
             ),
             Self::Lost { share } => write!(
                 f,
-                "{:.0} % of the samples in contact have no contact point, as where the stage moves the other way, or f0x and m0z both \
-                 have the wrong sign",
+                "{:.0} % of the samples in contact have no contact point, as where a sign, an axis, a unit or the rod is wrong",
                 100.0 * share
             ),
             Self::Uncertain { share, label, from, to } => write!(

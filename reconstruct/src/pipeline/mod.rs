@@ -5,8 +5,10 @@
 //! estimates the errors that all samples share from the places so far (`history`, `learned`).
 
 mod answers;
+mod calibrated;
 mod doubts;
 mod each_pass;
+mod explanation;
 mod history;
 mod learned;
 mod live;
@@ -19,6 +21,7 @@ mod session;
 mod settings;
 
 pub use each_pass::reconstruct_passes;
+pub use explanation::{Explanation, explanations};
 pub use live::Live;
 pub use live_settings::LiveSettings;
 pub use reading::{Reading, Reason};

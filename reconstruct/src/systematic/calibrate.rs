@@ -144,11 +144,11 @@ pub(crate) fn calibrate(
         turns.least = least(frame, &tared, &tare);
     }
     turns.nodes = &nodes;
-    let Found { adjusted: found, prior, raised, labels, .. } = turns.found(&prior, &tared);
+    let Found { adjusted: found, prior, raised, labels, likelihood } = turns.found(&prior, &tared);
     let last = turns.labelled(&labels);
     let taken = fewest(frame, &prior, &found, &last, &turns.least);
     let free = free.into_iter().filter(|range| are_free(range, &nodes, &labels)).collect();
-    let calibration = told(rod, &prior, &raised, &found, &taken, free);
+    let calibration = Calibration { log_likelihood: likelihood, ..told(rod, &prior, &raised, &found, &taken, free) };
     let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates() };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
@@ -325,6 +325,7 @@ fn told(
         covariance,
         ties,
         free,
+        log_likelihood: 0.0,
         misfit_criterion: left(Criterion::K),
         misfit_length: left(Criterion::Length).max(left(Criterion::LengthByTip)),
         misfit_tangent: left(Criterion::Tangent).max(left(Criterion::TangentByTip)),

@@ -66,6 +66,9 @@ pub struct Calibration {
     pub ties: Vec<(Source, Source, f64)>,
     /// Stretches of samples in which the rod is free, by the numbers of usable samples.
     pub free: Vec<Range<usize>>,
+    /// Natural logarithm of the likelihood of labels and errors together, but for a constant of the recording. It compares
+    /// interpretations of one recording, as with another sign of a channel.
+    pub log_likelihood: f64,
     /// What is left of the phase criterion K along tangential contacts beyond its noise, in parts of what the budget let it be: 0
     /// where model and scan agree.
     pub misfit_criterion: f64,

@@ -208,6 +208,7 @@ mod tests {
             covariance: DMatrix::from_row_slice(2, 2, &[variance, both, both, variance]),
             ties: Vec::new(),
             free: Vec::new(),
+            log_likelihood: 0.0,
             misfit_criterion: 0.0,
             misfit_length: 0.0,
             misfit_tangent: 0.0,

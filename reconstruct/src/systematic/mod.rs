@@ -4,13 +4,14 @@
 //! They do not average out. `Budget` says how large each may be. `Correction` takes them off a sample, `influence` says how the
 //! criteria of a place depend on them, `free` finds the stretches of the free rod, `adjust` estimates them from labelled places, and
 //! `calibrate` estimates labels and errors in turns. `known` is what a calibration tells of later scans, `combined` what several scans
-//! tell together. For simulations `disturb` puts errors on true samples, and `across` says how far they displace contact points.
+//! tell together, `candidates` which single source explains a scan. For simulations `disturb` puts errors on true samples, and `across` says how far they displace contact points.
 
 mod across;
 mod adjust;
 mod budget;
 mod calibrate;
 mod calibration;
+mod candidates;
 mod combined;
 mod components;
 mod correction;
@@ -25,6 +26,7 @@ pub use across::{Influence, influences};
 pub use budget::Budget;
 pub(crate) use calibrate::{Shared, calibrate, calibrate_labelled, known_before};
 pub use calibration::{Calibration, SourceEstimate};
+pub(crate) use candidates::{Candidate, candidates};
 pub use combined::Combined;
 pub(crate) use components::DISPLACED;
 pub(crate) use correction::Correction;

@@ -30,7 +30,7 @@ pub(super) struct Found {
     pub raised: [bool; SOURCES],
     pub labels: Vec<(Label, f64)>,
     /// Log of the likelihood of labels and errors together.
-    likelihood: f64,
+    pub likelihood: f64,
 }
 
 /// Raises each budget, once, that an estimate contradicts; whether there are any.

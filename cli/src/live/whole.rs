@@ -1,0 +1,94 @@
+//! A whole recording of a sensor, turned into reactions as a live scan does it.
+
+use super::feed::{Fed, Feed, Miss};
+use super::head::{Chain, Head, head};
+use super::scan::LiveScan;
+use super::sensor::Sensor;
+use super::summary::LiveReport;
+use crate::Error;
+use vibrissa::hw::{Calibration, ChainError, LinkCounters, RawSample, ReactionSample, StageError, StageSource};
+
+/// A recording as reactions.
+pub(crate) struct Whole {
+    /// For each sample its reactions, or why it has none.
+    pub samples: Vec<Result<ReactionSample, String>>,
+    /// Samples after the arrival of the stage, which are left out.
+    pub beyond: usize,
+    /// Why the sensor does not suit the rod, and other remarks.
+    pub remarks: Vec<String>,
+}
+
+impl LiveScan {
+    /// The reactions behind all samples of a recording, with the tare, the stage and the mounting of a live scan.
+    ///
+    /// # Errors
+    /// [`Error::Live`]: too few samples, no tare, or nothing tells the poses of the clamp.
+    pub(crate) fn whole(&self, mut sensor: Sensor) -> Result<Whole, Error> {
+        let fed: Vec<Result<Fed, Miss>> = std::iter::from_fn(|| sensor.feed.next()).zip(0..).map(numbered).collect();
+        sensor.feed = Box::new(Again { fed: fed.clone().into_iter(), handed: 0 });
+        let mut report = LiveReport::new(self, &sensor.name);
+        let Head { mut chain, samples, .. } = head(self, &mut sensor, &mut report, &mut |_| (), &|| false)?;
+        let heard = sensor.feed.counters().samples as usize;
+        let mut first = samples.into_iter().peekable();
+        let mut found = Vec::with_capacity(fed.len());
+        let end = chain.wrenches().stage().end();
+        for (number, fed) in fed.iter().enumerate() {
+            found.push(match fed {
+                Err(Miss::Silence(text) | Miss::Fault(text)) => Err(text.clone()),
+                Ok(Fed::Reactions(sample)) => Ok(*sample),
+                Ok(Fed::Raw(raw)) if number < heard => {
+                    let own = first.next_if(|sample| sample.raw.sequence == Some(number as u64));
+                    own.ok_or_else(|| fault(&mut chain, raw))
+                }
+                Ok(Fed::Raw(raw)) => match chain.take(raw) {
+                    Err(ChainError::Stage(StageError::Outside { .. })) if raw.host_time > end => break,
+                    taken => taken.map_err(|error| error.to_string()),
+                },
+            });
+        }
+        let beyond = fed.len() - found.len();
+        Ok(Whole { samples: found, beyond, remarks: report.findings().iter().map(ToString::to_string).collect() })
+    }
+}
+
+/// The sample with its number in the recording, by which it is found again. Times of a recording are its own, so that the number that
+/// the device gave it is not needed.
+fn numbered((fed, number): (Result<Fed, Miss>, u64)) -> Result<Fed, Miss> {
+    fed.map(|fed| match fed {
+        Fed::Raw(raw) => Fed::Raw(RawSample { sequence: Some(number), ..raw }),
+        Fed::Reactions(sample) => Fed::Reactions(sample),
+    })
+}
+
+/// Why a sample of the head gives no reactions.
+fn fault(chain: &mut Chain<'_>, raw: &RawSample) -> String {
+    if let Err(error) = chain.calibration().wrench(raw) {
+        return error.to_string();
+    }
+    match chain.wrenches().stage().pose_at(raw.host_time) {
+        Err(error) => error.to_string(),
+        Ok(_) => format!("no sample of the sensor at {} s: its time or its raw values are not possible", raw.host_time),
+    }
+}
+
+/// Samples that were read before.
+struct Again {
+    fed: std::vec::IntoIter<Result<Fed, Miss>>,
+    handed: u64,
+}
+
+impl Feed for Again {
+    fn next(&mut self) -> Option<Result<Fed, Miss>> {
+        let next = self.fed.next()?;
+        self.handed += 1;
+        Some(next)
+    }
+
+    fn counters(&self) -> LinkCounters {
+        LinkCounters { samples: self.handed, ..LinkCounters::default() }
+    }
+
+    fn now(&self) -> Option<f64> {
+        None
+    }
+}

@@ -1,0 +1,119 @@
+//! The command `reconstruct`.
+
+use crate::arguments::{Reconstruct, Trust};
+use crate::progress::stage;
+use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, warn};
+use std::path::Path;
+use std::process::ExitCode;
+use vibrissa::reconstruct::{Budget, Known};
+use vibrissa::{Rod, Settings};
+use vibrissa_cli::{
+    Error, KnownRod, LiveScan, Merged, Reconstructed, Recording, Scene, Setup, Staged, read_known_rod, read_noise,
+};
+
+pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
+    let Reconstruct { recordings, rod, truth, out, align, moved, trust, written } = arguments;
+    signals::end();
+    let given = read_known_rod(&rod)?;
+    let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
+    let settings = settings(&trust, &given, &setup)?;
+    let mut scan = scan_of(&given, rod, moved, setup, written.into())?;
+    scan.inputs.extend(recordings.iter().chain(&trust.noise).cloned());
+    if let Some(file) = &truth {
+        let scene = read_scene(file)?;
+        scene.check_start()?;
+        scan.inputs.extend(scene.files);
+    }
+    if align.is_some() && recordings.len() == 1 {
+        warn("warning: --align is for several recordings: it is not used\n");
+    }
+    let mut found = Vec::with_capacity(recordings.len());
+    for file in &recordings {
+        found.push(one(file, &scan, &settings, truth.as_deref())?);
+    }
+    if let [one] = &found[..] {
+        let out = out.unwrap_or_else(|| Path::new("out").join(&one.name));
+        let staged = Staged::new(&out)?.keeping(scan.inputs);
+        one.write(&staged, Path::new(""))?;
+        staged.publish()?;
+        say(&one.summary());
+        say(&format!("written to {}\n", out.display()));
+    } else {
+        let out = out.unwrap_or_else(|| Path::new("out").join("merged"));
+        let staged = Staged::new(&out)?.keeping(scan.inputs);
+        let merged = Merged::of(&mut found, align.map(f64::to_radians));
+        found.iter().try_for_each(|one| one.write(&staged, Path::new(&one.name)))?;
+        merged.write(&staged)?;
+        staged.publish()?;
+        found.iter().for_each(|one| say(&format!("{}\n", one.summary())));
+        say(&merged.summary());
+        say(&format!("written to {}\n", out.display()));
+        if merged.contradicts() {
+            return Ok(ExitCode::from(UNFINISHED));
+        }
+    }
+    Ok(verdict(&found))
+}
+
+/// Reads and reconstructs one recording.
+fn one(file: &Path, scan: &LiveScan, settings: &Settings, truth: Option<&Path>) -> Result<Reconstructed, Error> {
+    let name = file.display();
+    stage(&format!("{name}: reading"));
+    let recording = read(file, scan)?;
+    stage(&format!("{name}: kinks, phases, errors and contact points of {} samples", recording.samples().count()));
+    let mut found = Reconstructed::new(recording, scan.rod, settings)?;
+    if !found.check.fits() {
+        stage(&format!("{name}: looking for what explains it"));
+        found.explain(settings);
+    }
+    if let Some(scene) = truth {
+        stage(&format!("{name}: comparing with the scene"));
+        found.compare(Scene::read(scene)?)?;
+    }
+    Ok(found)
+}
+
+/// Reads a recording of any kind, and tells of what cannot be used of it.
+pub fn read(file: &Path, scan: &LiveScan) -> Result<Recording, Error> {
+    let recording = Recording::any(file, scan)?;
+    recording.warnings().iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+    Ok(recording)
+}
+
+/// Tells of what does not fit.
+fn verdict(found: &[Reconstructed]) -> ExitCode {
+    let mut code = ExitCode::SUCCESS;
+    for found in found.iter().filter(|found| !found.check.fits()) {
+        let file = found.recording.file.display();
+        for finding in found.check.findings.iter().filter(|finding| finding.is_misfit()) {
+            warn(&format!("warning: {file}: {finding}\n"));
+        }
+        if let Some(causes) = found.explained() {
+            warn(&format!("warning: {file}: {causes}\n"));
+        }
+        code = ExitCode::from(UNFINISHED);
+    }
+    code
+}
+
+/// The settings of a reconstruction.
+fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, Error> {
+    let Trust { as_is, noise, false_alarms, largest_sigma, .. } = trust;
+    let noise = noise.as_deref().map(read_noise).transpose()?;
+    let default = Settings::default();
+    if *as_is && setup.errors.is_some() {
+        warn("warning: --as-is corrects nothing: the table [errors] of --setup is not used\n");
+    }
+    Ok(Settings {
+        noise: noise.map(|model| model.channels()),
+        false_alarms: false_alarms.unwrap_or(default.false_alarms),
+        largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
+        budget: if *as_is { Some(Budget::NONE) } else { budget(setup, &given.rod) },
+        known: if *as_is { Known::NOTHING } else { given.known },
+    })
+}
+
+/// The budget of a setup, if it has one.
+pub fn budget(setup: &Setup, rod: &Rod) -> Option<Budget> {
+    setup.errors.map(|errors| errors.budget(rod))
+}

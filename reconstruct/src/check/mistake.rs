@@ -1,0 +1,155 @@
+//! Mistakes in a recording that can be undone.
+
+use rod_core::{Pose, Reactions, Rod, Sample};
+use std::f64::consts::PI;
+use std::fmt;
+
+/// A mistake in signs, axes or units of a recording, or in the rod, that can be undone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Mistake {
+    /// Which of f0x, f0y, m0z have the wrong sign.
+    Signs([bool; 3]),
+    /// f0x and f0y are each other.
+    Swapped,
+    /// x0 runs the other way.
+    MirroredX,
+    /// y0 runs the other way.
+    MirroredY,
+    /// phi0 points the other way.
+    Turned,
+    /// phi0 counts clockwise.
+    Clockwise,
+    /// phi0 is in degrees.
+    Degrees,
+    /// x0 and y0 are in mm.
+    Millimetres,
+    /// Forces and moments are in other units: one of them is so many N and so many N m.
+    Units(f64, f64),
+    /// Forces and moments are so many times what they should be.
+    Gains(f64, f64),
+    /// The bending stiffness is another one, N m^2.
+    Stiffness(f64),
+}
+
+impl Mistake {
+    /// All mistakes that are of signs, axes and units.
+    pub(crate) const ALL: [Self; 17] = [
+        Self::Signs([true, false, false]),
+        Self::Signs([false, true, false]),
+        Self::Signs([false, false, true]),
+        Self::Signs([true, true, false]),
+        Self::Signs([true, false, true]),
+        Self::Signs([false, true, true]),
+        Self::Signs([true, true, true]),
+        Self::Swapped,
+        Self::MirroredX,
+        Self::MirroredY,
+        Self::Turned,
+        Self::Clockwise,
+        Self::Degrees,
+        Self::Millimetres,
+        Self::Units(1e-3, 1.0),
+        Self::Units(1.0, 1e-3),
+        Self::Units(1e-3, 1e-3),
+    ];
+
+    /// Whether a recording with these samples can contain it: a coordinate that does not change shows no direction.
+    pub(crate) fn is_possible(self, samples: &[Sample]) -> bool {
+        let changes = |of: fn(&Pose) -> f64| {
+            let first = samples.first().map(|sample| of(&sample.pose));
+            samples.iter().any(|sample| Some(of(&sample.pose)) != first)
+        };
+        match self {
+            Self::MirroredX => changes(|pose| pose.x),
+            Self::MirroredY => changes(|pose| pose.y),
+            _ => true,
+        }
+    }
+
+    /// What a slope of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) may come from that suggests another bending stiffness than the given one.
+    pub(crate) fn of_slope(given: f64, suggested: f64) -> [Self; 3] {
+        let ratio = suggested / given;
+        [Self::Stiffness(suggested), Self::Gains(1.0, ratio.sqrt()), Self::Gains(1.0 / ratio, 1.0)]
+    }
+
+    /// The rod and the samples without it.
+    pub(crate) fn undone(self, rod: &Rod, samples: &[Sample]) -> (Rod, Vec<Sample>) {
+        let pose = |pose: Pose| match self {
+            Self::MirroredX => Pose { x: -pose.x, ..pose },
+            Self::MirroredY => Pose { y: -pose.y, ..pose },
+            Self::Turned => Pose { phi: pose.phi + PI, ..pose },
+            Self::Clockwise => Pose { phi: -pose.phi, ..pose },
+            Self::Degrees => Pose { phi: pose.phi.to_radians(), ..pose },
+            Self::Millimetres => Pose { x: 1e-3 * pose.x, y: 1e-3 * pose.y, ..pose },
+            _ => pose,
+        };
+        let reactions = |Reactions { f0x, f0y, m0z }: Reactions| match self {
+            Self::Signs(wrong) => {
+                let [x, y, z] = wrong.map(|wrong| if wrong { -1.0 } else { 1.0 });
+                Reactions { f0x: x * f0x, f0y: y * f0y, m0z: z * m0z }
+            }
+            Self::Gains(force, moment) => Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment },
+            Self::Swapped => Reactions { f0x: f0y, f0y: f0x, m0z },
+            Self::Units(force, moment) => Reactions { f0x: force * f0x, f0y: force * f0y, m0z: moment * m0z },
+            _ => Reactions { f0x, f0y, m0z },
+        };
+        // standard deviations have no sign
+        let sigma = |sigma: Reactions| if matches!(self, Self::Signs(_)) { sigma } else { reactions(sigma) };
+        let undone = |sample: &Sample| Sample {
+            t: sample.t,
+            pose: pose(sample.pose),
+            reactions: reactions(sample.reactions),
+            sigma: sample.sigma.map(sigma),
+        };
+        let other = if let Self::Stiffness(value) = self { Rod::new(rod.length(), value).ok() } else { None };
+        (other.unwrap_or(*rod), samples.iter().map(undone).collect())
+    }
+}
+
+impl fmt::Display for Mistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Signs(wrong) => {
+                let names = ["f0x", "f0y", "m0z"].into_iter().zip(wrong).filter(|one| one.1).map(|one| one.0);
+                let names: Vec<&str> = names.collect();
+                let verb = if names.len() == 1 { "has" } else { "have" };
+                write!(f, "{} {verb} the wrong sign", names.join(" and "))
+            }
+            Self::Swapped => f.write_str("f0x and f0y are swapped"),
+            Self::MirroredX => f.write_str("x0 runs the other way"),
+            Self::MirroredY => f.write_str("y0 runs the other way"),
+            Self::Turned => f.write_str("phi0 points the other way"),
+            Self::Clockwise => f.write_str("phi0 counts clockwise"),
+            Self::Degrees => f.write_str("phi0 is in degrees"),
+            Self::Millimetres => f.write_str("x0, y0 are in mm"),
+            Self::Units(force, moment) => match (force < 1.0, moment < 1.0) {
+                (true, false) => f.write_str("forces are in mN"),
+                (false, _) => f.write_str("moments are in N mm (or mN m)"),
+                (true, true) => f.write_str("forces are in mN and moments in N mm (or mN m)"),
+            },
+            Self::Gains(1.0, moment) => write!(f, "m0z is {moment:.3} times what it should be"),
+            Self::Gains(force, _) => write!(f, "f0x and f0y are {force:.3} times what they should be"),
+            Self::Stiffness(value) => write!(f, "the bending stiffness is {value:.4e} N m^2"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_undone_twice_is_as_it_was() {
+        let rod = Rod::new(0.1, 6.3e-4).unwrap();
+        let pose = Pose { x: 0.01, y: -0.04, phi: 1.5 };
+        let sample = Sample::new(pose, Reactions { f0x: 0.01, f0y: -0.02, m0z: 3e-4 });
+        let turns = [Mistake::MirroredX, Mistake::MirroredY, Mistake::Clockwise, Mistake::Swapped];
+        for mistake in Mistake::ALL[..7].iter().chain(&turns) {
+            let once = mistake.undone(&rod, &[sample]).1;
+            assert_ne!(once, [sample], "{mistake}");
+            assert_eq!(mistake.undone(&rod, &once).1, [sample], "{mistake}");
+        }
+        assert!(!Mistake::MirroredX.is_possible(&[sample, sample]));
+    }
+}

@@ -1,0 +1,93 @@
+//! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
+
+use super::settings::{ReconstructError, Settings, positive, possible};
+use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
+use crate::phase::{Break, Node, places};
+use crate::scan::noise_estimate::{ChannelNoise, estimate};
+use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
+use crate::systematic::{Budget, Calibration, Errors, Shared, calibrate};
+use rod_core::{Rod, Sample, Units};
+
+/// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
+const COARSE: f64 = 0.02;
+
+/// A scan with the errors that its samples share taken off.
+pub(super) struct Calibrated {
+    pub track: Track,
+    /// For each sample its number in the track, or why it is not there.
+    pub numbered: Vec<Result<usize, Fault>>,
+    /// The noise of each channel, in EI/L^2 and EI/L.
+    pub found: [ChannelNoise; 3],
+    pub kinks: Vec<Kink>,
+    pub noise: Noise,
+    /// Steps of each channel that hide transitions, in EI/L^2 and EI/L.
+    pub steps: [Option<f64>; 3],
+    pub breaks: Vec<Break>,
+    pub nodes: Vec<Node>,
+    /// The units of the rod, as it was found.
+    pub units: Units,
+    pub calibration: Option<(Shared, Calibration)>,
+}
+
+impl Calibrated {
+    /// From the samples of one path of the clamp.
+    pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
+        positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
+        let mut units = rod.units();
+        let (mut track, numbered) = Track::new(rod, samples);
+        if track.len() < FEWEST_SAMPLES {
+            return Err(ReconstructError::TooFew {
+                usable: track.len(),
+                samples: samples.len(),
+                fewest: FEWEST_SAMPLES,
+            });
+        }
+        let channels = [0, 1, 2].map(|c| track.clamps.iter().map(|clamp| clamp.reactions[c]).collect::<Vec<f64>>());
+        let size = [units.force, units.force, units.moment];
+        let found = match settings.noise {
+            Some(noise) => dimensionless(&noise, units),
+            None => noise_of(&track, &channels, samples, size),
+        };
+        let [f0x, f0y, m0z] = &channels;
+        let options = KinkOptions { false_alarms: settings.false_alarms, ..KinkOptions::default() };
+        let kinks = find_kinks(&track.tau, [f0x, f0y, m0z], &found, options);
+        let noise = Noise::new(&found);
+        let steps = channels.each_ref().map(|channel| quantum(channel).filter(|step| *step > COARSE));
+        let breaks: Vec<Break> = kinks
+            .iter()
+            .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
+            .collect();
+        let mut nodes = places(&track, &noise, &breaks);
+        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
+        possible(&budget, &settings.known)?;
+        let mut calibration = None;
+        if let Some((correction, shared, told)) =
+            calibrate(rod, &track, &noise, &breaks, &nodes, &budget, &settings.known)
+        {
+            if let Some(correction) = correction {
+                track = correction.track(&track);
+                nodes = places(&track, &noise, &breaks);
+                units = told.rod(rod).units();
+            }
+            shared.doubt(&mut nodes);
+            shared.judge(&Errors::zeros(), &track, &mut nodes);
+            calibration = Some((shared, told));
+        }
+        Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration })
+    }
+}
+
+/// The noise of the samples: the standard deviations of the samples, if they have some, otherwise those of the scan; with the correlation
+/// that the scan shows.
+fn noise_of(track: &Track, channels: &[Vec<f64>; 3], samples: &[Sample], size: [f64; 3]) -> [ChannelNoise; 3] {
+    let told: Option<Vec<_>> = samples.iter().map(|sample| sample.sigma).collect();
+    std::array::from_fn(|c| {
+        let found = estimate(&track.tau, &channels[c]);
+        let told = told.as_ref().filter(|told| !told.is_empty()).map(|told| {
+            let squares =
+                told.iter().map(|sigma| [sigma.f0x, sigma.f0y, sigma.m0z][c].powi(2)).filter(|v| v.is_finite());
+            (squares.sum::<f64>() / told.len() as f64).sqrt() / size[c]
+        });
+        ChannelNoise { sigma: told.unwrap_or(found.sigma), ..found }
+    })
+}

@@ -1,0 +1,123 @@
+//! What explains a recording that does not fit, and how likely.
+
+use super::calibrated::Calibrated;
+use super::settings::Settings;
+use crate::check::{Finding, Mistake, plausibility};
+use crate::scan::passes;
+use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
+use rod_core::{Rod, Sample};
+use std::fmt;
+
+/// Most samples that the likelihood of a mistake is first found from. Fewer: the likeliest ones may be missed; more: more time.
+const FIRST: usize = 150;
+/// So many of the mistakes that are likeliest by these are looked at again.
+const KEPT: usize = 3;
+/// Most samples that the likelihoods are found from then, and most of them that are checked by the physics. More: more time.
+const MOST_SAMPLES: usize = 600;
+const MOST_CHECKED: usize = 300;
+
+/// Logarithm of the factor by which a source must be more likely than bias and drift alone: strong evidence (Jeffreys 1961, appendix B).
+/// Smaller: where bias and drift explain everything, all sources that are as known are told, too.
+const STRONG: f64 = 3.0;
+
+/// What explains a recording. Displays in words, without a likelihood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Explanation {
+    /// A mistake in signs, axes, units or the rod.
+    Mistake(Mistake),
+    /// Bias and drift of the sensor alone.
+    Tare,
+    /// One source of error besides bias and drift; its value in the unit of the source.
+    Source(Source, f64),
+    /// Several sources of errors at once.
+    Several,
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mistake(mistake) => mistake.fmt(f),
+            Self::Tare => f.write_str("bias and drift of the sensor alone"),
+            Self::Several => f.write_str("several errors at once"),
+            Self::Source(source, value) => {
+                let unit = source.name().1;
+                let number = matches!(source, Source::NaturalCurvature | Source::ClampCompliance);
+                match unit {
+                    "" if number => write!(f, "{source} {value:+.1e}"),
+                    "" => write!(f, "{source} {:+.1} %", 100.0 * value),
+                    _ => write!(f, "{source} {value:+.1e} {unit}"),
+                }
+            }
+        }
+    }
+}
+
+/// What explains a recording, the most likely first, with likelihoods that add up to 1: mistakes in signs, axes and units, another
+/// bending stiffness or gain where the check by the physics `finds` one, and each source of error that has a budget, on top of bias and drift. Equally
+/// likely before the recording is seen.
+///
+/// For each mistake the likelihood is that of the best labels and errors of the recording without it. That of the recording as it is
+/// divides among the sources in proportion to their evidence by Laplace's method, to second order about the estimate with all sources
+/// free; sources that are not at least 20 times as likely as bias and drift alone are left out. At most 600 samples are looked at, and of
+/// the mistakes only the three that are likeliest by 150. Two mistakes at once, and errors that are not in the budget, are not tried. Empty where
+/// nothing that is tried gives a possible recording.
+pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &[Finding]) -> Vec<(Explanation, f64)> {
+    let usual = settings.budget.filter(|budget| !budget.is_none()).unwrap_or_else(|| Budget::laboratory(rod));
+    let settings = Settings { budget: Some(usual), ..*settings };
+    let thin = thinned(samples, MOST_SAMPLES);
+    let of_slope = finds.iter().flat_map(|finding| match finding {
+        Finding::Stiffness { given, suggested, .. } => Mistake::of_slope(*given, *suggested).to_vec(),
+        _ => Vec::new(),
+    });
+    let log = |mistake: Mistake, samples: &[Sample]| {
+        let (rod, undone) = mistake.undone(rod, samples);
+        Some((mistake, interpreted(&rod, &undone, &settings)?.log_likelihood))
+    };
+    let possible = Mistake::ALL.into_iter().chain(of_slope).filter(|mistake| mistake.is_possible(&thin));
+    let few = thinned(samples, FIRST);
+    let mut likely: Vec<(Mistake, f64)> = possible.filter_map(|mistake| log(mistake, &few)).collect();
+    likely.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let again = likely.into_iter().take(KEPT).filter_map(|(mistake, _)| log(mistake, &thin));
+    let mut found: Vec<(Explanation, f64)> = again.map(|(mistake, log)| (Explanation::Mistake(mistake), log)).collect();
+    if let Some(calibration) = interpreted(rod, &thin, &settings) {
+        let mut parts = candidates(&calibration);
+        let tare = parts.iter().find(|part| part.0 == Candidate::Tare).map(|part| part.1);
+        parts.retain(|part| part.0 == Candidate::Tare || tare.is_none_or(|tare| part.1 > tare + STRONG));
+        let all = log_sum(parts.iter().map(|part| part.1));
+        found.extend(parts.into_iter().map(|(candidate, log)| {
+            let explanation = match candidate {
+                Candidate::Tare => Explanation::Tare,
+                Candidate::One(source, value) => Explanation::Source(source, value),
+                Candidate::Several => Explanation::Several,
+            };
+            (explanation, calibration.log_likelihood + log - all)
+        }));
+    }
+    let all = log_sum(found.iter().map(|one| one.1));
+    found.iter_mut().for_each(|one| one.1 = (one.1 - all).exp());
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
+}
+
+/// At most so many of the samples, evenly spaced.
+fn thinned(samples: &[Sample], most: usize) -> Vec<Sample> {
+    samples.iter().step_by(samples.len().div_ceil(most).max(1)).copied().collect()
+}
+
+/// What the longest pass of a recording says of the errors that its samples share; none where units or signs are impossible.
+fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Calibration> {
+    if plausibility(rod, &thinned(samples, MOST_CHECKED)).findings.iter().any(Finding::is_gross) {
+        return None;
+    }
+    let longest = passes(rod, samples).into_iter().max_by_key(|pass| pass.len())?;
+    let part = samples.get(longest)?;
+    let calibration = Calibrated::of(rod, part, settings).ok()?.calibration?.1;
+    calibration.log_likelihood.is_finite().then_some(calibration)
+}
+
+/// Logarithm of a sum of exponentials.
+fn log_sum(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let most = logs.clone().fold(f64::NEG_INFINITY, f64::max);
+    most + logs.map(|log| (log - most).exp()).sum::<f64>().ln()
+}
