@@ -13,8 +13,22 @@ const NOISE: &str = "[ar1]\nforce = 2.5e-3\nm0z = 6e-5\ncorrelation = 0.45\n";
 const ROD: &str = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n";
 /// In the order in which they are written.
 const FIELDS: [&str; 16] = [
-    "x0", "y0", "phi0", "x", "y", "s", "alpha", "force", "sigma_x", "sigma_y", "reason", "label", "several", "probability",
-    "basis", "second",
+    "x0",
+    "y0",
+    "phi0",
+    "x",
+    "y",
+    "s",
+    "alpha",
+    "force",
+    "sigma_x",
+    "sigma_y",
+    "reason",
+    "label",
+    "several",
+    "probability",
+    "basis",
+    "second",
 ];
 
 /// A directory with a recording r.csv of the scene.
