@@ -1,7 +1,7 @@
 //! Mistakes in a recording that can be undone.
 
 use rod_core::{Pose, Reactions, Rod, Sample};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::fmt;
 
 /// A mistake in signs, axes or units of a recording, or in the rod, that can be undone.
@@ -63,6 +63,8 @@ impl Mistake {
         match self {
             Self::MirroredX => changes(|pose| pose.x),
             Self::MirroredY => changes(|pose| pose.y),
+            // angles within a turn are taken for radians, as by the check
+            Self::Degrees => samples.iter().any(|sample| sample.pose.phi.abs() > TAU),
             _ => true,
         }
     }
