@@ -147,7 +147,8 @@ fn clean_recordings_are_right() {
     for name in ["O1_q40", "disc"] {
         let judged = judged(&Site::new(name, COARSE), &Wrong::Nothing { fast: false }, 1, &settings);
         assert_eq!(judged.score.verdict, Verdict::Right, "{} {:?}", judged.line(), judged.score);
-        assert!(judged.said.is_empty(), "{}", judged.line());
+        // at this rate labels next to transitions are uncertain
+        assert!(judged.said.iter().all(|said| said.contains("labels may be wrong")), "{}", judged.line());
     }
 }
 

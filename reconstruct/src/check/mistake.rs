@@ -4,6 +4,9 @@ use rod_core::{Pose, Reactions, Rod, Sample};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
+/// Way of the clamp, rod lengths, that is too long for a scan in metres: in millimetres it is a tenth of a rod length at least.
+const LONG: f64 = 100.0;
+
 /// A mistake in signs, axes or units of a recording, or in the rod, that can be undone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -54,8 +57,9 @@ impl Mistake {
         Self::Units(1e-3, 1e-3),
     ];
 
-    /// Whether a recording with these samples can contain it: a coordinate that does not change shows no direction.
-    pub(crate) fn is_possible(self, samples: &[Sample]) -> bool {
+    /// Whether a recording with these samples can contain it: a coordinate that does not change shows no direction, and millimetres that
+    /// are taken for metres are a long way.
+    pub(crate) fn is_possible(self, rod: &Rod, samples: &[Sample]) -> bool {
         let changes = |of: fn(&Pose) -> f64| {
             let first = samples.first().map(|sample| of(&sample.pose));
             samples.iter().any(|sample| Some(of(&sample.pose)) != first)
@@ -64,6 +68,12 @@ impl Mistake {
             Self::MirroredX => changes(|pose| pose.x),
             Self::MirroredY => changes(|pose| pose.y),
             // angles within a turn are taken for radians, as by the check
+            Self::Millimetres => [|pose: &Pose| pose.x, |pose: &Pose| pose.y].into_iter().any(|of| {
+                let values = || samples.iter().map(|sample| of(&sample.pose));
+                let (least, most) =
+                    (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+                most - least > LONG * rod.length()
+            }),
             Self::Degrees => samples.iter().any(|sample| sample.pose.phi.abs() > TAU),
             _ => true,
         }
@@ -152,6 +162,6 @@ mod tests {
             assert_ne!(once, [sample], "{mistake}");
             assert_eq!(mistake.undone(&rod, &once).1, [sample], "{mistake}");
         }
-        assert!(!Mistake::MirroredX.is_possible(&[sample, sample]));
+        assert!(!Mistake::MirroredX.is_possible(&rod, &[sample, sample]));
     }
 }

@@ -40,7 +40,10 @@ impl Reconstruction {
         if lost as f64 > LOST * touched as f64 {
             findings.push(Finding::Lost { share: lost as f64 / touched as f64 });
         }
-        findings.extend(self.uncertain());
+        // what does not fit makes labels uncertain, too
+        if findings.is_empty() {
+            findings.extend(self.uncertain());
+        }
         findings
     }
 

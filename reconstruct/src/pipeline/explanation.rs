@@ -3,6 +3,7 @@
 use super::calibrated::Calibrated;
 use super::settings::Settings;
 use crate::check::{Finding, Mistake, plausibility};
+use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::passes;
 use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
 use rod_core::{Rod, Sample};
@@ -15,6 +16,9 @@ const KEPT: usize = 3;
 /// Most samples that the likelihoods are found from then, and most of them that are checked by the physics. More: more time.
 const MOST_SAMPLES: usize = 600;
 const MOST_CHECKED: usize = 300;
+
+/// Smallest noise that is assumed, in parts of the largest reaction. Smaller: of exact samples the errors of thinned ones decide.
+const LEAST_NOISE: f64 = 1e-3;
 
 /// Logarithm of the factor by which a source must be more likely than bias and drift alone: strong evidence (Jeffreys 1961, appendix B).
 /// Smaller: where bias and drift explain everything, all sources that are as known are told, too.
@@ -74,7 +78,7 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
         let (rod, undone) = mistake.undone(rod, samples);
         Some((mistake, interpreted(&rod, &undone, &settings)?.log_likelihood))
     };
-    let possible = Mistake::ALL.into_iter().chain(of_slope).filter(|mistake| mistake.is_possible(&thin));
+    let possible = Mistake::ALL.into_iter().chain(of_slope).filter(|mistake| mistake.is_possible(rod, &thin));
     let few = thinned(samples, FIRST);
     let mut likely: Vec<(Mistake, f64)> = possible.filter_map(|mistake| log(mistake, &few)).collect();
     likely.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -112,8 +116,21 @@ fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Cal
     }
     let longest = passes(rod, samples).into_iter().max_by_key(|pass| pass.len())?;
     let part = samples.get(longest)?;
-    let calibration = Calibrated::of(rod, part, settings).ok()?.calibration?.1;
+    let settings = Settings { noise: Some(noise(part, settings)), ..*settings };
+    let calibration = Calibrated::of(rod, part, &settings).ok()?.calibration?.1;
     calibration.log_likelihood.is_finite().then_some(calibration)
+}
+
+/// The noise of the channels, at least [`LEAST_NOISE`].
+fn noise(samples: &[Sample], settings: &Settings) -> [ChannelNoise; 3] {
+    let channels: [fn(&Sample) -> f64; 3] = [|s| s.reactions.f0x, |s| s.reactions.f0y, |s| s.reactions.m0z];
+    std::array::from_fn(|c| {
+        let usable = samples.iter().map(channels[c]).filter(|value| value.is_finite());
+        let (numbers, values): (Vec<f64>, Vec<f64>) = usable.enumerate().map(|(k, value)| (k as f64, value)).unzip();
+        let found = settings.noise.map_or_else(|| estimate(&numbers, &values), |given| given[c]);
+        let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        ChannelNoise { sigma: found.sigma.max(LEAST_NOISE * largest), ..found }
+    })
 }
 
 /// Logarithm of a sum of exponentials.
