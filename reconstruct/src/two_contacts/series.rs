@@ -160,6 +160,11 @@ impl Series {
         }
     }
 
+    /// Whether it has as many terms as it may: the reactions may need more.
+    pub fn is_truncated(&self) -> bool {
+        self.terms() == MOST_TERMS
+    }
+
     pub fn terms(&self) -> usize {
         self.normal.nrows()
     }
