@@ -121,7 +121,7 @@ pub(super) fn solve(
         .collect();
     middle.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
     let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE_TERMS);
-    let truncated = stretches.iter().any(|(series, _)| series.is_truncated());
+    let truncated = stretches.iter().any(|(series, _)| series.truncated);
     let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
     let judged = |system: &System<'_>, solution: Solution| {
         let System { parts, ends, tolerance } = *system;
