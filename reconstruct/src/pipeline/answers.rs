@@ -3,12 +3,13 @@
 use super::nearest::Nearest;
 use super::reading::{Reading, Reason, sure};
 use super::settings::Settings;
+use super::torn::torn;
 use crate::kink::Kink;
 use crate::phase::{Break, Identified, Label, contact};
 use crate::point::Touch;
 use crate::scan::{Noise, Track};
 use crate::systematic::Shared;
-use crate::two_contacts::{Limits, Neighbour, Piece, Unresolved, resolve};
+use crate::two_contacts::{Limits, Neighbour, Passed, Piece, Unresolved, resolve};
 use nalgebra::Matrix2;
 use rod_core::Units;
 use std::ops::Range;
@@ -17,11 +18,6 @@ use std::ops::Range;
 const MARGIN: usize = 3;
 /// The uncertainty of a kink in its standard deviations, which are rather too small: the curvature breaks at a kink, too.
 const SIGMAS: f64 = 4.0;
-/// Factors by which more samples are left out where no contacts agree with the rest.
-const WIDER: [usize; 2] = [3, 10];
-/// Chi-squared from which on a kink within a phase is real. Larger: a third contact that comes or goes is missed; smaller: false alarms
-/// divide a stretch.
-const SURE: f64 = 60.0;
 /// Largest standard deviation of one of several contacts across the contour, in rod lengths.
 const ACROSS: f64 = 5e-3;
 
@@ -121,33 +117,72 @@ impl Answers<'_> {
         let mut before =
             neighbour(consecutive.start.checked_sub(1)).filter(|_| !jumps(breaks, runs[consecutive.start].0.start));
         let mut pieces: Vec<Piece> = Vec::new();
+        let from = readings.len();
+        // the numbers of readings at which parts begin, and whether the reactions jump there
+        let mut parts: Vec<(usize, bool)> = vec![(from, true)];
         for (range, label) in &runs[consecutive.clone()] {
-            let inside =
-                breaks.iter().filter(|here| here.score > SURE && range.start < here.index && here.index < range.end);
+            let inside = breaks.iter().filter(|here| range.start < here.index && here.index < range.end);
             let mut start = range.start;
             for end in inside.map(|here| here.index).chain([range.end]) {
                 if start > range.start || jumps(breaks, start) && !pieces.is_empty() {
-                    self.resolved(std::mem::take(&mut pieces), before.take(), None, readings);
+                    self.resolved(std::mem::take(&mut pieces), [before.take(), None], breaks, readings);
+                    parts.push((readings.len(), jumps(breaks, start)));
                 }
                 pieces.push(Piece { range: start..end, label: *label });
                 start = end;
             }
         }
         let after = neighbour(Some(consecutive.end)).filter(|_| !jumps(breaks, runs[consecutive.end - 1].0.end));
-        self.resolved(pieces, before, after, readings);
+        self.resolved(pieces, [before, after], breaks, readings);
+        self.doubt_torn(runs[consecutive.start].0.start, &parts, readings);
+    }
+
+    /// Takes back the answers to neighbouring parts, the first of which starts at sample `start`, that contradict each other.
+    fn doubt_torn(&self, start: usize, parts: &[(usize, bool)], readings: &mut [Reading]) {
+        let Some(&(from, _)) = parts.first() else { return };
+        let tau = &self.track.tau[start..];
+        let ends = parts.iter().skip(1).map(|part| part.0).chain([readings.len()]);
+        let ranges: Vec<Range<usize>> = parts.iter().zip(ends).map(|(part, end)| part.0..end).collect();
+        let several = &readings[from..];
+        let torn: Vec<usize> =
+            (1..parts.len()).filter(|&k| !parts[k].1 && torn(several, tau, parts[k].0 - from, self.units)).collect();
+        for k in torn.into_iter().flat_map(|k| [k - 1, k]) {
+            for reading in &mut readings[ranges[k].clone()] {
+                let reason = Reason::Several(Unresolved::Torn);
+                *reading = Reading { touch: Err(reason), second: Some(Err(reason)), ..*reading };
+            }
+        }
+    }
+
+    /// The shapes of the rod on both sides of these pieces, up to where they are not known or jump.
+    fn passed(&self, pieces: &[Piece], breaks: &[Break]) -> Passed {
+        let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return Passed::default() };
+        let Identified { nodes, labels, .. } = self.identified;
+        let (start, end) = (first.range.start, last.range.end);
+        let to = nodes.partition_point(|node| node.index < start);
+        let from = nodes.partition_point(|node| node.index < end);
+        // the jumps next to the pieces are none of those beyond them
+        let jumps = || breaks.iter().filter(|here| here.jump).map(|here| here.index);
+        let least = jumps().rfind(|index| *index < start).unwrap_or(0);
+        let most = jumps().find(|index| *index > end).unwrap_or(self.track.len());
+        let known = |k: &usize| !labels[*k].0.several() && (least..most).contains(&nodes[*k].index);
+        let clamp = |k: usize| (nodes[k].fit.at(self.track.tau[nodes[k].index]).clamp, labels[k].0);
+        let before = (0..to).rev().take_while(known).map(clamp).collect();
+        let after = (from..nodes.len()).take_while(known).map(clamp).collect();
+        Passed::new([before, after])
     }
 
     /// The answers to pieces that are joined without a jump.
     fn resolved(
         &self,
         pieces: Vec<Piece>,
-        before: Option<Neighbour>,
-        after: Option<Neighbour>,
+        [before, after]: [Option<Neighbour>; 2],
+        breaks: &[Break],
         readings: &mut Vec<Reading>,
     ) {
         let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
         let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
-        let mut limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
+        let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
         let displacements = match (self.shared, pieces.first(), pieces.last()) {
             (Some(shared), Some(first), Some(last)) => {
                 let stretch = first.range.start..last.range.end;
@@ -156,16 +191,8 @@ impl Answers<'_> {
             _ => Vec::new(),
         };
         let beside = [before.as_ref(), after.as_ref()];
-        let of = |limits: &Limits| resolve(self.track, self.noise, &pieces, beside, limits, &displacements);
-        let mut pairs = of(&limits);
-        for wider in WIDER {
-            // a border that is misplaced by more than the uncertainty of its kink makes all conditions fail: leave out more samples
-            if self.noise.is_clean() || pairs.iter().any(|pair| pair.first.is_ok()) {
-                break;
-            }
-            limits.margin = margin * wider;
-            pairs = of(&limits);
-        }
+        let pairs =
+            resolve(self.track, self.noise, &pieces, beside, &limits, &displacements, &self.passed(&pieces, breaks));
         let sure = |found: Result<Touch, Unresolved>| match found {
             Ok(touch) => self.sure(touch),
             Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),

@@ -19,6 +19,7 @@ mod reconstruct;
 mod reconstruction;
 mod session;
 mod settings;
+mod torn;
 
 pub use each_pass::reconstruct_passes;
 pub use explanation::{Explanation, explanations};

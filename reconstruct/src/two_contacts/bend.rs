@@ -17,7 +17,7 @@ const NEARBY: usize = 4;
 const SHARPER: f64 = 1.0;
 /// The contact passes at least its path less this many standard deviations. Larger: the curvature is overestimated, and points at sharp
 /// places are given up; smaller: it is underestimated where noise lengthens the path.
-pub(super) const UNSURE: f64 = 2.0;
+pub(super) const UNSURE: f64 = 4.0;
 
 /// Where a contact is at an instant.
 struct Place {

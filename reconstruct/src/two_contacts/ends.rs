@@ -10,8 +10,9 @@ pub(super) enum End {
     /// The second contact goes on as the neighbour's single contact: a point of the contour, its normal and its standard
     /// deviation across the contour; the path length of the clamp to there.
     Last { place: Vector2<f64>, normal: Vector2<f64>, sigma: f64, way: f64, bend: f64 },
-    /// The first contact goes on as the neighbour's single contact, at this arc length; the path length of the clamp to there.
-    First { s: f64, way: f64, bend: f64 },
+    /// The first contact goes on as the neighbour's single contact, at this arc length with its standard deviation; the path length of
+    /// the clamp to there.
+    First { s: f64, sigma: f64, way: f64, bend: f64 },
 }
 
 /// A neighbour's single contact next to the run.
@@ -31,6 +32,6 @@ pub(super) struct Beside {
 impl Beside {
     /// The end, if the first contact goes on.
     pub fn first(&self) -> End {
-        End::First { s: self.s, way: self.way, bend: self.bend }
+        End::First { s: self.s, sigma: self.sigma_s, way: self.way, bend: self.bend }
     }
 }

@@ -18,9 +18,11 @@ mod displaced;
 mod ends;
 mod envelope;
 mod guess;
+mod misfit;
 mod normal;
 mod pair;
 mod part;
+mod passed;
 mod resolve;
 mod run;
 mod series;
@@ -35,5 +37,6 @@ mod unresolved;
 mod weights;
 
 pub(crate) use pair::Limits;
+pub(crate) use passed::Passed;
 pub(crate) use resolve::{Neighbour, Piece, resolve};
 pub use unresolved::Unresolved;

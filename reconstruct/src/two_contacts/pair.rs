@@ -14,7 +14,7 @@ use rod_core::{Dual, Section};
 
 /// Instants of a stretch at which covariances are computed; they are interpolated linearly in between.
 pub(super) const INSTANTS: usize = 33;
-/// The second force vanishes where it is within this many standard deviations of zero.
+/// A force vanishes where it is within this many standard deviations of zero.
 const VANISHES: f64 = 3.0;
 /// Standard deviation across the contour by an error along it, in units of the curvature and the variance along. The error across is half
 /// the curvature times the square of that along, 0.87 in the root mean square. It is not normal: with 1.3 it exceeds 6 of these
@@ -84,9 +84,11 @@ pub(super) fn answer(
     let bends = bends(found, part);
     let strength = |k: usize| {
         let f1 = part.local(x, place(k)).values[Unknown::F1];
-        f1.abs() / covariances[k][(F1, F1)].max(f64::MIN_POSITIVE).sqrt()
+        f1 / covariances[k][(F1, F1)].max(f64::MIN_POSITIVE).sqrt()
     };
-    if (0..INSTANTS).map(strength).fold(0.0, f64::max) < PRESENT {
+    // the contact pushes from one side along the whole stretch
+    let strongest = (0..INSTANTS).map(strength).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    if strongest.abs() < PRESENT {
         let error = Unresolved::FirstForceVanishes;
         pairs.extend(tau.iter().map(|_| Pair { first: Err(error), second: Err(error) }));
         return;
@@ -105,7 +107,11 @@ pub(super) fn answer(
         };
         let bend = [0, 1].map(|i| bends[k][i].max(bends[k + 1][i]));
         let shared = [0, 1].map(|i| spread[k][i] * (1.0 - w) + spread[k + 1][i] * w);
-        pairs.push(pair(part, &local, &covariance, bend, limits).with_systematic(shared));
+        let mut pair = pair(part, &local, &covariance, bend, limits);
+        if local.values[Unknown::F1] * strongest.signum() < VANISHES * covariance[(F1, F1)].max(0.0).sqrt() {
+            pair.first = Err(Unresolved::FirstForceVanishes);
+        }
+        pairs.push(pair.with_systematic(shared));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::displaced::displaced;
 use super::pair::{Limits, Pair, answer};
+use super::passed::Passed;
 use super::run::solve;
 use super::series::Series;
 use super::single::Single;
@@ -37,6 +38,7 @@ pub(crate) fn resolve(
     [before, after]: [Option<&Neighbour>; 2],
     limits: &Limits,
     displacements: &[Correction],
+    passed: &Passed,
 ) -> Vec<Pair> {
     let mut pairs = Vec::with_capacity(pieces.iter().map(|p| p.range.len()).sum());
     let inside = |range: &Range<usize>| {
@@ -69,7 +71,7 @@ pub(crate) fn resolve(
         let singles = [at_end(before, 0, k == 0), at_end(after, 1, end == pieces.len())];
         let ends = singles.each_ref().map(|single| single.as_ref()?.contact());
         let stretches = (k..end).filter_map(|j| Some((fitted[j].clone()?, pieces[j].label.tip()))).collect::<Vec<_>>();
-        match solve(stretches, ends) {
+        match solve(stretches, ends, noise.is_clean(), passed) {
             Ok(found) => {
                 let spread = displaced(&found, &singles, displacements);
                 for ((part, piece), spread) in found.parts.iter().zip(&pieces[k..end]).zip(&spread) {

@@ -3,7 +3,9 @@
 use super::choice::{Choice, choices};
 use super::ends::{Beside, End};
 use super::guess::guess;
+use super::misfit::{BY_CHANCE, Misfit};
 use super::part::Part;
+use super::passed::Passed;
 use super::series::Series;
 use super::signs::are_right;
 use super::system::{Solution, System};
@@ -26,15 +28,20 @@ const SHORT: [usize; 2] = [8, 14];
 /// Smallest standard deviation of a reaction's mean in the first and the second solution, relative to 1 + the force.
 const BLURS: [f64; 2] = [3e-4, 1e-5];
 /// Steps from the second to the last solution where one is too long: the blur as above, and the floor of the tolerance.
-const SHORTER_STEPS: [(f64, f64); 4] = [(1e-6, 1e-4), (1e-7, 1e-6), (1e-9, 1e-7), (0.0, 1e-9)];
+const SHORTER_STEPS: [(f64, f64); 5] = [(1e-6, 1e-4), (1e-6, 1e-5), (1e-7, 1e-6), (1e-9, 1e-7), (0.0, 1e-9)];
 /// Choices of trails that go on from the first solution to the second, best first.
 const REFINED: usize = 3;
-/// Largest sum of weighted squares per measured coefficient of a solution; noise gives 1. Larger: contradictory conditions pass.
-const MOST_MISFIT: f64 = 2.0;
+/// Largest sum of weighted squares per measured coefficient of a start from which shorter steps are tried. Smaller: right choices of
+/// trails are given up.
+const MOST_OFF: f64 = 2.0;
+/// Largest misfit of a solution without noise, as a normal deviate: truncated series and rounding.
+const MOST_MISFIT_CLEAN: f64 = 6.0;
 
 /// A solution whose sum of weighted squares exceeds that of another by less than this cannot be excluded: a likelihood ratio of
 /// exp(-12). Larger: more stretches are given up as ambiguous; smaller: wrong contacts pass.
 const AS_GOOD: f64 = 24.0;
+/// Distance of the first contacts of two first solutions along the rod, rod lengths, up to which only the better one goes on.
+const SAME: f64 = 0.005;
 /// Distance of the first contacts of two solutions along the rod, rod lengths, from which on they are not the same.
 const ANOTHER: f64 = 0.02;
 
@@ -47,7 +54,7 @@ pub(super) struct Resolved {
     pub ends: [End; 2],
     /// How tightly the conditions are kept.
     pub tolerance: Tolerance,
-    /// Factor on the covariance: the sum of weighted squares per measured coefficient, at least 1.
+    /// Factor on the covariance: the sum of weighted squares per degree of freedom, at least 1.
     pub excess: f64,
 }
 
@@ -55,7 +62,12 @@ pub(super) struct Resolved {
 ///
 /// The least squares start from a trail of the first contact and are solved three times: with few terms, loose conditions and blurred
 /// reactions; with more of each; and as they are.
-pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2]) -> Result<Resolved, Unresolved> {
+pub(super) fn solve(
+    stretches: Vec<(Series, bool)>,
+    beside: [Option<Beside>; 2],
+    clean: bool,
+    passed: &Passed,
+) -> Result<Resolved, Unresolved> {
     let last = stretches.len() - 1;
     let ends = |k: usize| [beside[0].filter(|_| k == 0), beside[1].filter(|_| k == last)].map(|b| b.map(|b| b.s));
     let found: Vec<Vec<Trail>> = stretches.iter().enumerate().map(|(k, (series, _))| trails(series, ends(k))).collect();
@@ -67,6 +79,10 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
     let anchored = |choice: &Choice| choice.ends.iter().any(|end| matches!(end, End::Last { .. }));
     if !stretches.iter().any(|(_, tip)| *tip) {
         choices.retain(anchored);
+    }
+    // in noise, nothing else tells two contacts from three
+    if !clean {
+        choices.retain(|choice| choice.ends.iter().any(|end| !matches!(end, End::Open)));
     }
     if choices.is_empty() {
         return Err(Unresolved::NoAnchor);
@@ -82,6 +98,17 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
         })
         .collect();
     rough.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
+    // several trails may lead to one solution
+    let mut distinct: Vec<(Choice, Vec<Part>, Solution)> = Vec::new();
+    for one in rough {
+        let same = |other: &(Choice, Vec<Part>, Solution)| {
+            other.0.ends == one.0.ends && !elsewhere((&other.1, &other.2), (&one.1, &one.2), SAME)
+        };
+        if !distinct.iter().any(same) {
+            distinct.push(one);
+        }
+    }
+    let rough = distinct;
     let mut middle: Vec<(Choice, Vec<Part>, Solution)> = rough
         .into_iter()
         .take(REFINED)
@@ -94,30 +121,43 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
         .collect();
     middle.sort_by(|a, b| a.2.cost.total_cmp(&b.2.cost));
     let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE_TERMS);
+    let truncated = stretches.iter().any(|(series, _)| series.truncated);
     let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
     let judged = |system: &System<'_>, solution: Solution| {
         let System { parts, ends, tolerance } = *system;
-        let excess = solution.cost / measured as f64;
-        let good = solution.converged && excess < MOST_MISFIT && parts.iter().all(|part| are_right(part, &solution));
-        good.then(|| Resolved { parts: parts.to_vec(), solution, ends, tolerance, excess: excess.max(1.0) })
+        let misfit = Misfit::of(system, &solution);
+        let good = solution.converged
+            && misfit.deviate() < if clean { MOST_MISFIT_CLEAN } else { BY_CHANCE }
+            && parts.iter().all(|part| are_right(part, &solution) && !passed.contradict(part, &solution));
+        good.then(|| Resolved { parts: parts.to_vec(), solution, ends, tolerance, excess: misfit.excess() })
     };
     for (rank, (choice, short, start)) in middle.iter().enumerate() {
         let mut x = longer(short, &parts, &start.x);
         let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
         if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&fine, solution)) {
-            let others = middle.iter().enumerate().filter(|(other, _)| *other != rank);
-            for (_, (choice, short, middle)) in others {
-                let other = System { parts: &parts, ends: choice.ends, tolerance: FINE };
-                let other = other.gauss_newton(longer(short, &parts, &middle.x)).and_then(|s| judged(&other, s));
-                if other.is_some_and(|other| contradict(&found, &other)) {
+            for (_, (choice, short, middle)) in middle.iter().enumerate().filter(|(other, _)| *other != rank) {
+                let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
+                let other = match fine.gauss_newton(longer(short, &parts, &middle.x)) {
+                    Some(solution) => judged(&fine, solution).filter(|other| as_good(&other.solution, &found.solution)),
+                    // it cannot be excluded by an iteration that does not converge
+                    None => {
+                        let rough = System { parts: short, ends: choice.ends, tolerance: MIDDLE };
+                        judged(&rough, middle.clone()).filter(|_| as_good(middle, start))
+                    }
+                };
+                let there = |other: &Resolved| {
+                    elsewhere((&found.parts, &found.solution), (&other.parts, &other.solution), ANOTHER)
+                };
+                if other.is_some_and(|other| there(&other)) {
                     return Err(Unresolved::Ambiguous);
                 }
             }
             return Ok(found);
         }
-        // If the choice is right, the last step was too long for the least squares: go there in shorter steps, and keep the
-        // last one that succeeds.
-        if start.cost > MOST_MISFIT * measured as f64 {
+        // If the choice is right, the last step was too long for the least squares: go there in shorter steps. Where the series are
+        // too short for the reactions, keep the last one that succeeds. Otherwise all must: contradictory conditions, such as those
+        // of three contacts, agree if they are loose.
+        if start.cost > MOST_OFF * measured as f64 {
             continue;
         }
         let mut best = None;
@@ -127,7 +167,7 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
             let Some(solution) = system.solve(x.clone()) else { break };
             x = solution.x.clone();
             let Some(found) = judged(&system, solution) else { break };
-            best = Some(found);
+            best = Some(found).filter(|_| truncated || floor <= FINE.floor);
         }
         if let Some(found) = best {
             return Ok(found);
@@ -136,13 +176,16 @@ pub(super) fn solve(stretches: Vec<(Series, bool)>, beside: [Option<Beside>; 2])
     Err(Unresolved::Inconsistent)
 }
 
-/// Whether two solutions explain the reactions nearly as well and differ in the first contact.
-fn contradict(found: &Resolved, other: &Resolved) -> bool {
-    let differ = |part: &Part| {
-        let s1 = |resolved: &Resolved| part.local(&resolved.solution.x, 0.0).values[Unknown::S1];
-        (s1(found) - s1(other)).abs() > ANOTHER
-    };
-    other.solution.cost < found.solution.cost + AS_GOOD && found.parts.iter().any(differ)
+/// Whether a solution explains the reactions nearly as well as another.
+fn as_good(other: &Solution, found: &Solution) -> bool {
+    other.cost < found.cost + AS_GOOD
+}
+
+/// Whether two solutions of a run differ in the first contact by more than this somewhere.
+fn elsewhere(a: (&[Part], &Solution), b: (&[Part], &Solution), by: f64) -> bool {
+    let s1 =
+        |(parts, solution): (&[Part], &Solution), k: usize, t: f64| parts[k].local(&solution.x, t).values[Unknown::S1];
+    (0..a.0.len()).any(|k| [-0.8, 0.0, 0.8].into_iter().any(|t| (s1(a, k, t) - s1(b, k, t)).abs() > by))
 }
 
 /// The stretches with series of the reactions of at most `short` terms, and this many terms of the others.

@@ -57,6 +57,8 @@ pub(super) struct Series {
     pub variance: Vector3<f64>,
     /// Natural curvature of the rod.
     pub natural: f64,
+    /// Whether it has as many terms as it may, by its samples or at all: the reactions may need more.
+    pub truncated: bool,
 }
 
 impl Series {
@@ -116,7 +118,7 @@ impl Series {
         let inverse = normal.clone().cholesky()?.inverse();
         let part = |from| coefficients.columns(from, 3).into_owned();
         let (pose, reactions, natural) = (part(0), part(3), track.natural);
-        Some(Self { interval, pose, reactions, normal, inverse, variance, natural })
+        Some(Self { interval, pose, reactions, normal, inverse, variance, natural, truncated: terms == most })
     }
 
     /// The first terms alone. They are nearly the best series of that length, because Legendre polynomials are nearly orthogonal.
@@ -131,6 +133,7 @@ impl Series {
             inverse: block(&self.inverse),
             variance: self.variance,
             natural: self.natural,
+            truncated: self.truncated,
         }
     }
 

@@ -16,14 +16,15 @@ const WITHIN: f64 = 0.95;
 const MOSTLY: f64 = 0.75;
 /// A force below this share of the reactions has no certain sign.
 const SMALL: f64 = 0.05;
-/// Largest arc length of the second contact, rod lengths: the tip and its noise.
-const FARTHEST: f64 = 1.05;
+/// The second contact is beyond the tip if it is by more than this many of its standard deviations, and this length of rounding.
+const BEYOND: f64 = 1.5;
+const ROUNDING: f64 = 1e-6;
 /// Error of the mean of (side of the first contact) times (slope of the normal speed) that is noise, dimensionless.
 const SIDE: f64 = 0.1;
 /// The same in standard deviations of the contact's speed.
 const DOUBT: f64 = 2.0;
 
-/// Whether the forces push and the first contact is on the side of the solid.
+/// Whether the forces push, the second contact is on the rod and the first contact is on the side of the solid.
 ///
 /// The side of a moving contact follows from the slope of the normal speed along the rod, which is the speed of the contact times
 /// the difference of the curvatures of contour and rod.
@@ -52,7 +53,14 @@ pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
         let beyond = Beyond::new(&estimate.clamp, s1);
         let ([a, b], phi) = (beyond.left(f1), beyond.tip(f1).0.phi);
         let pushes = !part.tip || a * phi.sin() - b * phi.cos() >= -small;
-        good += usize::from(pushes && s1 > 0.0 && s1 < s2 && s2 < FARTHEST);
+        if !part.tip {
+            let covariance = part.covariance(&local, &solution.covariance);
+            let sigma = covariance[(Unknown::S2 as usize, Unknown::S2 as usize)].max(0.0).sqrt();
+            if s2 - 1.0 > BEYOND * sigma + ROUNDING {
+                return false;
+            }
+        }
+        good += usize::from(pushes && s1 > 0.0 && s1 < s2);
     }
     good as f64 >= MOSTLY * INSTANTS as f64 && side > -SIDE - DOUBT * doubt
 }

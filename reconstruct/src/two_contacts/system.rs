@@ -112,6 +112,16 @@ impl System<'_> {
         }
     }
 
+    /// The part of the cost that asks for smoothness.
+    pub fn roughness(&self, x: &DVector<f64>) -> f64 {
+        let mut normal = Normal::empty(x.len());
+        for part in self.parts {
+            Self::smooth(part, x, &mut normal);
+            Self::slid(part, x, &mut normal);
+        }
+        normal.cost
+    }
+
     /// Arc lengths and the first force are smooth.
     fn smooth(part: &Part, x: &DVector<f64>, normal: &mut Normal) {
         let at_clamp = part.force_at_clamp();
@@ -172,9 +182,9 @@ impl System<'_> {
                 part.spread(&local, &by, &mut row);
                 normal.add(&row, across, weights::chord(way, sigma.hypot(weights::PLACE_SHARE * floor)));
             }
-            End::First { s, way, .. } => {
+            End::First { s, sigma, way, .. } => {
                 part.spread(&local, &Gradient::of_values(Unknowns::unit(Unknown::S1)), &mut row);
-                normal.add(&row, local.values[Unknown::S1] - s, weights::arc_length_step(way, floor));
+                normal.add(&row, local.values[Unknown::S1] - s, weights::arc_length_step(way, floor).hypot(sigma));
             }
         }
     }

@@ -149,7 +149,10 @@ fn displaced(
         let single = |j: usize| matches!(all[j].1, Label::A | Label::B);
         let before = (k > 0 && !all[k - 1].2 && single(k - 1)).then(|| neighbour(k - 1));
         let after = (end < all.len() && !all[end - 1].2 && single(end)).then(|| neighbour(end));
-        out.push((all[k].0.start, resolve(track, noise, &pieces, [before.as_ref(), after.as_ref()], limits, by)));
+        out.push((
+            all[k].0.start,
+            resolve(track, noise, &pieces, [before.as_ref(), after.as_ref()], limits, by, &Passed::default()),
+        ));
         k = end;
     }
     out
@@ -193,6 +196,7 @@ impl Errors {
                         Unresolved::Ambiguous => "ambiguous",
                         Unresolved::NoAnchor => "no anchor",
                         Unresolved::TooNoisy { .. } => "too noisy",
+                        Unresolved::Torn => "torn",
                         Unresolved::Inconsistent => "inconsistent",
                     };
                     *self.given_up.entry(why).or_default() += 1;
@@ -273,7 +277,7 @@ fn middling(scan: &Scan) {
             errors.tell("noisy");
             let (half, most) = (quantile(&mut errors.gap, 0.5), quantile(&mut errors.gap, 0.95));
             assert!(half <= 1e-3 && most <= 1e-2, "{half} {most}");
-            assert!(errors.gap.len() as f64 >= 0.8 * errors.samples as f64);
+            assert!(errors.gap.len() as f64 >= 0.75 * errors.samples as f64);
         }
     }
 }
@@ -309,7 +313,9 @@ fn what_cannot_be_told_is_given_up_with_a_reason() {
     let limits = Limits::default();
     let (track, noise) = measured(&scan, Vector3::zeros(), 0.0, 0);
     let piece = |range, label| Piece { range, label };
-    let of = |pieces: &[Piece], track: &Track, noise: &Noise| resolve(track, noise, pieces, [None, None], &limits, &[]);
+    let of = |pieces: &[Piece], track: &Track, noise: &Noise| {
+        resolve(track, noise, pieces, [None, None], &limits, &[], &Passed::default())
+    };
     // ten samples
     let short = of(&[piece(1235..1245, Label::BB)], &track, &noise);
     assert!(short.len() == 10 && short.iter().all(|p| matches!(p.first, Err(Unresolved::TooShort { .. }))));

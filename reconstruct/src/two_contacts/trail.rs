@@ -47,7 +47,8 @@ struct Root {
     variance: f64,
 }
 
-/// The likeliest trails along a stretch, best first; `beside`: arc lengths of single contacts at its ends.
+/// The likeliest trails along a stretch, best first; `beside`: arc lengths of single contacts at its ends. That the first contact stays
+/// where such a single contact is, is always among them: noise may hide its roots.
 pub(super) fn trails(series: &Series, beside: [Option<f64>; 2]) -> Vec<Trail> {
     let place = |k: usize| -WITHIN + 2.0 * WITHIN * k as f64 / (INSTANTS - 1) as f64;
     let roots: Vec<Vec<Root>> = (0..INSTANTS).map(|k| roots(series, place(k))).collect();
@@ -72,6 +73,12 @@ pub(super) fn trails(series: &Series, beside: [Option<f64>; 2]) -> Vec<Trail> {
         let same = |k: &Trail| (0..2).all(|e| (k.ends[e] - trail.ends[e]).abs() < SAME);
         if kept.len() < MOST_TRAILS && trail.off < LOST && !kept.iter().any(same) {
             kept.push(trail);
+        }
+    }
+    for s in beside.into_iter().flatten() {
+        let near = |k: &Trail| k.ends.iter().all(|end| (end - s).abs() < SAME);
+        if !kept.iter().any(near) {
+            kept.push(Trail { ends: [s, s], off: LOST });
         }
     }
     kept

@@ -18,13 +18,14 @@ pub enum Unresolved {
     /// The force of the second contact is within its noise of zero, so that its place is not defined.
     #[error("the force of the second contact is within its noise of zero")]
     ForceVanishes,
-    /// The force of the first contact is within its noise of zero along the whole stretch, so that its existence is not certain.
-    #[error("the force of the first contact is within its noise of zero along the whole stretch")]
+    /// The force of the first contact is within its noise of zero, so that its existence is not certain.
+    #[error("the force of the first contact is within its noise of zero")]
     FirstForceVanishes,
     /// Contacts at different places explain the reactions within their noise.
     #[error("contacts at different places explain the reactions equally well")]
     Ambiguous,
-    /// The force of the first contact is known at neither end of the stretch.
+    /// The force of the first contact is known at neither end of the stretch. In noise: nor is a contact, so that there may be more than
+    /// two.
     #[error("the force of the first contact is known at no end of the stretch")]
     NoAnchor,
     /// The standard deviation of the position exceeds the limit.
@@ -33,6 +34,9 @@ pub enum Unresolved {
         /// Standard deviation across the contour or, where that decided, along it, in lengths of the rod.
         sigma: f64,
     },
+    /// The first contact does not go on in a neighbouring stretch, from which no jump divides it: there may be more than two contacts.
+    #[error("the first contact does not go on in the neighbouring stretch: there may be more than two")]
+    Torn,
     /// The conditions of two contacts contradict each other or the signs of their forces.
     #[error("no two contacts agree with the reactions")]
     Inconsistent,

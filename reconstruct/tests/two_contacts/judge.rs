@@ -58,20 +58,25 @@ impl Tally {
     }
 }
 
-/// Tallies by true phase (`other`: fewer than two contacts) and contact.
+/// Tallies by true phase and contact.
 pub type Tallies = BTreeMap<(String, &'static str), Tally>;
 
 fn gap(scan: &Scan, touch: &Touch) -> f64 {
     scan.scene.objects.iter().map(|o| o.closest(touch.x, touch.y).gap.abs()).fold(f64::INFINITY, f64::min)
 }
 
-/// Judges all samples that have several contacts or are said to have.
+/// Judges all samples. Those that have one contact and are said to have it are called `one`, others that have at most one `other`.
 pub fn judge(scan: &Scan, readings: &[Reading]) -> Tallies {
     let mut tallies = Tallies::new();
     for (state, reading) in scan.states.iter().zip(readings) {
         let phase = state.phase();
         let truth = Label::of(phase.contacts, phase.tip);
         if !truth.several() && !reading.label.several() {
+            let tally = tallies.entry(("one".into(), "only")).or_default();
+            tally.samples += 1;
+            if let Ok(touch) = reading.touch {
+                tally.add(gap(scan, &touch), touch.sigma_normal());
+            }
             continue;
         }
         let name = if truth.several() { phase.to_string() } else { "other".into() };

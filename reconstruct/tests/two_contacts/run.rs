@@ -5,26 +5,49 @@ use crate::common::noise::Noise;
 use rod_core::Reactions;
 use rod_reconstruct::{Reading, Sample, Settings, reconstruct};
 
-/// Noise of the sensors of Merker et al. (2020) on a rod of 100 mm and 6.32e-4 N m^2: 2.5 mN and 0.06 mN m, dimensionless.
-const FORCE: f64 = 2.5 / 63.2;
-const MOMENT: f64 = 0.06 / 6.32;
-const CORRELATION: f64 = 0.45;
+/// Noise of the sensor.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    pub name: &'static str,
+    /// Standard deviations, dimensionless.
+    pub force: f64,
+    pub moment: f64,
+    /// Correlation of neighbouring samples.
+    pub correlation: f64,
+}
 
-/// Levels of noise: none, a tenth, and all of it.
-pub const LEVELS: [(&str, f64); 3] = [("clean", 0.0), ("tenth", 0.1), ("sensors", 1.0)];
+impl Level {
+    /// From mN and mN m on a rod of 100 mm and 6.32e-4 N m^2.
+    const fn new(name: &'static str, force: f64, moment: f64, correlation: f64) -> Self {
+        Self { name, force: force / 63.2, moment: moment / 6.32, correlation }
+    }
+}
 
-/// The answers to a recording with noise of this level.
-pub fn readings(scan: &Scan, level: f64, seed: u64) -> Vec<Reading> {
-    let mut channels = [0, 1, 2].map(|c| Noise::new(3 * seed + c, CORRELATION));
+/// No noise.
+pub const CLEAN: Level = Level::new("clean", 0.0, 0.0, 0.0);
+/// The noise of docs/reconstruction.md; 2.5 mN and 0.06 mN m are the sensors of Merker et al. (2020).
+pub const LEVELS: [Level; 7] = [
+    CLEAN,
+    Level::new("0.2 mN white", 0.2, 0.02, 0.0),
+    Level::new("0.2 mN AR(1)", 0.2, 0.02, 0.45),
+    Level::new("2.5 mN white", 2.5, 0.06, 0.0),
+    Level::new("2.5 mN AR(1)", 2.5, 0.06, 0.45),
+    Level::new("10 mN white", 10.0, 0.5, 0.0),
+    Level::new("10 mN AR(1)", 10.0, 0.5, 0.45),
+];
+
+/// The answers to a recording with this noise.
+pub fn readings(scan: &Scan, level: &Level, seed: u64, settings: &Settings) -> Vec<Reading> {
+    let mut channels = [0, 1, 2].map(|c| Noise::new(3 * seed + c, level.correlation));
     let samples: Vec<Sample> = scan
         .states
         .iter()
         .map(|state| {
-            let [f0x, f0y, m0z] = [FORCE, FORCE, MOMENT].map(|sigma| level * sigma);
             let Reactions { f0x: x, f0y: y, m0z: m } = state.reactions;
             let [a, b, c] = channels.each_mut().map(|channel| channel.sample());
-            Sample::new(state.pose, Reactions { f0x: x + f0x * a, f0y: y + f0y * b, m0z: m + m0z * c })
+            let reactions = Reactions { f0x: x + level.force * a, f0y: y + level.force * b, m0z: m + level.moment * c };
+            Sample::new(state.pose, reactions)
         })
         .collect();
-    reconstruct(&scan.rod, &samples, &Settings::default()).map(|found| found.readings).unwrap_or_default()
+    reconstruct(&scan.rod, &samples, settings).map(|found| found.readings).unwrap_or_default()
 }

@@ -165,6 +165,36 @@ fn pegs(dice: &mut Dice) -> Objects {
     Some((objects, 0.5 * apart * count as f64))
 }
 
+/// The comb of `scenes/comb.toml`, on which three teeth touch the rod at once.
+pub fn nine_teeth() -> Scene {
+    let teeth = [
+        [-0.724, 0.038],
+        [-0.598, -0.124],
+        [-0.57, -0.113],
+        [-0.599, 0.091],
+        [-0.567, 0.103],
+        [-0.458, -0.071],
+        [-0.429, -0.063],
+        [-0.437, 0.143],
+        [-0.404, 0.151],
+        [-0.313, -0.033],
+        [-0.283, -0.027],
+        [-0.271, 0.178],
+        [-0.237, 0.183],
+        [-0.165, -0.009],
+        [-0.135, -0.006],
+        [-0.102, 0.197],
+        [-0.068, 0.199],
+        [-0.015, 0.0],
+    ];
+    let right = teeth.iter().rev().map(|[x, y]| [-x, *y]);
+    let points: Vec<_> = teeth.iter().copied().chain(right).chain([[0.75, 0.28], [-0.75, 0.28]]).collect();
+    let pose = |x| Pose { x, y: -0.45, phi: 110.0_f64.to_radians() };
+    let path = ClampPath::new(pose(1.3), pose(-1.5)).unwrap();
+    let objects = vec![Composite::polygon(&points).unwrap()];
+    Scene { name: "nine teeth".into(), objects, path, step: STEP }
+}
+
 /// Parabolas in lengths of the rod past which a rod is swept along a line.
 pub fn of_parabolas(name: &str, all: &[([f64; 2], f64)], [from, to, y]: [f64; 3], degrees: f64) -> Scene {
     let pose = |x| Pose { x, y, phi: degrees.to_radians() };
