@@ -7,7 +7,7 @@ use crate::{Error, Staged, figure};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use vibrissa::reconstruct::{Calibration, Combined, ContourEstimate, Offset, align, merge};
+use vibrissa::reconstruct::{Calibration, Combined, Comparison, ContourEstimate, Disagreement, Offset, align, merge};
 
 /// Several recordings of one object, with one rod in one frame, together.
 #[derive(Debug)]
@@ -19,7 +19,12 @@ pub struct Merged {
     pub contour: ContourEstimate,
     /// The errors that stay the same from scan to scan; none where no scan tells of them.
     combined: Option<Combined>,
+    /// Where their contours disagree, in order of x.
+    disagreements: Vec<Disagreement>,
 }
+
+/// Part of the merged contour's length in which contours may disagree by chance, as at corners.
+const BY_CHANCE: f64 = 0.02;
 
 /// One of the recordings.
 #[derive(Debug, Serialize)]
@@ -41,6 +46,16 @@ struct MergedRecord<'a> {
     chi_squared: Option<f64>,
     freedom: Option<usize>,
     contradict: bool,
+    disagree: Vec<DisagreementRecord>,
+}
+
+/// An interval in which contours disagree, m.
+#[derive(Serialize)]
+struct DisagreementRecord {
+    from_x: f64,
+    to_x: f64,
+    gap: f64,
+    sigma: f64,
 }
 
 impl Merged {
@@ -51,8 +66,12 @@ impl Merged {
         let fitting = || found.iter().filter(|one| one.check.fits());
         let contours: Vec<ContourEstimate> = fitting().map(|one| one.contour.clone()).collect();
         let offsets: Vec<Offset> = direction.map_or_else(Vec::new, |direction| align(&contours, direction));
-        let moved = contours.iter().zip(&offsets).map(|(one, offset)| offset.applied(one, direction.unwrap_or(0.0)));
-        let contour = if direction.is_some() { merge(&moved.collect::<Vec<_>>()) } else { merge(&contours) };
+        let contours = match direction {
+            Some(direction) => contours.iter().zip(&offsets).map(|(one, by)| by.applied(one, direction)).collect(),
+            None => contours,
+        };
+        let contour = merge(&contours);
+        let disagreements = Comparison::default().disagreements(&contours);
         let passes = fitting().flat_map(|one| &one.found.passes);
         let calibrations: Vec<Calibration> = passes.filter_map(|pass| pass.calibration.clone()).collect();
         let mut offsets = offsets.into_iter();
@@ -68,12 +87,38 @@ impl Merged {
             }
         };
         let scans = found.iter().map(scan).collect();
-        Self { scans, align: direction, contour, combined: Combined::of(&calibrations) }
+        Self { scans, align: direction, contour, combined: Combined::of(&calibrations), disagreements }
     }
 
-    /// Whether the scans contradict each other: errors of rod, sensor, clamp or stage that should stay the same differ.
-    pub fn contradicts(&self) -> bool {
-        self.combined.as_ref().is_some_and(Combined::contradicts)
+    /// Why the scans contradict each other, if they do: errors of rod, sensor, clamp or stage that should stay the same differ, or contours
+    /// of one place are apart.
+    pub fn contradictions(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        if let Some(Combined { chi_squared, freedom, .. }) = self.combined.as_ref().filter(|all| all.contradicts()) {
+            found.push(format!(
+                "the scans contradict each other: errors of rod, sensor, clamp or stage that should stay the same differ (chi-squared \
+                 {chi_squared:.1} with {freedom} degrees of freedom); reconstruct them one by one to see which one is unlike the others"
+            ));
+        }
+        let apart: f64 = self.disagreements.iter().map(|here| here.to - here.from).sum();
+        let worst = self.disagreements.iter().max_by(|a, b| a.significance().total_cmp(&b.significance()));
+        if let Some(Disagreement { from, to, gap, sigma }) = worst.filter(|_| apart > BY_CHANCE * self.length()) {
+            let hint = if self.align.is_some() { "" } else { ", or move them onto each other with --align" };
+            found.push(format!(
+                "the contours of the scans disagree: at x from {:.2} to {:.2} mm they are {:.3} mm apart, {:.0} standard deviations; \
+                 check that object and frame are the same{hint}",
+                1e3 * from,
+                1e3 * to,
+                1e3 * gap,
+                gap / sigma
+            ));
+        }
+        found
+    }
+
+    /// Length of the merged contour, m.
+    fn length(&self) -> f64 {
+        self.contour.traces.iter().map(|trace| trace.length()).sum()
     }
 
     /// Writes contour.csv, contour.svg and merged.json.
@@ -87,7 +132,8 @@ impl Merged {
             align: *align,
             chi_squared: combined.as_ref().map(|combined| combined.chi_squared),
             freedom: combined.as_ref().map(|combined| combined.freedom),
-            contradict: self.contradicts(),
+            contradict: !self.contradictions().is_empty(),
+            disagree: self.disagreements.iter().map(DisagreementRecord::from).collect(),
         };
         staged.write(Path::new("contour.csv"), |file| write_csv(file, &CONTOUR_COLUMNS, self.contour.rows()))?;
         staged.write(Path::new("merged.json"), |file| pretty_json(file, &record))?;
@@ -107,7 +153,11 @@ impl Merged {
         }
         text += &table.to_string();
         if let Some(Combined { chi_squared, freedom, .. }) = self.combined.as_ref().filter(|all| all.freedom > 0) {
-            let verdict = if self.contradicts() { "the scans contradict each other" } else { "the scans agree" };
+            let verdict = if self.combined.as_ref().is_some_and(Combined::contradicts) {
+                "they contradict each other"
+            } else {
+                "they agree"
+            };
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
@@ -115,10 +165,15 @@ impl Merged {
                  degrees of freedom; {verdict}"
             );
         }
-        let length: f64 = self.contour.traces.iter().map(|trace| trace.length()).sum();
-        let (traces, gaps) = (self.contour.traces.len(), self.contour.gaps.len());
+        let (length, traces, gaps) = (self.length(), self.contour.traces.len(), self.contour.gaps.len());
         let _ = writeln!(text, "merged contour: {traces} stretches of {:.1} mm together, {gaps} gaps", 1e3 * length);
         text
+    }
+}
+
+impl From<&Disagreement> for DisagreementRecord {
+    fn from(here: &Disagreement) -> Self {
+        Self { from_x: here.from, to_x: here.to, gap: here.gap, sigma: here.sigma }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::arguments::{Reconstruct, Trust};
 use crate::progress::stage;
-use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, warn};
+use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::{Budget, Known};
@@ -28,10 +28,22 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
         warn("warning: --align is for several recordings: it is not used\n");
     }
     let mut found = Vec::with_capacity(recordings.len());
+    let mut left_out = Vec::new();
     for file in &recordings {
-        found.push(one(file, &scan, &settings, truth.as_deref())?);
+        match one(file, &scan, &settings, truth.as_deref()) {
+            Ok(one) => found.push(one),
+            Err(error) => left_out.push(error),
+        }
     }
-    if let [one] = &found[..] {
+    // what can be computed of the others is not lost
+    if found.is_empty()
+        && let Some(error) = left_out.pop()
+    {
+        return Err(error);
+    }
+    let complete = left_out.is_empty();
+    left_out.into_iter().for_each(complain);
+    if let ([one], 1) = (&found[..], recordings.len()) {
         let out = out.unwrap_or_else(|| Path::new("out").join(&one.name));
         let staged = Staged::new(&out)?.keeping(scan.inputs);
         one.write(&staged, Path::new(""))?;
@@ -48,9 +60,14 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
         found.iter().for_each(|one| say(&format!("{}\n", one.summary())));
         say(&merged.summary());
         say(&format!("written to {}\n", out.display()));
-        if merged.contradicts() {
-            return Ok(ExitCode::from(UNFINISHED));
-        }
+        let contradictions = merged.contradictions();
+        contradictions.iter().for_each(|why| warn(&format!("warning: {why}\n")));
+        let code = verdict(&found);
+        return Ok(match (complete, contradictions.is_empty()) {
+            (false, _) => ExitCode::FAILURE,
+            (_, false) => ExitCode::from(UNFINISHED),
+            _ => code,
+        });
     }
     Ok(verdict(&found))
 }
@@ -83,10 +100,13 @@ pub fn read(file: &Path, scan: &LiveScan) -> Result<Recording, Error> {
 /// Tells of what does not fit.
 fn verdict(found: &[Reconstructed]) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
-    for found in found.iter().filter(|found| !found.check.fits()) {
+    for found in found {
         let file = found.recording.file.display();
-        for finding in found.check.findings.iter().filter(|finding| finding.is_misfit()) {
+        for finding in found.check.findings.iter().filter(|finding| finding.is_misfit() || finding.is_warning()) {
             warn(&format!("warning: {file}: {finding}\n"));
+        }
+        if found.check.fits() {
+            continue;
         }
         if let Some(causes) = found.explained() {
             warn(&format!("warning: {file}: {causes}\n"));

@@ -36,6 +36,7 @@ mod reconstruct_objects;
 mod recording_messages;
 mod regression;
 mod scene_messages;
+mod sensor_faults;
 mod several_recordings;
 mod sharp_scenes;
 mod simulate;

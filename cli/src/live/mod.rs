@@ -2,7 +2,8 @@
 //!
 //! `address` and `stage` are the arguments of the command line for the sensor and the clamp. `connect` opens a [`Sensor`], or `played` a
 //! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise (`rounding`). `session` is the
-//! scan from the first sample to the last, `losses` counts what no counter tells of, `record` writes its files and `summary` its report.
+//! scan from the first sample to the last, `losses` counts what no counter tells of, `physics` checks at its end
+//! whether it can be of the rod, `record` writes its files and `summary` its report.
 //! `whole` takes a recording at once.
 
 mod address;
@@ -13,6 +14,7 @@ mod head;
 mod latency;
 mod losses;
 mod motion;
+mod physics;
 mod played;
 mod record;
 mod rounding;

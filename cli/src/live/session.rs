@@ -3,6 +3,7 @@
 use super::error::LiveError;
 use super::feed::{Fed, Miss};
 use super::head::{Head, PATIENCE, head};
+use super::physics::Physics;
 use super::record::{Record, check};
 use super::rounding::rounding;
 use super::scan::LiveScan;
@@ -56,8 +57,15 @@ impl LiveScan {
         ));
         let clock = "seconds from the first sample".to_owned();
         let notes = vec![("sensor", sensor.name.clone()), ("tare", tare), ("clock", clock)];
-        let mut recorded =
-            Recorded { record: Record::new(out, notes)?, report, label: None, told: 0.0, tell, fault: None };
+        let mut recorded = Recorded {
+            record: Record::new(out, notes)?,
+            report,
+            physics: Physics::new(),
+            label: None,
+            told: 0.0,
+            tell,
+            fault: None,
+        };
         for sample in samples {
             recorded.sample(&sample);
             session.push(sample, usable(&sample).as_ref(), |sample, reading| recorded.answer(&sample, reading));
@@ -110,8 +118,12 @@ impl LiveScan {
             }
         };
         session.finish(|sample, reading| recorded.answer(&sample, reading));
-        let Recorded { record, mut report, fault, .. } = recorded;
+        let Recorded { record, mut report, physics, tell, fault, .. } = recorded;
         report.end(end, sensor.feed.counters(), chain.timekeeper(), session.calibration());
+        for misfit in physics.misfits(&self.rod, session.calibration()) {
+            tell(&format!("warning: {misfit}"));
+            report.misfit(misfit);
+        }
         record.finish(&report.counters, &report.record())?;
         fault.map_or(Ok(report), |error| Err(error.into()))
     }
@@ -139,6 +151,7 @@ fn settings(scan: &LiveScan, free: &[ReactionSample], rounding: Reactions) -> Re
 struct Recorded<'a> {
     record: Record,
     report: LiveReport,
+    physics: Physics,
     /// The label of the last answer.
     label: Option<Label>,
     /// Time of the last line of progress, s.
@@ -150,6 +163,9 @@ struct Recorded<'a> {
 impl Recorded<'_> {
     fn sample(&mut self, sample: &ReactionSample) {
         self.report.sample(sample);
+        if let Some(usable) = usable(sample) {
+            self.physics.push(usable);
+        }
         if let Err(error) = self.record.sample(sample) {
             self.fault.get_or_insert(error);
         }

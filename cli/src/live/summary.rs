@@ -41,6 +41,8 @@ pub struct LiveReport {
     /// Why it ended.
     pub end: Option<End>,
     findings: Vec<SensorFinding>,
+    /// Why the scan cannot be of its rod.
+    misfits: Vec<String>,
     noise: [f64; 3],
     spacing: f64,
     delay: usize,
@@ -67,6 +69,7 @@ impl LiveReport {
             latency: Latency::default(),
             end: None,
             findings,
+            misfits: Vec::new(),
             noise: [0.0; 3],
             spacing: 0.0,
             delay: 0,
@@ -88,9 +91,14 @@ impl LiveReport {
         &self.findings
     }
 
-    /// Whether the scan is complete, to the end of the path or of the source, with a sensor that suits the rod.
+    /// Whether the scan is complete, to the end of the path or of the source, with a sensor that suits the rod, and can be of the rod.
     pub fn is_complete(&self) -> bool {
-        !matches!(self.end, None | Some(End::Silence)) && !self.findings.iter().any(SensorFinding::is_misfit)
+        let suits = !self.findings.iter().any(SensorFinding::is_misfit);
+        !matches!(self.end, None | Some(End::Silence)) && suits && self.misfits.is_empty()
+    }
+
+    pub(super) fn misfit(&mut self, text: String) {
+        self.misfits.push(text);
     }
 
     pub(super) fn begin(&mut self, settings: &LiveSettings, delay: usize) {
@@ -207,7 +215,8 @@ impl LiveReport {
         if let Some(first) = &self.first_miss {
             writeln!(text, "{} without reactions, the first: {first}", self.misses)?;
         }
-        self.findings.iter().try_for_each(|finding| writeln!(text, "sensor: {finding}"))
+        self.findings.iter().try_for_each(|finding| writeln!(text, "sensor: {finding}"))?;
+        self.misfits.iter().try_for_each(|misfit| writeln!(text, "physics: {misfit}"))
     }
 
     /// The report as a record of summary.json.
@@ -234,7 +243,7 @@ impl LiveReport {
                 largest: self.latency.largest(),
             },
             jitter: self.jitter,
-            findings: self.findings.iter().map(ToString::to_string).collect(),
+            findings: self.findings.iter().map(ToString::to_string).chain(self.misfits.iter().cloned()).collect(),
         }
     }
 }

@@ -50,6 +50,9 @@ pub struct Reconstructed {
     pub comparison: Option<Comparison>,
 }
 
+/// Likelihood of bias and drift alone from which on nothing that is tried explains what does not fit.
+const UNEXPLAINED: f64 = 0.5;
+
 impl Reconstructed {
     /// Reconstructs a recording of this rod.
     ///
@@ -59,19 +62,23 @@ impl Reconstructed {
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
         let raw = plausibility(&rod, &samples);
-        let gross = raw.findings.iter().any(Finding::is_gross);
-        // small errors mean nothing where units, signs or rod are wrong
-        let settings = if gross { Settings { budget: Some(Budget::NONE), ..*settings } } else { *settings };
-        let found = reconstruct_passes(&rod, &samples, &settings)
-            .map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
-        let contour = found.contour(&Assembly::default());
-        // the physics of what is left after the corrections
-        let mut check = if found.is_corrected() && !gross {
-            let (corrected, used) = found.corrected(&rod, &samples);
-            plausibility(&corrected, &used)
-        } else {
-            raw
+        let of = |settings: &Settings| {
+            reconstruct_passes(&rod, &samples, settings)
+                .map_err(|source| ReconstructionError { file: recording.file.clone(), source })
         };
+        let is_gross = |check: &Plausibility| check.findings.iter().any(Finding::is_gross);
+        let mut found = of(settings)?;
+        // the physics of what is left after the corrections: a bias alone may look like a wrong sign
+        let mut check = raw.clone();
+        if found.is_corrected() {
+            let (corrected, used) = found.corrected(&rod, &samples);
+            check = plausibility(&corrected, &used);
+        }
+        if is_gross(&check) || is_gross(&raw) && found.findings().iter().any(Finding::is_misfit) {
+            // small errors mean nothing where units, signs or rod are wrong
+            (found, check) = (of(&Settings { budget: Some(Budget::NONE), ..*settings })?, raw);
+        }
+        let contour = found.contour(&Assembly::default());
         check.findings.extend(found.findings());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self {
@@ -92,7 +99,8 @@ impl Reconstructed {
     /// of the reconstruction.
     pub fn explain(&mut self, settings: &Settings) {
         let may_be = |finding: &Finding| {
-            finding.is_misfit() && !matches!(finding, Finding::Coarse { .. } | Finding::NoFreeStretch)
+            finding.is_misfit()
+                && !matches!(finding, Finding::Coarse { .. } | Finding::NoFreeStretch | Finding::Frozen { .. })
         };
         if self.check.findings.iter().any(may_be) {
             self.explanations = explanations(&self.rod, &self.samples, settings, &self.check.findings);
@@ -101,6 +109,14 @@ impl Reconstructed {
 
     /// The likeliest explanations in words; none where none were looked for.
     pub fn explained(&self) -> Option<String> {
+        // what does not fit is there with nothing but a bias, too
+        if matches!(self.explanations.first(), Some((Explanation::Tare, share)) if *share > UNEXPLAINED) {
+            return Some(
+                "no likely cause among those that are tried (signs, axes, units, single errors of rod, sensor, clamp and stage): look for \
+                 friction, taper, a loose clamp, an object that moves, or two mistakes at once"
+                    .to_owned(),
+            );
+        }
         let told = self.explanations.iter().take(MOST).filter(|one| one.1 >= LEAST);
         let told: Vec<String> = told.map(|(what, share)| format!("{what}: {:.0} %", 100.0 * share)).collect();
         (!told.is_empty()).then(|| {

@@ -8,6 +8,8 @@ use rod_core::{Pose, Reactions, Sample};
 const MOST_BINS: usize = 1000;
 /// The rod is free where all reactions are within this many standard deviations of 0.
 const SIGMAS: f64 = 4.0;
+/// It is also free where they are no more than this share of the largest: samples without noise that were corrected are not exactly 0.
+const NOTHING: f64 = 1e-6;
 
 /// The mean of consecutive samples, SI units if theirs are.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +35,7 @@ pub(super) fn bins(samples: &[Sample]) -> Vec<Bin> {
     let channels = [channel(|r| r.f0x), channel(|r| r.f0y), channel(|r| r.m0z)];
     // spaced by number, not by path length, which may be in a wrong unit, too
     let noise = channels.each_ref().map(|channel| estimate(&count, channel));
+    let nothing = channels.each_ref().map(|channel| channel.iter().fold(0.0_f64, |m, v| m.max(v.abs())) * NOTHING);
     let length = usable.len().div_ceil(MOST_BINS).max(1);
     let mut bins = Vec::with_capacity(usable.len() / length + 1);
     for part in usable.chunks(length) {
@@ -48,7 +51,7 @@ pub(super) fn bins(samples: &[Sample]) -> Vec<Bin> {
             noise[c].sigma.powi(2) * long_run / n
         });
         let r = [reactions.f0x, reactions.f0y, reactions.m0z];
-        if r.iter().zip(variance).all(|(r, variance)| r.abs() <= SIGMAS * variance.sqrt()) {
+        if (0..3).all(|c| r[c].abs() <= SIGMAS * variance[c].sqrt() + nothing[c]) {
             continue;
         }
         let pose = Pose { x: mean(&|s| s.pose.x), y: mean(&|s| s.pose.y), phi: mean(&|s| s.pose.phi) };

@@ -33,6 +33,8 @@ pub(super) const UNITS: [(i32, &str); 8] = [
 
 /// Share of wrong labels to be expected from which on the labels are no answer.
 const MISFIT_LABELS: f64 = 0.05;
+/// The same of samples of a sensor that is stuck.
+const MISFIT_FROZEN: f64 = 0.1;
 
 /// A conclusion of the check by the physics. Displays as a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,6 +134,13 @@ pub enum Finding {
         /// Share of the samples in contact without one.
         share: f64,
     },
+    /// Reactions stay exactly the same for many samples, which are left out.
+    Frozen {
+        /// Share of all samples.
+        share: f64,
+        /// The first of them.
+        from: usize,
+    },
     /// Many labels may be wrong.
     Uncertain {
         /// Share of wrong labels to be expected: the mean of 1 - probability.
@@ -164,6 +173,11 @@ impl Finding {
         }
     }
 
+    /// Whether a part of the result is missing or may be wrong, though recording, units and rod may fit together.
+    pub fn is_warning(&self) -> bool {
+        matches!(self, Self::Uncertain { .. } | Self::Frozen { .. })
+    }
+
     /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {
@@ -180,6 +194,7 @@ impl Finding {
             | Self::Budget { .. } => true,
             Self::Misfit { .. } | Self::Unanswered { .. } | Self::Lost { .. } | Self::Coarse { .. } => true,
             Self::Uncertain { share, .. } => *share > MISFIT_LABELS,
+            Self::Frozen { share, .. } => *share > MISFIT_FROZEN,
             Self::Angle { largest } => *largest > MISFIT_ANGLE,
             Self::Way { lengths } => *lengths > MISFIT_WAY,
         }
@@ -262,6 +277,12 @@ impl fmt::Display for Finding {
             Self::Lost { share } => write!(
                 f,
                 "{:.0} % of the samples in contact have no contact point, as where a sign, an axis, a unit or the rod is wrong",
+                100.0 * share
+            ),
+            Self::Frozen { share, from } => write!(
+                f,
+                "{:.1} % of the samples, from sample {from} on, are left out: a reaction stays exactly the same for 40 samples or more; look \
+                 for a lost connection, or for loads beyond the range of the sensor",
                 100.0 * share
             ),
             Self::Uncertain { share, label, from, to } => write!(

@@ -28,6 +28,9 @@ const ALIKE: f64 = 0.01;
 const LONG_WAY: f64 = 100.0;
 /// Phase criterion, relative to m0z^2, above which (below 0) a contact may be tangential.
 const TANGENTIAL: f64 = 0.02;
+/// Share of the contacts of the tip at the arc length of the rod, within `ALIKE`, from which on the others are taken for those of several
+/// contacts. Larger: scans with a short phase A beside a long BA seem to have a shorter rod.
+const AS_GIVEN: f64 = 0.05;
 /// Fewest bins that half of the contacts of the tip must be.
 const FEWEST_TIPS: usize = 5;
 
@@ -139,8 +142,8 @@ fn length(rod: &Rod, bins: &[Bin]) -> Option<Finding> {
         .collect();
     lengths.sort_unstable_by(f64::total_cmp);
     let (half, given) = (lengths.len() / 2, rod.length());
-    let as_given = lengths.iter().filter(|s| (*s / given - 1.0).abs() < LENGTH).count();
-    if half < FEWEST_TIPS || 5 * as_given > lengths.len() {
+    let as_given = lengths.iter().filter(|s| (*s / given - 1.0).abs() < ALIKE).count();
+    if half < FEWEST_TIPS || as_given as f64 > AS_GIVEN * lengths.len() as f64 {
         return None;
     }
     let ranges = lengths.windows(half + 1).map(|part| (part[half] - part[0], part[half / 2]));

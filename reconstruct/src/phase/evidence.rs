@@ -230,7 +230,8 @@ impl Evidence {
                 of(one_sided_k, s.z().abs(), &v)
             }
             Label::B => of(k, self.length.z().max(0.0), &self.tangent),
-            Label::Free | Label::BA | Label::BB => return None,
+            Label::Free => self.force.each_ref().map(|force| (Basis::Force, force.z().abs())),
+            Label::BA | Label::BB => return None,
         };
         all.into_iter().filter(|(_, z)| z.is_finite()).max_by(|u, v| u.1.total_cmp(&v.1))
     }

@@ -39,8 +39,8 @@ pub(super) struct Answers<'a> {
     pub settings: &'a Settings,
     /// The errors that all samples share, if there are any.
     pub shared: Option<&'a Shared>,
-    /// For each place the covariance that they cause of a single contact point there, dimensionless; empty without them.
-    pub systematic: &'a [Matrix2<f64>],
+    /// For each place the covariance that they cause of a single contact point there, dimensionless, if it is known; empty without them.
+    pub systematic: &'a [Option<Matrix2<f64>>],
 }
 
 impl Answers<'_> {
@@ -76,17 +76,21 @@ impl Answers<'_> {
 
     /// The answer to a sample with one contact or none.
     fn single(&self, nodes: &mut Nearest<'_>, index: usize, label: Label) -> Reading {
-        if label == Label::Free {
-            return self.reading(nodes, index, label, Err(Reason::Free));
-        }
         let place = nodes.of(index);
         let node = &self.identified.nodes[place];
         if let Some((criterion, z)) = node.evidence.against(label).filter(|(_, z)| *z > CONTRADICTED) {
             return self.reading(nodes, index, label, Err(Reason::Contradicted { criterion, z }));
         }
+        if label == Label::Free {
+            return self.reading(nodes, index, label, Err(Reason::Free));
+        }
         let fit = &node.fit;
         let touch = contact(&self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
-        let systematic = self.systematic.get(place).copied().unwrap_or_default();
+        let systematic = match self.systematic.get(place) {
+            Some(None) => return self.reading(nodes, index, label, Err(Reason::Unshared)),
+            Some(Some(found)) => *found,
+            None => Matrix2::zeros(),
+        };
         let touch = touch.map_err(Reason::NoContact).and_then(|touch| self.sure(touch.with_systematic(systematic)));
         self.reading(nodes, index, label, touch)
     }

@@ -4,6 +4,7 @@ use super::reading::{Reading, Reason};
 use super::reconstruction::Reconstruction;
 use crate::check::Finding;
 use crate::phase::{Basis, Label};
+use crate::scan::Fault;
 use crate::systematic::{Calibration, Source};
 
 /// What is left of a criterion, in parts of what the budget let it be, from which on the model does not explain the scan.
@@ -27,7 +28,9 @@ impl Reconstruction {
             .filter_map(|pass| pass.calibration.as_ref())
             .flat_map(of_calibration)
             .collect::<Vec<_>>();
-        let single = || self.readings.iter().filter(|reading| matches!(reading.label, Label::A | Label::B));
+        // where forces contradict that the rod is free, it is in contact
+        let free = |reading: &Reading| reading.label == Label::Free && reading.touch == Err(Reason::Free);
+        let single = || self.readings.iter().filter(|reading| !reading.label.several() && !free(reading));
         let unanswered = single().filter(|reading| reading.touch.is_err()).count();
         let share = unanswered as f64 / single().count().max(1) as f64;
         if share > UNANSWERED {
@@ -35,14 +38,19 @@ impl Reconstruction {
         }
         let channels = ["f0x", "f0y", "m0z"].into_iter().zip(self.steps);
         findings.extend(channels.filter_map(|(channel, step)| Some(Finding::Coarse { channel, step: step? })));
-        let touching = || self.readings.iter().filter(|reading| reading.label != Label::Free);
+        let touching = || self.readings.iter().filter(|reading| !free(reading));
         let (touched, lost) = (touching().count(), touching().filter(|reading| reading.touch.is_err()).count());
         if lost as f64 > LOST * touched as f64 {
             findings.push(Finding::Lost { share: lost as f64 / touched as f64 });
         }
+        let is_frozen = |reading: &Reading| reading.touch == Err(Reason::Fault(Fault::Frozen));
+        let frozen = self.readings.iter().filter(|reading| is_frozen(reading)).count();
         // what does not fit makes labels uncertain, too
         if findings.is_empty() {
             findings.extend(self.uncertain());
+        }
+        if let Some(from) = self.readings.iter().position(is_frozen) {
+            findings.push(Finding::Frozen { share: frozen as f64 / self.readings.len() as f64, from });
         }
         findings
     }

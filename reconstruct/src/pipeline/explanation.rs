@@ -111,13 +111,18 @@ fn thinned(samples: &[Sample], most: usize) -> Vec<Sample> {
 
 /// What the longest pass of a recording says of the errors that its samples share; none where units or signs are impossible.
 fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Calibration> {
-    if plausibility(rod, &thinned(samples, MOST_CHECKED)).findings.iter().any(Finding::is_gross) {
-        return None;
-    }
+    let is_gross = |rod: &Rod, samples: &[Sample]| {
+        plausibility(rod, &thinned(samples, MOST_CHECKED)).findings.iter().any(Finding::is_gross)
+    };
+    let gross = is_gross(rod, samples);
     let longest = passes(rod, samples).into_iter().max_by_key(|pass| pass.len())?;
     let part = samples.get(longest)?;
     let settings = Settings { noise: Some(noise(part, settings)), ..*settings };
     let calibration = Calibrated::of(rod, part, &settings).ok()?.calibration?.1;
+    // a bias may look like a wrong sign
+    if gross && (!calibration.is_applied() || is_gross(&calibration.rod(rod), &calibration.corrected(rod, part))) {
+        return None;
+    }
     calibration.log_likelihood.is_finite().then_some(calibration)
 }
 

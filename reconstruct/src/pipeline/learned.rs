@@ -1,7 +1,8 @@
 //! What a live scan has learned of the errors that all samples share.
 
+use super::reading::Reason;
 use crate::phase::{Label, Node, constrained};
-use crate::point::{Clamp, NoContact, Touch};
+use crate::point::{Clamp, Touch};
 use crate::scan::Noise;
 use crate::systematic::{Correction, Errors, Shared, of_point};
 use nalgebra::{Matrix2, Matrix3};
@@ -47,7 +48,7 @@ impl Learned {
         node: &Node,
         noise: &Noise,
         label: Label,
-    ) -> Result<Touch, NoContact> {
+    ) -> Result<Touch, Reason> {
         let measured = node.fit.at(tau);
         let (clamp, covariance) = if noise.is_clean() {
             (*sample, Matrix3::from_diagonal(&noise.variance))
@@ -61,7 +62,8 @@ impl Learned {
             _ => {
                 let place = measured.moved(here.0, here.1);
                 let found = of_point(self.shared.frame, tau, &place, &covariance, label, &self.shared.factor, 0.0);
-                let found = found.unwrap_or_else(|| self.point.map_or_else(Matrix2::zeros, |point| point.2));
+                let earlier = self.point.filter(|point| point.1 == label).map(|point| point.2);
+                let found = found.or(earlier).ok_or(Reason::Unshared)?;
                 self.point = Some((node.index, label, found));
                 found
             }

@@ -316,7 +316,6 @@ impl Live {
                 .and_then(|touch| sure(touch, self.units, self.largest_sigma, false)),
             (Label::A | Label::B, Some(learned)) => learned
                 .contact(clamp, tau, node, &self.noise, *label)
-                .map_err(Reason::NoContact)
                 .and_then(|touch| sure(touch, learned.units(), self.largest_sigma, self.noise.is_clean())),
         };
         Some(Reading { probability: *probability, touch, ..Reading::without(*label, Reason::Free) })

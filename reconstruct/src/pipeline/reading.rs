@@ -27,6 +27,9 @@ pub enum Reason {
         /// By how many standard deviations.
         z: f64,
     },
+    /// How far errors that all samples share displace the point is not known at any place of this run.
+    #[error("how far errors that all samples share displace the point is not known here")]
+    Unshared,
     /// The point is too uncertain.
     #[error("the point is uncertain by {sigma:.1e} m")]
     TooNoisy {

@@ -5,6 +5,7 @@
 //! `LocalCubic` gives values and rates of pose and reactions at a place, with their covariance.
 
 pub(crate) mod bands;
+mod frozen;
 mod local_cubic;
 mod noise;
 pub mod noise_estimate;

@@ -60,8 +60,8 @@ fn turns(places: &[(usize, [f64; 3])], length: f64) -> Vec<usize> {
     let chord = chord(places, length);
     let mut borders = Vec::new();
     let Some(first) = places.first() else { return borders };
-    // positions in `places` of the last vertex and of the one before
-    let (mut last, mut before) = (0, 0);
+    // positions in `places` of the last vertex, of the one before and of the last turn
+    let (mut last, mut before, mut turned) = (0, 0, 0);
     let (mut vertex, mut direction) = (first.1, [0.0; 3]);
     for k in 1..places.len() {
         let step = minus(&places[k].1, &vertex);
@@ -75,8 +75,9 @@ fn turns(places: &[(usize, [f64; 3])], length: f64) -> Vec<usize> {
             // the sample that is farthest in the old direction, and least in the new one
             let bend: [f64; 3] = std::array::from_fn(|i| direction[i] / size - unit[i]);
             let far = |j: &usize| dot(&places[*j].1, &bend);
-            let turn = (before..k).max_by(|i, j| far(i).total_cmp(&far(j))).unwrap_or(last);
-            borders.push(places[turn].0);
+            let since = before.max(turned + 1).min(last)..k;
+            turned = since.max_by(|i, j| far(i).total_cmp(&far(j))).unwrap_or(last);
+            borders.push(places[turned].0);
             direction = unit;
         } else {
             direction = std::array::from_fn(|i| KEPT * direction[i] + unit[i]);
@@ -156,6 +157,20 @@ mod tests {
                 assert!(long == 6 && (6..=12).contains(&found.len()), "{shift} {sigma}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_random_walk_has_passes_in_order() {
+        let mut random = Random::new(5);
+        let mut place = [0.0, 0.0];
+        let walk: Vec<[f64; 2]> = (0..400_000)
+            .map(|_| {
+                place = place.map(|v| v + 1e-2 * random.normal());
+                place
+            })
+            .collect();
+        let found = split(walk, 0.0);
+        assert!(found.len() > 2 && found.iter().all(|pass| pass.len() >= FEWEST_SAMPLES), "{}", found.len());
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The samples of a scan in order along the path of the clamp.
 
 use super::FEWEST_SAMPLES;
+use super::frozen::frozen;
 use super::passes::{passes, trembling};
 use super::smooth_path::smooth_path;
 use super::spikes::spikes;
@@ -20,6 +21,9 @@ pub enum Fault {
     /// A reaction stands out of those of the neighbouring samples by far more than the noise.
     #[error("a spike: a reaction stands out of its neighbours by more than 10 standard deviations")]
     Spike,
+    /// A reaction stays exactly the same, although it is noisy elsewhere: the sensor is lost or at the end of its range.
+    #[error("a reaction stays exactly the same for 40 samples or more: the sensor is lost or at the end of its range")]
+    Frozen,
     /// The scan ends before there are enough samples for a phase.
     #[error("too few samples")]
     TooFew,
@@ -89,8 +93,11 @@ impl Track {
             Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()), natural: 0.0 };
         let places = samples
             .iter()
-            .zip(spikes(samples))
-            .map(|(sample, spike)| {
+            .zip(frozen(samples).into_iter().zip(spikes(samples)))
+            .map(|(sample, (frozen, spike))| {
+                if frozen {
+                    return Err(Fault::Frozen);
+                }
                 if spike {
                     return Err(Fault::Spike);
                 }
@@ -110,7 +117,8 @@ impl Track {
         places: &[Result<usize, Fault>],
     ) -> Option<(Self, Vec<Result<usize, Fault>>)> {
         let units = rod.units();
-        let usable = |place: &Result<usize, Fault>| !matches!(place, Err(Fault::NotFinite | Fault::Spike));
+        let usable =
+            |place: &Result<usize, Fault>| !matches!(place, Err(Fault::NotFinite | Fault::Spike | Fault::Frozen));
         let clamps: Vec<Clamp> = samples
             .iter()
             .zip(places)

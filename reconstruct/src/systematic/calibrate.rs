@@ -92,22 +92,36 @@ impl Shared {
     }
 
     /// For each place of phase A or B the covariance of its contact point that the errors cause, dimensionless; the places are corrected.
-    pub fn points(&self, track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -> Vec<Matrix2<f64>> {
+    /// None where no place of a run has one.
+    pub fn points(
+        &self,
+        track: &Track,
+        noise: &Noise,
+        nodes: &[Node],
+        labels: &[(Label, f64)],
+    ) -> Vec<Option<Matrix2<f64>>> {
         let stride = nodes.len().div_ceil(PLACES).max(1);
-        let (mut last, mut before) = (Matrix2::zeros(), None);
-        let each = nodes.iter().zip(labels).enumerate().map(|(k, (node, (label, _)))| {
-            if matches!(label, Label::A | Label::B) && (k % stride == 0 || before != Some(*label)) {
-                let tau = track.tau[node.index];
-                let measured = node.fit.at(tau);
-                let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
-                let criterion = if *label == Label::A { Criterion::Length } else { Criterion::K };
-                let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
-                last = of_point(self.frame, tau, &measured, &covariance, *label, &self.factor, misfit).unwrap_or(last);
+        let of = |node: &Node, label: Label| {
+            let tau = track.tau[node.index];
+            let measured = node.fit.at(tau);
+            let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
+            let criterion = if label == Label::A { Criterion::Length } else { Criterion::K };
+            let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
+            of_point(self.frame, tau, &measured, &covariance, label, &self.factor, misfit)
+        };
+        // a force that has hardly begun has no derivatives: such a place takes those of the nearest place of its label
+        let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(nodes.len());
+        for (k, (node, &(label, _))) in nodes.iter().zip(labels).enumerate() {
+            let before = k.checked_sub(1).filter(|before| labels[*before].0 == label).and_then(|before| found[before]);
+            let own = before.is_none() || k % stride == 0;
+            found.push(if matches!(label, Label::A | Label::B) && own { of(node, label).or(before) } else { before });
+        }
+        for k in (1..nodes.len()).rev() {
+            if found[k - 1].is_none() && labels[k - 1].0 == labels[k].0 {
+                found[k - 1] = found[k];
             }
-            before = Some(*label);
-            last
-        });
-        each.collect()
+        }
+        found
     }
 }
 

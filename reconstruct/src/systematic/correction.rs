@@ -58,6 +58,11 @@ impl Correction {
         Some(Self { frame, errors: *errors, channels: shown.try_inverse()?, scale })
     }
 
+    /// Length of the true rod in lengths of the given one.
+    pub fn length(&self) -> f64 {
+        1.0 + self.error(Source::Length)
+    }
+
     fn error(&self, source: Source) -> f64 {
         self.errors[source as usize]
     }

@@ -1,7 +1,7 @@
 //! How the criteria of a place, and the contact point there, depend on the errors that all samples share.
 
 use super::correction::{Correction, Frame};
-use super::source::{Errors, Joint, SOURCES};
+use super::source::{Errors, Joint, SOURCES, Source};
 use crate::phase::{CRITERIA, Evidence, Label, constrained};
 use crate::point::Clamp;
 use crate::scan::Estimate;
@@ -29,7 +29,8 @@ fn of_inputs(x: &Inputs) -> (Clamp, Clamp) {
     )
 }
 
-/// Derivatives of the corrected sample by the errors.
+/// Derivatives of the corrected sample by the errors. The place of the clamp is measured in metres: its derivatives by the length are in
+/// lengths of the rod before the error, so that they do not depend on where the frame is.
 pub(super) fn of_inputs_by_errors(
     frame: Frame,
     errors: &Errors,
@@ -41,7 +42,11 @@ pub(super) fn of_inputs_by_errors(
         let at = |step: f64| {
             let mut errors = *errors;
             errors[k] += step;
-            Some(inputs(&Correction::new(frame, &errors)?.apply(tau, &measured.clamp, &measured.rate)))
+            let correction = Correction::new(frame, &errors)?;
+            let mut x = inputs(&correction.apply(tau, &measured.clamp, &measured.rate));
+            x[0] *= correction.length();
+            x[1] *= correction.length();
+            Some(x)
         };
         by.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
     }
@@ -92,7 +97,7 @@ pub(crate) fn of_point(
     covariance.iter().all(|v| v.is_finite()).then_some(covariance)
 }
 
-/// Derivatives of the contact point at a place of phase A or B by the errors, and by the reactions.
+/// Derivatives of the contact point at a place of phase A or B by the errors, and by the reactions, in lengths of the rod before the errors.
 pub(super) fn point_by_errors(
     frame: Frame,
     tau: f64,
@@ -113,5 +118,10 @@ pub(super) fn point_by_errors(
         };
         by_inputs.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
     }
-    Some((by_inputs * by_errors.fixed_rows::<OF_POINT>(0), by_inputs.fixed_columns::<3>(3).into_owned()))
+    let mut by = by_inputs * by_errors.fixed_rows::<OF_POINT>(0);
+    // a longer rod reaches farther
+    let touch = constrained(&of_inputs(&here).0, noise, label).ok()?;
+    by[(0, Source::Length as usize)] += touch.x - here[0];
+    by[(1, Source::Length as usize)] += touch.y - here[1];
+    Some((by, by_inputs.fixed_columns::<3>(3).into_owned()))
 }

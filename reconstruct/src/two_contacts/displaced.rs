@@ -46,7 +46,7 @@ pub(super) fn displaced(found: &Resolved, beside: &[Option<Single>; 2], by: &[Co
         for ((part, here), spread) in parts.iter().zip(&here).zip(&mut spread) {
             for ((here, there), spread) in here.iter().zip(contacts(part, &there)).zip(spread) {
                 for ((here, there), spread) in here.iter().zip(there).zip(spread) {
-                    let by = (there - here) / DISPLACED;
+                    let by = (there * displacement.length() - here) / DISPLACED;
                     if by.iter().all(|v| v.is_finite()) {
                         *spread += by * by.transpose();
                     }
