@@ -2,7 +2,7 @@
 
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
-use crate::values::{degrees, directory, meaning, no_quiet, number, pair, seed};
+use crate::values::{degrees, directory, meaning, no_quiet, number, pair, positive, seed};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -216,10 +216,10 @@ pub struct Trust {
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
     /// Most kinks of the reactions to be expected by chance, per scan
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     pub false_alarms: Option<f64>,
     /// Largest standard deviation of a contact point across the contour, in lengths of the rod; less certain points are left out
-    #[arg(long, value_name = "LENGTHS")]
+    #[arg(long, value_name = "LENGTHS", value_parser = positive, allow_negative_numbers = true)]
     pub largest_sigma: Option<f64>,
 }
 

@@ -19,6 +19,12 @@ pub fn number(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
 }
 
+/// A number beyond 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a number greater than 0".to_owned())
+}
+
 /// An angle.
 pub fn degrees(text: &str) -> Result<f64, String> {
     let angle = text.parse().ok().filter(|angle: &f64| angle.is_finite());

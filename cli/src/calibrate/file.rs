@@ -46,8 +46,13 @@ impl RodCalibration {
             let (value, sigma) = (value * size, sigma * size);
             let _ = writeln!(
                 text,
-                "{} = {{ value = {value:?}, sigma = {sigma:?}, unit = \"{unit}\" }} # {source}",
-                name.trim_matches('"')
+                "{} = {{ value = {value:?}, sigma = {sigma:?}, unit = \"{unit}\" }} # {}",
+                name.trim_matches('"'),
+                match source {
+                    Source::NaturalCurvature => "natural curvature".to_owned(),
+                    Source::ClampCompliance => "compliance of the clamp".to_owned(),
+                    _ => source.to_string(),
+                }
             );
         }
         text

@@ -3,9 +3,12 @@
 use super::result::RodCalibration;
 use crate::table::Table;
 use std::fmt::Write;
+use vibrissa::reconstruct::Source;
 
 /// Part of its budget below which an estimate is told as 0.
 const NOTHING: f64 = 1e-9;
+/// Most sources that are told where recordings contradict each other.
+const MOST: usize = 5;
 
 impl RodCalibration {
     /// The sources with budget, estimate and standard deviation, what is not told apart, and the rod as it was found.
@@ -13,6 +16,9 @@ impl RodCalibration {
         let mut text = String::new();
         let count = self.recordings.len();
         let _ = writeln!(text, "{count} recording{}", if count == 1 { "" } else { "s" });
+        if self.combined.contradicts() {
+            return text + &self.differences();
+        }
         let mut table = Table::new(["source", "unit", "known", "budget", "estimate", "sigma", "written", "identified"]);
         for estimate in self.combined.sources.iter().filter(|estimate| estimate.budget > 0.0) {
             let (name, unit) = estimate.source.name();
@@ -32,14 +38,10 @@ impl RodCalibration {
         }
         if self.combined.freedom > 0 {
             let (chi_squared, freedom) = (self.combined.chi_squared, self.combined.freedom);
-            let verdict = if self.combined.contradicts() { "they contradict each other" } else { "they agree" };
             let _ = writeln!(
                 text,
-                "differences of the recordings: chi-squared {chi_squared:.1} with {freedom} degrees of freedom; {verdict}"
+                "differences of the recordings: chi-squared {chi_squared:.1} with {freedom} degrees of freedom; they agree"
             );
-        }
-        if self.combined.contradicts() {
-            return text;
         }
         let [given, found] = [&self.given, &self.rod].map(|rod| (1e3 * rod.length(), rod.bending_stiffness()));
         let _ = writeln!(
@@ -47,6 +49,39 @@ impl RodCalibration {
             "rod: length {:.4} mm, bending stiffness {:.5e} N m^2; given {:.4} mm, {:.5e} N m^2",
             found.0, found.1, given.0, given.1
         );
+        text
+    }
+
+    /// What each pass says on its own of the sources that differ most.
+    fn differences(&self) -> String {
+        let mut text = String::from(
+            "the recordings contradict each other; each on its own says (those that differ most first):\n",
+        );
+        let apart = |source: Source| {
+            let all: Vec<_> = self.each.iter().filter_map(|(_, one)| one.source(source)).collect();
+            let pairs = all.iter().enumerate().flat_map(|(k, a)| all[k + 1..].iter().map(move |b| (a, b)));
+            pairs.map(|(a, b)| (a.value - b.value).abs() / a.sigma.hypot(b.sigma)).fold(0.0, f64::max)
+        };
+        let mut sources: Vec<(Source, f64)> =
+            Source::ALL.into_iter().filter(|source| !source.is_of_scan()).map(|s| (s, apart(s))).collect();
+        sources.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut table = Table::new(["recording", "source", "unit", "estimate", "sigma"]);
+        for (source, _) in sources.into_iter().take(MOST) {
+            let (name, unit) = source.name();
+            for (number, one) in &self.each {
+                let Some(found) = one.source(source) else { continue };
+                let file = self.recordings[*number].file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let unit = if unit.is_empty() { "1" } else { unit };
+                table.row([
+                    file,
+                    name.to_owned(),
+                    unit.to_owned(),
+                    format!("{:.3e}", found.value),
+                    format!("{:.1e}", found.sigma),
+                ]);
+            }
+        }
+        text += &table.to_string();
         text
     }
 }

@@ -31,6 +31,8 @@ pub struct RodCalibration {
     pub known: Known,
     /// The estimates, relative to the rod as it was given.
     pub combined: Combined,
+    /// Those of each pass of each recording, with the number of the recording.
+    pub each: Vec<(usize, Calibration)>,
     /// What does not fit, in words.
     pub findings: Vec<String>,
     /// How far the criteria are from 0 with recordings and rod as they are, and after the calibration.
@@ -47,14 +49,15 @@ impl RodCalibration {
         let rod = given.rod;
         let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(&rod));
         let known = if free.is_empty() { given.known } else { limited(&given.known, &budget, free) };
-        let (mut calibrations, mut findings) = (Vec::<Calibration>::new(), Vec::new());
-        for recording in recordings {
+        let (mut each, mut findings) = (Vec::<(usize, Calibration)>::new(), Vec::new());
+        for (number, recording) in recordings.iter().enumerate() {
             let settings = Settings { known, ..*settings };
             let found = Reconstructed::new(recording.clone(), rod, &settings)?;
-            calibrations.extend(found.found.passes.iter().filter_map(|pass| pass.calibration.clone()));
+            each.extend(found.found.passes.iter().filter_map(|pass| Some((number, pass.calibration.clone()?))));
             let misfits = found.check.findings.iter().filter(|finding| finding.is_misfit());
             findings.extend(misfits.map(|finding| format!("{}: {finding}", recording.file.display())));
         }
+        let calibrations: Vec<Calibration> = each.iter().map(|one| one.1.clone()).collect();
         let combined = Combined::of(&calibrations).ok_or(CalibrateError::Nothing)?;
         findings.extend(contradictions(&combined));
         let (found, known) = combined.known(&rod);
@@ -69,7 +72,7 @@ impl RodCalibration {
             residuals[1].extend(Residual::all(&after, &after));
         }
         let files = recordings.iter().map(|recording| recording.file.clone()).collect();
-        Ok(Self { recordings: files, given: rod, rod: found, known, combined, findings, residuals })
+        Ok(Self { recordings: files, given: rod, rod: found, known, combined, each, findings, residuals })
     }
 }
 
@@ -82,6 +85,8 @@ fn contradictions(combined: &Combined) -> Vec<String> {
             "the recordings contradict each other: chi-squared of their estimates is {chi_squared:.0} with {freedom} degrees of \
              freedom; was the rod clamped anew, or the sensor changed between them?"
         ));
+        // what is estimated of them together means nothing
+        return found;
     }
     for estimate in combined.sources.iter().filter(|estimate| estimate.is_beyond()) {
         let (name, unit) = estimate.source.name();

@@ -37,8 +37,7 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
     let along = along(found, &path, abscissa);
     svg((WIDTH, height), |root| {
         let (head, mut rest) = root.split_vertically(HEAD);
-        let title =
-            format!("{}: reactions, phase criterion K, and by how much the label is likelier than others", found.name);
+        let title = format!("{}: reactions, phase criterion K, and probability of the label", found.name);
         write(&head, &title, (24, 36), HPos::Left, TITLE, INK)?;
         let kinks = found.found.kinks.len();
         write(&head, &format!("vertical lines: {kinks} kinks and jumps"), (24, 80), HPos::Left, BODY, MUTED)?;

@@ -41,10 +41,18 @@ impl Reconstructed {
 
     /// What was taken off the samples, and what may be left.
     fn tell_calibration(&self, text: &mut String) -> std::fmt::Result {
-        let Some(calibration) = self.found.calibration() else { return writeln!(text, "corrections: none, as is") };
+        let Some(calibration) = self.found.calibration() else {
+            return writeln!(
+                text,
+                "corrections: {}",
+                if self.check.fits() { "none, as is" } else { "none, because the recording does not fit its rod" }
+            );
+        };
         let taken: Vec<_> = calibration.sources.iter().filter(|estimate| estimate.taken != 0.0).collect();
         if taken.is_empty() {
-            writeln!(text, "corrections: none needed")?;
+            let why =
+                if self.check.fits() { "none needed" } else { "none, because the recording does not fit its rod" };
+            writeln!(text, "corrections: {why}")?;
         }
         for &SourceEstimate { source, taken, sigma, .. } in taken {
             let (name, unit) = source.name();

@@ -145,7 +145,7 @@ pub enum Finding {
     Uncertain {
         /// Share of wrong labels to be expected: the mean of 1 - probability.
         share: f64,
-        /// The label of the run that has most of them.
+        /// The label of the run that is least sure.
         label: Label,
         /// Its first sample.
         from: usize,
@@ -287,7 +287,7 @@ impl fmt::Display for Finding {
             ),
             Self::Uncertain { share, label, from, to } => write!(
                 f,
-                "about {:.0} % of the labels may be wrong (mean of 1 - probability), most of them {label} in samples {from} to {}: \
+                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least sure {label} in samples {from} to {}: \
                  scan more slowly, or with less noise",
                 100.0 * share,
                 to - 1

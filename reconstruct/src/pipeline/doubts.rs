@@ -6,6 +6,7 @@ use crate::check::Finding;
 use crate::phase::{Basis, Label};
 use crate::scan::Fault;
 use crate::systematic::{Calibration, Source};
+use std::ops::Range;
 
 /// What is left of a criterion, in parts of what the budget let it be, from which on the model does not explain the scan.
 const MISFIT: f64 = 0.2;
@@ -15,6 +16,8 @@ const UNANSWERED: f64 = 0.25;
 const LOST: f64 = 0.75;
 /// Share of wrong labels to be expected that is reported.
 const UNCERTAIN: f64 = 0.01;
+/// Part of the wrong labels to be expected that a run has which is named.
+const MUCH: f64 = 0.1;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
 
@@ -55,7 +58,7 @@ impl Reconstruction {
         findings
     }
 
-    /// The labels that are to be expected wrong, where there are many, with the run that has most of them.
+    /// The labels that are to be expected wrong, where there are many, with the run that is least sure.
     fn uncertain(&self) -> Option<Finding> {
         let wrong = |samples: &[Reading]| {
             let used = samples.iter().filter(|reading| !matches!(reading.touch, Err(Reason::Fault(_))));
@@ -65,7 +68,10 @@ impl Reconstruction {
         let ends = self.runs.iter().skip(1).map(|run| run.0).chain([self.readings.len()]);
         let runs = self.runs.iter().zip(ends).map(|((start, label), end)| (*start..end, *label));
         let counted = runs.map(|(run, label)| (wrong(self.readings.get(run.clone()).unwrap_or_default()), run, label));
-        let (_, run, label) = counted.max_by(|u, v| u.0.total_cmp(&v.0))?;
+        // the run whose labels are least sure, of those that count
+        let counted = counted.filter(|(wrong, ..)| *wrong > MUCH * share * self.readings.len() as f64);
+        let doubt = |run: &Range<usize>, wrong: f64| wrong / run.len().max(1) as f64;
+        let (_, run, label) = counted.max_by(|u, v| doubt(&u.1, u.0).total_cmp(&doubt(&v.1, v.0)))?;
         (share > UNCERTAIN).then_some(Finding::Uncertain { share, label, from: run.start, to: run.end })
     }
 }
