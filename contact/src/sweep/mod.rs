@@ -1,7 +1,11 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
+mod follower;
 mod landing;
+mod resume;
 mod start;
+
+pub use follower::Follower;
 
 use crate::contact_set::edit::beside_corner;
 use crate::contact_set::{Configuration, Held};
@@ -54,6 +58,8 @@ pub struct Sweep<'a> {
     reports: usize,
     reported: usize,
     at: Option<Box<Point>>,
+    /// The equilibrium to begin with, where one is given.
+    given: Option<Configuration>,
     /// The step from there, while poses on it are reported.
     ahead: Option<Step>,
     pending: VecDeque<Item>,
@@ -69,6 +75,10 @@ const MOST_STEPS: f64 = 1e15;
 
 /// Default limit of steps along branches, rejected ones included: one to two minutes. A sweep of the paper takes about 50.
 const MOST_STEPS_TAKEN: u64 = 2_000_000;
+
+/// Largest distance (lengths of the rod plus radians) between the first pose of a path and the pose of the state from which a
+/// sweep goes on: the rounding of poses that were written to a file.
+const SAME_START: f64 = 1e-9;
 
 /// Largest number of transitions at one pose. A rod that comes to lie on the edges of a comb needs several; more are a contact
 /// that comes and goes by rounding.
@@ -93,12 +103,57 @@ impl<'a> Sweep<'a> {
         path: ClampPath,
         step: f64,
     ) -> Result<Self, ContactError> {
+        Self::along(Setup::new(rod, objects.as_ref(), path), step)
+    }
+
+    /// A sweep that goes on from `state`, an equilibrium of `rod` on `objects` (of an earlier sweep, an event, or
+    /// [`equilibrium`](crate::equilibrium)): with its contacts, the side on which each lies and the turns of a coil, in
+    /// any direction. The first pose of `path` is the state's, to 1e-9 of the rod's length; there the state is reported again.
+    ///
+    /// An equilibrium that cannot be followed that way, such as the one before a snap, is left at once, as in a sweep.
+    ///
+    /// ```
+    /// use rod_contact::{ClampPath, Sweep};
+    /// use rod_contours::{Composite, Parabola};
+    /// use rod_core::{Pose, Rod};
+    /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
+    /// let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+    /// let there = Sweep::new(&rod, &object, ClampPath::new(clamp(0.5), clamp(0.1))?, 0.1)?.run().states;
+    /// let back = ClampPath::new(clamp(0.1), clamp(0.5))?;
+    /// let back = Sweep::from_state(&rod, &object, &there[4], back, 0.1)?.run().states;
+    /// for (back, there) in back.iter().zip(there.iter().rev()) {
+    ///     assert!((back.reactions.f0x - there.reactions.f0x).abs() < 1e-9);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Step`]; [`ContactError::Elsewhere`] where the path begins at another pose; [`ContactError::Guess`] and
+    /// [`ContactError::NotEquilibrium`] where the state is none of this rod on these objects.
+    pub fn from_state(
+        rod: &Rod,
+        objects: &'a (impl AsRef<[Composite]> + ?Sized),
+        state: &State,
+        path: ClampPath,
+        step: f64,
+    ) -> Result<Self, ContactError> {
+        let (first, pose) = (path.at(0.0), state.pose);
+        let off = (first.x - pose.x).hypot(first.y - pose.y) / rod.length() + (first.phi - pose.phi).abs();
+        if off.is_nan() || off > SAME_START {
+            return Err(ContactError::Elsewhere { path: first, state: pose });
+        }
+        let mut sweep = Self::along(Setup::new(rod, objects.as_ref(), path), step)?;
+        sweep.given = Some(sweep.recalled(state)?);
+        Ok(sweep)
+    }
+
+    /// The sweep with a state every `step` of its path.
+    fn along(setup: Setup<'a>, step: f64) -> Result<Self, ContactError> {
         let wrong = ContactError::Step { value: step };
         if !(step.is_finite() && step > 0.0) {
             return Err(wrong);
         }
-        let step = if path.turns_only() { step } else { step / rod.length() };
-        let setup = Setup::new(rod, objects.as_ref(), path);
+        let step = if setup.path.turns_only() { step } else { step / setup.rod.length() };
         // a path that is a whole number of steps long but for rounding reports its end
         let steps = (setup.path.length() / step * (1.0 + 1e-12)).floor();
         if steps > MOST_STEPS {
@@ -114,12 +169,24 @@ impl<'a> Sweep<'a> {
             reports,
             reported: 0,
             at: None,
+            given: None,
             ahead: None,
             pending: VecDeque::new(),
             over: false,
             reached: 0.0,
             crowd: (f64::NAN, 0),
         }
+    }
+
+    /// Sets out anew on another path (dimensionless), from an equilibrium at its first pose.
+    fn set_out(&mut self, path: ClampPath, mut from: Configuration) {
+        from.set_tau(0.0);
+        self.stepper.corrector.setup.path = path;
+        self.stepper.h = FIRST_STEP;
+        self.given = Some(from);
+        (self.at, self.ahead, self.over) = (None, None, false);
+        self.pending.clear();
+        (self.reached, self.crowd) = (0.0, (f64::NAN, 0));
     }
 
     fn setup(&self) -> &Setup<'a> {
@@ -151,8 +218,13 @@ impl<'a> Sweep<'a> {
     /// them and have no part in where a step ends.
     fn advance(&mut self) -> Result<(), StopReason> {
         let Some(point) = self.at.take() else {
-            let start = Box::new(self.start()?);
-            self.report(&start);
+            let start = Box::new(match self.given.take() {
+                Some(given) => self.resume(given),
+                None => self.start()?,
+            });
+            if self.reported == 0 {
+                self.report(&start);
+            }
             self.at = Some(start);
             return Ok(());
         };
@@ -168,6 +240,7 @@ impl<'a> Sweep<'a> {
         }
         if point.configuration.tau() >= end - SAME_POSE {
             self.over = true;
+            self.at = Some(point);
             return Ok(());
         }
         let ahead = match self.ahead.take() {
@@ -283,9 +356,14 @@ impl<'a> Sweep<'a> {
         state(self.setup(), &point.configuration, &point.scan, quality)
     }
 
+    /// How far along the path the sweep has come.
+    fn reached(&self) -> f64 {
+        self.at.as_ref().map_or(0.0, |point| point.configuration.tau()).max(self.reached)
+    }
+
     fn stop(&self, reason: StopReason) -> Stop {
         let Setup { rod, path, .. } = self.setup();
-        let tau = self.at.as_ref().map_or(0.0, |point| point.configuration.tau()).max(self.reached);
+        let tau = self.reached();
         let length = rod.length();
         let Pose { x, y, phi } = path.at(tau);
         let unit = if path.turns_only() { 1.0 } else { length };
