@@ -6,6 +6,7 @@ mod common;
 mod convergence;
 mod equilibrium;
 mod flat;
+mod follow_contour;
 mod hard;
 mod hard_cases;
 mod hard_starts;

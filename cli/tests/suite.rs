@@ -35,6 +35,7 @@ mod reconstruct;
 mod reconstruct_objects;
 mod recording_messages;
 mod regression;
+mod restarts;
 mod scene_messages;
 mod sensor_faults;
 mod several_recordings;

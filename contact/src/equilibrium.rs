@@ -1,18 +1,16 @@
 //! Equilibrium at one pose for a given contact set.
 
-use crate::contact_set::{Configuration, Held, Unknowns, lying};
+use crate::contact_set::guess::{by_chords, by_forces, held, supposed};
+use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::error::ContactError;
 use crate::gap::scan::Scanner;
 use crate::path::{ClampPath, check};
 use crate::scene::setup::Setup;
-use crate::scene::world::Foot;
-use crate::state::{Contact, ContactKind, State};
-use rod_contours::{Composite, StretchKind};
-use rod_core::{Hold, Pose, Rod, Section, SolveReport, advance};
-use smallvec::SmallVec;
-use std::f64::consts::{PI, TAU};
+use crate::state::{Contact, State};
+use rod_contours::Composite;
+use rod_core::{Pose, Rod, SolveReport};
 
 /// What a solve for a given contact set came to.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,65 +21,6 @@ pub struct Equilibrium {
     pub state: State,
     /// How the solve ended. Unless its status is solved, the state is only where it came to.
     pub report: SolveReport,
-}
-
-/// A contact of a guess, dimensionless.
-#[derive(Clone, Copy, Debug)]
-struct Supposed {
-    stretch: usize,
-    foot: Foot,
-    tip: bool,
-    s: f64,
-    force: f64,
-}
-
-type Slopes = SmallVec<[f64; 8]>;
-
-/// The rod's slope angles at the contacts from the chords between them: an arc turns twice as far as its chord. On a smooth
-/// contour it lies along that.
-fn by_chords(clamp: Pose, supposed: &[Supposed]) -> Slopes {
-    let (mut from, mut phi) = ((clamp.x, clamp.y), clamp.phi);
-    let slope = |Supposed { foot, tip, .. }: &Supposed| {
-        let chord = (foot.y - from.1).atan2(foot.x - from.0);
-        let turn = chord - phi;
-        phi += 2.0 * (turn - TAU * (turn / TAU).round());
-        from = (foot.x, foot.y);
-        if !tip {
-            phi = foot.alpha + PI * ((phi - foot.alpha) / PI).round();
-        }
-        phi
-    };
-    supposed.iter().map(slope).collect()
-}
-
-/// The same by the shape that the forces would give the rod.
-fn by_forces(clamp: Pose, supposed: &[Supposed]) -> Slopes {
-    let [mut a, mut b, mut m0z] = [0.0; 3];
-    for Supposed { foot, force, .. } in supposed {
-        let (sin, cos) = foot.alpha.sin_cos();
-        a += force * cos;
-        b += force * sin;
-        m0z += force * ((foot.x - clamp.x) * cos + (foot.y - clamp.y) * sin);
-    }
-    let mut at = (0.0, Section { x: clamp.x, y: clamp.y, phi: clamp.phi, kappa: -m0z });
-    let slope = |Supposed { foot, s, force, .. }: &Supposed| {
-        at = (*s, advance(&at.1, a, b, s - at.0));
-        let (sin, cos) = foot.alpha.sin_cos();
-        a -= force * cos;
-        b -= force * sin;
-        at.1.phi
-    };
-    supposed.iter().map(slope).collect()
-}
-
-/// The contacts of a guess with a rod that has such slope angles there.
-fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
-    let mut configuration = Configuration::free(0.0);
-    for (j, (Supposed { stretch, foot, tip, s, force }, phi)) in supposed.iter().zip(slopes).enumerate() {
-        let (hold, third) = if *tip { (Hold::Tip, *phi) } else { (lying(phi - foot.alpha), *s) };
-        configuration.insert(j, Held { stretch: *stretch, hold }, [foot.t, *force, third]);
-    }
-    configuration
 }
 
 /// The equilibrium of `rod` on `objects` (one [`Composite`] or a list of them) with its clamp at `pose` (m, radians),
@@ -117,28 +56,7 @@ pub fn equilibrium(
     let units = rod.units();
     let mut corrector = Corrector::new(Setup::new(rod, objects.as_ref(), ClampPath::standing(pose)));
     let Setup { world, path, .. } = &corrector.setup;
-    let mut supposed: SmallVec<[Supposed; 8]> = SmallVec::new();
-    for (index, contact) in guess.iter().enumerate() {
-        let wrong = |reason| Err(ContactError::Guess { index, reason });
-        if ![contact.s, contact.x, contact.y, contact.force].iter().all(|v| v.is_finite()) {
-            return wrong("its numbers are not finite");
-        }
-        if supposed.last().is_some_and(|before| before.tip) {
-            return wrong("it follows a contact at the tip, expected that to be the last");
-        }
-        let wanted = match contact.kind {
-            ContactKind::Tangent | ContactKind::Tip => StretchKind::Piece(contact.piece),
-            ContactKind::Corner => StretchKind::Corner { before: contact.piece },
-            ContactKind::Notch => StretchKind::Notch { before: contact.piece },
-        };
-        let Some(stretch) = world.find(contact.object, wanted) else {
-            return wrong("there is no such object, or it has no such piece, corner or notch");
-        };
-        let foot = world.foot(stretch, contact.x / units.length, contact.y / units.length);
-        let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
-        let s = if tip { 1.0 } else { contact.s / units.length };
-        supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force });
-    }
+    let supposed = supposed(world, units, guess)?;
     let clamp = path.at(0.0);
     // a force may be a mere guess, and then the chords know better
     let [by_chords, by_forces] =

@@ -46,6 +46,23 @@ pub enum ContactError {
         /// What is wrong with it.
         reason: &'static str,
     },
+    /// A sweep that goes on from a state begins at another pose.
+    #[error(
+        "the path starts at ({}, {}) m and {} rad, the state's clamp is at ({}, {}) m and {} rad, expected the same pose",
+        path.x, path.y, path.phi, state.x, state.y, state.phi
+    )]
+    Elsewhere {
+        /// Where the path starts.
+        path: Pose,
+        /// Where the clamp is in the state.
+        state: Pose,
+    },
+    /// A state to go on from is none of this rod on these objects.
+    #[error("the state is no equilibrium of this rod on these objects: {reason}; expected a state of a sweep of them")]
+    NotEquilibrium {
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// The distance between reported states is no distance, or so small that the path has more than 1e15 of them.
     #[error("step is {value}, expected a positive, finite length, not below 1e-15 of the path")]
     Step {
@@ -85,6 +102,8 @@ pub enum StopReason {
     ClampInside,
     /// More events at one pose than a rod can have.
     Chatter,
+    /// The pose to go to has a number that is not finite, or an angle beyond [`LARGEST_ANGLE`].
+    NoPose,
     /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
     StepBudget,
 }
@@ -143,6 +162,7 @@ impl std::fmt::Display for StopReason {
             Self::LineContact => "line-contact",
             Self::ClampInside => "clamp-inside",
             Self::Chatter => "chatter",
+            Self::NoPose => "no-pose",
             Self::StepBudget => "step-budget",
         })
     }
@@ -171,6 +191,7 @@ impl std::fmt::Display for Stop {
                 "the clamp is inside an object in the first pose; start with the clamp outside of all objects"
             }
             StopReason::ClampInside => "the clamp itself runs into the object; end the path before it",
+            StopReason::NoPose => "the pose to go to is none; give finite numbers, and an angle in radians",
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",
         };

@@ -38,4 +38,4 @@ pub use event::{Event, EventKind};
 pub use path::{ClampPath, SuspiciousAngle};
 pub use phase::Phase;
 pub use state::{Certificate, Contact, ContactKind, GapBounds, State};
-pub use sweep::{Item, Outcome, Sweep};
+pub use sweep::{Follower, Item, Outcome, Sweep};

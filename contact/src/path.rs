@@ -102,6 +102,13 @@ impl ClampPath {
         }
     }
 
+    /// A path (dimensionless) on which lengths and angles count alike, so that one that hardly moves but turns has a
+    /// parameter that is not tiny; none where both poses are the same.
+    pub(crate) fn between(from: Pose, to: Pose) -> Option<Self> {
+        let length = (to.x - from.x).hypot(to.y - from.y) + (to.phi - from.phi).abs();
+        (length > 0.0).then_some(Self { from, to, length })
+    }
+
     /// A path that stays where it is.
     pub(crate) fn standing(pose: Pose) -> Self {
         Self { from: pose, to: pose, length: 1.0 }

@@ -1,6 +1,7 @@
 //! A contact set with its unknowns at a pose: one point on a branch of equilibria.
 
 pub(crate) mod edit;
+pub(crate) mod guess;
 pub(crate) mod notch;
 pub(crate) mod order;
 

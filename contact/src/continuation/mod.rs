@@ -5,5 +5,6 @@ pub(crate) mod branch;
 pub(crate) mod certify;
 pub(crate) mod fold;
 pub(crate) mod inflection;
+pub(crate) mod recall;
 pub(crate) mod step;
 pub(crate) mod transition;

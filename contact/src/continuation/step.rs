@@ -92,7 +92,7 @@ pub(crate) enum Step {
 
 impl Point {
     /// The branch ends here.
-    fn ends(&self) -> Step {
+    pub fn ends(&self) -> Step {
         Step::Ended(Box::new(Seen { configuration: self.configuration.clone(), scan: self.scan.clone() }))
     }
 }
@@ -512,6 +512,18 @@ impl<'a> Stepper<'a> {
         point.tangent.by_tau() > 0.0
             && !runs_off(point)
             && [1.0, 1e-2, 1e-4].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
+    }
+
+    /// The stable equilibrium a little way along the tangent of a point at a fold, if the pose grows on that way.
+    pub fn beyond_fold(&mut self, Point { configuration, tangent, .. }: &Point) -> Option<Configuration> {
+        let mut probe = tangent.ahead(configuration, FARTHEST_PROBE);
+        let plane = Condition::Plane { tangent, from: &configuration.z, distance: FARTHEST_PROBE };
+        let solved = self.corrector.correct(&mut probe, plane).status.is_solved();
+        if !solved || probe.tau() <= configuration.tau() {
+            return None;
+        }
+        let scan = self.scan(&probe);
+        self.is_stable(&probe, &scan).then_some(probe)
     }
 
     fn holds_ahead(&mut self, point: &Point, way: f64) -> bool {

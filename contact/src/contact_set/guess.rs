@@ -1,0 +1,100 @@
+//! A contact set from contacts in SI units: a guess of the user's, or the contacts of a state.
+
+use crate::contact_set::{Configuration, Held, lying};
+use crate::error::ContactError;
+use crate::scene::world::{Foot, World};
+use crate::state::{Contact, ContactKind};
+use rod_contours::StretchKind;
+use rod_core::{Hold, Pose, Section, Units, advance};
+use smallvec::SmallVec;
+use std::f64::consts::{PI, TAU};
+
+/// A contact of a guess, dimensionless.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Supposed {
+    pub stretch: usize,
+    pub foot: Foot,
+    pub tip: bool,
+    pub s: f64,
+    pub force: f64,
+}
+
+type Slopes = SmallVec<[f64; 8]>;
+
+/// The rod's slope angles at the contacts from the chords between them: an arc turns twice as far as its chord. On a smooth
+/// contour it lies along that.
+pub(crate) fn by_chords(clamp: Pose, supposed: &[Supposed]) -> Slopes {
+    let (mut from, mut phi) = ((clamp.x, clamp.y), clamp.phi);
+    let slope = |Supposed { foot, tip, .. }: &Supposed| {
+        let chord = (foot.y - from.1).atan2(foot.x - from.0);
+        let turn = chord - phi;
+        phi += 2.0 * (turn - TAU * (turn / TAU).round());
+        from = (foot.x, foot.y);
+        if !tip {
+            phi = foot.alpha + PI * ((phi - foot.alpha) / PI).round();
+        }
+        phi
+    };
+    supposed.iter().map(slope).collect()
+}
+
+/// The same by the shape that the forces would give the rod.
+pub(crate) fn by_forces(clamp: Pose, supposed: &[Supposed]) -> Slopes {
+    let [mut a, mut b, mut m0z] = [0.0; 3];
+    for Supposed { foot, force, .. } in supposed {
+        let (sin, cos) = foot.alpha.sin_cos();
+        a += force * cos;
+        b += force * sin;
+        m0z += force * ((foot.x - clamp.x) * cos + (foot.y - clamp.y) * sin);
+    }
+    let mut at = (0.0, Section { x: clamp.x, y: clamp.y, phi: clamp.phi, kappa: -m0z });
+    let slope = |Supposed { foot, s, force, .. }: &Supposed| {
+        at = (*s, advance(&at.1, a, b, s - at.0));
+        let (sin, cos) = foot.alpha.sin_cos();
+        a -= force * cos;
+        b -= force * sin;
+        at.1.phi
+    };
+    supposed.iter().map(slope).collect()
+}
+
+/// The contacts of a guess with a rod that has such slope angles there.
+pub(crate) fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
+    let mut configuration = Configuration::free(0.0);
+    for (j, (Supposed { stretch, foot, tip, s, force }, phi)) in supposed.iter().zip(slopes).enumerate() {
+        let (hold, third) = if *tip { (Hold::Tip, *phi) } else { (lying(phi - foot.alpha), *s) };
+        configuration.insert(j, Held { stretch: *stretch, hold }, [foot.t, *force, third]);
+    }
+    configuration
+}
+
+/// The contacts of a guess on the contours.
+pub(crate) fn supposed(
+    world: &World<'_>,
+    units: Units,
+    guess: &[Contact],
+) -> Result<SmallVec<[Supposed; 8]>, ContactError> {
+    let mut supposed: SmallVec<[Supposed; 8]> = SmallVec::new();
+    for (index, contact) in guess.iter().enumerate() {
+        let wrong = |reason| Err(ContactError::Guess { index, reason });
+        if ![contact.s, contact.x, contact.y, contact.force].iter().all(|v| v.is_finite()) {
+            return wrong("its numbers are not finite");
+        }
+        if supposed.last().is_some_and(|before| before.tip) {
+            return wrong("it follows a contact at the tip, expected that to be the last");
+        }
+        let wanted = match contact.kind {
+            ContactKind::Tangent | ContactKind::Tip => StretchKind::Piece(contact.piece),
+            ContactKind::Corner => StretchKind::Corner { before: contact.piece },
+            ContactKind::Notch => StretchKind::Notch { before: contact.piece },
+        };
+        let Some(stretch) = world.find(contact.object, wanted) else {
+            return wrong("there is no such object, or it has no such piece, corner or notch");
+        };
+        let foot = world.foot(stretch, contact.x / units.length, contact.y / units.length);
+        let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
+        let s = if tip { 1.0 } else { contact.s / units.length };
+        supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force });
+    }
+    Ok(supposed)
+}

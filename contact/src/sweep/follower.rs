@@ -1,0 +1,153 @@
+//! A rod that is moved step by step, from one equilibrium to the next.
+
+use super::{Item, MOST_STEPS_TAKEN, Sweep};
+use crate::contact_set::Configuration;
+use crate::continuation::step::{Point, SAME_POSE};
+use crate::error::{ContactError, Stop, StopReason};
+use crate::path::{ClampPath, check};
+use crate::scene::setup::Setup;
+use crate::state::State;
+use rod_contours::Composite;
+use rod_core::{Pose, Rod};
+
+/// A rod in equilibrium whose clamp is moved from pose to pose: for controllers, which decide where to go next by what the clamp
+/// feels now. Each move follows the branch of equilibria through all its transitions, as a [`Sweep`] does.
+///
+/// A clone goes its own way: to try a move, make it with a clone.
+///
+/// ```
+/// use rod_contact::{Follower, Item};
+/// use rod_contours::{Composite, Parabola};
+/// use rod_core::{Pose, Rod};
+/// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
+/// let clamp = |x, y| Pose { x, y, phi: std::f64::consts::FRAC_PI_2 };
+/// let mut rod = Follower::new(&rod, &object, clamp(0.5, -0.4))?;
+/// let items = rod.to(clamp(0.2, -0.4))?;
+/// let phases: Vec<_> = items.iter().filter_map(|item| match item {
+///     Item::Event(event) => Some(event.to().to_string()),
+///     Item::State(_) => None,
+/// }).collect();
+/// assert_eq!(phases, ["A"]);
+/// let mut tried = rod.clone();
+/// tried.to(clamp(0.2, -0.3))?;
+/// assert!(tried.state().reactions.f0x.abs() > rod.state().reactions.f0x.abs());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Follower<'a> {
+    sweep: Sweep<'a>,
+    configuration: Configuration,
+    /// The clamp, dimensionless.
+    pose: Pose,
+    state: State,
+}
+
+impl<'a> Follower<'a> {
+    /// A rod with its clamp at `pose` (m, radians). Where it is in contact there, it has the shape that it gets when it is
+    /// pushed forward along its own axis, or another one that [`Sweep::new`] describes.
+    ///
+    /// # Errors
+    /// [`Stop`] with [`StopReason::NoPose`], [`StopReason::ClampInside`] or [`StopReason::NoStart`].
+    pub fn new(rod: &Rod, objects: &'a (impl AsRef<[Composite]> + ?Sized), pose: Pose) -> Result<Self, Stop> {
+        if check(pose, ["x", "y", "phi"]).is_err() {
+            return Err(Stop { pose, tau: 0.0, reason: StopReason::NoPose });
+        }
+        let (sin, cos) = pose.phi.sin_cos();
+        let length = rod.length();
+        let ahead = Pose { x: pose.x + length * cos, y: pose.y + length * sin, ..pose };
+        let Ok(path) = ClampPath::new(pose, ahead) else {
+            return Err(Stop { pose, tau: 0.0, reason: StopReason::NoPose });
+        };
+        let mut sweep = Sweep::from_setup(Setup::new(rod, objects.as_ref(), path), MOST_STEPS_TAKEN, 1.0, 0);
+        match sweep.start() {
+            Ok(at) => Ok(Self::at_rest(sweep, at)),
+            Err(reason) => Err(Stop { pose, tau: 0.0, reason }),
+        }
+    }
+
+    /// A rod in an equilibrium that is known: a state of `rod` on `objects` from a sweep, an event or
+    /// [`equilibrium`](crate::equilibrium).
+    ///
+    /// # Errors
+    /// [`ContactError::NotFinite`], [`ContactError::Angle`]; [`ContactError::Guess`] and [`ContactError::NotEquilibrium`] where
+    /// the state is none of this rod on these objects.
+    pub fn from_state(
+        rod: &Rod,
+        objects: &'a (impl AsRef<[Composite]> + ?Sized),
+        state: &State,
+    ) -> Result<Self, ContactError> {
+        check(state.pose, ["state.pose.x", "state.pose.y", "state.pose.phi"])?;
+        let setup = Setup::new(rod, objects.as_ref(), ClampPath::standing(state.pose));
+        let mut sweep = Sweep::from_setup(setup, MOST_STEPS_TAKEN, 1.0, 0);
+        let recalled = sweep.recalled(state)?;
+        let at = sweep.at_rest(recalled);
+        Ok(Self::at_rest(sweep, at))
+    }
+
+    /// The rod at the first pose of the path of `sweep`.
+    fn at_rest(sweep: Sweep<'a>, at: Point) -> Self {
+        let (state, pose) = (sweep.state(&at), sweep.setup().path.at(0.0));
+        Self { sweep, configuration: at.configuration, pose, state }
+    }
+
+    /// The equilibrium that the rod is in.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Brings the clamp to `pose` (m, radians), straight and at a constant ratio of turn and way: all transitions on the way, in
+    /// order, and the state there as the last item. A move shorter than 1e-13 (lengths of the rod plus radians) is none.
+    ///
+    /// # Errors
+    /// [`Stop`] where the rod cannot be followed to there, with the share of the move up to there, 0 to 1, as [`Stop::tau`]. The
+    /// rod then stays in the equilibrium in which it was.
+    pub fn to(&mut self, pose: Pose) -> Result<Vec<Item>, Stop> {
+        if check(pose, ["x", "y", "phi"]).is_err() {
+            return Err(Stop { pose: self.state.pose, tau: 0.0, reason: StopReason::NoPose });
+        }
+        let length = self.sweep.setup().rod.length();
+        let to = Pose { x: pose.x / length, y: pose.y / length, phi: pose.phi };
+        let Some(path) = ClampPath::between(self.pose, to).filter(|path| path.length() > SAME_POSE) else {
+            return Ok(vec![Item::State(self.state.clone())]);
+        };
+        let (way, here) = (path.length(), path.at(path.length()));
+        self.sweep.stepper.steps_left = MOST_STEPS_TAKEN;
+        self.sweep.set_out(path, self.configuration.clone());
+        // only the last pose is reported
+        (self.sweep.step, self.sweep.reports, self.sweep.reported) = (way, 2, 1);
+        let share = |tau: f64| (tau / way).min(1.0);
+        let mut items = Vec::new();
+        while let Some(item) = self.sweep.next() {
+            items.push(item.map_err(|stop| Stop { tau: share(self.sweep.reached()), ..stop })?);
+        }
+        match (items.last(), &self.sweep.at) {
+            (Some(Item::State(state)), Some(at)) => {
+                (self.state, self.configuration, self.pose) = (state.clone(), at.configuration.clone(), here);
+                Ok(items)
+            }
+            // a snap has landed further along the path than the clamp goes
+            _ => Err(Stop { tau: 1.0, ..self.sweep.stop(StopReason::NoLanding) }),
+        }
+    }
+}
+
+/// The clone looks at the objects anew: bounds of the gap may differ in their last digits.
+impl Clone for Follower<'_> {
+    fn clone(&self) -> Self {
+        let setup = self.sweep.setup().clone();
+        let sweep = Sweep::from_setup(setup, MOST_STEPS_TAKEN, 1.0, 0);
+        Self { sweep, configuration: self.configuration.clone(), pose: self.pose, state: self.state.clone() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_goes_from_thread_to_thread() {
+        fn is_send<T: Send>() {}
+        is_send::<Follower<'_>>();
+        is_send::<Sweep<'_>>();
+    }
+}

@@ -1,0 +1,72 @@
+//! A sweep that goes on from an equilibrium that is given.
+
+use super::Sweep;
+use crate::contact_set::Configuration;
+use crate::continuation::branch::Tangent;
+use crate::continuation::recall::recall;
+use crate::continuation::step::Point;
+use crate::error::ContactError;
+use crate::state::State;
+
+/// Pulling force (E I / L^2) up to which a state counts as an equilibrium.
+const PULL: f64 = 1e-9;
+/// Least d tau / d arclength at which the tangent of a stable equilibrium is known to lead along the path. Nearer to a fold its
+/// sense is rounding.
+const STEEP: f64 = 1e-4;
+
+impl Sweep<'_> {
+    /// The configuration of a state at the first pose of the path.
+    pub(super) fn recalled(&mut self, state: &State) -> Result<Configuration, ContactError> {
+        let recalled = recall(&mut self.stepper.corrector, &state.contacts)?;
+        let pulls = (0..recalled.count()).any(|j| recalled.force(j) < -PULL);
+        let wrong = |reason| Err(ContactError::NotEquilibrium { reason });
+        if pulls {
+            return wrong("a contact pulls");
+        }
+        if !self.stepper.look(recalled.clone()).scan.is_outside() {
+            return wrong("the rod goes through an object");
+        }
+        Ok(recalled)
+    }
+
+    /// The point to begin with. At a fold two branches meet, of which the sweep takes the stable one if that leads along the path;
+    /// otherwise the equilibrium ends here, and the next step is a snap.
+    pub(super) fn resume(&mut self, given: Configuration) -> Point {
+        let mut point = self.at_rest(given);
+        if point.tangent.by_tau() > STEEP && point.quality.stable {
+            return point;
+        }
+        let there = point.tangent.clone();
+        let back = Tangent { direction: there.direction.iter().map(|d| -d).collect(), weights: there.weights.clone() };
+        let [one, other] = [&there, &back].map(|tangent| {
+            point.tangent = tangent.clone();
+            self.stepper.beyond_fold(&point)
+        });
+        let is_there = match (&one, &other) {
+            (Some(one), Some(other)) => self.is_lower(one, other),
+            (one, other) => {
+                if one.is_none() && other.is_none() {
+                    self.ahead = Some(point.ends());
+                }
+                one.is_some()
+            }
+        };
+        point.tangent = if is_there { there } else { back };
+        point
+    }
+
+    /// Whether the first of two branches beside a fold has the lower energy at the same pose, as the stable one has. So close to
+    /// the fold both may pass for stable, by the modes that the second variation leaves out.
+    fn is_lower(&mut self, one: &Configuration, other: &Configuration) -> bool {
+        let corrector = &mut self.stepper.corrector;
+        let tau = one.tau().min(other.tau());
+        let [one, other] = [one, other].map(|configuration| {
+            let mut here = configuration.clone();
+            corrector.at_pose(&mut here, tau);
+            let supports = here.supports(&corrector.setup.world);
+            let problem = corrector.setup.problem(&supports, tau);
+            problem.elastica(here.of_contacts(), corrector.setup.rod.units()).bending_energy()
+        });
+        one <= other
+    }
+}
