@@ -132,20 +132,9 @@ impl Linearisation {
         self.condition
     }
 
-    /// Length of the Newton correction that is left, the unknowns in their natural sizes: how far from a solution it is. Infinite
-    /// where the Jacobian has no inverse.
-    pub fn off(&self) -> f64 {
-        if !self.condition.is_finite() {
-            return f64::INFINITY;
-        }
-        let mut step = Vector::from_elem(0.0, self.residual.len());
-        multiply(&self.inverse, &self.residual, -1.0, &mut step);
-        step.iter().zip(&self.weights).fold(0.0, |most: f64, (step, w)| most.max((step * w).abs()))
-    }
-
-    /// Largest residual of the equations.
+    /// Largest residual of the equations; NaN where one is.
     pub fn residual(&self) -> f64 {
-        self.residual.iter().fold(0.0, |most, r| most.max(r.abs()))
+        self.residual.iter().fold(0.0, |most, r| if r.abs() > most || r.is_nan() { r.abs() } else { most })
     }
 
     fn weighted_condition(&self) -> f64 {
@@ -337,6 +326,6 @@ mod tests {
         let none = Circles { all: Vec::new(), amount: 0.0 };
         let linear = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 0.0 }, supports: &none }.linearise(&[]);
         let moved = linear.response(Pose { x: 1.0, y: 2.0, phi: 3.0 }, &[]).unwrap();
-        assert_eq!((moved, linear.condition(), linear.off()), (Response::default(), 1.0, 0.0));
+        assert_eq!((moved, linear.condition(), linear.residual()), (Response::default(), 1.0, 0.0));
     }
 }
