@@ -69,7 +69,9 @@ pub enum ContactError {
         what: String,
     },
     /// A transition whose pose no single equation defines.
-    #[error("no single equation defines the pose of this {event}; differentiate the states on either side of it")]
+    #[error(
+        "no single regular equation defines the pose of this {event}; differentiate the states on either side of it"
+    )]
     NoCondition {
         /// The kind of the transition, by its name.
         event: String,

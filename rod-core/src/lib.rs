@@ -73,7 +73,7 @@ pub use error::RodError;
 pub use general::GeneralElastica;
 pub use inflection::inflection;
 #[cfg(feature = "std")]
-pub use linearisation::{ContactRate, Linearisation, Response, SupportRate};
+pub use linearisation::{ContactRate, Linearisation, PathRow, Response, SupportRate};
 #[cfg(feature = "std")]
 pub use loads::Load;
 #[cfg(feature = "std")]

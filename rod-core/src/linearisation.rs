@@ -47,6 +47,17 @@ pub struct Response {
     pub contacts: SmallVec<[ContactRate; 8]>,
 }
 
+/// How the path parameter changes at a point of the path that one more equation defines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathRow {
+    /// By the negative residual.
+    pub by_residual: SmallVec<[f64; 25]>,
+    /// By the value of the unknown that is given.
+    pub by_value: f64,
+    /// Condition number, as [`Linearisation::condition`].
+    pub condition: f64,
+}
+
 type Vector = SmallVec<[f64; 25]>;
 
 /// A [`MultiPoint`] problem to first order about a solution.
@@ -118,7 +129,7 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
             weights,
         };
         if regular {
-            linear.condition = linear.weighted_condition();
+            linear.condition = weighted_condition(&linear.jacobian, &linear.inverse, &linear.weights);
         }
         linear
     }
@@ -135,18 +146,6 @@ impl Linearisation {
     /// Largest residual of the equations; NaN where one is.
     pub fn residual(&self) -> f64 {
         self.residual.iter().fold(0.0, |most, r| if r.abs() > most || r.is_nan() { r.abs() } else { most })
-    }
-
-    fn weighted_condition(&self) -> f64 {
-        let size = self.residual.len();
-        if size == 0 {
-            return 1.0;
-        }
-        let columns = self.jacobian.chunks_exact(size).zip(&self.weights);
-        let most = columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w).fold(0.0, f64::max);
-        let columns = self.inverse.chunks_exact(size);
-        let sums = columns.map(|column| column.iter().zip(&self.weights).map(|(v, w)| (v * w).abs()).sum::<f64>());
-        most * sums.fold(0.0, f64::max)
     }
 
     /// The change of the equilibrium when clamp and supports move like this. None where the Jacobian has no inverse, or there is
@@ -179,10 +178,10 @@ impl Linearisation {
 
     /// The change of the path parameter, along which the clamp moves like `path`, at the point of the path where one unknown has a
     /// given value, as a linear function of the [rates of the residual](Self::residual_rates): the last row of the inverse of the
-    /// Jacobian bordered by `path` and that unknown. Its last entry is the change by the given value.
+    /// Jacobian bordered by `path` and that unknown.
     ///
     /// Unknowns are counted as in [`MultiPoint`]. None where the bordered matrix has no inverse.
-    pub fn path_row(&self, path: Pose, unknown: usize) -> Option<(SmallVec<[f64; 25]>, f64)> {
+    pub fn path_row(&self, path: Pose, unknown: usize) -> Option<PathRow> {
         let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.nodes.len());
         let by_path = self.residual_rates(path, &still)?;
         let (size, whole) = (by_path.len(), by_path.len() + 1);
@@ -196,9 +195,12 @@ impl Linearisation {
         if unknown >= size || !invert(whole, &bordered, &mut inverse) {
             return None;
         }
-        let row: SmallVec<[f64; 25]> = inverse.chunks_exact(whole).map(|column| column[size]).collect();
-        let by_value = row[size];
-        Some((row, by_value))
+        let mut weights = self.weights.clone();
+        weights.push(1.0);
+        let condition = weighted_condition(&bordered, &inverse, &weights);
+        let mut by_residual: SmallVec<[f64; 25]> = inverse.chunks_exact(whole).map(|column| column[size]).collect();
+        let by_value = by_residual.pop()?;
+        Some(PathRow { by_residual, by_value, condition })
     }
 
     /// The change of the residual, at fixed unknowns, when clamp and supports move like this; none where there is not one rate for
@@ -249,6 +251,19 @@ impl Linearisation {
         }
         rates
     }
+}
+
+/// Condition number in the 1-norm with unknowns in their natural sizes.
+fn weighted_condition(matrix: &[f64], inverse: &[f64], weights: &[f64]) -> f64 {
+    let size = weights.len();
+    if size == 0 {
+        return 1.0;
+    }
+    let columns = matrix.chunks_exact(size).zip(weights);
+    let most = columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w).fold(0.0, f64::max);
+    let columns = inverse.chunks_exact(size);
+    let sums = columns.map(|column| column.iter().zip(weights).map(|(v, w)| (v * w).abs()).sum::<f64>());
+    most * sums.fold(0.0, f64::max)
 }
 
 #[cfg(test)]

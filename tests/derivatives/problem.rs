@@ -10,7 +10,7 @@ use vibrissa::{Rod, State};
 /// Terms of the series, and longest step (L).
 const TERMS: usize = 22;
 const LONGEST: f64 = 0.06;
-/// Step of the differences of the Jacobian: it has twelve digits, and each Newton step brings as many.
+/// Step of the differences of the Jacobian.
 const JACOBIAN: f64 = 1e-13;
 /// Step of the differences that are compared.
 pub const STEP: f64 = 1e-9;
@@ -138,7 +138,9 @@ pub enum Defining {
     AtTip,
     /// This contact is where its piece and the next one (or, if not `upper`, the one before) cross.
     Vertex { contact: usize, upper: bool },
-    /// At this contact, on a vertex, the rod is along the piece.
+    /// The force of this contact, on a vertex, is across the piece.
+    Across { contact: usize, piece: usize },
+    /// The rod, with its tip on a vertex, is along the piece.
     Along { contact: usize, piece: usize },
     /// The path parameter is stationary along the branch.
     Fold,
@@ -344,13 +346,14 @@ impl Problem {
                     own[0] - object.crossing((touch.piece + count - 1) % count, touch.about)[1]
                 }
             }
-            Defining::Along { contact, piece } => {
+            Defining::Across { contact, piece } | Defining::Along { contact, piece } => {
                 let (touch, own) = contacts[contact];
                 let object = &self.objects[touch.object];
                 let [before, after] = object.crossing(touch.piece, touch.about);
                 let (_, wall) = object.at(piece, if piece == touch.piece { before } else { after });
-                let rod = if is_tip(touch.kind) { self.shoot(unknowns).1.end } else { [own[0], own[1]] };
-                wall[0] * rod[1] - wall[1] * rod[0]
+                let is_along = matches!(defining, Defining::Along { .. });
+                let direction = if is_along { self.shoot(unknowns).1.end } else { [own[0], own[1]] };
+                wall[0] * direction[1] - wall[1] * direction[0]
             }
             Defining::Fold => panic!("a fold has no equation of its own"),
         }
@@ -380,27 +383,29 @@ impl Problem {
     }
 }
 
-/// Newton's method with a Jacobian by differences, to the last digits.
+/// Newton's method with one Jacobian, by differences: the start is a solution of a problem that differs by 1e-6 or less, so that each
+/// correction brings six digits or more.
 fn newton(start: &[Double], residual: impl Fn(&[Double]) -> Vec<Double>) -> Vec<Double> {
+    const CORRECTIONS: usize = 6;
     let mut unknowns = start.to_vec();
     let n = unknowns.len();
-    for step in 0..3 {
-        let here = residual(&unknowns);
-        let mut jacobian = DMatrix::zeros(n, n);
-        for column in 0..n {
-            let mut moved = unknowns.clone();
-            moved[column] += JACOBIAN;
-            for (row, (there, here)) in residual(&moved).into_iter().zip(&here).enumerate() {
-                jacobian[(row, column)] = f64::from((there - *here) / JACOBIAN);
-            }
+    let here = residual(&unknowns);
+    let mut jacobian = DMatrix::zeros(n, n);
+    for column in 0..n {
+        let mut moved = unknowns.clone();
+        moved[column] += JACOBIAN;
+        for (row, (there, here)) in residual(&moved).into_iter().zip(&here).enumerate() {
+            jacobian[(row, column)] = f64::from((there - *here) / JACOBIAN);
         }
-        let lu = jacobian.lu();
-        // the first steps are those of a guess of eight digits or more; the same Jacobian then brings twelve each
-        for _ in 0..if step == 2 { 3 } else { 1 } {
-            let here = residual(&unknowns);
-            let right = DVector::from_iterator(n, here.iter().map(|r| f64::from(*r)));
-            let change = lu.solve(&right).expect("a regular problem");
-            unknowns.iter_mut().zip(change.iter()).for_each(|(u, change)| *u -= *change);
+    }
+    let lu = jacobian.lu();
+    for _ in 0..CORRECTIONS {
+        let here = residual(&unknowns);
+        let right = DVector::from_iterator(n, here.iter().map(|r| f64::from(*r)));
+        let change = lu.solve(&right).expect("a regular problem");
+        unknowns.iter_mut().zip(change.iter()).for_each(|(u, change)| *u -= *change);
+        if change.amax() < 1e-24 {
+            break;
         }
     }
     unknowns

@@ -16,9 +16,9 @@ use restored::Restored;
 use rod_contours::Composite;
 use rod_core::{ContactRate, Reactions, Response, Rod};
 
-/// Condition number above which derivatives have less than six digits. At a fold, which a sweep locates to 1e-13, it is 1e12 or
-/// more; 1e-12 L before one it is about 1e6.
-const MOST_CONDITION: f64 = 1e10;
+/// Condition number above which derivatives have less than two digits. At a fold, which a sweep locates to 1e-13 of arclength, it is
+/// 1e10 or more; 1e-14 L before one it is about 1e7.
+const MOST_CONDITION: f64 = 1e7;
 
 /// The derivatives of one equilibrium: what its reactions, contact points, arc lengths and forces change by.
 ///

@@ -2,6 +2,7 @@
 //! the one that defines the transition.
 
 use crate::contact_set::{Configuration, Unknown};
+use crate::derivatives::MOST_CONDITION;
 use crate::derivatives::motion::{Motion, border_rate, motion};
 use crate::derivatives::quantity::Quantity;
 use crate::derivatives::restored::Restored;
@@ -9,8 +10,7 @@ use crate::error::ContactError;
 use crate::event::{Event, EventKind};
 use crate::scene::world::World;
 use rod_contours::Composite;
-use rod_core::{Pose, Rod};
-use smallvec::SmallVec;
+use rod_core::{PathRow, Pose, Rod};
 
 /// Largest force (E I / L^2), parameter or angle by which the defining unknown of a located transition is off its value.
 const LOCATED: f64 = 1e-8;
@@ -59,9 +59,7 @@ pub struct TransitionDerivatives<'a> {
     world: World<'a>,
     restored: Restored,
     value: Value,
-    /// d tau by the negative rates of the residual, and by the value of the defining unknown.
-    row: SmallVec<[f64; 25]>,
-    by_value: f64,
+    row: PathRow,
 }
 
 impl<'a> TransitionDerivatives<'a> {
@@ -71,7 +69,7 @@ impl<'a> TransitionDerivatives<'a> {
     /// # Errors
     /// [`ContactError::NotEquilibrium`] and [`ContactError::Guess`] for an event of another rod or of other objects,
     /// [`ContactError::NoCondition`] where no one equation defines the pose: two contacts that part or run together at an inflection
-    /// of the contour, a touch along a straight edge, a jump because no contact set goes on.
+    /// of the contour, a touch along a straight edge after which no contact set goes on.
     pub fn new(
         rod: &Rod,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
@@ -87,13 +85,13 @@ impl<'a> TransitionDerivatives<'a> {
             // a jump leads elsewhere
             EventKind::Snap | EventKind::SnapOff | EventKind::Slip => of_jump(&world, before, rate),
             kind => defining(&world, kind, before, after?).and_then(|(set, unknown, value)| {
-                let (row, by_value) = row(&set, rate, unknown)?;
-                Some((set, value, row, by_value))
+                let row = row(&set, rate, unknown)?;
+                Some((set, value, row))
             }),
         };
-        let (restored, value, row, by_value) =
+        let (restored, value, row) =
             defined.ok_or_else(|| ContactError::NoCondition { event: event.kind.to_string() })?;
-        Ok(Self { rod: *rod, world, restored, value, row, by_value })
+        Ok(Self { rod: *rod, world, restored, value, row })
     }
 
     /// The change of the path parameter at the transition (m, or rad where the clamp only turns) per unit of one quantity. The path
@@ -112,7 +110,8 @@ impl<'a> TransitionDerivatives<'a> {
             Value::Border { stretch, upper } => border_rate(&self.world, stretch, upper, quantity)?,
             Value::Wall { wall, upper } => self.world_angle_rate(wall, upper, quantity)?,
         };
-        Ok(self.by_value * value - self.row.iter().zip(&rates).map(|(row, rate)| row * rate).sum::<f64>())
+        let PathRow { by_residual, by_value, .. } = &self.row;
+        Ok(by_value * value - by_residual.iter().zip(&rates).map(|(row, rate)| row * rate).sum::<f64>())
     }
 
     /// The change of the tangent angle of a wall where it ends.
@@ -131,11 +130,11 @@ impl<'a> TransitionDerivatives<'a> {
     }
 }
 
-type Row = (SmallVec<[f64; 25]>, f64);
-
-/// The row of d tau where the defining unknown has a value.
-fn row(set: &Restored, rate: Pose, unknown: Unknown) -> Option<Row> {
-    set.linear.path_row(rate, unknown.index(set.configuration.count()))
+/// The row of d tau where the defining unknown has a value; none where that does not define a pose, as where the rod lies along a
+/// straight edge.
+fn row(set: &Restored, rate: Pose, unknown: Unknown) -> Option<PathRow> {
+    let row = set.linear.path_row(rate, unknown.index(set.configuration.count()));
+    row.filter(|row| row.condition < MOST_CONDITION)
 }
 
 /// The contact set that holds at a transition between two of them, the unknown that defines where it is, and its value.
@@ -152,11 +151,7 @@ fn defining(
                 return Some((after, Unknown::Force(j), Value::Fixed));
             }
             // the tip in a notch lies down on a wall, and parts into two contacts
-            let (notch, t) = (before.configuration.contacts.last()?.stretch, n.checked_sub(1)?);
-            let wall = after.configuration.contacts.get(t)?.stretch;
-            let upper = world.neighbour(notch, false) == Some(wall);
-            let is_wall = world.is_notch(notch) && world.walls(notch).contains(&Some(wall));
-            is_wall.then_some((before, Unknown::Slope(t), Value::Wall { wall, upper }))
+            on_wall(world, &before.configuration).map(|(unknown, value)| (before, unknown, value))
         }
         EventKind::Release => {
             if let Some(j) = without_force(&before.configuration) {
@@ -192,19 +187,40 @@ fn at_border(world: &World<'_>, configuration: &Configuration) -> Option<(usize,
     })
 }
 
-/// The same where the rod jumps, with the row of d tau: at a border that the tip slips over, or at a fold.
-fn of_jump(world: &World<'_>, before: Restored, rate: Pose) -> Option<(Restored, Value, SmallVec<[f64; 25]>, f64)> {
-    if let Some((j, value)) = at_border(world, &before.configuration) {
-        let (row, by_value) = row(&before, rate, Unknown::Parameter(j))?;
-        return Some((before, value, row, by_value));
+/// The wall that a rod with its tip in a notch lies on, if it does.
+fn on_wall(world: &World<'_>, configuration: &Configuration) -> Option<(Unknown, Value)> {
+    let last = configuration.count().checked_sub(1).filter(|last| configuration.is_tip(*last))?;
+    let notch = configuration.contacts[last].stretch;
+    let lies_on = |(wall, upper): (Option<usize>, bool)| {
+        let wall = wall.filter(|_| world.is_notch(notch))?;
+        let alpha = world.support(wall, world.border(wall, upper)).alpha;
+        let angle = configuration.slope(last) - alpha;
+        (angle.sin().abs() < LOCATED).then_some((Unknown::Slope(last), Value::Wall { wall, upper }))
+    };
+    world.walls(notch).into_iter().zip([true, false]).find_map(lies_on)
+}
+
+/// The last contact where it is tangential and at s = 1.
+fn at_tip(configuration: &Configuration) -> Option<(Unknown, Value)> {
+    let last = configuration.count().checked_sub(1).filter(|last| !configuration.is_tip(*last))?;
+    let is_at_tip = (configuration.s(last) - 1.0).abs() < LOCATED;
+    is_at_tip.then_some((Unknown::ArcLength(last), Value::Fixed))
+}
+
+/// The same where the rod jumps, with the row of d tau: where no contact set goes on after a transition, or at a fold.
+fn of_jump(world: &World<'_>, before: Restored, rate: Pose) -> Option<(Restored, Value, PathRow)> {
+    let configuration = &before.configuration;
+    let located = at_border(world, configuration)
+        .map(|(j, value)| (Unknown::Parameter(j), value))
+        .or_else(|| on_wall(world, configuration))
+        .or_else(|| at_tip(configuration));
+    if let Some((unknown, value)) = located {
+        let row = row(&before, rate, unknown)?;
+        return Some((before, value, row));
     }
-    // Any unknown that changes along the branch will do: the fold's own equation does not depend on it. The one along which the
-    // path parameter changes least is the one that changes most.
-    let size = before.configuration.of_contacts().len();
+    // At a fold any unknown that changes along the branch will do.
+    let size = configuration.of_contacts().len();
     let rows = (0..size).filter_map(|unknown| before.linear.path_row(rate, unknown));
-    let (row, by_value) = rows.min_by(|one, other| {
-        let length = |row: &Row| row.0.iter().map(|v| v.abs()).sum::<f64>();
-        length(one).total_cmp(&length(other))
-    })?;
-    (by_value.abs() < STATIONARY).then_some((before, Value::Fold, row, 0.0))
+    let row = rows.min_by(|one, other| one.condition.total_cmp(&other.condition))?;
+    (row.by_value.abs() < STATIONARY && row.condition < MOST_CONDITION).then_some((before, Value::Fold, row))
 }

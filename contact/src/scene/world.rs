@@ -145,7 +145,8 @@ impl<'a> World<'a> {
 
     /// The number of the stretch of an object that is of this kind.
     pub fn find(&self, object: usize, kind: StretchKind) -> Option<usize> {
-        Some(self.first[object] + self.objects.get(object)?.find(kind)?)
+        let stretch = self.objects.get(object)?.find(kind)?;
+        Some(self.first[object] + stretch)
     }
 
     /// Whether the shape of a piece of an object has a parameter of this name.
