@@ -4,7 +4,7 @@
 //! solution itself: that of the last Newton step belongs to the point before it, and is as inexact as that step is long.
 
 use crate::linear::{invert, multiply};
-use crate::multipoint::{Hold, MultiPoint, Nodes, Supports};
+use crate::multipoint::{Hold, MultiPoint, Node, Supports};
 use crate::newton::System;
 use crate::pose::{Pose, Reactions};
 use crate::segment::Sensitivities;
@@ -44,7 +44,7 @@ pub struct Response {
     /// Of the reactions at the clamp.
     pub reactions: Reactions,
     /// Of the contacts, from the clamp to the tip.
-    pub contacts: SmallVec<[ContactRate; 8]>,
+    pub contacts: Vec<ContactRate>,
 }
 
 /// How the path parameter changes at a point of the path that one more equation defines.
@@ -84,15 +84,22 @@ type Vector = SmallVec<[f64; 25]>;
 #[derive(Clone, Debug)]
 pub struct Linearisation {
     clamp: Pose,
-    nodes: Nodes,
-    tangent: SmallVec<[bool; 8]>,
-    sensitivities: SmallVec<[Sensitivities; 8]>,
+    // On the heap: what is this large and moved costs more to copy than to allocate.
+    held: Vec<Held>,
     residual: Vector,
-    jacobian: SmallVec<[f64; 36]>,
-    inverse: SmallVec<[f64; 36]>,
+    jacobian: Vec<f64>,
+    inverse: Vec<f64>,
     /// Condition number; infinite where there is no inverse.
     condition: f64,
     weights: Vector,
+}
+
+/// A support with what is ahead of it, and the segment before it.
+#[derive(Clone, Debug)]
+struct Held {
+    node: Node,
+    tangent: bool,
+    segment: Sensitivities,
 }
 
 /// How a support moves in all, with what its contact does on it.
@@ -110,24 +117,18 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         let nodes = self.nodes(u);
         let (count, size) = (nodes.len(), self.dimension());
         let mut residual = Vector::from_elem(0.0, size);
-        let mut jacobian = SmallVec::from_elem(0.0, size * size);
-        let sensitivities = (0..count).map(|j| self.segment(&nodes, j, &mut residual, &mut jacobian, size)).collect();
-        let tangent = (0..count).map(|j| self.supports.hold(j) != Hold::Tip).collect();
+        let mut jacobian = vec![0.0; size * size];
+        let mut held = Vec::with_capacity(count);
+        for (j, node) in nodes.iter().enumerate() {
+            let segment = self.segment(&nodes, j, &mut residual, &mut jacobian, size);
+            held.push(Held { node: *node, tangent: self.supports.hold(j) != Hold::Tip, segment });
+        }
         let mut weights = Vector::from_elem(1.0, size);
         self.weights(u, &mut weights);
-        let mut inverse = SmallVec::from_elem(0.0, size * size);
+        let mut inverse = vec![0.0; size * size];
         let regular = invert(size, &jacobian, &mut inverse);
-        let mut linear = Linearisation {
-            clamp: self.clamp,
-            nodes,
-            tangent,
-            sensitivities,
-            residual,
-            jacobian,
-            inverse,
-            condition: f64::INFINITY,
-            weights,
-        };
+        let mut linear =
+            Linearisation { clamp: self.clamp, held, residual, jacobian, inverse, condition: f64::INFINITY, weights };
         if regular {
             linear.condition = weighted_condition(&linear.jacobian, &linear.inverse, &linear.weights);
         }
@@ -157,17 +158,9 @@ impl Linearisation {
         }
         let mut unknowns = Vector::from_elem(0.0, rates.len());
         multiply(&self.inverse, &rates, -1.0, &mut unknowns);
-        // The inverse has its own rounding: one correction.
-        let mut left = rates;
-        for (column, v) in self.jacobian.chunks_exact(unknowns.len().max(1)).zip(&unknowns) {
-            left.iter_mut().zip(column).for_each(|(left, entry)| *left += entry * v);
-        }
-        let mut correction = Vector::from_elem(0.0, left.len());
-        multiply(&self.inverse, &left, -1.0, &mut correction);
-        unknowns.iter_mut().zip(&correction).for_each(|(v, correction)| *v += correction);
         let nodes = self.node_rates(supports, Some(&unknowns));
         let reactions = nodes.first().map_or_else(Reactions::default, |first| {
-            let (node, moves) = (&self.nodes[0], first.contact);
+            let (node, moves) = (&self.held[0].node, first.contact);
             let (dx, dy) = (self.clamp.x - node.at.x, self.clamp.y - node.at.y);
             let kappa =
                 first.kappa + first.a * dx + node.a * (clamp.x - moves.x) + first.b * dy + node.b * (clamp.y - moves.y);
@@ -182,7 +175,7 @@ impl Linearisation {
     ///
     /// Unknowns are counted as in [`MultiPoint`]. None where the bordered matrix has no inverse.
     pub fn path_row(&self, path: Pose, unknown: usize) -> Option<PathRow> {
-        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.nodes.len());
+        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.held.len());
         let by_path = self.residual_rates(path, &still)?;
         let (size, whole) = (by_path.len(), by_path.len() + 1);
         let mut bordered = SmallVec::<[f64; 64]>::from_elem(0.0, whole * whole);
@@ -206,13 +199,13 @@ impl Linearisation {
     /// The change of the residual, at fixed unknowns, when clamp and supports move like this; none where there is not one rate for
     /// each support.
     pub fn residual_rates(&self, clamp: Pose, supports: &[SupportRate]) -> Option<SmallVec<[f64; 25]>> {
-        if supports.len() != self.nodes.len() {
+        if supports.len() != self.held.len() {
             return None;
         }
         let nodes = self.node_rates(supports, None);
         let mut rates = Vector::with_capacity(3 * nodes.len());
         let mut target = [clamp.x, clamp.y, clamp.phi];
-        for (NodeRate { contact, a, b, kappa }, d) in nodes.iter().zip(&self.sensitivities) {
+        for (NodeRate { contact, a, b, kappa }, Held { segment: d, .. }) in nodes.iter().zip(&self.held) {
             let start = [contact.x, contact.y, 0.0];
             rates.extend((0..3).map(|i| {
                 let end = start[i] + contact.phi * d.by_phi[i] + kappa * d.by_kappa[i] + a * d.by_a[i] + b * d.by_b[i];
@@ -224,13 +217,13 @@ impl Linearisation {
     }
 
     /// How the supports move, and force and curvature with them; with the rates of the unknowns, if any, how the contacts do.
-    fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> SmallVec<[NodeRate; 8]> {
-        let mut rates: SmallVec<[NodeRate; 8]> = SmallVec::new();
-        for (j, (node, moves)) in self.nodes.iter().zip(supports).enumerate() {
+    fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
+        let mut rates: Vec<NodeRate> = Vec::with_capacity(supports.len());
+        for (j, (Held { node, tangent, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
             let [t, force, third] = unknowns.map_or([0.0; 3], |u| [u[3 * j], u[3 * j + 1], u[3 * j + 2]]);
             let along = node.at.speed * t;
             let alpha = moves.alpha + node.at.turning * t;
-            let (phi, s) = if self.tangent[j] { (alpha, third) } else { (third, 0.0) };
+            let (phi, s) = if *tangent { (alpha, third) } else { (third, 0.0) };
             let (x, y) = (moves.x + along * node.cos, moves.y + along * node.sin);
             let turned = node.force * alpha;
             rates.push(NodeRate {
@@ -241,7 +234,7 @@ impl Linearisation {
             });
         }
         for j in (1..rates.len()).rev() {
-            let (ahead, node, before) = (rates[j], &self.nodes[j], &self.nodes[j - 1]);
+            let (ahead, node, before) = (rates[j], &self.held[j].node, &self.held[j - 1].node);
             let (dx, dy) = (before.at.x - node.at.x, before.at.y - node.at.y);
             let rate = &mut rates[j - 1];
             let (x, y) = (rate.contact.x - ahead.contact.x, rate.contact.y - ahead.contact.y);
