@@ -18,6 +18,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::hint::black_box;
 use std::process::{Command, ExitCode};
+use vibrissa::contact::Derivatives;
 use vibrissa::reconstruct::single;
 use vibrissa::rod::{NewtonWorkspace, advance, advance_with_sensitivities, walk};
 use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, Sweep};
@@ -100,6 +101,17 @@ fn works() -> Vec<Work> {
         works.push(Work::new(format!("warm solve of {phase}"), [1, 9], move |times| {
             let (cases, mut u, mut workspace) = (&solves::warm()[index], Vec::new(), NewtonWorkspace::new());
             (0..times).map(|_| solves::solve_all(cases, &mut u, &mut workspace)).sum()
+        }));
+    }
+    for phase in PHASES {
+        works.push(Work::new(format!("stiffness of the clamp in {phase}"), [1, 9], move |times| {
+            let contour = OBJECTS[0].contour();
+            let states = sweep(&contour, path(0.4, 0.8, -0.9), 1701).states;
+            let states: Vec<_> = states.iter().filter(|state| state.phase().to_string() == phase).collect();
+            for state in states.iter().cycle().take(times * states.len()) {
+                black_box(Derivatives::new(&rod(), &contour, black_box(state)).unwrap().stiffness().unwrap());
+            }
+            times * states.len()
         }));
     }
     for contacts in [1, 8] {

@@ -4,6 +4,7 @@
 mod allocation;
 mod common;
 mod convergence;
+mod derivatives;
 mod equilibrium;
 mod flat;
 mod follow_contour;

@@ -57,11 +57,33 @@ pub enum ContactError {
         /// Where the clamp is in the state.
         state: Pose,
     },
-    /// A state to go on from is none of this rod on these objects.
+    /// A state is none of this rod on these objects.
     #[error("the state is no equilibrium of this rod on these objects: {reason}; expected a state of a sweep of them")]
     NotEquilibrium {
         /// What is wrong with it.
         reason: &'static str,
+    },
+    /// A state where the equilibrium ends, or so near to it that derivatives have no digits.
+    #[error(
+        "the equilibrium has no derivatives: it is at a fold, or two contacts hold the rod at one place (condition number {condition:e}); take a state before it, or the derivatives of the pose of the event"
+    )]
+    Fold {
+        /// Condition number of the equations.
+        condition: f64,
+    },
+    /// A quantity that does not exist.
+    #[error("there is no {what}")]
+    NoQuantity {
+        /// Which quantity.
+        what: String,
+    },
+    /// A transition whose pose no single equation defines.
+    #[error(
+        "no single regular equation defines the pose of this {event}; differentiate the states on either side of it"
+    )]
+    NoCondition {
+        /// The kind of the transition, by its name.
+        event: String,
     },
     /// The distance between reported states is no distance, or so small that the path has more than 1e15 of them.
     #[error("step is {value}, expected a positive, finite length, not below 1e-15 of the path")]

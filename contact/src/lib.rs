@@ -18,6 +18,7 @@
 
 mod contact_set;
 mod continuation;
+mod derivatives;
 mod equilibrium;
 mod error;
 mod event;
@@ -32,6 +33,7 @@ mod sweep;
 #[cfg(feature = "serde")]
 mod unbounded;
 
+pub use derivatives::{Derivatives, Quantity, TransitionDerivatives};
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};

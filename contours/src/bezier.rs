@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::cubic::{Cubic, nearest, roots};
 use crate::trust::{Seal, Trust};
 use crate::vector::{between, cross, dot, minus, scaled};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check, cuts};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, angle, check, cuts};
 
 /// Smallest speed accepted, relative to the largest: below it the curve turns round within 1e-6 of its length, and
 /// nothing that bends can follow.
@@ -24,6 +24,8 @@ const THIRDS: usize = 40;
 /// rounding. The bounds are exact, and so are the cuts at inflections.
 ///
 /// Alpha starts between -pi and pi and is continuous along the whole curve, loops included, and beyond its ends.
+///
+/// Parameters of [`frame_rate`](Contour::frame_rate): the coordinates of the control points, `x0`, `y0`, `x1`, ..., `y3`.
 ///
 /// ```
 /// use rod_contours::{Bezier, Contour};
@@ -194,6 +196,26 @@ impl Contour for Bezier {
 
     fn closest_is_exact(&self) -> bool {
         true
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        let (axis, point) = parameter.split_at_checked(1)?;
+        let u = 1.0 - t;
+        // the Bernstein polynomial of the control point, and its derivative
+        let (weight, slope) = match point {
+            "0" => (u * u * u, -3.0 * u * u),
+            "1" => (3.0 * t * u * u, 3.0 * u * (u - 2.0 * t)),
+            "2" => (3.0 * t * t * u, 3.0 * t * (2.0 * u - t)),
+            "3" => (t * t * t, 3.0 * t * t),
+            _ => return None,
+        };
+        let [_, [dx, dy], _] = self.derivatives(t);
+        let square = dx * dx + dy * dy;
+        match axis {
+            "x" => Some(FrameRate { x: weight, y: 0.0, alpha: -dy * slope / square }),
+            "y" => Some(FrameRate { x: 0.0, y: weight, alpha: dx * slope / square }),
+            _ => None,
+        }
     }
 
     fn trust(&self, _: Seal) -> Trust {

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::span::Span;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, curvature, cuts};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check, curvature, cuts};
 
 /// Rounding of the curvature, relative.
 const CURVATURE_ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -16,6 +16,8 @@ const CURVATURE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 ///
 /// The parameter is the arc length, from 0. The gap's absolute error is that of the coordinates relative to the centre and
 /// of the radius. All points are equally near to the centre itself; it gets the middle of the arc.
+///
+/// Parameters of [`frame_rate`](Contour::frame_rate): `center_x`, `center_y`, `radius`.
 ///
 /// ```
 /// use std::f64::consts::PI;
@@ -143,6 +145,21 @@ impl Contour for CircularArc {
 
     fn closest_is_exact(&self) -> bool {
         true
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        match parameter {
+            "center_x" => Some(FrameRate::ALONG_X),
+            "center_y" => Some(FrameRate::ALONG_Y),
+            "radius" => {
+                // the same way along a larger circle is a smaller angle
+                let turn = -self.span.sign() * t / (self.radius * self.radius);
+                let (sin, cos) = self.span.at(t, self.radius).sin_cos();
+                let along = self.radius * turn;
+                Some(FrameRate { x: cos - along * sin, y: sin + along * cos, alpha: turn })
+            }
+            _ => None,
+        }
     }
 
     fn trust(&self, _: Seal) -> Trust {

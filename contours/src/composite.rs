@@ -9,7 +9,8 @@ use crate::piece::Piece;
 use crate::run::{self, Run, Stored};
 use crate::shared::owned;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Part, Range, Stretch, StretchKind, curvature};
+use crate::vertex_rate::VertexRate;
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Part, Range, Stretch, StretchKind, curvature};
 
 /// Pieces in order, with the solid on the left, as one contour with one parameter.
 ///
@@ -204,6 +205,64 @@ impl Composite {
             At::Piece(piece) => piece.own_frame(u),
             At::Joint(joint) => joint.frame(u),
         }
+    }
+
+    /// The change of [`own_frame`](Self::own_frame) with a [parameter](Contour::frame_rate) of the shape of `piece`, all other
+    /// pieces staying as they are; none where there is no such piece, or its shape has no such parameter.
+    ///
+    /// A vertex is the point where the two pieces, continued, cross. At a vertex the frame turns by nothing: its own parameter
+    /// is the angle.
+    pub fn own_frame_rate(&self, stretch: usize, u: f64, piece: usize, parameter: &str) -> Option<FrameRate> {
+        let shape = &self.pieces.get(piece)?.shape;
+        let (at, is_joint) = self.place(self.known(stretch));
+        if !is_joint {
+            let rate = shape.frame_rate(u, parameter)?;
+            return Some(if at == piece { rate } else { FrameRate::ZERO });
+        }
+        let [x, y] = self.vertex_rate(at, piece, parameter)?.point;
+        Some(FrameRate { x, y, alpha: 0.0 })
+    }
+
+    /// The change of the upper or lower end of [`own_range`](Self::own_range) with a parameter of the shape of `piece`; none as
+    /// for [`own_frame_rate`](Self::own_frame_rate), and where the piece has no vertex there.
+    pub fn own_border_rate(&self, stretch: usize, upper: bool, piece: usize, parameter: &str) -> Option<f64> {
+        let (at, is_joint) = self.place(self.known(stretch));
+        if is_joint {
+            let [before, after] = self.vertex_rate(at, piece, parameter)?.alphas;
+            // The own parameter of a joint begins with 0 at the angle where the piece before it ends.
+            return Some(self.pieces[at].turn().signum() * if upper { after } else { before });
+        }
+        let before = if upper { at } else { self.piece_before(at)? };
+        let ends = self.vertex_rate(before, piece, parameter)?.ends;
+        Some(if upper { ends[0] } else { ends[1] })
+    }
+
+    /// The change of the vertex after the piece `before`.
+    fn vertex_rate(&self, before: usize, piece: usize, parameter: &str) -> Option<VertexRate> {
+        let pieces = [before, (before + 1) % self.pieces.len()];
+        if !self.pieces[before].has_joint() {
+            return None;
+        }
+        let [one, other] = pieces.map(|number| &self.pieces[number]);
+        let rate = |number: usize, t: f64| {
+            let rate = self.pieces.get(piece)?.shape.frame_rate(t, parameter)?;
+            Some(if number == piece { rate } else { FrameRate::ZERO })
+        };
+        let rates = [rate(pieces[0], one.range.to)?, rate(pieces[1], other.range.from)?];
+        Some(VertexRate::new(one, other, rates))
+    }
+
+    fn piece_before(&self, piece: usize) -> Option<usize> {
+        piece.checked_sub(1).or_else(|| self.is_closed().then(|| self.pieces.len() - 1))
+    }
+
+    /// Index of the stretch of this kind; none where there is no such piece, or no such joint after it.
+    pub fn find(&self, kind: StretchKind) -> Option<usize> {
+        let (StretchKind::Piece(index) | StretchKind::Corner { before: index } | StretchKind::Notch { before: index }) =
+            kind;
+        let piece = self.pieces.get(index)?;
+        let stretch = piece.stretch as usize + usize::from(!matches!(kind, StretchKind::Piece(_)));
+        (stretch < self.order.len() && self.kind(stretch) == kind).then_some(stretch)
     }
 
     /// Change of a stretch's own parameter per length of the contour, about its middle and rounded to a power of two; none for

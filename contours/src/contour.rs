@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Frame, Range, curvature, cuts, search};
+use crate::{Bounds, Closest, Frame, FrameRate, Range, curvature, cuts, search};
 
 /// The border of a solid in the plane, travelled with the solid on its left.
 ///
@@ -35,6 +35,8 @@ use crate::{Bounds, Closest, Frame, Range, curvature, cuts, search};
 /// 11. [`curvature_in`](Self::curvature_in) contains the curvature everywhere in the range.
 /// 12. Where [`closest_is_exact`](Self::closest_is_exact), no point of any part is nearer than the closest point of that
 ///     part, to rounding.
+/// 13. Where [`frame_rate`](Self::frame_rate) knows a parameter, its alpha is the angle by which its point turns the tangent:
+///     `normal . d(x, y)/dt = speed alpha`.
 ///
 /// ```
 /// use rod_contours::{Contour, Frame, contract};
@@ -140,6 +142,17 @@ pub trait Contour: Send + Sync + Debug {
         false
     }
 
+    /// How the frame at `t` changes with a parameter of the shape, given by its name, at this fixed `t`; none where the shape has
+    /// no such parameter.
+    ///
+    /// By default none. With it a solver knows the derivatives of its results by the parameter. The rate is exact, not a
+    /// difference. The names are the shape's own and belong to its documentation. Where the range depends on the parameter, a
+    /// composite takes an inner end for the point where the two pieces, continued, cross.
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        let _ = (t, parameter);
+        None
+    }
+
     /// What of the contract need not be tested when the shape becomes a piece of a composite. For shapes of this crate alone:
     /// others cannot name the argument, and are tested.
     #[doc(hidden)]
@@ -194,6 +207,10 @@ macro_rules! behind_pointer {
 
             fn closest_is_exact(&self) -> bool {
                 (**self).closest_is_exact()
+            }
+
+            fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+                (**self).frame_rate(t, parameter)
             }
 
             fn trust(&self, seal: Seal) -> Trust {

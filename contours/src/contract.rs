@@ -291,6 +291,30 @@ pub fn check(shape: &dyn Contour, samples: &[f64]) -> Result<(), String> {
     c11_curvature(shape, shape.range())
 }
 
+/// 13: where the shape knows the parameter, the rate's alpha is the angle by which its point turns the tangent, by differences over
+/// 1e-6 of the range. Not part of [`check`], which does not know the names of parameters. It does not see a rate that is wrong
+/// along the contour, or by a constant: compare with a shape whose parameter differs, too.
+pub fn c13_frame_rate(shape: &dyn Contour, parameter: &str, t: f64) -> Result<(), String> {
+    let step = STEP * shape.range().window(WINDOW).length();
+    let Range { from, to } = Range { from: t - step, to: t + step };
+    let Some(rates) = [from, t, to].map(|t| shape.frame_rate(t, parameter)).into_iter().collect::<Option<Vec<_>>>()
+    else {
+        return Err(format!("13: the shape does not know the parameter {parameter:?} at t = {t}"));
+    };
+    let [before, here, after] = [rates[0], rates[1], rates[2]];
+    let frame = shape.frame(t);
+    let (nx, ny) = frame.normal();
+    let turned = (nx * (after.x - before.x) + ny * (after.y - before.y)) / (to - from);
+    let expected = frame.speed * here.alpha;
+    let size = [here.x, here.y, here.alpha].into_iter().fold(frame.speed, |most: f64, v| most.max(v.abs()));
+    let accepted = 1e3 * RATE * size * (1.0 + frame.turning.abs());
+    holds((turned - expected).abs() <= accepted, || {
+        format!(
+            "13: at t = {t} the rates of the point by {parameter:?} turn the tangent by {turned}, its alpha by {expected}"
+        )
+    })
+}
+
 /// The parameters of 257 samples of a range, ends included.
 fn spread(range: Range) -> impl Iterator<Item = f64> {
     let window = range.window(WINDOW);

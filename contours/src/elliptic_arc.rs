@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::closest::gap;
 use crate::span::Span;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, curvature, ellipse};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check, curvature, ellipse};
 
 /// Smallest distance of a cut from an end of the range, relative to the angles: nearer ones are the end itself, rounded.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -19,6 +19,8 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// convex function, approached from one side) and is exact to rounding for ratios of the radii from 1e-6 to 1e6, as are
 /// the gap and the bounds, relative to the coordinates. On the major axis between the centres of curvature of its ends two
 /// points are equally near; of a whole ellipse that is not rotated the one above (or to the right) is given.
+///
+/// Parameters of [`frame_rate`](Contour::frame_rate): `center_x`, `center_y`, `first_radius`, `second_radius`, `rotation`.
 ///
 /// ```
 /// use std::f64::consts::TAU;
@@ -233,6 +235,21 @@ impl Contour for EllipticArc {
 
     fn closest_is_exact(&self) -> bool {
         true
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        let (frame, [cos, sin]) = self.frame_and_angle(t);
+        let [a, b] = self.radii;
+        // the tangent is along (-a sin, b cos), either way
+        let turn = sin * cos / (frame.speed * frame.speed);
+        match parameter {
+            "center_x" => Some(FrameRate::ALONG_X),
+            "center_y" => Some(FrameRate::ALONG_Y),
+            "first_radius" => Some(FrameRate { x: cos * self.axis[0], y: cos * self.axis[1], alpha: b * turn }),
+            "second_radius" => Some(FrameRate { x: -sin * self.axis[1], y: sin * self.axis[0], alpha: -a * turn }),
+            "rotation" => Some(FrameRate::rotation([frame.x - self.center[0], frame.y - self.center[1]])),
+            _ => None,
+        }
     }
 
     fn trust(&self, _: Seal) -> Trust {

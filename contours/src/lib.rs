@@ -35,6 +35,7 @@ mod error;
 #[cfg(feature = "files")]
 pub mod file;
 mod frame;
+mod frame_rate;
 mod function;
 mod graph;
 mod index;
@@ -65,6 +66,7 @@ mod taken_apart;
 mod trimmed;
 mod trust;
 mod vector;
+mod vertex_rate;
 
 pub use bezier::Bezier;
 pub use bounds::Bounds;
@@ -76,6 +78,7 @@ pub use curve::Curve;
 pub use elliptic_arc::EllipticArc;
 pub use error::{Broken, ContourError};
 pub use frame::Frame;
+pub use frame_rate::FrameRate;
 pub use graph::Graph;
 pub use index::Index;
 pub use jet::{DualNum, Jet};

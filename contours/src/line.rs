@@ -2,13 +2,15 @@
 
 use crate::closest::gap;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.
 ///
 /// The parameter is the arc length, from 0 to the distance of the two points. Both ends come out exactly, so lines that
 /// share a point meet to the last bit. The closest point is the projection; it and the gap are exact to rounding, relative
 /// to the distance from the nearer end. The angle alpha is between -pi and pi.
+///
+/// Parameters of [`frame_rate`](Contour::frame_rate): `from_x`, `from_y`, `to_x`, `to_y`.
 ///
 /// ```
 /// use rod_contours::{Contour, Line};
@@ -126,6 +128,27 @@ impl Contour for Line {
 
     fn closest_is_exact(&self) -> bool {
         true
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        let (length, [cos, sin]) = self.measured();
+        // An end that moves across the line turns it about the other end; along the line it changes nothing at a fixed distance
+        // from the first point, which moves with its end.
+        let across = t / length;
+        let second =
+            |normal: f64| FrameRate { x: -sin * normal * across, y: cos * normal * across, alpha: normal / length };
+        let first = |dx: f64, dy: f64| {
+            let (ahead, normal) = (dx * cos + dy * sin, dy * cos - dx * sin);
+            let left = normal * (1.0 - across);
+            FrameRate { x: ahead * cos - left * sin, y: ahead * sin + left * cos, alpha: -normal / length }
+        };
+        match parameter {
+            "from_x" => Some(first(1.0, 0.0)),
+            "from_y" => Some(first(0.0, 1.0)),
+            "to_x" => Some(second(-sin)),
+            "to_y" => Some(second(cos)),
+            _ => None,
+        }
     }
 
     fn trust(&self, _: Seal) -> Trust {

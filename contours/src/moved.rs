@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Motion, Range, cuts};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Motion, Range, cuts};
 
 /// A shape after a [`Motion`].
 ///
@@ -11,6 +11,9 @@ use crate::{Bounds, Closest, Contour, ContourError, Frame, Motion, Range, cuts};
 /// stays on its left. Closest points and bounds are those of the shape, seen through the inverse motion, as exact as
 /// they are there; the bounds are the box around the shape's own box, wider than the moved shape unless the rotation is by
 /// quarters, and the whole plane where the shape's box is infinite.
+///
+/// Parameters of [`frame_rate`](Contour::frame_rate): `rotation`, `translation_x`, `translation_y` and `scale` of the motion, and
+/// those of the shape with other names.
 ///
 /// ```
 /// use std::f64::consts::FRAC_PI_2;
@@ -140,6 +143,29 @@ impl<C: Contour> Contour for Moved<C> {
 
     fn closest_is_exact(&self) -> bool {
         self.shape.closest_is_exact()
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        let Motion { translation, scale, mirror, .. } = self.motion;
+        let from_pivot = || {
+            let Frame { x, y, .. } = self.frame(t);
+            [x - translation[0], y - translation[1]]
+        };
+        match parameter {
+            "translation_x" => Some(FrameRate::ALONG_X),
+            "translation_y" => Some(FrameRate::ALONG_Y),
+            "rotation" => Some(FrameRate::rotation(from_pivot())),
+            "scale" => {
+                let [dx, dy] = from_pivot();
+                Some(FrameRate { x: dx / scale, y: dy / scale, alpha: 0.0 })
+            }
+            of_the_shape => {
+                let FrameRate { x, y, alpha } = self.shape.frame_rate(self.parameter(t), of_the_shape)?;
+                let turned = Motion { translation: [0.0, 0.0], ..self.motion };
+                let [x, y] = turned.apply_with(self.axis, [x, y]);
+                Some(FrameRate { x, y, alpha: if mirror { -alpha } else { alpha } })
+            }
+        }
     }
 
     fn trust(&self, seal: Seal) -> Trust {

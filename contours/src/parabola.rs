@@ -2,7 +2,7 @@
 
 use crate::closest::gap;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check, curvature};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check, curvature};
 
 /// Rounding of the curvature, relative.
 const CURVATURE_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -25,6 +25,8 @@ const NEAR: f64 = 0.25;
 /// place of `t` (relative to the distance from the vertex), except near the focal curve, where the closest point itself is
 /// ill-defined; the gap's absolute error is that of the coordinates. On the axis beyond the centre of curvature, where two
 /// points are equally near, the one on the right is given.
+///
+/// Parameters of [`frame_rate`](Contour::frame_rate): `vertex_x`, `vertex_y`, `coefficient`.
 ///
 /// ```
 /// use rod_contours::{Contour, Parabola};
@@ -185,6 +187,18 @@ impl Contour for Parabola {
 
     fn closest_is_exact(&self) -> bool {
         true
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        match parameter {
+            "vertex_x" => Some(FrameRate::ALONG_X),
+            "vertex_y" => Some(FrameRate::ALONG_Y),
+            "coefficient" => {
+                let tangent = 2.0 * self.coefficient * t;
+                Some(FrameRate { x: 0.0, y: t * t, alpha: 2.0 * t / (1.0 + tangent * tangent) })
+            }
+            _ => None,
+        }
     }
 
     fn trust(&self, _: Seal) -> Trust {

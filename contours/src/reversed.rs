@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, Frame, Range, cuts};
+use crate::{Bounds, Closest, Contour, Frame, FrameRate, Range, cuts};
 
 /// The same curve travelled the other way, by `-t`: solid and outside are exchanged.
 ///
@@ -84,6 +84,10 @@ impl<C: Contour> Contour for Reversed<C> {
 
     fn closest_is_exact(&self) -> bool {
         self.shape.closest_is_exact()
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        self.shape.frame_rate(-t, parameter)
     }
 
     fn trust(&self, seal: Seal) -> Trust {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::contour::behind_pointer;
 use crate::piece::Piece;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, Frame, Range};
+use crate::{Bounds, Closest, Contour, Frame, FrameRate, Range};
 
 /// The shape of one of the pieces.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! A part of a shape.
 
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// The part of a shape in a range of its parameter, which it keeps.
 ///
@@ -79,6 +79,10 @@ impl<C: Contour> Contour for Trimmed<C> {
 
     fn closest_is_exact(&self) -> bool {
         self.shape.closest_is_exact()
+    }
+
+    fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
+        self.shape.frame_rate(t, parameter)
     }
 
     fn trust(&self, seal: Seal) -> Trust {

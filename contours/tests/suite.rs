@@ -4,6 +4,7 @@
 mod bounds;
 mod composite;
 mod contract;
+mod frame_rates;
 mod limits;
 mod parabola;
 mod probe;

@@ -38,6 +38,8 @@ mod inflection;
 #[cfg(feature = "std")]
 mod linear;
 #[cfg(feature = "std")]
+mod linearisation;
+#[cfg(feature = "std")]
 mod loads;
 #[cfg(feature = "std")]
 mod multipoint;
@@ -70,6 +72,8 @@ pub use error::RodError;
 #[cfg(feature = "std")]
 pub use general::GeneralElastica;
 pub use inflection::inflection;
+#[cfg(feature = "std")]
+pub use linearisation::{ContactRate, Linearisation, PathRow, Response, SupportRate};
 #[cfg(feature = "std")]
 pub use loads::Load;
 #[cfg(feature = "std")]

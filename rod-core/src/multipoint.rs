@@ -17,7 +17,7 @@
 use crate::elastica::Elastica;
 use crate::newton::System;
 use crate::pose::Pose;
-use crate::segment::{Section, Segment, advance, advance_with_sensitivities};
+use crate::segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
 use crate::units::Units;
 use smallvec::SmallVec;
 
@@ -88,20 +88,20 @@ pub struct MultiPoint<'a, S: ?Sized> {
 }
 
 /// One support and what is ahead of it.
-#[derive(Clone, Copy)]
-struct Node {
-    at: Support,
-    sin: f64,
-    cos: f64,
-    force: f64,
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub at: Support,
+    pub sin: f64,
+    pub cos: f64,
+    pub force: f64,
     /// Slope angle of the rod there.
-    phi: f64,
+    pub phi: f64,
     /// Arc length.
-    s: f64,
+    pub s: f64,
     /// Force on the segment before: sums over this support and all ahead.
-    a: f64,
-    b: f64,
-    kappa: f64,
+    pub a: f64,
+    pub b: f64,
+    pub kappa: f64,
 }
 
 impl Node {
@@ -110,11 +110,11 @@ impl Node {
     }
 }
 
-type Nodes = SmallVec<[Node; 8]>;
+pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized> MultiPoint<'_, S> {
     #[inline(always)]
-    fn nodes(&self, u: &[f64]) -> Nodes {
+    pub(crate) fn nodes(&self, u: &[f64]) -> Nodes {
         let n = self.supports.count();
         // in place, one by one: a list that is handed on is copied, and costs as much as a tenth of a solve
         let mut nodes = Nodes::new();
@@ -170,8 +170,16 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         residual[3 * j..3 * j + 3].copy_from_slice(&[end.x - x, end.y - y, end.phi - phi]);
     }
 
-    /// The three equations of segment j with their derivatives by all unknowns.
-    fn segment(&self, nodes: &Nodes, j: usize, residual: &mut [f64], matrix: &mut [f64], stride: usize) {
+    /// The three equations of segment j with their derivatives by all unknowns, and those of the segment.
+    #[inline(always)]
+    pub(crate) fn segment(
+        &self,
+        nodes: &Nodes,
+        j: usize,
+        residual: &mut [f64],
+        matrix: &mut [f64],
+        stride: usize,
+    ) -> Sensitivities {
         let node = &nodes[j];
         let (end, d) = advance_with_sensitivities(&node.section(), node.a, node.b, self.s_before(nodes, j) - node.s);
         self.residual_of(nodes, j, &end, residual);
@@ -215,6 +223,7 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
             put(3 * k + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i] + kappa_by_f * d.by_kappa[i]));
             put(3 * k + 2, [0.0; 3]);
         }
+        d
     }
 
     /// Curvature at the clamp: -m0z, by moment balance over all supports.

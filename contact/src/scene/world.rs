@@ -1,9 +1,9 @@
 //! The objects as the rod sees them: in lengths of the rod.
 
 use rod_contours::{
-    Bounds, Closest, Composite, Contour, Frame, Index, Part, Range, Run, RunClosest, RunEnd, StretchKind,
+    Bounds, Closest, Composite, Contour, Frame, FrameRate, Index, Part, Range, Run, RunClosest, RunEnd, StretchKind,
 };
-use rod_core::Support;
+use rod_core::{Support, SupportRate};
 use smallvec::SmallVec;
 
 /// Depth (L) to which there is solid behind an open contour. A step of the sweep moves no point of the rod as far; a rod that is
@@ -145,8 +145,30 @@ impl<'a> World<'a> {
 
     /// The number of the stretch of an object that is of this kind.
     pub fn find(&self, object: usize, kind: StretchKind) -> Option<usize> {
-        let stretch = self.objects.get(object)?.stretches().position(|stretch| stretch.kind == kind)?;
+        let stretch = self.objects.get(object)?.find(kind)?;
         Some(self.first[object] + stretch)
+    }
+
+    /// Whether the shape of a piece of an object has a parameter of this name.
+    pub fn has_parameter(&self, object: usize, piece: usize, parameter: &str) -> bool {
+        let own = self.objects.get(object).and_then(|object| Some((object, object.find(StretchKind::Piece(piece))?)));
+        own.is_some_and(|(object, own)| {
+            object.own_frame_rate(own, object.own_range(own).clamp(0.0), piece, parameter).is_some()
+        })
+    }
+
+    /// The change of [`support`](Self::support) at a fixed parameter with a parameter of the shape of a piece of the same object.
+    pub fn support_rate(&self, stretch: usize, t: f64, piece: usize, parameter: &str) -> Option<SupportRate> {
+        let (object, own) = self.at(stretch);
+        let unit = self.unit((object, own));
+        let FrameRate { x, y, alpha } = object.own_frame_rate(own, t * unit, piece, parameter)?;
+        Some(SupportRate { x: x / self.length, y: y / self.length, alpha })
+    }
+
+    /// The change of [`border`](Self::border) with a parameter of the shape of a piece of the same object.
+    pub fn border_rate(&self, stretch: usize, upper: bool, piece: usize, parameter: &str) -> Option<f64> {
+        let (object, own) = self.at(stretch);
+        Some(object.own_border_rate(own, upper, piece, parameter)? / self.unit((object, own)))
     }
 
     /// What of the contour's parameter counts as 1 here: of pieces about the rod's length, so that nothing depends on the unit

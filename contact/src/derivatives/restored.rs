@@ -1,0 +1,72 @@
+//! A state as the boundary-value problem that it solves.
+
+use crate::contact_set::{Configuration, Held, lying};
+use crate::error::ContactError;
+use crate::scene::world::World;
+use crate::state::{ContactKind, State};
+use rod_contours::StretchKind;
+use rod_core::{Hold, Linearisation, MultiPoint, Pose, Rod};
+
+/// Largest residual (L, rad) of a state that counts as an equilibrium. States of a sweep are within 1e-9.
+const LARGEST_RESIDUAL: f64 = 1e-8;
+
+/// A state's contact set with its unknowns, and its equations to first order.
+#[derive(Clone, Debug)]
+pub(crate) struct Restored {
+    pub configuration: Configuration,
+    pub linear: Linearisation,
+    /// The clamp, dimensionless.
+    pub clamp: Pose,
+}
+
+impl Restored {
+    pub fn new(rod: &Rod, world: &World<'_>, state: &State) -> Result<Self, ContactError> {
+        let configuration = configuration(rod, world, state)?;
+        let length = rod.length();
+        let clamp = Pose { x: state.pose.x / length, y: state.pose.y / length, phi: state.pose.phi };
+        let linear = {
+            let supports = configuration.supports(world);
+            MultiPoint { clamp, supports: &supports }.linearise(configuration.of_contacts())
+        };
+        let residual = linear.residual();
+        if residual.is_nan() || residual > LARGEST_RESIDUAL {
+            return Err(ContactError::NotEquilibrium { reason: "it does not solve their equations" });
+        }
+        Ok(Self { configuration, linear, clamp })
+    }
+}
+
+/// The contact set of a state with its unknowns.
+fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configuration, ContactError> {
+    let units = rod.units();
+    let shape = state
+        .elastica(rod)
+        .map_err(|_| ContactError::NotEquilibrium { reason: "the rod does not pass through its contacts" })?;
+    let mut configuration = Configuration::free(0.0);
+    for (j, contact) in state.contacts.iter().enumerate() {
+        let kind = match contact.kind {
+            ContactKind::Tangent | ContactKind::Tip => StretchKind::Piece(contact.piece),
+            ContactKind::Corner => StretchKind::Corner { before: contact.piece },
+            ContactKind::Notch => StretchKind::Notch { before: contact.piece },
+        };
+        let stretch = world.find(contact.object, kind).ok_or(ContactError::Guess {
+            index: j,
+            reason: "there is no such object, or it has no such piece or joint",
+        })?;
+        let phi = shape.at(contact.s).phi;
+        let (x, y) = (contact.x / units.length, contact.y / units.length);
+        let t = match contact.kind {
+            // the point does not tell the angle
+            ContactKind::Corner | ContactKind::Notch => {
+                let start = world.support(stretch, 0.0);
+                (contact.alpha - start.alpha) / start.turning
+            }
+            _ => world.foot(stretch, x, y).t,
+        };
+        let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
+        let alpha = world.support(stretch, t).alpha;
+        let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), contact.s / units.length) };
+        configuration.insert(j, Held { stretch, hold }, [t, contact.force / units.force, third]);
+    }
+    Ok(configuration)
+}

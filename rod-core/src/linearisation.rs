@@ -1,0 +1,339 @@
+//! The boundary-value problem about one of its solutions, to first order: how everything changes when clamp and supports move.
+//!
+//! F(u, p) = 0 gives du/dp = -(dF/du)^-1 dF/dp. The Jacobian dF/du and the sensitivities of the segments are computed once, at the
+//! solution itself: that of the last Newton step belongs to the point before it, and is as inexact as that step is long.
+
+use crate::linear::{invert, multiply};
+use crate::multipoint::{Hold, MultiPoint, Node, Supports};
+use crate::newton::System;
+use crate::pose::{Pose, Reactions};
+use crate::segment::Sensitivities;
+use smallvec::SmallVec;
+
+/// The change of a support's point and tangent angle per unit of something, at a fixed parameter of its curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SupportRate {
+    /// Of the position.
+    pub x: f64,
+    /// Of the position.
+    pub y: f64,
+    /// Of the tangent angle, radians.
+    pub alpha: f64,
+}
+
+/// The change of a contact of the rod with a support per unit of something.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactRate {
+    /// Of the position.
+    pub x: f64,
+    /// Of the position.
+    pub y: f64,
+    /// Of the tangent angle of the support's curve there, radians.
+    pub alpha: f64,
+    /// Of the slope angle of the rod there, radians.
+    pub phi: f64,
+    /// Of the arc length.
+    pub s: f64,
+    /// Of the force.
+    pub force: f64,
+}
+
+/// The change of a whole equilibrium per unit of something, dimensionless.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Response {
+    /// Of the reactions at the clamp.
+    pub reactions: Reactions,
+    /// Of the contacts, from the clamp to the tip.
+    pub contacts: Vec<ContactRate>,
+}
+
+/// How the path parameter changes at a point of the path that one more equation defines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathRow {
+    /// By the negative residual.
+    pub by_residual: SmallVec<[f64; 25]>,
+    /// By the value of the unknown that is given.
+    pub by_value: f64,
+    /// Condition number, as [`Linearisation::condition`].
+    pub condition: f64,
+}
+
+type Vector = SmallVec<[f64; 25]>;
+
+/// A [`MultiPoint`] problem to first order about a solution.
+///
+/// ```
+/// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, solve};
+/// // the tip of an upright rod just touches a frictionless wall x = 0.5
+/// struct Wall;
+/// impl Supports for Wall {
+///     fn count(&self) -> usize { 1 }
+///     fn hold(&self, _: usize) -> Hold { Hold::Tip }
+///     fn support(&self, _: usize, t: f64) -> Support {
+///         Support { x: 0.5, y: t, alpha: std::f64::consts::FRAC_PI_2, speed: 1.0, turning: 0.0 }
+///     }
+/// }
+/// let up = std::f64::consts::FRAC_PI_2;
+/// let problem = MultiPoint { clamp: Pose { x: 0.5, y: 0.0, phi: up }, supports: &Wall };
+/// let linear = problem.linearise(&[1.0, 0.0, up]);
+/// // moved towards the wall it is a cantilever: 3 E I / L^3
+/// let moved = linear.response(Pose { x: 1.0, y: 0.0, phi: 0.0 }, &[Default::default()]).ok_or("singular")?;
+/// assert!((moved.reactions.f0x - 3.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Linearisation {
+    clamp: Pose,
+    // On the heap: what is this large and moved costs more to copy than to allocate.
+    held: Vec<Held>,
+    residual: Vector,
+    jacobian: Vec<f64>,
+    inverse: Vec<f64>,
+    /// Condition number; infinite where there is no inverse.
+    condition: f64,
+    weights: Vector,
+}
+
+/// A support with what is ahead of it, and the segment before it.
+#[derive(Clone, Debug)]
+struct Held {
+    node: Node,
+    tangent: bool,
+    segment: Sensitivities,
+}
+
+/// How a support moves in all, with what its contact does on it.
+#[derive(Clone, Copy)]
+struct NodeRate {
+    contact: ContactRate,
+    a: f64,
+    b: f64,
+    kappa: f64,
+}
+
+impl<S: Supports + ?Sized> MultiPoint<'_, S> {
+    /// The problem to first order about the solution `u`: one Jacobian, one inverse.
+    pub fn linearise(&self, u: &[f64]) -> Linearisation {
+        let nodes = self.nodes(u);
+        let (count, size) = (nodes.len(), self.dimension());
+        let mut residual = Vector::from_elem(0.0, size);
+        let mut jacobian = vec![0.0; size * size];
+        let mut held = Vec::with_capacity(count);
+        for (j, node) in nodes.iter().enumerate() {
+            let segment = self.segment(&nodes, j, &mut residual, &mut jacobian, size);
+            held.push(Held { node: *node, tangent: self.supports.hold(j) != Hold::Tip, segment });
+        }
+        let mut weights = Vector::from_elem(1.0, size);
+        self.weights(u, &mut weights);
+        let mut inverse = vec![0.0; size * size];
+        let regular = invert(size, &jacobian, &mut inverse);
+        let mut linear =
+            Linearisation { clamp: self.clamp, held, residual, jacobian, inverse, condition: f64::INFINITY, weights };
+        if regular {
+            linear.condition = weighted_condition(&linear.jacobian, &linear.inverse, &linear.weights);
+        }
+        linear
+    }
+}
+
+impl Linearisation {
+    /// Condition number of the Jacobian in the 1-norm, with the unknowns in their natural sizes (a length of 1, a force of 4 (1 +
+    /// force), an angle of 1 rad): about the relative error of the derivatives over that of rounding, 1e-16. It is infinite where
+    /// the Jacobian has no inverse.
+    pub fn condition(&self) -> f64 {
+        self.condition
+    }
+
+    /// Largest residual of the equations; NaN where one is.
+    pub fn residual(&self) -> f64 {
+        self.residual.iter().fold(0.0, |most, r| if r.abs() > most || r.is_nan() { r.abs() } else { most })
+    }
+
+    /// The change of the equilibrium when clamp and supports move like this. None where the Jacobian has no inverse, or there is
+    /// not one rate for each support.
+    pub fn response(&self, clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
+        let rates = self.residual_rates(clamp, supports)?;
+        if !self.condition.is_finite() {
+            return None;
+        }
+        let mut unknowns = Vector::from_elem(0.0, rates.len());
+        multiply(&self.inverse, &rates, -1.0, &mut unknowns);
+        let nodes = self.node_rates(supports, Some(&unknowns));
+        let reactions = nodes.first().map_or_else(Reactions::default, |first| {
+            let (node, moves) = (&self.held[0].node, first.contact);
+            let (dx, dy) = (self.clamp.x - node.at.x, self.clamp.y - node.at.y);
+            let kappa =
+                first.kappa + first.a * dx + node.a * (clamp.x - moves.x) + first.b * dy + node.b * (clamp.y - moves.y);
+            Reactions { f0x: -first.b, f0y: first.a, m0z: -kappa }
+        });
+        Some(Response { reactions, contacts: nodes.into_iter().map(|node| node.contact).collect() })
+    }
+
+    /// The change of the path parameter, along which the clamp moves like `path`, at the point of the path where one unknown has a
+    /// given value, as a linear function of the [rates of the residual](Self::residual_rates): the last row of the inverse of the
+    /// Jacobian bordered by `path` and that unknown.
+    ///
+    /// Unknowns are counted as in [`MultiPoint`]. None where the bordered matrix has no inverse.
+    pub fn path_row(&self, path: Pose, unknown: usize) -> Option<PathRow> {
+        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.held.len());
+        let by_path = self.residual_rates(path, &still)?;
+        let (size, whole) = (by_path.len(), by_path.len() + 1);
+        let mut bordered = SmallVec::<[f64; 64]>::from_elem(0.0, whole * whole);
+        for (k, column) in self.jacobian.chunks_exact(size.max(1)).enumerate() {
+            bordered[k * whole..][..size].copy_from_slice(column);
+        }
+        bordered[size * whole..][..size].copy_from_slice(&by_path);
+        *bordered.get_mut(unknown * whole + size)? = 1.0;
+        let mut inverse = SmallVec::<[f64; 64]>::from_elem(0.0, whole * whole);
+        if unknown >= size || !invert(whole, &bordered, &mut inverse) {
+            return None;
+        }
+        let mut weights = self.weights.clone();
+        weights.push(1.0);
+        let condition = weighted_condition(&bordered, &inverse, &weights);
+        let mut by_residual: SmallVec<[f64; 25]> = inverse.chunks_exact(whole).map(|column| column[size]).collect();
+        let by_value = by_residual.pop()?;
+        Some(PathRow { by_residual, by_value, condition })
+    }
+
+    /// The change of the residual, at fixed unknowns, when clamp and supports move like this; none where there is not one rate for
+    /// each support.
+    pub fn residual_rates(&self, clamp: Pose, supports: &[SupportRate]) -> Option<SmallVec<[f64; 25]>> {
+        if supports.len() != self.held.len() {
+            return None;
+        }
+        let nodes = self.node_rates(supports, None);
+        let mut rates = Vector::with_capacity(3 * nodes.len());
+        let mut target = [clamp.x, clamp.y, clamp.phi];
+        for (NodeRate { contact, a, b, kappa }, Held { segment: d, .. }) in nodes.iter().zip(&self.held) {
+            let start = [contact.x, contact.y, 0.0];
+            rates.extend((0..3).map(|i| {
+                let end = start[i] + contact.phi * d.by_phi[i] + kappa * d.by_kappa[i] + a * d.by_a[i] + b * d.by_b[i];
+                end - target[i]
+            }));
+            target = [contact.x, contact.y, contact.phi];
+        }
+        Some(rates)
+    }
+
+    /// How the supports move, and force and curvature with them; with the rates of the unknowns, if any, how the contacts do.
+    fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
+        let mut rates: Vec<NodeRate> = Vec::with_capacity(supports.len());
+        for (j, (Held { node, tangent, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
+            let [t, force, third] = unknowns.map_or([0.0; 3], |u| [u[3 * j], u[3 * j + 1], u[3 * j + 2]]);
+            let along = node.at.speed * t;
+            let alpha = moves.alpha + node.at.turning * t;
+            let (phi, s) = if *tangent { (alpha, third) } else { (third, 0.0) };
+            let (x, y) = (moves.x + along * node.cos, moves.y + along * node.sin);
+            let turned = node.force * alpha;
+            rates.push(NodeRate {
+                contact: ContactRate { x, y, alpha, phi, s, force },
+                a: force * node.cos - turned * node.sin,
+                b: force * node.sin + turned * node.cos,
+                kappa: 0.0,
+            });
+        }
+        for j in (1..rates.len()).rev() {
+            let (ahead, node, before) = (rates[j], &self.held[j].node, &self.held[j - 1].node);
+            let (dx, dy) = (before.at.x - node.at.x, before.at.y - node.at.y);
+            let rate = &mut rates[j - 1];
+            let (x, y) = (rate.contact.x - ahead.contact.x, rate.contact.y - ahead.contact.y);
+            rate.kappa = ahead.kappa + ahead.a * dx + node.a * x + ahead.b * dy + node.b * y;
+            rate.a += ahead.a;
+            rate.b += ahead.b;
+        }
+        rates
+    }
+}
+
+/// Condition number in the 1-norm with unknowns in their natural sizes.
+fn weighted_condition(matrix: &[f64], inverse: &[f64], weights: &[f64]) -> f64 {
+    let size = weights.len();
+    if size == 0 {
+        return 1.0;
+    }
+    let columns = matrix.chunks_exact(size).zip(weights);
+    let most = columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w).fold(0.0, f64::max);
+    let columns = inverse.chunks_exact(size);
+    let sums = columns.map(|column| column.iter().zip(weights).map(|(v, w)| (v * w).abs()).sum::<f64>());
+    most * sums.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::multipoint::Support;
+    use proptest::prelude::*;
+
+    /// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre.
+    struct Circles {
+        all: Vec<(Hold, [f64; 3], SupportRate)>,
+        amount: f64,
+    }
+
+    impl Supports for Circles {
+        fn count(&self) -> usize {
+            self.all.len()
+        }
+        fn hold(&self, j: usize) -> Hold {
+            self.all[j].0
+        }
+        fn support(&self, j: usize, t: f64) -> Support {
+            let (_, [x, y, radius], rate) = self.all[j];
+            let at = |v: f64| self.amount * v;
+            let (x, y, alpha) =
+                (x + radius * t.sin() + at(rate.x), y - radius * t.cos() + at(rate.y), t + at(rate.alpha));
+            Support { x, y, alpha, speed: radius, turning: 1.0 }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn rates_of_the_residual_are_its_derivatives(
+            contacts in prop::collection::vec(
+                (-1.0..1.0_f64, -4.0..4.0_f64, 0.1..0.4_f64, 0.05..2.0_f64, [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0]),
+                1..5,
+            ),
+            tip: bool,
+            path in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0],
+        ) {
+            let n = contacts.len();
+            let mut s = 0.0;
+            let (mut u, mut all) = (Vec::new(), Vec::new());
+            for (j, (t, f, ds, radius, [x, y, alpha])) in contacts.into_iter().enumerate() {
+                s += ds;
+                let at_tip = tip && j + 1 == n;
+                u.extend([t, f, if at_tip { 0.7 } else { s }]);
+                let offset = if j % 2 == 0 { 0.0 } else { std::f64::consts::PI };
+                let hold = if at_tip { Hold::Tip } else { Hold::Tangent { offset } };
+                all.push((hold, [0.3 * j as f64, 0.2, radius], SupportRate { x, y, alpha }));
+            }
+            let path = Pose { x: path[0], y: path[1], phi: path[2] };
+            let residual = |amount: f64| {
+                let circles = Circles { all: all.clone(), amount };
+                let clamp = Pose { x: amount * path.x, y: amount * path.y, phi: 1.5 + amount * path.phi };
+                let mut residual = vec![0.0; 3 * n];
+                MultiPoint { clamp, supports: &circles }.evaluate(&u, &mut residual, None);
+                residual
+            };
+            let circles = Circles { all: all.clone(), amount: 0.0 };
+            let linear = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 1.5 }, supports: &circles }.linearise(&u);
+            let moves: Vec<_> = all.iter().map(|one| one.2).collect();
+            let rates = linear.residual_rates(path, &moves).unwrap();
+            let (up, down) = (residual(1e-5), residual(-1e-5));
+            for (row, ours) in rates.iter().enumerate() {
+                let difference = (up[row] - down[row]) / 2e-5;
+                prop_assert!((difference - ours).abs() < 1e-6 * (1.0 + ours.abs()), "{row}: {ours} {difference}");
+            }
+            prop_assert!(linear.residual_rates(path, &moves[1..]).is_none());
+        }
+    }
+
+    #[test]
+    fn a_rod_that_touches_nothing_feels_nothing() {
+        let none = Circles { all: Vec::new(), amount: 0.0 };
+        let linear = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 0.0 }, supports: &none }.linearise(&[]);
+        let moved = linear.response(Pose { x: 1.0, y: 2.0, phi: 3.0 }, &[]).unwrap();
+        assert_eq!((moved, linear.condition(), linear.residual()), (Response::default(), 1.0, 0.0));
+    }
+}
