@@ -39,8 +39,8 @@ const MOST_CONDITION: f64 = 1e7;
 /// // frictionless contacts and an elastic rod: forces come from a potential, and the matrix is symmetric
 /// let stiffness = derivatives.stiffness()?;
 /// assert!((stiffness[0][2] - stiffness[2][0]).abs() < 1e-12 * stiffness[0][2].abs());
-/// let blunter = derivatives.by(Quantity::Shape { object: 0, piece: 0, parameter: "coefficient" })?;
-/// assert!(blunter.contacts[0].s < 0.0); // a steeper parabola is touched nearer to the clamp
+/// let steeper = derivatives.by(Quantity::Shape { object: 0, piece: 0, parameter: "coefficient" })?;
+/// assert!(steeper.contacts[0].force < 0.0); // a steeper parabola recedes from the tip
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
