@@ -35,7 +35,7 @@ mod unbounded;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};
-pub use path::{ClampPath, SuspiciousAngle};
+pub use path::{Chain, ClampArc, ClampPath, ClampSpline, Path, PathPoint, SuspiciousAngle};
 pub use phase::Phase;
 pub use state::{Certificate, Contact, ContactKind, GapBounds, State};
 pub use sweep::{Follower, Item, Outcome, Sweep};
