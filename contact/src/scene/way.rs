@@ -75,31 +75,14 @@ impl Bent {
 
 impl Way {
     /// The legs of a path (SI units), in order.
-    pub fn legs(path: impl Path + 'static, units: Units) -> Result<Vec<Self>, ContactError> {
-        if let Some(straight) = path.straight() {
-            return Ok(vec![Self::Straight(straight.dimensionless(units))]);
+    pub fn legs(path: &Arc<dyn Path>, units: Units) -> Result<Vec<Self>, ContactError> {
+        if !path.legs().is_empty() {
+            let legs: Result<Vec<_>, _> = path.legs().iter().map(|leg| Self::legs(leg, units)).collect();
+            return Ok(legs?.concat());
         }
-        if path.legs().is_empty() {
-            return Ok(vec![Self::Bent(Bent::new(Arc::new(path), units)?)]);
-        }
-        let mut legs = Vec::new();
-        for leg in path.legs() {
-            legs.extend(Self::leg(leg, units)?);
-        }
-        Ok(legs)
-    }
-
-    fn leg(leg: &Arc<dyn Path>, units: Units) -> Result<Vec<Self>, ContactError> {
-        if !leg.legs().is_empty() {
-            let mut legs = Vec::new();
-            for leg in leg.legs() {
-                legs.extend(Self::leg(leg, units)?);
-            }
-            return Ok(legs);
-        }
-        Ok(vec![match leg.straight() {
+        Ok(vec![match path.straight() {
             Some(straight) => Self::Straight(straight.dimensionless(units)),
-            None => Self::Bent(Bent::new(leg.clone(), units)?),
+            None => Self::Bent(Bent::new(path.clone(), units)?),
         }])
     }
 

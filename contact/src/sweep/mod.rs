@@ -24,6 +24,7 @@ use crate::state::State;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +120,7 @@ impl<'a> Sweep<'a> {
         path: impl Path + 'static,
         step: f64,
     ) -> Result<Self, ContactError> {
-        Self::along(rod, objects.as_ref(), Way::legs(path, rod.units())?, |_| step)
+        Self::along(rod, objects.as_ref(), legs(path, rod)?, |_| step)
     }
 
     /// A sweep that goes on from `state`, an equilibrium of `rod` on `objects` (of an earlier sweep, an event, or
@@ -158,7 +159,7 @@ impl<'a> Sweep<'a> {
         if off.is_nan() || off > SAME_START {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
-        let mut sweep = Self::along(rod, objects.as_ref(), Way::legs(path, rod.units())?, |_| step)?;
+        let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod)?, |_| step)?;
         sweep.given = Some(sweep.recalled(state)?);
         Ok(sweep)
     }
@@ -173,7 +174,7 @@ impl<'a> Sweep<'a> {
         path: impl Path + 'static,
         steps: &[f64],
     ) -> Result<Self, ContactError> {
-        let ways = Way::legs(path, rod.units())?;
+        let ways = legs(path, rod)?;
         if ways.len() != steps.len() {
             return Err(ContactError::Step { value: f64::NAN });
         }
@@ -451,6 +452,12 @@ fn rest(
 ) -> Option<Seen> {
     let guesses = chain.settle(&corrector.setup.world, tau);
     guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
+}
+
+/// The legs of a path.
+fn legs(path: impl Path + 'static, rod: &Rod) -> Result<Vec<Way>, ContactError> {
+    let path: Arc<dyn Path> = Arc::new(path);
+    Way::legs(&path, rod.units())
 }
 
 impl Iterator for Sweep<'_> {
