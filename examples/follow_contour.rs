@@ -5,10 +5,10 @@
 
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_4, TAU};
-use vibrissa::contact::Follower;
+
 use vibrissa::contour::{DualNum, Range};
 use vibrissa::reconstruct::{nalgebra::Matrix3, single};
-use vibrissa::{Composite, Graph, Pose, Rod};
+use vibrissa::{Composite, Follower, Graph, Pose, Rod};
 
 /// The force to hold (N), and its tolerance (relative).
 const FORCE: f64 = 0.02;

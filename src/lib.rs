@@ -19,7 +19,7 @@ pub mod guide;
 
 // What a first program needs. No globs: a name that one package gains cannot clash with that of another.
 #[doc(inline)]
-pub use rod_contact::{ClampPath, Event, State, Sweep, equilibrium};
+pub use rod_contact::{ClampPath, Event, Follower, State, Sweep, equilibrium};
 #[doc(inline)]
 pub use rod_contours::{Bezier, CircularArc, Composite, Contour, Curve, EllipticArc, Graph, Line, Parabola, Spline};
 #[doc(inline)]

@@ -14,6 +14,7 @@ mod hard_starts;
 mod inflection;
 #[cfg(feature = "serde")]
 mod json;
+mod paths;
 mod phase_criterion;
 mod reference;
 mod reference_set;

@@ -45,6 +45,7 @@ pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     let Expect { scene, setup, noise, rate, speed, runs, seed, out } = arguments;
     signals::end();
     let scene = read_scene(&scene)?;
+    scene.check_single_leg()?;
     scene.check_start()?;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(&setup).chain(&noise).cloned().collect();
     let read = setup.as_deref().map(read_setup).transpose()?;

@@ -46,14 +46,14 @@ fn separates(event: &vibrissa::Event) -> bool {
     event.from() != event.to() || matches!(event.kind, EventKind::Snap | EventKind::SnapOff)
 }
 
-/// The parts of a scan, in order. A state reported at the very pose of a transition belongs to the part after it.
-pub(crate) fn intervals<'a>(path: &ClampPath, outcome: &'a Outcome) -> Vec<Interval<'a>> {
+/// The parts of a scan, in order, by the way along its path at a state. A state reported at the very pose of a transition belongs to the part after it.
+pub(crate) fn intervals(way: impl Fn(&State) -> f64, outcome: &Outcome) -> Vec<Interval<'_>> {
     let mut parts = Vec::new();
     let mut part: Vec<&State> = Vec::new();
     let mut states = outcome.states.iter().peekable();
     for event in outcome.events.iter().filter(|event| separates(event)) {
-        let place = way(path, event.pose());
-        while let Some(state) = states.next_if(|state| way(path, state.pose) < place) {
+        let place = way(&event.before);
+        while let Some(state) = states.next_if(|state| way(state) < place) {
             part.push(state);
         }
         part.push(&event.before);
@@ -68,11 +68,11 @@ pub(crate) fn intervals<'a>(path: &ClampPath, outcome: &'a Outcome) -> Vec<Inter
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::{event, outcome, path};
+    use crate::sample::{along, event, outcome};
     use EventKind::{FirstContact, Piece, Snap, SnapOff};
 
     fn shape(outcome: &Outcome) -> Vec<(String, usize, Option<EventKind>)> {
-        let parts = intervals(&path(), outcome);
+        let parts = intervals(along, outcome);
         parts.iter().map(|part| (part.phase.to_string(), part.states.len(), part.end)).collect()
     }
 
@@ -85,7 +85,7 @@ mod tests {
         let expected =
             [("free".into(), 2, Some(FirstContact)), ("A".into(), 4, Some(SnapOff)), ("free".into(), 2, None)];
         assert_eq!(shape(&outcome), expected);
-        let part = &intervals(&path(), &outcome)[1];
+        let part = &intervals(along, &outcome)[1];
         assert_eq!((part.from.x, part.to.x), (0.5, 2.5));
     }
 

@@ -176,6 +176,7 @@ fn contour(
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
     let scene = read_scene(&scene)?;
+    scene.check_single_leg()?;
     scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let standard = is_standard(&out);
@@ -228,7 +229,11 @@ fn live(arguments: Live) -> Result<ExitCode, Error> {
 fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: ReadOptions) -> Result<LiveScan, Error> {
     let Moved { stage, path } = moved;
     let told = match (&path, &stage) {
-        (Some(scene), _) => Some(read_scene(scene)?.path),
+        (Some(scene), _) => {
+            let scene = read_scene(scene)?;
+            scene.check_single_leg()?;
+            Some(scene.path)
+        }
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
         (None, Some(StageSpec::Constant(_))) => read_scene(&file).ok().map(|scene| scene.path),
         (None, _) => None,
@@ -243,6 +248,7 @@ fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: Re
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
     let scene = read_scene(&scene)?;
+    scene.check_single_leg()?;
     scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;

@@ -21,6 +21,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     scan.inputs.extend(recordings.iter().chain(&trust.noise).cloned());
     if let Some(file) = &truth {
         let scene = read_scene(file)?;
+        scene.check_single_leg()?;
         scene.check_start()?;
         scan.inputs.extend(scene.files);
     }

@@ -13,6 +13,11 @@ pub(crate) fn path() -> ClampPath {
     ClampPath::new(pose(0.0), pose(10.0)).unwrap()
 }
 
+/// The way along it.
+pub(crate) fn along(state: &State) -> f64 {
+    state.pose.x
+}
+
 /// A state at x in a phase given by its name.
 pub(crate) fn state(x: f64, phase: &str) -> State {
     let contact = |letter| Contact {
@@ -28,6 +33,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
     State {
         pose: pose(x),
         contacts: phase.chars().filter(|_| phase != "free").map(contact).collect(),
+        leg: 0,
         reactions: Reactions::default(),
         energy: 0.0,
         max_stress: None,

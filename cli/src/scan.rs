@@ -41,7 +41,7 @@ impl Scan {
                 Some(Ok(Item::State(state))) => {
                     pose = Some(state.pose);
                     outcome.states.push(state);
-                    interrupt.pass(outcome.states.len() as f64 * scene.step / scene.path.length());
+                    interrupt.pass(outcome.states.len() as f64 / scene.steps());
                 }
                 Some(Ok(Item::Event(event))) => {
                     pose = Some(event.pose());
@@ -74,6 +74,6 @@ impl Scan {
 
     /// The parts of the scan between transitions.
     pub fn intervals(&self) -> Vec<Interval<'_>> {
-        interval::intervals(&self.scene.path, &self.outcome)
+        interval::intervals(|state| self.scene.way(state), &self.outcome)
     }
 }

@@ -48,6 +48,7 @@ fn a_sweep_writes_states_events_and_a_figure() {
         "min_gap",
         "min_gap_bound",
         "gap_proven",
+        "leg",
         "stable",
         "energy",
         "max_stress",
@@ -61,7 +62,7 @@ fn a_sweep_writes_states_events_and_a_figure() {
     assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &2.into()));
 
     let events = lines(&out.join("events.jsonl"));
-    let mut expected = vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z", "contacts", "after"];
+    let mut expected = vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z", "contacts", "after", "leg"];
     expected.sort_unstable();
     assert_eq!(keys(&events[0]), expected);
     assert_eq!(
@@ -111,7 +112,7 @@ fn the_table_holds_the_same_numbers_to_the_last_bit() {
     let out = directory.path().join("out/scene");
     let mut table = csv::Reader::from_path(out.join("states.csv")).unwrap();
     let header =
-        "state,x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress,min_gap_bound,gap_proven";
+        "state,x0,y0,phi0,phase,f0x,f0y,m0z,residual,min_gap,stable,energy,max_stress,min_gap_bound,gap_proven,leg";
     assert_eq!(table.headers().unwrap().iter().collect::<Vec<_>>().join(","), header);
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
     let states = lines(&out.join("states.jsonl"));

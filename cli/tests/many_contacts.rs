@@ -9,7 +9,7 @@ use vibrissa::contact::{EventKind, Phase};
 use vibrissa_cli::{Scan, Scene};
 
 /// Scene, phases, and the largest number of contacts that any state has.
-const SCENES: [(&str, &str, usize); 13] = [
+const SCENES: [(&str, &str, usize); 14] = [
     ("bay", "A BA BBA BBBA BBA BBBA BBA", 4),
     ("bumps", "A B BB BA B BB BA B BB BBB BBA BB BBB BB BA BBA BBBA BBA BB BBB BB B", 4),
     ("channel", "A B BA BB BBA BBB BBBA BBBB", 4),
@@ -27,6 +27,7 @@ const SCENES: [(&str, &str, usize); 13] = [
     ("square_flush", "B A", 1),
     ("square_tilted", "B A B", 1),
     ("triangle", "A B", 1),
+    ("whisking", "B A free B A", 1),
 ];
 
 /// Those with objects on both sides of the rod.

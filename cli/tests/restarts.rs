@@ -46,16 +46,19 @@ fn swept(scene: Scene) -> Swept {
     Swept { scene, items }
 }
 
-fn is_jump(event: &Event) -> bool {
-    matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip) || {
-        // a first contact may be one, too
-        let way = (event.before.pose.x - event.after.pose.x).hypot(event.before.pose.y - event.after.pose.y);
-        way > 0.0
-            || (event.before.energy - event.after.energy).abs() > 1e-6 * (event.before.energy + event.after.energy)
-    }
-}
+/// Energy (E I / L) that rounding leaves of a rod that is hardly bent.
+const NO_ENERGY: f64 = 1e-9;
 
 impl Swept {
+    /// Whether the rod leaves its branch; a first contact may be a jump, too.
+    fn is_jump(&self, event: &Event) -> bool {
+        let Event { kind, before, after, .. } = event;
+        let units = self.scene.rod.units();
+        matches!(kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip)
+            || (before.pose.x - after.pose.x).hypot(before.pose.y - after.pose.y) > 0.0
+            || (before.energy - after.energy).abs() > NO_ENERGY * units.energy
+    }
+
     /// Way along the path, lengths of the rod or radians.
     fn tau(&self, pose: Pose) -> f64 {
         let path = &self.scene.path;
@@ -130,12 +133,12 @@ impl Swept {
             // what was before a jump is on another branch
             let here = self.items.iter().any(|item| {
                 matches!(item, Item::Event(event) if !std::ptr::eq(&raw const event.before, state)
-                && is_jump(event) && (self.tau(event.after.pose) - from).abs() < AT_EVENT)
+                && self.is_jump(event) && (self.tau(event.after.pose) - from).abs() < AT_EVENT)
             });
             if here {
                 return Ok(None);
             }
-            let jump = events.iter().position(|event| is_jump(event));
+            let jump = events.iter().position(|event| self.is_jump(event));
             let end = jump.map_or(f64::NEG_INFINITY, |jump| self.tau(events[jump].after.pose));
             states.retain(|state| self.tau(state.pose) > end + AT_EVENT);
             events.truncate(jump.unwrap_or(events.len()));
@@ -180,7 +183,7 @@ impl Swept {
     /// From a state to a pose and back.
     fn there_and_back(&self, state: &State, contacts: bool, to: Pose) -> Verdict {
         let outcome = self.resumed(state, to, 3.0)?;
-        let jump = outcome.events.iter().find(|event| is_jump(event));
+        let jump = outcome.events.iter().find(|event| self.is_jump(event));
         let farthest = match jump {
             Some(jump) => &jump.before,
             None => outcome.states.last().ok_or("no state")?,

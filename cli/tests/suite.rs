@@ -23,6 +23,7 @@ mod files;
 mod first_steps;
 mod interrupt;
 mod laboratory;
+mod legs;
 mod live;
 mod live_recordings;
 mod many_contacts;

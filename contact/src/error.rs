@@ -46,6 +46,22 @@ pub enum ContactError {
         /// What is wrong with it.
         reason: &'static str,
     },
+    /// A path without legs, or through fewer than two poses.
+    #[error("the path has no legs, expected one leg or two poses at least")]
+    NoLegs,
+    /// A leg does not begin where the one before ends.
+    #[error(
+        "leg {leg} starts at ({}, {}) m and {} rad, but the one before ends at ({}, {}) m and {} rad, expected the same pose",
+        starts.x, starts.y, starts.phi, ends.x, ends.y, ends.phi
+    )]
+    Apart {
+        /// Number of the leg, from 0.
+        leg: usize,
+        /// Where the leg before ends.
+        ends: Pose,
+        /// Where it starts.
+        starts: Pose,
+    },
     /// A sweep that goes on from a state begins at another pose.
     #[error(
         "the path starts at ({}, {}) m and {} rad, the state's clamp is at ({}, {}) m and {} rad, expected the same pose",

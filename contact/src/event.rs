@@ -68,6 +68,11 @@ impl Event {
         self.before.pose
     }
 
+    /// On which leg of the path, from 0.
+    pub fn leg(&self) -> usize {
+        self.before.leg
+    }
+
     /// Phase before.
     pub fn from(&self) -> Phase {
         self.before.phase()

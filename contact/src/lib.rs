@@ -37,7 +37,7 @@ pub use derivatives::{Derivatives, Quantity, TransitionDerivatives};
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};
-pub use path::{ClampPath, SuspiciousAngle};
+pub use path::{Chain, ClampArc, ClampPath, ClampSpline, Path, PathPoint, SuspiciousAngle};
 pub use phase::Phase;
 pub use state::{Certificate, Contact, ContactKind, GapBounds, State};
 pub use sweep::{Follower, Item, Outcome, Sweep};

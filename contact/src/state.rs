@@ -104,6 +104,9 @@ pub struct State {
     pub pose: Pose,
     /// Contacts from the clamp to the tip.
     pub contacts: Vec<Contact>,
+    /// The leg of the path, from 0 ([`Chain`](crate::Chain)).
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub leg: usize,
     /// What the clamp feels.
     pub reactions: Reactions,
     /// Bending energy, J.

@@ -45,9 +45,9 @@ pub(super) fn height(scan: &Scan, width: u32) -> Result<f64, FigureError> {
     Ok(plot * (y.end - y.start) / (x.end - x.start) + 2.0 * ROOM.1 + f64::from(below))
 }
 
-/// Where the clamp starts and ends, mm.
+/// Where the clamp starts, turns and ends, mm.
 fn clamps(scan: &Scan) -> Curve {
-    [0.0, scan.scene.path.length()].map(|way| scan.scene.path.at(way)).map(|pose| (1e3 * pose.x, 1e3 * pose.y)).to_vec()
+    scan.scene.poses().into_iter().map(|pose| (1e3 * pose.x, 1e3 * pose.y)).collect()
 }
 
 /// Draws the left half of a sweep's figure into a part of `root`.
@@ -170,7 +170,7 @@ fn name_phases(root: &Area<'_>, chart: &Chart<'_>, scan: &Scan, intervals: &[Int
 mod tests {
     use super::*;
     use crate::interval::intervals;
-    use crate::sample::{event, outcome, path};
+    use crate::sample::{along, event, outcome};
 
     #[test]
     fn slips_and_new_pieces_within_a_phase_are_no_transitions() {
@@ -180,7 +180,7 @@ mod tests {
         events.extend(within);
         events.extend([event(5.0, "A", "A", Snap), event(6.0, "A", "free", SnapOff)]);
         let outcome = outcome(&[(0.0, "free"), (2.5, "A"), (5.5, "A"), (7.0, "free")], events);
-        let (before, after) = transitions(&intervals(&path(), &outcome));
+        let (before, after) = transitions(&intervals(along, &outcome));
         let places = |states: Vec<&State>| states.iter().map(|state| state.pose.x).collect::<Vec<_>>();
         assert_eq!((places(before), places(after)), (vec![1.0, 5.0, 6.0], vec![5.0]));
     }

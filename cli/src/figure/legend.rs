@@ -101,14 +101,14 @@ impl Legend {
 mod tests {
     use super::*;
     use crate::interval::intervals;
-    use crate::sample::{event, outcome, path};
+    use crate::sample::{along, event, outcome};
 
     #[test]
     fn rows_are_no_wider_than_their_room_and_phases_of_one_colour_share_a_sample() {
         let names = ["A", "B", "BA", "BB", "BBA", "BBB", "BBBA", "BBBB"];
         let events = names.windows(2).map(|pair| event(1.0, pair[0], pair[1], EventKind::Snap)).collect();
         let outcome = outcome(&[(0.0, "A")], events);
-        let legend = Legend::of(&intervals(&path(), &outcome), 1200);
+        let legend = Legend::of(&intervals(along, &outcome), 1200);
         let names: Vec<&str> = legend.entries.iter().map(|entry| entry.name.as_str()).collect();
         let phases = ["phase A", "phase B", "phase BA", "phase BB", "phases BBA, BBBA", "phases BBB, BBBB"];
         assert_eq!(names[1..7], phases);

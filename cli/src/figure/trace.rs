@@ -61,7 +61,7 @@ impl Along {
         let intervals = scan.intervals();
         let phase = |from, to, name: String| (abscissa.value(from)..abscissa.value(to), name);
         Self {
-            across: span([0.0, path.length()].map(|way| abscissa.value(path.at(way))), 0.02),
+            across: span(scan.scene.poses().into_iter().map(|pose| abscissa.value(pose)), 0.02),
             foot: abscissa.label(path),
             phases: intervals.iter().map(|part| phase(part.from, part.to, part.phase.to_string())).collect(),
             marks: intervals.iter().filter(|part| part.end.is_some()).map(|part| abscissa.value(part.to)).collect(),

@@ -23,6 +23,7 @@ pub(super) struct StateRecord {
     /// Proven lower bound of the gap; none where the rod goes through.
     min_gap_bound: Option<f64>,
     gap_proven: bool,
+    leg: usize,
 }
 
 impl From<&State> for StateRecord {
@@ -43,6 +44,7 @@ impl From<&State> for StateRecord {
             max_stress: state.max_stress,
             min_gap_bound: Some(state.certificate.min_gap.lower).filter(|bound| bound.is_finite()),
             gap_proven: state.certificate.min_gap.proven,
+            leg: state.leg,
         }
     }
 }
@@ -81,6 +83,7 @@ pub(super) struct EventRecord {
     m0z: f64,
     contacts: Vec<ContactRecord>,
     after: StateRecord,
+    leg: usize,
 }
 
 impl From<&Event> for EventRecord {
@@ -98,12 +101,13 @@ impl From<&Event> for EventRecord {
             m0z: reactions.m0z,
             contacts: event.before.contacts.iter().map(ContactRecord::from).collect(),
             after: StateRecord::from(&event.after),
+            leg: event.leg(),
         }
     }
 }
 
 /// The columns of states.csv.
-pub(super) const STATE_COLUMNS: [&str; 15] = [
+pub(super) const STATE_COLUMNS: [&str; 16] = [
     "state",
     "x0",
     "y0",
@@ -119,6 +123,7 @@ pub(super) const STATE_COLUMNS: [&str; 15] = [
     "max_stress",
     "min_gap_bound",
     "gap_proven",
+    "leg",
 ];
 
 /// A row of states.csv: the state of this number, from 1.
@@ -127,7 +132,7 @@ pub(super) fn state_row((index, state): (usize, &State)) -> impl Serialize {
     let place = (index + 1, r.x0, r.y0, r.phi0, r.phase);
     let forces = (r.f0x, r.f0y, r.m0z);
     let checks = (r.residual, r.min_gap, r.stable);
-    (place, forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven))
+    (place, forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven, r.leg))
 }
 
 /// The columns of contacts.csv.

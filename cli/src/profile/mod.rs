@@ -92,7 +92,7 @@ impl Scene {
         if let Some(object) = object.filter(|object| !(1..=count).contains(object)) {
             return Err(ProfileError::NoObject { object, count });
         }
-        let reach = Reach::new(&self.path, length);
+        let reach = Reach::new(self.poses(), length);
         let mut profiles: Vec<Profile> = Vec::new();
         for (index, contour) in self.objects.iter().enumerate() {
             if object.is_some_and(|object| object != index + 1) {

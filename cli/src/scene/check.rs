@@ -1,7 +1,7 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, RodTable, SweepTable};
-use super::{Scene, files, object, plausible};
+use super::{Scene, files, leg, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
@@ -21,9 +21,10 @@ pub(super) fn scene(name: String, source: Source, document: Document, directory:
     let objects = object::all(&tables, &contour, &objects, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
+    let legs = leg::all(tables.sweep.get_ref(), path.at(path.length()), rod.length())?;
     let warnings =
         plausible::rod(tables.rod.get_ref()).into_iter().map(|fault| source.place(fault).to_string()).collect();
-    Ok(Scene { name, rod, objects, path, step, warnings, files, source })
+    Ok(Scene { name, rod, objects, path, step, legs, warnings, files, source })
 }
 
 pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
@@ -94,11 +95,11 @@ fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {
     })
 }
 
-fn not(what: &str, value: f64) -> String {
+pub(super) fn not(what: &str, value: f64) -> String {
     format!("{what} is {value}, expected a finite number of degrees")
 }
 
-fn too_large(what: &str, value: f64) -> String {
+pub(super) fn too_large(what: &str, value: f64) -> String {
     let most = LARGEST_ANGLE.to_degrees().floor();
     format!("{what} is {value} degrees, expected at most {most} degrees either way")
 }
@@ -130,7 +131,7 @@ fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
 }
 
 /// A step that is one, and of which `length` has not too many.
-fn counted(span: Range<usize>, what: &str, step: f64, length: f64) -> Result<f64, Fault> {
+pub(super) fn counted(span: Range<usize>, what: &str, step: f64, length: f64) -> Result<f64, Fault> {
     if !(step.is_finite() && step > 0.0) {
         return Err(Fault::new(span, format!("{what} is {step}, expected a positive, finite number")));
     }

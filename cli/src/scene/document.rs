@@ -64,6 +64,20 @@ pub(super) struct SweepTable {
     pub angle_to: Option<Spanned<f64>>,
     pub step: Option<Spanned<f64>>,
     pub step_angle: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub leg: Vec<Spanned<LegTable>>,
+}
+
+/// `[[sweep.leg]]`: where the clamp goes from the end of the leg before.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LegTable {
+    pub to: Option<Spanned<Point>>,
+    pub angle_to: Option<Spanned<f64>>,
+    pub pivot: Option<Spanned<Point>>,
+    pub turn: Option<Spanned<f64>>,
+    pub step: Option<Spanned<f64>>,
+    pub step_angle: Option<Spanned<f64>>,
 }
 
 /// Two coordinates. Not an array of two, of which serde would overlook a third number.

@@ -8,6 +8,7 @@ mod check;
 mod document;
 mod files;
 mod known_rod;
+mod leg;
 mod object;
 mod plausible;
 mod rod;
@@ -16,15 +17,20 @@ mod shape;
 pub(crate) use check::MOST_STATES;
 pub(crate) use known_rod::written;
 pub use known_rod::{KnownRod, read_known_rod};
+pub use leg::{Leg, LegPath};
 pub use rod::read_rod;
 
 use crate::SceneError;
 use crate::toml_file::{self, Source};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use toml::Spanned;
 use toml::de::DeTable;
-use vibrissa::contact::{ContactError, StopReason};
-use vibrissa::{ClampPath, Composite, Rod, Sweep};
+use vibrissa::contact::{Chain, ContactError, StopReason};
+use vibrissa::{ClampPath, Composite, Pose, Rod, State, Sweep};
+
+/// Poses along a leg about a pivot, for figures.
+const PARTS: u32 = 32;
 
 /// A rod swept along a contour.
 #[derive(Debug)]
@@ -35,10 +41,12 @@ pub struct Scene {
     pub rod: Rod,
     /// The objects, coordinates in m.
     pub objects: Vec<Composite>,
-    /// The way of the clamp.
+    /// The way of the clamp; with `legs`, the first one of it.
     pub path: ClampPath,
     /// Distance between reported states: m, or radians where the clamp only turns.
     pub step: f64,
+    /// Where the clamp goes after that, one leg after another.
+    pub legs: Vec<Leg>,
     /// What may be a mistake in the file: a rod of implausible size or stiffness, angles that look like radians where degrees
     /// belong, or the other way round.
     pub warnings: Vec<String>,
@@ -110,7 +118,48 @@ impl Scene {
     /// # Errors
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
     pub fn sweep(&self) -> Result<Sweep<'_>, ContactError> {
-        Sweep::new(&self.rod, &self.objects, self.path, self.step)
+        if self.legs.is_empty() {
+            return Sweep::new(&self.rod, &self.objects, self.path, self.step);
+        }
+        let first: Arc<dyn vibrissa::contact::Path> = Arc::new(self.path);
+        let path = Chain::new(std::iter::once(first).chain(self.legs.iter().map(|leg| leg.path.path())).collect())?;
+        let steps: Vec<_> = std::iter::once(self.step).chain(self.legs.iter().map(|leg| leg.step)).collect();
+        Sweep::with_steps(&self.rod, &self.objects, path, &steps)
+    }
+
+    /// How many steps the path is long.
+    pub fn steps(&self) -> f64 {
+        self.path.length() / self.step + self.legs.iter().map(|leg| leg.path.length() / leg.step).sum::<f64>()
+    }
+
+    /// Way along the whole path at a state of its sweep: m, where the clamp moves, plus radians, where it only turns.
+    pub(crate) fn way(&self, state: &State) -> f64 {
+        let Some(number) = state.leg.checked_sub(1) else { return crate::interval::way(&self.path, state.pose) };
+        let before = self.legs[..number].iter().map(|leg| leg.path.length()).sum::<f64>();
+        self.path.length() + before + self.legs[number].path.way(state.pose)
+    }
+
+    /// Poses along the path: the ends of straight legs, and others in between where the clamp goes about a pivot.
+    pub(crate) fn poses(&self) -> Vec<Pose> {
+        let mut poses = vec![self.path.at(0.0), self.path.at(self.path.length())];
+        for leg in &self.legs {
+            let parts = if matches!(leg.path, LegPath::Straight(_)) { 1 } else { PARTS };
+            let at = |part: u32| leg.path.at(leg.path.length() * f64::from(part) / f64::from(parts));
+            poses.extend((1..=parts).map(at));
+        }
+        poses
+    }
+
+    /// Refuses a path of several legs, of which recordings know nothing.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `sweep.leg`.
+    pub fn check_single_leg(&self) -> Result<(), SceneError> {
+        if self.legs.is_empty() {
+            return Ok(());
+        }
+        let message = "several legs, which only `sweep` and `contour` take, expected a path without [[sweep.leg]]";
+        Err(self.source.error("sweep.leg", message))
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use toml::de::DeTable;
 
 /// The fields that are angles in degrees, wherever they stand. Not `step_angle`, which may well be 1.57 degrees.
-const ANGLES: [&str; 6] = ["angle", "angle_to", "from_angle", "to_angle", "rotation", "turns_from"];
+const ANGLES: [&str; 7] = ["angle", "angle_to", "turn", "from_angle", "to_angle", "rotation", "turns_from"];
 
 /// So near to a multiple of pi/2 a number of degrees is taken for radians: as near as that written with three digits behind
 /// the point. With a larger one, degrees that are meant would be warned of.

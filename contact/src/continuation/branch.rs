@@ -108,7 +108,7 @@ impl System for Bordered<'_> {
                     matrix[column * size + last] = self.condition_row(column);
                 }
                 // the clamp moves: only the first segment ends there
-                let rate = self.setup.path.rate();
+                let rate = self.setup.path.rate(z[last]);
                 let by_tau = &mut matrix[last * size..][..last];
                 by_tau.fill(0.0);
                 for (entry, rate) in by_tau.iter_mut().zip([rate.x, rate.y, rate.phi]) {

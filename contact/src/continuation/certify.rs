@@ -62,6 +62,7 @@ pub(crate) fn state(setup: &Setup<'_>, configuration: &Configuration, scan: &Sca
     State {
         pose: Pose { x: clamp.x * length, y: clamp.y * length, phi: clamp.phi },
         contacts,
+        leg: 0,
         reactions: shape.reactions(),
         energy: shape.bending_energy(),
         max_stress: rod.bending_stress(shape.largest_curvature()),

@@ -457,8 +457,7 @@ impl<'a> Stepper<'a> {
 
     /// Fastest way of any point of a straight rod by the path parameter.
     fn fastest(&self) -> f64 {
-        let rate = self.corrector.setup.path.rate();
-        rate.x.hypot(rate.y) + rate.phi.abs()
+        self.corrector.setup.path.fastest()
     }
 
     /// The first transition between `from` and `next`, where there is one.

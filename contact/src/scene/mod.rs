@@ -2,4 +2,5 @@
 
 pub(crate) mod corner;
 pub(crate) mod setup;
+pub(crate) mod way;
 pub(crate) mod world;

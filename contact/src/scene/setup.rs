@@ -1,6 +1,7 @@
 //! What a sweep is about: the rod, the objects and the way of its clamp.
 
 use crate::path::ClampPath;
+use crate::scene::way::Way;
 use crate::scene::world::World;
 use rod_contours::Composite;
 use rod_core::{MultiPoint, Rod, Supports};
@@ -10,14 +11,18 @@ use rod_core::{MultiPoint, Rod, Supports};
 pub(crate) struct Setup<'a> {
     pub rod: Rod,
     pub world: World<'a>,
-    pub path: ClampPath,
+    pub path: Way,
 }
 
 impl<'a> Setup<'a> {
     /// `path` is in the units of the rod and the objects.
     pub fn new(rod: &Rod, objects: &'a [Composite], path: ClampPath) -> Self {
-        let units = rod.units();
-        Self { rod: *rod, world: World::new(objects, units.length), path: path.dimensionless(units) }
+        Self::on(rod, objects, path.dimensionless(rod.units()).into())
+    }
+
+    /// `path` is dimensionless, the objects are not.
+    pub fn on(rod: &Rod, objects: &'a [Composite], path: Way) -> Self {
+        Self { rod: *rod, world: World::new(objects, rod.units().length), path }
     }
 
     /// The rod held by `supports`, with its clamp at `tau` of the path.
@@ -27,7 +32,7 @@ impl<'a> Setup<'a> {
 
     /// The same rod and objects on another way of the clamp, dimensionless.
     pub fn along(&self, path: ClampPath) -> Self {
-        Self { path, ..self.clone() }
+        Self { path: path.into(), ..self.clone() }
     }
 
     /// The same, where all that is behind an open contour is solid: for a rod that has not come there along the path.

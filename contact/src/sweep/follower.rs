@@ -112,7 +112,7 @@ impl<'a> Follower<'a> {
         };
         let (way, here) = (path.length(), path.at(path.length()));
         self.sweep.stepper.steps_left = MOST_STEPS_TAKEN;
-        self.sweep.set_out(path, self.configuration.clone());
+        self.sweep.set_out(path.into(), self.configuration.clone());
         // only the last pose is reported
         (self.sweep.step, self.sweep.reports, self.sweep.reported) = (way, 2, 1);
         let share = |tau: f64| (tau / way).min(1.0);

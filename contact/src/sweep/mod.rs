@@ -15,14 +15,16 @@ use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step
 use crate::error::{ContactError, Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::gap::scan::Scanner;
-use crate::path::ClampPath;
+use crate::path::Path;
 use crate::scene::setup::Setup;
+use crate::scene::way::Way;
 use crate::snap::chain::Chain;
 use crate::snap::settle::settle;
 use crate::state::State;
 use rod_contours::Composite;
 use rod_core::{Pose, Rod};
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +54,10 @@ pub struct Outcome {
 #[derive(Debug)]
 pub struct Sweep<'a> {
     stepper: Stepper<'a>,
+    /// The legs that are still to come, number of the present one, and the parameter of the path where it begins.
+    legs: VecDeque<Leg>,
+    leg: usize,
+    before: f64,
     /// Distance of reported states, dimensionless.
     step: f64,
     /// Number of states to report, and how many have been.
@@ -68,6 +74,15 @@ pub struct Sweep<'a> {
     reached: f64,
     /// Where the last transition was, and how many there were at that pose.
     crowd: (f64, usize),
+}
+
+/// A leg of the path, and the states to report on it.
+#[derive(Clone, Debug)]
+struct Leg {
+    way: Way,
+    /// Distance, dimensionless, and number of the states, that at the start included.
+    step: f64,
+    reports: usize,
 }
 
 /// Largest number of reported states. With more, neighbouring poses differ by less than the rounding of the path parameter.
@@ -89,21 +104,23 @@ const AT_OPEN_END: f64 = 1e-3;
 
 impl<'a> Sweep<'a> {
     /// A sweep of `rod` along `path` past `objects` (m): one [`Composite`], or a list of them. States are reported at 0,
-    /// `step`, 2 `step`, ... of the path's parameter (m, or radians where the clamp only turns).
+    /// `step`, 2 `step`, ... of the path's parameter (of a [`ClampPath`](crate::ClampPath) m, or radians where the clamp only
+    /// turns). On a [`Chain`](crate::Chain) of paths each leg counts from its own start, and its last pose is always reported.
     ///
     /// A start in contact has the shape that a sweep from further back along the same line would have brought there.
     /// Where there is none, it is one that the clamp turned, or moved sideways, into its first pose would have brought;
     /// and where there is none either, the straight rod is let go into contact.
     ///
     /// # Errors
-    /// [`ContactError::Step`].
+    /// [`ContactError::Step`]; of a path of one's own also [`ContactError::NotFinite`], [`ContactError::Angle`],
+    /// [`ContactError::NoPath`].
     pub fn new(
         rod: &Rod,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
-        path: ClampPath,
+        path: impl Path + 'static,
         step: f64,
     ) -> Result<Self, ContactError> {
-        Self::along(Setup::new(rod, objects.as_ref(), path), step)
+        Self::along(rod, objects.as_ref(), legs(path, rod)?, |_| step)
     }
 
     /// A sweep that goes on from `state`, an equilibrium of `rod` on `objects` (of an earlier sweep, an event, or
@@ -134,37 +151,70 @@ impl<'a> Sweep<'a> {
         rod: &Rod,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         state: &State,
-        path: ClampPath,
+        path: impl Path + 'static,
         step: f64,
     ) -> Result<Self, ContactError> {
-        let (first, pose) = (path.at(0.0), state.pose);
+        let (first, pose) = (path.point(0.0).pose, state.pose);
         let off = (first.x - pose.x).hypot(first.y - pose.y) / rod.length() + (first.phi - pose.phi).abs();
         if off.is_nan() || off > SAME_START {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
-        let mut sweep = Self::along(Setup::new(rod, objects.as_ref(), path), step)?;
+        let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod)?, |_| step)?;
         sweep.given = Some(sweep.recalled(state)?);
         Ok(sweep)
     }
 
-    /// The sweep with a state every `step` of its path.
-    fn along(setup: Setup<'a>, step: f64) -> Result<Self, ContactError> {
-        let wrong = ContactError::Step { value: step };
-        if !(step.is_finite() && step > 0.0) {
-            return Err(wrong);
+    /// [`new`](Self::new) with a step for each leg of the path, in the unit of that leg's parameter.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`ContactError::Step`] also where there are not as many steps as legs.
+    pub fn with_steps(
+        rod: &Rod,
+        objects: &'a (impl AsRef<[Composite]> + ?Sized),
+        path: impl Path + 'static,
+        steps: &[f64],
+    ) -> Result<Self, ContactError> {
+        let ways = legs(path, rod)?;
+        if ways.len() != steps.len() {
+            return Err(ContactError::Step { value: f64::NAN });
         }
-        let step = if setup.path.turns_only() { step } else { step / setup.rod.length() };
-        // a path that is a whole number of steps long but for rounding reports its end
-        let steps = (setup.path.length() / step * (1.0 + 1e-12)).floor();
-        if steps > MOST_STEPS {
-            return Err(wrong);
-        }
-        Ok(Self::from_setup(setup, MOST_STEPS_TAKEN, step, steps as usize + 1))
+        Self::along(rod, objects.as_ref(), ways, |leg| steps[leg])
+    }
+
+    /// The sweep along such legs.
+    fn along(
+        rod: &Rod,
+        objects: &'a [Composite],
+        ways: Vec<Way>,
+        step: impl Fn(usize) -> f64,
+    ) -> Result<Self, ContactError> {
+        let many = ways.len() > 1;
+        let leg = |(number, way): (usize, Way)| {
+            let wrong = ContactError::Step { value: step(number) };
+            if !(step(number).is_finite() && step(number) > 0.0) {
+                return Err(wrong);
+            }
+            let (step, length) = (way.tau(step(number), rod.length()), way.length());
+            // a path that is a whole number of steps long but for rounding reports its end
+            let steps = (length / step * (1.0 + 1e-12)).floor();
+            if steps > MOST_STEPS {
+                return Err(wrong);
+            }
+            let beyond = many && steps * step < length - SAME_POSE;
+            Ok(Leg { way, step, reports: steps as usize + 1 + usize::from(beyond) })
+        };
+        let mut legs = ways.into_iter().enumerate().map(leg).collect::<Result<VecDeque<_>, _>>()?;
+        let Leg { way, step, reports } = legs.pop_front().ok_or(ContactError::NoLegs)?;
+        let sweep = Self::from_setup(Setup::on(rod, objects, way), MOST_STEPS_TAKEN, step, reports);
+        Ok(Self { legs, ..sweep })
     }
 
     fn from_setup(setup: Setup<'a>, steps_left: u64, step: f64, reports: usize) -> Self {
         Self {
             stepper: Stepper::new(Corrector::new(setup), steps_left),
+            legs: VecDeque::new(),
+            leg: 0,
+            before: 0.0,
             step,
             reports,
             reported: 0,
@@ -179,7 +229,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Sets out anew on another path (dimensionless), from an equilibrium at its first pose.
-    fn set_out(&mut self, path: ClampPath, mut from: Configuration) {
+    fn set_out(&mut self, path: Way, mut from: Configuration) {
         from.set_tau(0.0);
         self.stepper.corrector.setup.path = path;
         self.stepper.h = FIRST_STEP;
@@ -239,9 +289,7 @@ impl<'a> Sweep<'a> {
             return Ok(());
         }
         if point.configuration.tau() >= end - SAME_POSE {
-            self.over = true;
-            self.at = Some(point);
-            return Ok(());
+            return self.next_leg(point);
         }
         let ahead = match self.ahead.take() {
             Some(step) => Ok(step),
@@ -271,6 +319,29 @@ impl<'a> Sweep<'a> {
                 return Err(reason);
             }
         }
+        Ok(())
+    }
+
+    /// At the end of a leg the next one begins, or all is over.
+    fn next_leg(&mut self, point: Box<Point>) -> Result<(), StopReason> {
+        let way = &self.setup().path;
+        let is_beyond = point.configuration.tau() > way.length() + SAME_POSE;
+        let passed = way.parameter(way.length(), self.setup().rod.length());
+        let configuration = point.configuration.clone();
+        self.at = Some(point);
+        let Some(Leg { way, step, reports }) = self.legs.pop_front() else {
+            self.over = true;
+            return Ok(());
+        };
+        // a snap has landed further along this leg than it goes: there is no equilibrium from which to set out
+        if is_beyond {
+            return Err(StopReason::NoLanding);
+        }
+        self.set_out(way, configuration);
+        self.before += passed;
+        self.leg += 1;
+        // the first pose of a leg has been reported with the last leg
+        (self.step, self.reports, self.reported) = (step, reports, 1);
         Ok(())
     }
 
@@ -353,7 +424,7 @@ impl<'a> Sweep<'a> {
     fn state(&self, point: &Point) -> State {
         let free = point.configuration.count() == 0;
         let quality = if free { Quality::FREE } else { point.quality };
-        state(self.setup(), &point.configuration, &point.scan, quality)
+        State { leg: self.leg, ..state(self.setup(), &point.configuration, &point.scan, quality) }
     }
 
     /// How far along the path the sweep has come.
@@ -366,8 +437,8 @@ impl<'a> Sweep<'a> {
         let tau = self.reached();
         let length = rod.length();
         let Pose { x, y, phi } = path.at(tau);
-        let unit = if path.turns_only() { 1.0 } else { length };
-        Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: tau * unit, reason }
+        let passed = self.before + path.parameter(tau, length);
+        Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: passed, reason }
     }
 }
 
@@ -381,6 +452,12 @@ fn rest(
 ) -> Option<Seen> {
     let guesses = chain.settle(&corrector.setup.world, tau);
     guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
+}
+
+/// The legs of a path.
+fn legs(path: impl Path + 'static, rod: &Rod) -> Result<Vec<Way>, ContactError> {
+    let path: Arc<dyn Path> = Arc::new(path);
+    Way::legs(&path, rod.units())
 }
 
 impl Iterator for Sweep<'_> {

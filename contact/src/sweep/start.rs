@@ -25,8 +25,7 @@ impl Sweep<'_> {
         if self.scan_straight(0.0).clamp_inside {
             return Err(StopReason::ClampInside);
         }
-        let own = self.setup().path;
-        let ways = std::iter::once(own).chain(own.others_to_its_start());
+        let ways = self.setup().path.to_its_start();
         let brought = ways.into_iter().find_map(|way| self.brought_by(way));
         let brought = brought.map(|start| self.stepper.look(start));
         let start = brought.or_else(|| self.let_go()).ok_or(StopReason::NoStart)?;

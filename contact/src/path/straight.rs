@@ -1,5 +1,6 @@
-//! The way the clamp goes.
+//! The clamp on a straight line.
 
+use super::{Path, PathPoint};
 use crate::error::{ContactError, LARGEST_ANGLE};
 use rod_core::{Pose, Units};
 use std::f64::consts::PI;
@@ -109,14 +110,24 @@ impl ClampPath {
         (length > 0.0).then_some(Self { from, to, length })
     }
 
+    /// The path (dimensionless) that goes on from a pose at a rate.
+    pub(crate) fn along(from: Pose, rate: Pose) -> Self {
+        let to = Pose { x: from.x + rate.x, y: from.y + rate.y, phi: from.phi + rate.phi };
+        Self { from, to, length: 1.0 }
+    }
+
+    /// The first pose.
+    pub(crate) fn from(&self) -> Pose {
+        self.from
+    }
+
     /// A path that stays where it is.
     pub(crate) fn standing(pose: Pose) -> Self {
         Self { from: pose, to: pose, length: 1.0 }
     }
 
-    /// Other paths through the first pose at 0: turning there, and sideways across the rod, either way.
-    pub(crate) fn others_to_its_start(&self) -> [Self; 4] {
-        let here = self.from;
+    /// Other paths (dimensionless) through a pose at 0: turning there, and sideways across the rod, either way.
+    pub(crate) fn others_to(here: Pose) -> [Self; 4] {
         let (sin, cos) = here.phi.sin_cos();
         [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)].map(|(sideways, turned)| {
             let to = Pose { x: here.x - sideways * sin, y: here.y + sideways * cos, phi: here.phi + turned };
@@ -134,6 +145,20 @@ impl ClampPath {
     /// Whether the clamp turns without moving.
     pub fn turns_only(&self) -> bool {
         self.from.x == self.to.x && self.from.y == self.to.y
+    }
+}
+
+impl Path for ClampPath {
+    fn point(&self, t: f64) -> PathPoint {
+        PathPoint { pose: self.at(t), rate: self.rate() }
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn straight(&self) -> Option<ClampPath> {
+        Some(*self)
     }
 }
 
