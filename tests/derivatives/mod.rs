@@ -225,7 +225,7 @@ fn others() -> Vec<(String, Scene)> {
     let turning = (Pose { x: 0.05, y: -0.04, phi: 1.2 }, Pose { x: 0.0, y: -0.045, phi: 1.9 });
     let discs = [disc(0.1, 0.45, 0.06), disc(-0.1, 0.62, 0.06), disc(0.1, 0.85, 0.05)];
     vec![
-        ("teeth".into(), Scene::new(rod, &[teeth.clone()], across(1.0, -1.0, 0.0), 0.04)),
+        ("teeth".into(), Scene::new(rod, std::slice::from_ref(&teeth), across(1.0, -1.0, 0.0), 0.04)),
         ("teeth, low".into(), Scene::new(rod, &[teeth], across(1.0, -1.0, -0.1), 0.04)),
         ("shallow".into(), Scene::new(rod, &[shallow], across(0.9, -1.0, 0.0), 0.04)),
         (
