@@ -21,7 +21,7 @@ use std::process::{Command, ExitCode};
 use vibrissa::contact::Derivatives;
 use vibrissa::reconstruct::single;
 use vibrissa::rod::{NewtonWorkspace, advance, advance_with_sensitivities, walk};
-use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, Sweep};
+use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, State, Sweep, equilibrium};
 
 /// What is kept, beside this file.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.csv");
@@ -101,6 +101,18 @@ fn works() -> Vec<Work> {
         works.push(Work::new(format!("warm solve of {phase}"), [1, 9], move |times| {
             let (cases, mut u, mut workspace) = (&solves::warm()[index], Vec::new(), NewtonWorkspace::new());
             (0..times).map(|_| solves::solve_all(cases, &mut u, &mut workspace)).sum()
+        }));
+    }
+    for phase in PHASES {
+        works.push(Work::new(format!("equilibrium from the state before in {phase}"), [1, 3], move |times| {
+            let contour = OBJECTS[0].contour();
+            let states = sweep(&contour, path(0.4, 0.8, -0.9), 1701).states;
+            let is_in_phase = |state: &State| state.phase().to_string() == phase;
+            let pairs: Vec<_> = states.windows(2).filter(|pair| pair.iter().all(is_in_phase)).collect();
+            for pair in pairs.iter().cycle().take(times * pairs.len()) {
+                black_box(equilibrium(&rod(), &contour, pair[1].pose, black_box(&pair[0].contacts)).unwrap());
+            }
+            times * pairs.len()
         }));
     }
     for phase in PHASES {

@@ -12,6 +12,12 @@ pub mod add_a_sensor {}
 #[doc = include_str!("../docs/sweep.md")]
 pub mod sweep {}
 
+#[doc = include_str!("../docs/derivatives.md")]
+pub mod derivatives {}
+
+#[doc = include_str!("../docs/fits.md")]
+pub mod fits {}
+
 #[doc = include_str!("../docs/scene-files.md")]
 pub mod scene_files {}
 

@@ -236,7 +236,7 @@ proptest! {
     ) {
         let from = Pose { x, y, phi };
         let spline: Vec<_> =
-            (0..5).map(|k| f64::from(k)).map(|k| Pose { x: x + k, y: y * k * k, phi: phi + (to * k).sin() }).collect();
+            (0..5).map(f64::from).map(|k| Pose { x: x + k, y: y * k * k, phi: phi + (to * k).sin() }).collect();
         let paths: [Box<dyn Path>; 3] = [
             Box::new(ClampArc::new(from, [y, to], turn, to).unwrap()),
             Box::new(ClampArc::about(from, [y, to], -turn).unwrap()),

@@ -6,6 +6,7 @@ mod common;
 mod convergence;
 mod derivatives;
 mod equilibrium;
+mod fit;
 mod flat;
 mod follow_contour;
 mod hard;

@@ -5,7 +5,7 @@ use crate::error::ContactError;
 use crate::scene::world::World;
 use crate::state::{ContactKind, State};
 use rod_contours::StretchKind;
-use rod_core::{Hold, Linearisation, MultiPoint, Pose, Rod};
+use rod_core::{Hold, Linearisation, MultiPoint, Pose, Reactions, Rod, Section, advance};
 
 /// Largest residual (L, rad) of a state that counts as an equilibrium. States of a sweep are within 1e-9.
 const LARGEST_RESIDUAL: f64 = 1e-8;
@@ -39,9 +39,11 @@ impl Restored {
 /// The contact set of a state with its unknowns.
 fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configuration, ContactError> {
     let units = rod.units();
-    let shape = state
-        .elastica(rod)
-        .map_err(|_| ContactError::NotEquilibrium { reason: "the rod does not pass through its contacts" })?;
+    let Pose { x, y, phi } = state.pose;
+    let Reactions { f0x, f0y, m0z } = state.reactions;
+    // the rod from the clamp on, for its slope angles at the contacts
+    let (mut a, mut b, mut s) = (f0y / units.force, -f0x / units.force, 0.0);
+    let mut at = Section { x: x / units.length, y: y / units.length, phi, kappa: -m0z / units.moment };
     let mut configuration = Configuration::free(0.0);
     for (j, contact) in state.contacts.iter().enumerate() {
         let kind = match contact.kind {
@@ -53,7 +55,12 @@ fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configur
             index: j,
             reason: "there is no such object, or it has no such piece or joint",
         })?;
-        let phi = shape.at(contact.s).phi;
+        at = advance(&at, a, b, contact.s / units.length - s);
+        s = contact.s / units.length;
+        let (sin, cos) = contact.alpha.sin_cos();
+        let force = contact.force / units.force;
+        (a, b) = (a - force * cos, b - force * sin);
+        let phi = at.phi;
         let (x, y) = (contact.x / units.length, contact.y / units.length);
         let t = match contact.kind {
             // the point does not tell the angle
@@ -65,8 +72,8 @@ fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configur
         };
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
         let alpha = world.support(stretch, t).alpha;
-        let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), contact.s / units.length) };
-        configuration.insert(j, Held { stretch, hold }, [t, contact.force / units.force, third]);
+        let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), s) };
+        configuration.insert(j, Held { stretch, hold }, [t, force, third]);
     }
     Ok(configuration)
 }
