@@ -48,7 +48,8 @@ pub enum ContactError {
     },
     /// A state that is none of the rod and the objects that came with it.
     #[error(
-        "the state does not solve the equations of this rod and these objects (residual {residual:e} L, expected rounding); take the rod and the objects of its sweep"
+        "the state does not solve the equations of this rod and these objects (residual {residual:e} L, expected rounding); \
+         take the rod and the objects of its sweep"
     )]
     NotEquilibrium {
         /// Largest residual, L or rad.
@@ -56,7 +57,8 @@ pub enum ContactError {
     },
     /// A state where the equilibrium ends, or so near to it that derivatives have no digits.
     #[error(
-        "the equilibrium has no derivatives: it is at a fold, or two contacts hold the rod at one place (condition number {condition:e}); take a state before it, or the derivatives of the pose of the event"
+        "the equilibrium has no derivatives: it is at a fold, or two contacts hold the rod at one place \
+         (condition number {condition:e}); take a state before it, or the derivatives of the pose of the event"
     )]
     Fold {
         /// Condition number of the equations.
