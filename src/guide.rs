@@ -15,6 +15,9 @@ pub mod sweep {}
 #[doc = include_str!("../docs/derivatives.md")]
 pub mod derivatives {}
 
+#[doc = include_str!("../docs/equilibria.md")]
+pub mod equilibria {}
+
 #[doc = include_str!("../docs/fits.md")]
 pub mod fits {}
 

@@ -81,7 +81,8 @@ pub enum ContactError {
     },
     /// A state where the equilibrium ends, or so near to it that derivatives have no digits.
     #[error(
-        "the equilibrium has no derivatives: it is at a fold, or two contacts hold the rod at one place (condition number {condition:e}); take a state before it, or the derivatives of the pose of the event"
+        "the equilibrium has no derivatives: it is at a fold, or two contacts hold the rod at one place \
+         (condition number {condition:e}); take a state before it, or the derivatives of the pose of the event"
     )]
     Fold {
         /// Condition number of the equations.

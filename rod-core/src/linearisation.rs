@@ -4,7 +4,7 @@
 //! solution itself: that of the last Newton step belongs to the point before it, and is as inexact as that step is long.
 
 use crate::linear::{invert, multiply};
-use crate::multipoint::{Hold, MultiPoint, Node, Supports};
+use crate::multipoint::{Hold, MultiPoint, Node, Supports, natural_sizes};
 use crate::newton::System;
 use crate::pose::{Pose, Reactions};
 use crate::segment::Sensitivities;
@@ -123,8 +123,7 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
             let segment = self.segment(&nodes, j, &mut residual, &mut jacobian, size);
             held.push(Held { node: *node, tangent: self.supports.hold(j) != Hold::Tip, segment });
         }
-        let mut weights = Vector::from_elem(1.0, size);
-        self.weights(u, &mut weights);
+        let weights = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
         let mut inverse = vec![0.0; size * size];
         let regular = invert(size, &jacobian, &mut inverse);
         let mut linear =
@@ -153,11 +152,24 @@ impl Linearisation {
     /// not one rate for each support.
     pub fn response(&self, clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
         let rates = self.residual_rates(clamp, supports)?;
+        self.solved(&rates, clamp, supports)
+    }
+
+    /// The [`response`](Self::response) where the clamp moves and nothing else does, which costs less.
+    pub fn response_to_clamp(&self, clamp: Pose) -> Option<Response> {
+        let mut rates = Vector::from_elem(0.0, self.residual.len());
+        rates.iter_mut().zip([clamp.x, clamp.y, clamp.phi]).for_each(|(rate, moves)| *rate = -moves);
+        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.held.len());
+        self.solved(&rates, clamp, &still)
+    }
+
+    /// The change of the equilibrium by the rates of the residual, and by the motions that they come from.
+    fn solved(&self, rates: &[f64], clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
         if !self.condition.is_finite() {
             return None;
         }
         let mut unknowns = Vector::from_elem(0.0, rates.len());
-        multiply(&self.inverse, &rates, -1.0, &mut unknowns);
+        multiply(&self.inverse, rates, -1.0, &mut unknowns);
         let nodes = self.node_rates(supports, Some(&unknowns));
         let reactions = nodes.first().map_or_else(Reactions::default, |first| {
             let (node, moves) = (&self.held[0].node, first.contact);

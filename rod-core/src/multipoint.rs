@@ -110,6 +110,13 @@ impl Node {
     }
 }
 
+/// Weights of the unknowns of a support: t by the way it moves and turns the contact, f (the stiffest of them) relative, s and phi as
+/// they are.
+#[inline(always)]
+pub(crate) fn natural_sizes(at: &Support, force: f64) -> [f64; 3] {
+    [at.speed + at.turning.abs(), 0.25 / (1.0 + force.abs()), 1.0]
+}
+
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized> MultiPoint<'_, S> {
@@ -286,9 +293,7 @@ impl<S: Supports + ?Sized> System for MultiPoint<'_, S> {
 
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
         for (j, w) in weights.chunks_exact_mut(3).enumerate() {
-            let at = self.supports.support(j, u[3 * j]);
-            // t by the way it moves and turns the contact, f (the stiffest of them) relative, s and phi as they are
-            w.copy_from_slice(&[at.speed + at.turning.abs(), 0.25 / (1.0 + u[3 * j + 1].abs()), 1.0]);
+            w.copy_from_slice(&natural_sizes(&self.supports.support(j, u[3 * j]), u[3 * j + 1]));
         }
     }
 }

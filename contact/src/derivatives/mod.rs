@@ -14,8 +14,7 @@ use crate::state::State;
 use motion::motion;
 use restored::Restored;
 use rod_contours::Composite;
-use rod_core::{ContactRate, Pose, Reactions, Response, Rod, SupportRate};
-use smallvec::SmallVec;
+use rod_core::{ContactRate, Pose, Reactions, Response, Rod};
 
 /// Condition number above which derivatives have less than two digits. At a fold, which a sweep locates to 1e-13 of arclength, it is
 /// 1e10 or more; 1e-14 L before one it is about 1e7.
@@ -88,12 +87,11 @@ impl<'a> Derivatives<'a> {
     /// [`ContactError::Fold`].
     pub fn stiffness(&self) -> Result<[[f64; 3]; 3], ContactError> {
         let (linear, units) = (&self.restored.linear, self.rod.units());
-        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.state.contacts.len());
         let [along_x, along_y] = [(1.0, 0.0), (0.0, 1.0)].map(|(x, y)| Pose { x, y, phi: 0.0 });
         let mut matrix = [[0.0; 3]; 3];
         let moves = [(along_x, units.length), (along_y, units.length), (Pose { x: 0.0, y: 0.0, phi: 1.0 }, 1.0)];
         for (column, (clamp, unit)) in moves.into_iter().enumerate() {
-            let rates = linear.response(clamp, &still).ok_or(ContactError::Fold { condition: linear.condition() })?;
+            let rates = linear.response_to_clamp(clamp).ok_or(ContactError::Fold { condition: linear.condition() })?;
             let Reactions { f0x, f0y, m0z } = rates.reactions;
             for (row, rate) in matrix.iter_mut().zip([f0x * units.force, f0y * units.force, m0z * units.moment]) {
                 row[column] = rate / unit;

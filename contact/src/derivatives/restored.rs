@@ -62,16 +62,18 @@ fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configur
         (a, b) = (a - force * cos, b - force * sin);
         let phi = at.phi;
         let (x, y) = (contact.x / units.length, contact.y / units.length);
-        let t = match contact.kind {
+        let (t, alpha) = match contact.kind {
             // the point does not tell the angle
             ContactKind::Corner | ContactKind::Notch => {
                 let start = world.support(stretch, 0.0);
-                (contact.alpha - start.alpha) / start.turning
+                ((contact.alpha - start.alpha) / start.turning, contact.alpha)
             }
-            _ => world.foot(stretch, x, y).t,
+            _ => {
+                let foot = world.foot(stretch, x, y);
+                (foot.t, foot.alpha)
+            }
         };
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
-        let alpha = world.support(stretch, t).alpha;
         let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), s) };
         configuration.insert(j, Held { stretch, hold }, [t, force, third]);
     }
