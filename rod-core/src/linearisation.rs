@@ -152,33 +152,38 @@ impl Linearisation {
     /// not one rate for each support.
     pub fn response(&self, clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
         let rates = self.residual_rates(clamp, supports)?;
-        self.solved(&rates, clamp, supports)
+        let nodes = self.solved(&rates, supports)?;
+        let reactions = self.reactions(clamp, &nodes);
+        Some(Response { reactions, contacts: nodes.into_iter().map(|node| node.contact).collect() })
     }
 
-    /// The [`response`](Self::response) where the clamp moves and nothing else does, which costs less.
-    pub fn response_to_clamp(&self, clamp: Pose) -> Option<Response> {
+    /// The reactions of the [`response`](Self::response) where the clamp moves and nothing else does.
+    pub fn reactions_to_clamp(&self, clamp: Pose) -> Option<Reactions> {
         let mut rates = Vector::from_elem(0.0, self.residual.len());
         rates.iter_mut().zip([clamp.x, clamp.y, clamp.phi]).for_each(|(rate, moves)| *rate = -moves);
         let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.held.len());
-        self.solved(&rates, clamp, &still)
+        Some(self.reactions(clamp, &self.solved(&rates, &still)?))
     }
 
-    /// The change of the equilibrium by the rates of the residual, and by the motions that they come from.
-    fn solved(&self, rates: &[f64], clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
+    /// The motion of the contacts by the rates of the residual, and by those of the supports that they come from.
+    fn solved(&self, rates: &[f64], supports: &[SupportRate]) -> Option<Vec<NodeRate>> {
         if !self.condition.is_finite() {
             return None;
         }
         let mut unknowns = Vector::from_elem(0.0, rates.len());
         multiply(&self.inverse, rates, -1.0, &mut unknowns);
-        let nodes = self.node_rates(supports, Some(&unknowns));
-        let reactions = nodes.first().map_or_else(Reactions::default, |first| {
+        Some(self.node_rates(supports, Some(&unknowns)))
+    }
+
+    /// The change of the reactions at a clamp that moves like this.
+    fn reactions(&self, clamp: Pose, nodes: &[NodeRate]) -> Reactions {
+        nodes.first().map_or_else(Reactions::default, |first| {
             let (node, moves) = (&self.held[0].node, first.contact);
             let (dx, dy) = (self.clamp.x - node.at.x, self.clamp.y - node.at.y);
             let kappa =
                 first.kappa + first.a * dx + node.a * (clamp.x - moves.x) + first.b * dy + node.b * (clamp.y - moves.y);
             Reactions { f0x: -first.b, f0y: first.a, m0z: -kappa }
-        });
-        Some(Response { reactions, contacts: nodes.into_iter().map(|node| node.contact).collect() })
+        })
     }
 
     /// The change of the path parameter, along which the clamp moves like `path`, at the point of the path where one unknown has a

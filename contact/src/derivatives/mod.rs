@@ -91,8 +91,8 @@ impl<'a> Derivatives<'a> {
         let mut matrix = [[0.0; 3]; 3];
         let moves = [(along_x, units.length), (along_y, units.length), (Pose { x: 0.0, y: 0.0, phi: 1.0 }, 1.0)];
         for (column, (clamp, unit)) in moves.into_iter().enumerate() {
-            let rates = linear.response_to_clamp(clamp).ok_or(ContactError::Fold { condition: linear.condition() })?;
-            let Reactions { f0x, f0y, m0z } = rates.reactions;
+            let rates = linear.reactions_to_clamp(clamp);
+            let Reactions { f0x, f0y, m0z } = rates.ok_or(ContactError::Fold { condition: linear.condition() })?;
             for (row, rate) in matrix.iter_mut().zip([f0x * units.force, f0y * units.force, m0z * units.moment]) {
                 row[column] = rate / unit;
             }
