@@ -1,7 +1,6 @@
 //! A controller follows a contour that it does not know: it drags a rod along it and keeps the force f0y constant, by what the
 //! clamp feels alone. `cargo run --release --example follow_contour` prints the contact points that it felt.
-
-#![allow(clippy::print_stdout, reason = "the table is what it is for")]
+#![allow(clippy::print_stdout, reason = "a program may print")]
 
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -44,10 +43,10 @@ fn hold(rod: &mut Follower<'_>) -> Result<(), Box<dyn Error>> {
     Err("the force cannot be held".into())
 }
 
-/// Pose of the clamp, force f0y there and contact point felt.
+/// Pose of the clamp, the force f0y there (N), and the contact point felt (m).
 pub type Felt = (Pose, f64, [f64; 2]);
 
-/// What was felt in so many samples.
+/// What is felt in so many samples.
 pub fn follow(samples: usize) -> Result<Vec<Felt>, Box<dyn Error>> {
     let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9)?; // length m, diameter m, Young's modulus Pa
     let object = ceiling()?;

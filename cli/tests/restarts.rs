@@ -147,7 +147,7 @@ impl Swept {
             return Ok(None);
         };
         let end = self.tau(last.pose);
-        events.retain(|event| (self.tau(event.pose()) - end) * way < -AT_EVENT);
+        events.retain(|event| (self.tau(event.pose()) - end) * way.signum() < -AT_EVENT);
         let outcome = self.resumed(state, last.pose, 1.0)?;
         let again: Vec<_> =
             outcome.events.iter().filter(|event| (self.tau(event.pose()) - from).abs() > AT_EVENT).collect();

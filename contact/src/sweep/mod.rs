@@ -95,6 +95,10 @@ const MOST_STEPS_TAKEN: u64 = 2_000_000;
 /// sweep goes on: the rounding of poses that were written to a file.
 const SAME_START: f64 = 1e-9;
 
+/// Way (path parameter) by which a transition at the last pose of a path may be beyond it: the error of a located transition. The
+/// state after it is that of the last pose.
+const AT_END: f64 = 1e-10;
+
 /// Largest number of transitions at one pose. A rod that comes to lie on the edges of a comb needs several; more are a contact
 /// that comes and goes by rounding.
 const MOST_AT_ONE_POSE: usize = 12;
@@ -279,7 +283,7 @@ impl<'a> Sweep<'a> {
             return Ok(());
         };
         // a snap may have jumped over a pose: there is no equilibrium to report there
-        while self.pose() < point.configuration.tau() - SAME_POSE && self.reported < self.reports {
+        while self.pose() < point.configuration.tau() - self.slack() && self.reported < self.reports {
             self.reported += 1;
         }
         let (end, pose) = (self.setup().path.length(), self.pose());
@@ -325,7 +329,7 @@ impl<'a> Sweep<'a> {
     /// At the end of a leg the next one begins, or all is over.
     fn next_leg(&mut self, point: Box<Point>) -> Result<(), StopReason> {
         let way = &self.setup().path;
-        let is_beyond = point.configuration.tau() > way.length() + SAME_POSE;
+        let is_beyond = point.configuration.tau() > way.length() + AT_END;
         let passed = way.parameter(way.length(), self.setup().rod.length());
         let configuration = point.configuration.clone();
         self.at = Some(point);
@@ -348,6 +352,11 @@ impl<'a> Sweep<'a> {
     /// The next pose to report; the last one may be beyond the end by rounding.
     fn pose(&self) -> f64 {
         (self.step * self.reported as f64).min(self.setup().path.length())
+    }
+
+    /// How far beyond the next pose to report the rod may be by rounding.
+    fn slack(&self) -> f64 {
+        if self.pose() < self.setup().path.length() { SAME_POSE } else { AT_END }
     }
 
     /// Where a step leads, with the transition that ends it.
