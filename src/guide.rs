@@ -24,6 +24,9 @@ pub mod fits {}
 #[doc = include_str!("../docs/scene-files.md")]
 pub mod scene_files {}
 
+#[doc = include_str!("../docs/studies.md")]
+pub mod studies {}
+
 #[doc = include_str!("../docs/shapes.md")]
 pub mod shapes {}
 

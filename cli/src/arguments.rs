@@ -50,6 +50,13 @@ Simulates the recording of the scene. By derivatives of the contact points with 
 it tells the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
 all errors from the budget, puts them on the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
 
+const STUDY: &str = "\
+Sweep a scene with some of its numbers changed, in all combinations, on all cores.
+
+Writes rows.csv: for each scene its parameters, phases, snaps, way with several contacts, error of single-contact points there, share of
+the contour that is touched, largest moment, or the reason why there is no sweep. A run that is broken off goes on when it is
+started again.";
+
 const LIVE: &str = "\
 Listen to a sensor and tell contact points and phases as they come.
 
@@ -114,6 +121,15 @@ pub enum Command {
     /// Play what a sensor would send along a scene, for tests without one
     #[command(after_help = guide::FAKE_SENSOR)]
     FakeSensor(FakeSensor),
+    /// Sweep a scene with some of its numbers changed, in all combinations, on all cores: one row of results for each
+    #[command(long_about = STUDY, after_help = guide::STUDY)]
+    Study {
+        /// The study, a TOML file
+        study: PathBuf,
+        /// Directory of the results [default: out/<name of the study>]
+        #[arg(long, value_name = "DIR", value_parser = directory)]
+        out: Option<PathBuf>,
+    },
     /// Run the nine scans of Merker et al. (2020) and compare their phases with the paper's
     #[command(after_help = guide::PAPER)]
     Paper {

@@ -2,7 +2,7 @@
 
 use crate::{
     BudgetError, CalibrateError, FakeError, FigureError, LiveError, OutputError, ProfileError, ReconstructionError,
-    RecordingError, SceneError, SimulationError, TruthError,
+    RecordingError, SceneError, SimulationError, StudyError, TruthError,
 };
 use vibrissa::contact::ContactError;
 use vibrissa::reconstruct::NoiseError;
@@ -51,6 +51,9 @@ pub enum Error {
     /// A calibration.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// The results of a study.
+    #[error(transparent)]
+    Study(#[from] StudyError),
     /// A figure.
     #[error(transparent)]
     Figure(#[from] FigureError),

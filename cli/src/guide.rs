@@ -82,6 +82,20 @@ Example:
 
 Next: the command prints its address; `vibrissa live --sensor ADDRESS` in another terminal.";
 
+pub const STUDY: &str = "\
+Example of a study, distance.toml, beside scene.toml:
+  scene = \"scene.toml\"
+  [[parameter]]
+  name = \"distance\"
+  from = 0.1
+  to = 0.9
+  count = 9
+  set = [{ field = \"sweep.from[2]\", scale = -0.1 }, { field = \"sweep.to[2]\", scale = -0.1 }]
+
+  vibrissa study distance.toml
+
+Next: docs/studies.md explains every column of rows.csv.";
+
 pub const PAPER: &str = "\
 Example:
   vibrissa paper --out paper

@@ -29,6 +29,7 @@ mod scene;
 mod setup;
 mod shapes;
 mod simulation;
+mod study;
 mod table;
 mod toml_file;
 
@@ -58,4 +59,5 @@ pub use scene::{KnownRod, Leg, LegPath, Scene, read_known_rod, read_rod};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use shapes::shapes_list;
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
+pub use study::{Measured, Study, StudyError, StudyRow, StudyRun};
 pub use toml_file::{Invalid, SceneError};

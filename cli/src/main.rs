@@ -21,8 +21,8 @@ use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
     Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError,
-    Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, check_output, read_known_rod, read_noise,
-    shapes_list, write_first_scene, write_profile_table, write_profiles,
+    Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun, check_output,
+    read_known_rod, read_noise, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -53,6 +53,7 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live(arguments) => live(arguments),
         Command::FakeSensor(arguments) => fake_sensor(arguments),
+        Command::Study { study, out } => run_study(&study, out),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| match error {
@@ -259,6 +260,29 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let Played { samples, sent, stop } = scan.run(&mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
     say(&format!("{sent} of {samples} samples sent\n"));
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
+}
+
+fn run_study(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+    let study = Study::read(file)?;
+    let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+    let out = out.unwrap_or_else(|| Path::new("out").join(&name));
+    let caught = signals::ask();
+    let progress = Progress::of(&caught.interrupt);
+    let run = study.run(&out, &caught.interrupt)?;
+    drop(progress);
+    let StudyRun { scenes, found, done, stopped, refused, first_refusal, complete } = run;
+    say(&format!(
+        "{name}: {scenes} scenes: {found} rows found, {done} done, {stopped} stopped early, {refused} refused\nwritten to {}\n",
+        out.display()
+    ));
+    if let Some(reason) = first_refusal {
+        warn(&format!("{name}: the first scene that was refused: {reason}\n"));
+    }
+    if !complete {
+        warn(&format!("{name}: interrupted; the same command goes on\n"));
+        return Ok(caught.status());
+    }
+    Ok(if found + done == 0 { ExitCode::from(UNFINISHED) } else { ExitCode::SUCCESS })
 }
 
 fn paper(out: &Path) -> Result<ExitCode, Error> {

@@ -42,3 +42,4 @@ mod sensor_faults;
 mod several_recordings;
 mod sharp_scenes;
 mod simulate;
+mod studies;

@@ -59,6 +59,16 @@ pub struct Invalid {
     span: SourceSpan,
 }
 
+impl SceneError {
+    /// What is wrong, for a text that is no file: without the place.
+    pub(crate) fn without_place(&self) -> String {
+        match self {
+            Self::Invalid(invalid) => invalid.complaint(),
+            other => other.to_string(),
+        }
+    }
+}
+
 impl Invalid {
     fn complaint(&self) -> String {
         match &self.field {

@@ -1,0 +1,121 @@
+//! A number of a scene file by its name, as messages write it: `contour.piece[2].vertex[1]`, counted from 1.
+
+use toml::{Table, Value};
+
+/// The names and numbers on the way from the table to the value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Field(Vec<Part>);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Part {
+    Name(String),
+    /// From 0.
+    Number(usize),
+}
+
+impl Field {
+    /// None for a text that is no such name.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut parts = Vec::new();
+        for name in text.split('.') {
+            let mut rest = name.split('[');
+            let name = rest.next().filter(|name| !name.is_empty() && !name.contains(']'))?;
+            parts.push(Part::Name(name.to_owned()));
+            for number in rest {
+                let number: usize = number.strip_suffix(']')?.parse().ok()?;
+                parts.push(Part::Number(number.checked_sub(1)?));
+            }
+        }
+        Some(Self(parts))
+    }
+
+    /// Writes the number into the table: in place of the one that is there, or beside the others of a table that is there.
+    ///
+    /// # Errors
+    /// What is wrong with the name, for a message.
+    pub fn set(&self, table: &mut Table, number: f64) -> Result<(), String> {
+        let Some((Part::Name(first), rest)) = self.0.split_first() else { return Err("no name".to_owned()) };
+        if rest.is_empty() {
+            return put(table, first, number);
+        }
+        let mut at = table.get_mut(first).ok_or_else(|| format!("the scene has no `{first}`"))?;
+        for (index, part) in rest.iter().enumerate() {
+            let last = index + 1 == rest.len();
+            at = match (part, at) {
+                (Part::Name(name), Value::Table(table)) if last => return put(table, name, number),
+                (Part::Name(name), Value::Table(table)) => {
+                    table.get_mut(name).ok_or_else(|| format!("the scene has no `{name}` there"))?
+                }
+                (Part::Number(n), Value::Array(array)) => {
+                    let count = array.len();
+                    let missing =
+                        || format!("there are {count} of them in the scene, expected a number from 1 to {count}");
+                    array.get_mut(*n).ok_or_else(missing)?
+                }
+                (Part::Name(name), found) => {
+                    return Err(format!("`{name}` is asked of {}, expected a table", found.type_str()));
+                }
+                (Part::Number(n), found) => {
+                    return Err(format!("[{}] is asked of {}, expected a list", n + 1, found.type_str()));
+                }
+            };
+        }
+        replace(at, number)
+    }
+}
+
+fn put(table: &mut Table, name: &str, number: f64) -> Result<(), String> {
+    match table.get_mut(name) {
+        Some(value) => replace(value, number),
+        None => {
+            table.insert(name.to_owned(), Value::Float(number));
+            Ok(())
+        }
+    }
+}
+
+fn replace(value: &mut Value, number: f64) -> Result<(), String> {
+    if !matches!(value, Value::Float(_) | Value::Integer(_)) {
+        return Err(format!("it is {} in the scene, expected a number", value.type_str()));
+    }
+    *value = Value::Float(number);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Table {
+        "[rod]\nlength = 1\n[[object]]\nposition = [1.0, 2.0]\n[[object.piece]]\nshape = \"parabola\"".parse().unwrap()
+    }
+
+    #[test]
+    fn a_number_is_found_by_its_name() {
+        let mut table = scene();
+        for (name, number) in [("rod.length", 2.0), ("object[1].position[2]", 3.0), ("object[1].angle", 4.0)] {
+            Field::parse(name).unwrap().set(&mut table, number).unwrap();
+        }
+        let expected: Table = "[rod]\nlength = 2.0\n[[object]]\nposition = [1.0, 3.0]\nangle = 4.0\n[[object.piece]]\nshape = \"parabola\""
+            .parse()
+            .unwrap();
+        assert_eq!(table, expected);
+    }
+
+    #[test]
+    fn wrong_names_are_told() {
+        for text in ["", ".", "a[0]", "a[", "a]", "a[b]", "a..b", "a[1"] {
+            assert_eq!(Field::parse(text), None, "{text}");
+        }
+        for (name, message) in [
+            ("sweep.from[1]", "the scene has no `sweep`"),
+            ("object[2].angle", "there are 1 of them in the scene, expected a number from 1 to 1"),
+            ("object.angle", "`angle` is asked of array, expected a table"),
+            ("rod[1]", "[1] is asked of table, expected a list"),
+            ("object[1].piece[1].shape", "it is string in the scene, expected a number"),
+            ("object[1].position", "it is array in the scene, expected a number"),
+        ] {
+            assert_eq!(Field::parse(name).unwrap().set(&mut scene(), 1.0), Err(message.to_owned()));
+        }
+    }
+}
