@@ -88,6 +88,8 @@ fn pieces<const N: usize>(kind: Kind, sizes: [usize; N]) {
             differences[n]
         );
     }
+    let claim = format!("{} pieces cost less than 2 times {FEW}", sizes[N - 1]);
+    println!("{}", verdict(&claim, times[N - 1].least / times[0].least, ..2.0));
 }
 
 /// More and more reported states of one scan.

@@ -20,7 +20,9 @@ use std::hint::black_box;
 use std::process::{Command, ExitCode};
 use vibrissa::contact::Derivatives;
 use vibrissa::reconstruct::single;
-use vibrissa::rod::{NewtonWorkspace, advance, advance_with_sensitivities, walk};
+use vibrissa::rod::{
+    Cone, Cut, NewtonWorkspace, RodModel, RodSection, Sections, Smooth, advance, advance_with_sensitivities, walk,
+};
 use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, State, Sweep, equilibrium};
 
 /// What is kept, beside this file.
@@ -46,6 +48,18 @@ struct Work {
 impl Work {
     fn new(name: impl Into<String>, times: [usize; 2], run: impl Fn(usize) -> usize + 'static) -> Self {
         Self { name: name.into(), times, run: Box::new(run) }
+    }
+}
+
+/// Segments of a rod of any model: those of the uniform rod with a twentieth of force and moment, for the softer end, from the tip back.
+fn along(rod: impl RodModel + 'static) -> impl Fn(usize) -> usize {
+    move |times| {
+        let segments = segments();
+        for measure::Segment { start, a, b, s } in segments.iter().cycle().take(times * 1024) {
+            let start = Cut { x: start.x, y: start.y, phi: start.phi, moment: 0.05 * start.kappa };
+            black_box(rod.carry_with_sensitivities(1.0, black_box(&start), 0.05 * a, 0.05 * b, -*s));
+        }
+        times * 1024
     }
 }
 
@@ -97,6 +111,11 @@ fn works() -> Vec<Work> {
             }),
         ),
     ];
+    let halves =
+        [1.0, 0.25].map(|bending_stiffness| RodSection { length: 0.5, bending_stiffness, natural_curvature: 0.0 });
+    let cone = Smooth::new(Cone { taper: 0.5 }).unwrap();
+    works.push(Work::new("segment of two sections with derivatives", [1, 5], along(Sections::new(&halves).unwrap())));
+    works.push(Work::new("segment of a cone with derivatives", [1, 3], along(cone)));
     for (index, phase) in PHASES.iter().enumerate() {
         works.push(Work::new(format!("warm solve of {phase}"), [1, 9], move |times| {
             let (cases, mut u, mut workspace) = (&solves::warm()[index], Vec::new(), NewtonWorkspace::new());

@@ -9,14 +9,14 @@ mod measure;
 use criterion::{Criterion, Throughput};
 use measure::solves::{Case, PHASES, solve_all, warm};
 use measure::{Time, interleaved, is_timed, kernel, machine, segments};
-use vibrissa::rod::{MultiPoint, NewtonOptions, NewtonWorkspace, solve};
+use vibrissa::rod::{MultiPoint, NewtonOptions, NewtonWorkspace, Uniform, solve};
 
 /// Solves all cases and returns the mean number of iterations, after a look at the solutions.
 fn check(cases: &[Case]) -> f64 {
     let mut iterations = 0;
     for case in cases {
         let mut u = case.guess.clone();
-        let problem = MultiPoint { clamp: case.clamp, supports: &case.supports };
+        let problem = MultiPoint { rod: Uniform, clamp: case.clamp, supports: &case.supports };
         let report = solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
         let error = u.iter().zip(&case.solution).map(|(u, v)| (u - v).abs()).fold(0.0, f64::max);
         assert!(error < 1e-9, "{error:e} at x0 = {}", case.clamp.x);

@@ -21,11 +21,20 @@ pub mod equilibria {}
 #[doc = include_str!("../docs/fits.md")]
 pub mod fits {}
 
+#[doc = include_str!("../docs/rods.md")]
+pub mod rods {}
+
+#[doc = include_str!("../docs/whiskers.md")]
+pub mod whiskers {}
+
 #[doc = include_str!("../docs/scene-files.md")]
 pub mod scene_files {}
 
 #[doc = include_str!("../docs/studies.md")]
 pub mod studies {}
+
+#[doc = include_str!("../docs/limit-distance.md")]
+pub mod limit_distance {}
 
 #[doc = include_str!("../docs/shapes.md")]
 pub mod shapes {}

@@ -10,7 +10,7 @@ use vibrissa::contact::ContactKind;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
 use vibrissa::reconstruct::{Ar1, Dropout, Live, LiveSettings, NoiseModel, single};
 use vibrissa::rod::{
-    Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Section, Support, Supports, advance,
+    Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Section, Support, Supports, Uniform, advance,
     advance_with_sensitivities, solve, walk,
 };
 use vibrissa::{Label, Pose, Rod, Sample, State};
@@ -94,8 +94,9 @@ fn warm_started_solves_do_not_allocate() {
         }
         let (supports, start) = unknowns(&scene, before);
         let supports = TwoParabolas(&supports);
-        let here = MultiPoint { clamp: before.pose, supports: &supports };
-        let there = MultiPoint { clamp: Pose { x: before.pose.x - 1e-3, ..before.pose }, supports: &supports };
+        let here = MultiPoint { rod: Uniform, clamp: before.pose, supports: &supports };
+        let there =
+            MultiPoint { rod: Uniform, clamp: Pose { x: before.pose.x - 1e-3, ..before.pose }, supports: &supports };
         let mut u = start.clone();
         // the workspace has seen the dimension
         let report = solve(&here, &mut u, &options, &mut workspace);

@@ -80,7 +80,24 @@ fn a_step_for_each_leg() {
     let path = Chain::polyline(&[clamp(1.0), clamp(0.9), clamp(0.8)]).unwrap();
     let steps = |steps: &[f64]| Sweep::with_steps(&scene.rod(), &contour, path.clone(), steps).map(Sweep::run);
     assert_eq!(steps(&[0.05, 0.02]).unwrap().states.len(), 3 + 5);
-    assert!(matches!(steps(&[0.05]), Err(ContactError::Step { .. })));
+    let error = steps(&[0.05]).unwrap_err().to_string();
+    assert_eq!(error, "there are 1 steps for a path of 2 legs, expected one for each leg");
+}
+
+/// Such paths were swept, and Newton's method was said to fail.
+#[test]
+fn rates_that_are_no_derivatives_are_refused() {
+    let (scene, contour) = scan();
+    let path = |factor: f64| {
+        move |t: f64| PathPoint {
+            pose: Pose { x: 1.0 - t * t, y: -0.4, phi: 1.5 },
+            rate: Pose { x: -factor * t, y: 0.0, phi: 0.0 },
+        }
+    };
+    assert!(Sweep::new(&scene.rod(), &contour, path(2.0), 0.1).is_ok());
+    let error = Sweep::new(&scene.rod(), &contour, path(1.9), 0.1).unwrap_err().to_string();
+    let expected = "the rate of x of the path is -0.059375 at the parameter 0.03125, expected -0.0625, by differences of its poses";
+    assert!(error.starts_with(&expected[..72]) && error.contains("by differences"), "{error}");
 }
 
 /// There and back: the way back is another one where the rod has snapped.
@@ -136,7 +153,7 @@ fn a_spline_leads_through_its_poses() {
     let outcome = Sweep::new(&scene.rod(), &contour, spline.clone(), 0.02).unwrap().run();
     assert!(outcome.stop.is_none() && outcome.states.iter().any(|state| state.contacts.len() == 1));
     for (k, state) in outcome.states.iter().enumerate() {
-        let there = spline.point(0.02 * k as f64).pose;
+        let there = spline.point((0.02 * k as f64).min(spline.length())).pose;
         assert!(close(state.pose.x, there.x, 1e-14) && close(state.pose.phi, there.phi, 1e-14));
         let alone = equilibrium(&scene.rod(), &contour, state.pose, &state.contacts).unwrap().state;
         let off = difference(&alone, state, 1e-9);

@@ -7,7 +7,8 @@ use crate::common::{OBJECTS, Scene, close};
 use serde_json::Value;
 use vibrissa::contact::{Contact, ContactKind, EventKind, Outcome};
 use vibrissa::rod::{
-    Elastica, Hold, Load, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Support, Supports, Units, solve,
+    Elastica, Hold, Load, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Support, Supports, Uniform, Units,
+    solve,
 };
 use vibrissa::{Event, Pose, Rod, State};
 
@@ -163,7 +164,7 @@ fn continued(scene: &Scene, state: &State, x0: f64) -> (Elastica, Reactions) {
     let supports = Held { pieces: &scene.bumps.pieces, contacts, offsets: &offsets };
     let third = |c: &Contact| if c.kind == ContactKind::Tip { shape.at(1.0).phi } else { c.s };
     let mut u: Vec<f64> = contacts.iter().flat_map(|c| [c.x, c.force, third(c)]).collect();
-    let problem = MultiPoint { clamp: Pose { x: x0, ..state.pose }, supports: &supports };
+    let problem = MultiPoint { rod: Uniform, clamp: Pose { x: x0, ..state.pose }, supports: &supports };
     let report = solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
     assert!(report.status.is_solved() && report.residual < 1e-13, "{report:?}");
     let loads: Vec<_> = (0..contacts.len())

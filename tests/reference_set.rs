@@ -8,7 +8,9 @@ use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 use vibrissa::contact::{Contact, ContactKind, EventKind};
-use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Section, Support, Supports, advance, solve};
+use vibrissa::rod::{
+    Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Section, Support, Supports, Uniform, advance, solve,
+};
 use vibrissa::{CircularArc, Composite, Contour, Line, Parabola, Pose, Rod, State, equilibrium};
 
 /// The largest error that passes, in units of condition * epsilon.
@@ -262,7 +264,7 @@ fn contacts_by_the_boundary_value_problem() {
             u.push(force + PERTURBATION * (1.0 + force));
             u.push(third - PERTURBATION);
         }
-        let system = MultiPoint { clamp: clamp(&problem), supports: &held };
+        let system = MultiPoint { rod: Uniform, clamp: clamp(&problem), supports: &held };
         let report = solve(&system, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
         assert!(report.status.is_solved(), "{}: {report:?}", problem.name);
         let mut errors = Vec::new();
@@ -339,7 +341,8 @@ fn objects(problem: &Problem) -> Vec<Composite> {
             }
             Shape::Line { point: [x, y], angle } => {
                 let (sin, cos) = angle.sin_cos();
-                Composite::single(Line::new([x, y], [x + 2.0 * cos, y + 2.0 * sin]).unwrap()).unwrap()
+                let ends = [-2.0, 2.0].map(|way| [x + way * cos, y + way * sin]);
+                Composite::single(Line::new(ends[0], ends[1]).unwrap()).unwrap()
             }
             Shape::Vertex { point: [x, y] } => {
                 let beside = |turn: f64| {

@@ -2,9 +2,9 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::f64::consts::PI;
-use vibrissa::contact::{EventKind, Outcome, StopReason};
+use vibrissa::contact::{ContactKind, EventKind, Outcome, StopReason};
 use vibrissa::contour::Motion;
-use vibrissa::{CircularArc, ClampPath, Composite, Contour, Line, Parabola, Pose, Rod, Sweep};
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, Line, Parabola, Pose, Rod, State, Sweep};
 
 const UP: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -177,5 +177,62 @@ fn the_end_of_a_line_met_head_on_is_the_end_of_a_contour() {
         let idle =
             outcome.events.iter().filter(|event| event.from() == event.to() && event.kind == EventKind::FirstContact);
         assert_eq!(idle.count(), 0, "{x:e}");
+    }
+}
+
+/// The sweep stopped there too, but said that a transition cannot be located.
+#[test]
+fn the_notch_between_two_objects_stops_the_tip_by_name() {
+    // a floor and a wall, and both in one
+    let polygon = |points: &[[f64; 2]]| Composite::polygon(points).unwrap();
+    let floor = polygon(&[[-2.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-2.0, 0.0]]);
+    let wall = polygon(&[[0.0, -0.5], [0.5, -0.5], [0.5, 2.0], [0.0, 2.0]]);
+    let joined =
+        polygon(&[[-2.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.5, 0.0], [0.5, 2.0], [0.0, 2.0], [0.0, 0.0], [-2.0, 0.0]]);
+    let pose = |x, y| Pose { x, y, phi: -PI / 3.0 };
+    let path = ClampPath::new(pose(-1.2, 0.9), pose(-0.3, 0.7)).unwrap();
+    let rod = Rod::new(1.0, 1.0).unwrap();
+    let swept = |objects: &[Composite]| Sweep::new(&rod, objects, path, 0.01).unwrap().run();
+
+    let stop = swept(&[floor, wall]).stop.unwrap();
+    assert_eq!(stop.reason, StopReason::BetweenObjects);
+    assert!(stop.to_string().contains("join them into one contour"), "{stop}");
+    let outcome = swept(&[joined]);
+    let notched = |state: &State| state.contacts.iter().any(|contact| contact.kind == ContactKind::Notch);
+    assert!(outcome.stop.is_none() && outcome.states.iter().any(notched));
+}
+
+/// A step over two folds of one branch stopped at the second, and the rod snapped back to where it came from, again and again.
+#[test]
+fn a_step_over_two_folds_ends_at_the_first() {
+    for (height, second, c, y) in [(0.15, 0.55, 5.0, -0.35), (0.2, 0.4, 10.0, -0.375), (0.1, 0.65, 2.5, -0.425)] {
+        let object = [([0.0, height], 5.0), ([second, 0.0], c)];
+        let outcome = sweep(&object, Pose { x: 1.5, y, phi: UP }, Pose { x: -1.4, y, phi: UP }, 0.01);
+        assert!(outcome.stop.is_none(), "{second:?}: {:?}", outcome.stop);
+        assert!(outcome.events.windows(2).all(|two| two[1].pose().x < two[0].pose().x + 1e-12), "{second:?}");
+    }
+}
+
+/// A tip in a notch, the rod lying on one of its walls: the equations are singular where the contact on the wall arrives in the
+/// notch, and where the force in the notch vanishes. Newton's method failed at both.
+#[test]
+fn a_rod_that_lies_on_the_wall_of_a_notch_stands_up_or_lets_go() {
+    for (half, depth, y, enters, leaves) in [
+        (0.26, 0.28, -0.575, "A snap BA", "BA release B"),
+        (0.24, 0.26, -0.6, "A snap BA", "BA release A"),
+        (0.16, 0.04, -0.55, "A touch BA", "BA release B"),
+    ] {
+        let notch = [[-0.5, 0.0], [-half, 0.0], [0.0, depth], [half, 0.0], [0.5, 0.0], [0.9, 1.2], [-0.9, 1.2]];
+        let notch = Composite::polygon(&notch).unwrap();
+        let path = ClampPath::new(Pose { x: 1.2, y, phi: UP }, Pose { x: -1.6, y, phi: UP }).unwrap();
+        let outcome = Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &notch, path, 0.01).unwrap().run();
+        assert!(outcome.stop.is_none(), "{half}: {:?}", outcome.stop);
+        let kinds = kinds(&outcome);
+        let in_notch = kinds.iter().position(|kind| kind == enters).unwrap();
+        assert_eq!(kinds[in_notch + 1], leaves, "{half}");
+        // the force is continuous through the transition
+        let event = &outcome.events[in_notch + 1];
+        let (before, after) = (&event.before.reactions, &event.after.reactions);
+        assert!((before.f0x - after.f0x).abs() < 1e-9 && (before.m0z - after.m0z).abs() < 1e-9, "{half}");
     }
 }

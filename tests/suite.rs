@@ -12,6 +12,7 @@ mod follow_contour;
 mod hard;
 mod hard_cases;
 mod hard_starts;
+mod inadmissible;
 mod inflection;
 #[cfg(feature = "serde")]
 mod json;
@@ -20,5 +21,6 @@ mod phase_criterion;
 mod reference;
 mod reference_set;
 mod regression;
+mod rods;
 mod size;
 mod symmetry;

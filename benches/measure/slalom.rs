@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::hint::black_box;
 use vibrissa::contact::{Contact, ContactKind, Equilibrium};
-use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, solve};
+use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, Uniform, solve};
 use vibrissa::{CircularArc, Composite, Pose, Rod, equilibrium};
 
 /// Radius of the discs, and how far each pushes the rod out of its straight line.
@@ -50,7 +50,7 @@ impl Slalom {
     /// The solution with the clamp `up` higher, from a guess.
     fn solution(&self, guess: &[f64], up: f64) -> Vec<f64> {
         let mut u = guess.to_vec();
-        let problem = MultiPoint { clamp: clamp(up), supports: self };
+        let problem = MultiPoint { rod: Uniform, clamp: clamp(up), supports: self };
         let report = solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
         assert!(report.status.is_solved() && u.chunks(3).all(|contact| contact[1] > 0.0), "{report:?} {u:?}");
         u
@@ -84,7 +84,7 @@ impl Warm {
         for _ in 0..times {
             u.clear();
             u.extend_from_slice(&self.guess);
-            let problem = MultiPoint { clamp: clamp(MOVED), supports: black_box(&self.slalom) };
+            let problem = MultiPoint { rod: Uniform, clamp: clamp(MOVED), supports: black_box(&self.slalom) };
             assert!(solve(&problem, u, &NewtonOptions::default(), workspace).status.is_solved());
         }
         times

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 use vibrissa::contact::ContactKind;
 use vibrissa::contour::Frame;
-use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, solve};
+use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, Uniform, solve};
 use vibrissa::{Contour, Parabola, Pose, State};
 
 /// The phases of that sweep with their contacts from the clamp to the tip.
@@ -81,7 +81,7 @@ pub fn solve_all(cases: &[Case], u: &mut Vec<f64>, workspace: &mut NewtonWorkspa
     for case in cases {
         u.clear();
         u.extend_from_slice(&case.guess);
-        let problem = MultiPoint { clamp: case.clamp, supports: &case.supports };
+        let problem = MultiPoint { rod: Uniform, clamp: case.clamp, supports: &case.supports };
         let report = solve(black_box(&problem), u, &options, workspace);
         assert!(report.status.is_solved());
         black_box(&u);

@@ -3,7 +3,7 @@
 use crate::boundary::PHASES;
 use crate::figure::{Figure, Panel};
 use crate::row::Row;
-use crate::{inversion, scan, segment, still};
+use crate::{branch, inversion, scan, segment, still};
 
 /// One figure a group of tasks.
 pub fn figures(rows: &[Row]) -> Vec<Figure<'_>> {
@@ -47,6 +47,12 @@ pub fn figures(rows: &[Row]) -> Vec<Figure<'_>> {
             "From reactions back to the contact",
             "time of one contact, s",
             by_problem(inversion::TASK),
+        ),
+        figure(
+            "branch",
+            "A branch of equilibria, each from the one before",
+            "time of one state, s",
+            branch::TASKS.iter().map(|task| Panel { title: (*task).to_owned(), rows: of_task(task) }).collect(),
         ),
         figure("static", "One pose, the tip on a floor", "time, s", by_problem(still::TASK)),
     ]

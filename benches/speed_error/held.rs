@@ -3,7 +3,7 @@
 use crate::problem::{Holds, Problem, Shape};
 use std::f64::consts::PI;
 use vibrissa::contour::Frame;
-use vibrissa::rod::{Hold, MultiPoint, Support, Supports};
+use vibrissa::rod::{Hold, MultiPoint, Support, Supports, Uniform};
 use vibrissa::{Contour, Parabola, Pose};
 
 /// Supports of all the shapes of the reference set, each with a parameter of its own: x from the vertex of a parabola, the
@@ -74,7 +74,7 @@ impl<'a> Case<'a> {
 
     /// The same rod on the same supports, its clamp elsewhere.
     pub fn clamped(&self, clamp: Pose) -> MultiPoint<'_, Held> {
-        MultiPoint { clamp, supports: &self.supports }
+        MultiPoint { rod: Uniform, clamp, supports: &self.supports }
     }
 
     /// Largest error of the reactions and of the points of contact.

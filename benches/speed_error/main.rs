@@ -3,13 +3,15 @@
 //!
 //! `cargo bench --bench speed_error` measures, prints a table and draws figures into `speed-against-error` of cargo's target
 //! directory. `-- --figures` draws again what was measured before, with what `benches/peers/speed/run` left there of other
-//! programs. `-- --docs` also puts figures and numbers into docs/speed-against-error.md.
+//! programs. `-- --docs` also puts figures and numbers into docs/speed-against-error.md. `-- --branch` measures branches of equilibria
+//! alone, with AUTO-07p where benches/peers/speed/auto/run has prepared it, and draws their figure.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a bench may, and it is there to be read")]
 
 #[path = "../measure/mod.rs"]
 mod measure;
 
 mod boundary;
+mod branch;
 mod claims;
 mod exact;
 mod figure;
@@ -40,6 +42,8 @@ use row::Row;
 /// Rows of this program, of other programs.
 const OURS: &str = "ours.csv";
 const PEERS: &str = "peers.csv";
+/// Rows of both, measured in turns.
+const BRANCHES: &str = "branches.csv";
 /// On what they were measured.
 const MACHINE: &str = "machine.txt";
 
@@ -107,12 +111,18 @@ fn main() {
     let asked = |what: &str| std::env::args().any(|argument| argument == what);
     let folder = row::folder();
     let machine = folder.join(MACHINE);
-    if !asked("--figures") {
+    if asked("--branch") {
+        let rows = branch::measure(&problems);
+        row::write(&folder.join(BRANCHES), &rows);
+        print(&rows);
+        println!("\n{}", branch::table(&rows));
+    } else if !asked("--figures") {
         row::write(&folder.join(OURS), &measured(&problems));
         std::fs::write(&machine, machine::line()).unwrap();
     }
     let mut rows = row::read(&folder.join(OURS));
     rows.extend(row::read(&folder.join(PEERS)));
+    rows.extend(row::read(&folder.join(BRANCHES)));
     print(&rows);
     let figures = figures::figures(&rows);
     let mut drawn = Vec::new();

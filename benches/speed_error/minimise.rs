@@ -1,41 +1,13 @@
 //! Other solvers of `argmin` on the boundary-value problem. The only file that knows them.
 
-use argmin::core::{CostFunction, Error, Executor, Gradient, Hessian, Jacobian, OptimizationResult, Solver, State};
+use argmin::core::{Executor, OptimizationResult, Solver, State};
 use argmin::solver::gaussnewton::GaussNewton;
 use argmin::solver::trustregion::{Dogleg, TrustRegion};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use vibrissa::rod::{NewtonOptions, NewtonSolver, RootProblem, System};
 
 /// Iterations after which a solver that does not come to an end has not converged.
 const MOST: u64 = 60;
-
-/// A system as half the square of its residual, with the Hessian of Gauss and Newton, J^T J.
-struct LeastSquares<S>(RootProblem<S>);
-
-impl<S: System> CostFunction for LeastSquares<S> {
-    type Param = DVector<f64>;
-    type Output = f64;
-    fn cost(&self, u: &Self::Param) -> Result<f64, Error> {
-        self.0.cost(u)
-    }
-}
-
-impl<S: System> Gradient for LeastSquares<S> {
-    type Param = DVector<f64>;
-    type Gradient = DVector<f64>;
-    fn gradient(&self, u: &Self::Param) -> Result<Self::Gradient, Error> {
-        self.0.gradient(u)
-    }
-}
-
-impl<S: System> Hessian for LeastSquares<S> {
-    type Param = DVector<f64>;
-    type Hessian = DMatrix<f64>;
-    fn hessian(&self, u: &Self::Param) -> Result<Self::Hessian, Error> {
-        let jacobian = self.0.jacobian(u)?;
-        Ok(jacobian.tr_mul(&jacobian))
-    }
-}
 
 /// Our own step under argmin's executor. Returns whether it converged.
 pub fn newton(system: impl System, u: &mut [f64], options: NewtonOptions) -> bool {
@@ -53,7 +25,7 @@ pub fn gauss_newton(system: impl System, u: &mut [f64], tolerance: f64) -> bool 
 
 /// Argmin's trust region with dogleg steps, which goes on until |F| is below the tolerance: it has no other end.
 pub fn trust_region(system: impl System, u: &mut [f64], tolerance: f64) -> bool {
-    let executor = Executor::new(LeastSquares(RootProblem(system)), TrustRegion::new(Dogleg::new()));
+    let executor = Executor::new(RootProblem(system), TrustRegion::new(Dogleg::new()));
     let executor = executor.configure(|state| {
         state.param(DVector::from_column_slice(u)).target_cost(0.5 * tolerance * tolerance).max_iters(MOST)
     });

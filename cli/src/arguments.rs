@@ -129,6 +129,9 @@ pub enum Command {
         /// Directory of the results [default: out/<name of the study>]
         #[arg(long, value_name = "DIR", value_parser = directory)]
         out: Option<PathBuf>,
+        /// Sweep nothing, and print this scene of the study, by its number in rows.csv, as a scene file
+        #[arg(long, value_name = "N", conflicts_with = "out")]
+        scene: Option<usize>,
     },
     /// Run the nine scans of Merker et al. (2020) and compare their phases with the paper's
     #[command(after_help = guide::PAPER)]

@@ -69,6 +69,7 @@ impl Error {
             self,
             Self::Profile(_)
                 | Self::Simulation(_)
+                | Self::Study(StudyError::NoScene { .. })
                 | Self::Fake(FakeError::Pace { .. } | FakeError::NoPty { .. })
                 | Self::Output(OutputError::Name { .. } | OutputError::NoFile { .. })
         )

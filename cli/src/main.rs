@@ -20,9 +20,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
-    Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError,
-    Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun, check_output,
-    read_known_rod, read_noise, shapes_list, write_first_scene, write_profile_table, write_profiles,
+    AnyScene, Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene,
+    SceneError, SceneRod, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun,
+    check_output, read_known_rod, read_noise, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -53,7 +53,7 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live(arguments) => live(arguments),
         Command::FakeSensor(arguments) => fake_sensor(arguments),
-        Command::Study { study, out } => run_study(&study, out),
+        Command::Study { study, out, scene } => run_study(&study, out, scene),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| match error {
@@ -113,10 +113,15 @@ fn man(command: Option<&str>) -> Result<ExitCode, Error> {
 }
 
 /// Reads a scene, and tells of what may be a mistake in it.
-fn read_scene(file: &Path) -> Result<Scene, SceneError> {
-    let scene = Scene::read(file)?;
-    scene.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+fn read_any(file: &Path) -> Result<AnyScene, SceneError> {
+    let scene = AnyScene::read(file)?;
+    scene.warnings().iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
     Ok(scene)
+}
+
+/// The same for what takes uniform rods alone.
+fn read_scene(file: &Path) -> Result<Scene, SceneError> {
+    read_any(file)?.uniform()
 }
 
 fn read_setup(file: &Path) -> Result<Setup, SceneError> {
@@ -126,7 +131,13 @@ fn read_setup(file: &Path) -> Result<Setup, SceneError> {
 }
 
 fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
-    let scene = read_scene(file)?;
+    match read_any(file)? {
+        AnyScene::Uniform(scene) => sweep_scene(scene, out),
+        AnyScene::Varying(scene) => sweep_scene(scene, out),
+    }
+}
+
+fn sweep_scene<R: SceneRod>(scene: Scene<R>, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let caught = signals::ask();
@@ -154,7 +165,18 @@ fn contour(
     object: Option<usize>,
 ) -> Result<ExitCode, Error> {
     signals::end();
-    let scene = read_scene(file)?;
+    match read_any(file)? {
+        AnyScene::Uniform(scene) => contour_of(scene, out, tolerance, object),
+        AnyScene::Varying(scene) => contour_of(scene, out, tolerance, object),
+    }
+}
+
+fn contour_of<R: SceneRod>(
+    scene: Scene<R>,
+    out: Option<PathBuf>,
+    tolerance: Option<f64>,
+    object: Option<usize>,
+) -> Result<ExitCode, Error> {
     let profiles = scene.profiles(tolerance, object)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
     let tell: fn(&str) = if is_standard(&out) { tell_beside } else { say };
@@ -262,8 +284,11 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
 }
 
-fn run_study(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+fn run_study(file: &Path, out: Option<PathBuf>, scene: Option<usize>) -> Result<ExitCode, Error> {
     let study = Study::read(file)?;
+    if let Some(number) = scene {
+        return print(study.text(number)?.as_bytes());
+    }
     let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
     let out = out.unwrap_or_else(|| Path::new("out").join(&name));
     let caught = signals::ask();
@@ -272,17 +297,17 @@ fn run_study(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     drop(progress);
     let StudyRun { scenes, found, done, stopped, refused, first_refusal, complete } = run;
     say(&format!(
-        "{name}: {scenes} scenes: {found} rows found, {done} done, {stopped} stopped early, {refused} refused\nwritten to {}\n",
+        "{name}: {scenes} scenes: {done} done, {stopped} stopped early, {refused} refused; {found} rows were there before\nwritten to {}\n",
         out.display()
     ));
-    if let Some(reason) = first_refusal {
-        warn(&format!("{name}: the first scene that was refused: {reason}\n"));
+    if let Some((number, reason)) = first_refusal {
+        warn(&format!("{name}: the first scene that was refused is {number}: {reason}\n"));
     }
     if !complete {
         warn(&format!("{name}: interrupted; the same command goes on\n"));
         return Ok(caught.status());
     }
-    Ok(if found + done == 0 { ExitCode::from(UNFINISHED) } else { ExitCode::SUCCESS })
+    Ok(if done + stopped == 0 { ExitCode::from(UNFINISHED) } else { ExitCode::SUCCESS })
 }
 
 fn paper(out: &Path) -> Result<ExitCode, Error> {
@@ -318,7 +343,7 @@ fn paper(out: &Path) -> Result<ExitCode, Error> {
 }
 
 /// Tells of the sweeps that stopped early.
-fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
+fn verdict<'a, R: 'a>(scans: impl IntoIterator<Item = &'a Scan<R>>) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for scan in scans {
         if let Some(stop) = &scan.outcome.stop {

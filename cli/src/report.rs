@@ -1,16 +1,21 @@
 //! What a command says when it is done.
 
-use crate::Scan;
 use crate::table::Table;
+use crate::{Scan, SceneRod};
+use vibrissa::Rod;
+use vibrissa::contact::{Start, StartCandidate};
 
-impl Scan {
+impl<R: SceneRod> Scan<R> {
     /// A line on the phases, one on each thing a user should know, and the table of events.
     pub fn report(&self) -> String {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
         let incomplete = if self.is_complete() { "" } else { "incomplete, " };
         let phases = if self.is_empty() { "no phase".to_owned() } else { self.cycle().titled() };
         let mut text = format!("{}: {incomplete}{phases}; {states} states, {events} events\n", self.scene.name);
-        if let (Some(limit), Some(most)) = (self.scene.rod.yield_stress(), self.largest_stress())
+        if let Some(start) = self.start_in_contact() {
+            text += &start;
+        }
+        if let (Some(limit), Some(most)) = (self.scene.rod.uniform().and_then(Rod::yield_stress), self.largest_stress())
             && most > limit
         {
             text += &format!("the rod yields: its bending stress reaches {most:.4e} Pa, the limit is {limit:.4e} Pa\n");
@@ -21,6 +26,19 @@ impl Scan {
         text
     }
 
+    /// A line on how a start in contact was found, and what else there was.
+    fn start_in_contact(&self) -> Option<String> {
+        let Some(Start::InContact(found)) = &self.outcome.start else { return None };
+        let (taken, others) = found.split_first()?;
+        let named = |one: &StartCandidate| format!("{} by {} ({:.4e} J)", one.phase, one.approach, one.energy);
+        let mut text = format!("starts in contact: {}", named(taken));
+        if !others.is_empty() {
+            let others: Vec<_> = others.iter().map(named).collect();
+            text += &format!("; with more energy: {}", others.join(", "));
+        }
+        Some(text + "\n")
+    }
+
     /// The largest bending stress of the scan, Pa, where it is known.
     fn largest_stress(&self) -> Option<f64> {
         self.outcome.states.iter().filter_map(|state| state.max_stress).reduce(f64::max)
@@ -29,6 +47,9 @@ impl Scan {
     fn event_table(&self) -> String {
         let mut table =
             Table::new(["kind", "from", "to", "x0 mm", "y0 mm", "phi0 deg", "x0/L", "f0x N", "f0y N", "m0z N mm"]);
+        let felt = || self.outcome.events.iter().map(|event| event.before.reactions);
+        let forces = felt().map(|reactions| reactions.f0x.hypot(reactions.f0y)).fold(0.0, f64::max);
+        let moments = felt().map(|reactions| 1e3 * reactions.m0z.abs()).fold(0.0, f64::max);
         for event in &self.outcome.events {
             let (pose, reactions) = (event.pose(), event.before.reactions);
             table.row([
@@ -38,12 +59,29 @@ impl Scan {
                 format!("{:.9}", 1e3 * pose.x),
                 format!("{:.9}", 1e3 * pose.y),
                 format!("{:.9}", pose.phi.to_degrees()),
-                format!("{:.12}", pose.x / self.scene.rod.length()),
-                format!("{:.6}", reactions.f0x),
-                format!("{:.6}", reactions.f0y),
-                format!("{:.6}", 1e3 * reactions.m0z),
+                format!("{:.12}", pose.x / self.scene.rod.units().length),
+                of_size(reactions.f0x, forces),
+                of_size(reactions.f0y, forces),
+                of_size(1e3 * reactions.m0z, moments),
             ]);
         }
         table.to_string()
+    }
+}
+
+/// A number in a column whose largest one is `largest`: as it is, or with an exponent where six decimals would leave nothing of it.
+fn of_size(value: f64, largest: f64) -> String {
+    let plain = value == 0.0 || largest >= 1e-2;
+    if plain { format!("{value:.6}") } else { format!("{value:.4e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_size;
+
+    #[test]
+    fn small_forces_keep_their_digits() {
+        assert_eq!([of_size(0.5, 0.7), of_size(1e-7, 0.7)], ["0.500000", "0.000000"]);
+        assert_eq!([of_size(4.7e-5, 5e-5), of_size(0.0, 0.0)], ["4.7000e-5", "0.000000"]);
     }
 }

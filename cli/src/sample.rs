@@ -41,7 +41,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
             residual: 0.0,
             min_gap: GapBounds { lower: 0.0, seen: 0.0, proven: true },
             min_force: None,
-            first_integral: 0.0,
+            first_integral: Some(0.0),
             stable: true,
             condition: 1.0,
             iterations: 0,

@@ -1,26 +1,27 @@
 //! A scene that was swept.
 
 use crate::interval::{self, Interval};
-use crate::{Cycle, Error, Interrupt, Interrupted, Scene};
+use crate::{Cycle, Error, Interrupt, Interrupted, Scene, SceneRod};
+use vibrissa::Rod;
 use vibrissa::contact::{Item, Outcome};
 
 /// A scene and all its states and events.
 #[derive(Debug)]
-pub struct Scan {
+pub struct Scan<R = Rod> {
     /// What was asked.
-    pub scene: Scene,
+    pub scene: Scene<R>,
     /// What came out.
     pub outcome: Outcome,
     /// Where the sweep was when it was interrupted, if it was.
     pub interrupted: Option<Interrupted>,
 }
 
-impl Scan {
+impl<R: SceneRod> Scan<R> {
     /// Sweeps the scene to its end, or to where the sweep must stop.
     ///
     /// # Errors
     /// [`Error::Contact`] where the scene's step is no step.
-    pub fn run(scene: Scene) -> Result<Self, Error> {
+    pub fn run(scene: Scene<R>) -> Result<Self, Error> {
         Self::run_until(scene, &Interrupt::default())
     }
 
@@ -28,7 +29,7 @@ impl Scan {
     ///
     /// # Errors
     /// As [`run`](Self::run).
-    pub fn run_until(scene: Scene, interrupt: &Interrupt) -> Result<Self, Error> {
+    pub fn run_until(scene: Scene<R>, interrupt: &Interrupt) -> Result<Self, Error> {
         let mut outcome = Outcome::default();
         let (mut pose, mut interrupted) = (None, None);
         let mut sweep = scene.sweep()?;
@@ -54,6 +55,8 @@ impl Scan {
                 None => break,
             }
         }
+        outcome.start = sweep.start().cloned();
+        drop(sweep);
         Ok(Self { scene, outcome, interrupted })
     }
 

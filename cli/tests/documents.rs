@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::contour::description::Shape;
-use vibrissa_cli::Scene;
+use vibrissa_cli::AnyScene;
 
 fn scenes(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
@@ -16,8 +16,11 @@ fn every_scene_can_be_read_and_drawn() {
     let files = [scenes("scenes"), scenes("docs/shapes")].concat();
     assert!(files.len() > 9 + Shape::NAMES.len());
     for file in files {
-        let scene = Scene::read(&file).unwrap_or_else(|error| panic!("{error}"));
-        assert!(!scene.profiles(None, None).unwrap().is_empty(), "{}", file.display());
+        let profiles = match AnyScene::read(&file).unwrap_or_else(|error| panic!("{error}")) {
+            AnyScene::Uniform(scene) => scene.profiles(None, None),
+            AnyScene::Varying(scene) => scene.profiles(None, None),
+        };
+        assert!(!profiles.unwrap().is_empty(), "{}", file.display());
     }
 }
 

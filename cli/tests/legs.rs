@@ -66,12 +66,18 @@ fn what_is_wrong_in_a_leg_is_said() {
     };
     for (from, to, what) in [
         ("turn = -60.0 ", "turn = 0.0 ", "turn is 0"),
-        ("turn = -60.0 ", "angle_to = 0.0 ", "all of one"),
+        ("turn = -60.0 ", "angle_to = 0.0 ", "both straight and about a pivot"),
+        ("turn = -60.0 ", "#", "expected turn (degrees) beside it"),
+        ("pivot = [0.0, -0.008]", "#", "expected pivot = [x, y] (m) beside it"),
         ("turn = -60.0 ", "turn = -6000.0 ", "at most 5729 degrees"),
         ("to = [0.0, -0.01]         #", "to = [0.0, 0.0] #", "the leg ends where it starts"),
         ("to = [0.0, -0.01]         #", "#", "leads nowhere"),
         ("to = [0.0, -0.01]         #", "angle_to = 80.0 #", "missing field `step_angle`"),
-        ("to = [0.0, -0.01]         #", "to = [0.0, -0.01]\nstep_angle = 1.0 #", "needs step in its place"),
+        (
+            "to = [0.0, -0.01]         #",
+            "to = [0.0, -0.01]\nstep_angle = 1.0 #",
+            "step_angle is 1, but the clamp moves on this leg, expected step",
+        ),
         ("to = [0.0, -0.01]         #", "to = [0.0, -0.01]\nstep = 1e-12 #", "at most 1e6"),
         ("to = [0.0, -0.01]         #", "too = [0.0, -0.01] #", "unknown field"),
     ] {
@@ -79,4 +85,25 @@ fn what_is_wrong_in_a_leg_is_said() {
         assert!(message.contains(what), "{to}: {message}");
         assert!(message.starts_with("legs.toml:"), "{message}");
     }
+}
+
+/// A leg that turns on the spot was told to take its step from [sweep], which refused one in degrees.
+#[test]
+fn sweep_has_the_steps_of_all_legs() {
+    let text = whisking().replacen("step = 5e-4", "step_angle = 2.0\nstep = 5e-4", 1);
+    let text = text.replacen("to = [0.0, -0.01]         #", "angle_to = 80.0 #", 1);
+    let scene = Scene::parse("legs.toml".as_ref(), &text).unwrap();
+    assert!(
+        (scene.legs[2].step - 2.0_f64.to_radians()).abs() < 1e-15 && scene.legs[1].step == 5e-4 && scene.step == 5e-4
+    );
+    assert!(Scene::parse("legs.toml".as_ref(), &whisking().replacen("step = 5e-4", "step_angle = 2.0", 1)).is_err());
+}
+
+#[test]
+fn a_table_is_no_list_of_legs() {
+    let text = whisking();
+    let one = text.match_indices("[[sweep.leg]]").nth(1).map(|(second, _)| &text[..second]).unwrap();
+    let error =
+        Scene::parse("legs.toml".as_ref(), &one.replace("[[sweep.leg]]", "[sweep.leg]")).unwrap_err().to_string();
+    assert!(error.contains("expected [[sweep.leg]] before each leg"), "{error}");
 }

@@ -35,7 +35,10 @@ fn the_cycles_of_the_paper_and_what_was_touched() {
     written(directory.path(), DISTANCE);
     let output = vibrissa(directory.path(), &["study", "study.toml"]);
     assert!(output.status.success(), "{output:?}");
-    assert!(String::from_utf8_lossy(&output.stdout).contains("3 scenes: 0 rows found, 3 done"));
+    let told = "3 scenes: 3 done, 0 stopped early, 0 refused";
+    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("{told}; 0 rows were there before")));
+    let again = vibrissa(directory.path(), &["study", "study.toml"]);
+    assert!(again.status.success() && String::from_utf8_lossy(&again.stdout).contains(&format!("{told}; 3 rows")));
     let rows = rows(&directory.path().join("out/study"));
     let column = |name: &str| rows[0].iter().position(|column| column == name).unwrap();
     for (row, (cycle, distance)) in rows[1..].iter().zip([("C1", 20), ("C2", 40), ("C3", 60)]) {
@@ -98,7 +101,7 @@ fn a_run_that_was_broken_off_goes_on() {
     });
     let again = study.run(&broken, &Interrupt::default()).unwrap();
     assert!(again.complete && again.found >= 512, "{again:?}");
-    assert_eq!(again.found + again.done, 1200);
+    assert_eq!(again.done, 1200);
     let [whole, broken] = [whole, broken].map(|out| fs::read(out.join("rows.csv")).unwrap());
     assert_eq!(whole, broken);
     assert_eq!(whole.iter().filter(|byte| **byte == b'\n').count(), 1201);
@@ -137,6 +140,20 @@ fn the_studies_of_the_repository_are_some() {
         }
     }
     assert_eq!((counts.len(), counts.iter().sum()), (5, 30_360));
+}
+
+#[test]
+fn one_scene_is_printed() {
+    let directory = tempfile::tempdir().unwrap();
+    written(directory.path(), DISTANCE);
+    let output = vibrissa(directory.path(), &["study", "study.toml", "--scene", "1"]);
+    let printed = Scene::parse("one.toml".as_ref(), &String::from_utf8(output.stdout).unwrap()).unwrap();
+    let of_paper = Scene::read(&scene("O1_q40.toml")).unwrap();
+    let off = printed.path.at(0.0).y - of_paper.path.at(0.0).y;
+    assert!(off.abs() < 1e-15 && printed.step == of_paper.step, "{off:e}");
+    let output = vibrissa(directory.path(), &["study", "study.toml", "--scene", "3"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--scene is 3, expected a number from 0 to 2"));
 }
 
 #[test]
@@ -183,10 +200,13 @@ fn mistakes_have_their_places() {
         ),
         (
             "[[parameter]]\nname = \"a\"\nvalues = [1.0]\nset = [{ field = \"contour.piece[3].coefficient\" }]",
-            "contour.piece[3].coefficient: there are 2 of them in the scene, expected a number from 1 to 2",
+            "contour.piece[3].coefficient: the scene has 2, expected a number from 1 to 2",
         ),
         ("[[parameter]]\nname = \"a\"\nvalues = [1.0]\nset = [{ field = \"rod..length\" }]", "expected a name such as"),
-        ("[[parameter]]\nname = \"status\"\nvalues = [1.0]\nset = [{ field = \"rod.length\" }]", "\"status\" is taken"),
+        (
+            "[[parameter]]\nname = \"status\"\nvalues = [1.0]\nset = [{ field = \"rod.length\" }]",
+            "\"status\" is that of another parameter or of a column",
+        ),
         (
             "[[parameter]]\nname = \"a\"\nvalues = [nan]\nset = [{ field = \"rod.length\" }]",
             "a value is NaN, expected finite",
@@ -198,4 +218,22 @@ fn mistakes_have_their_places() {
     let output = vibrissa(directory.path(), &["study", "nowhere.toml"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("cannot read the study nowhere.toml"));
+}
+
+/// The second run said that none was refused, and ended with status 0.
+#[test]
+fn a_study_of_refused_scenes_ends_with_the_same_status_again() {
+    let directory = tempfile::tempdir().unwrap();
+    let study = "[[parameter]]\nname = \"step\"\nvalues = [-1.0, -2.0]\nset = [{ field = \"sweep.step\" }]\n";
+    written(directory.path(), study);
+    for _ in 0..2 {
+        let output = vibrissa(directory.path(), &["study", "study.toml"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("0 done, 0 stopped early, 2 refused"), "{output:?}");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            message.contains("the first scene that was refused is 0: ") && message.contains("step is -1"),
+            "{message}"
+        );
+    }
 }

@@ -1,8 +1,9 @@
 //! Equilibrium at one pose for a given contact set.
 
-use crate::contact_set::guess::{by_chords, by_forces, held, supposed};
+use crate::contact_set::Configuration;
+use crate::contact_set::guess::supposed;
+use crate::contact_set::on_piece::off_piece;
 use crate::contact_set::order::ordered;
-use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::error::ContactError;
@@ -10,9 +11,12 @@ use crate::gap::scan::Scanner;
 use crate::inadmissible::Inadmissible;
 use crate::path::{ClampPath, check};
 use crate::scene::setup::Setup;
+use crate::solve_guess::solve_guess;
 use crate::state::{Contact, State};
 use rod_contours::Composite;
-use rod_core::{Pose, Rod, SolveReport};
+#[cfg(feature = "argmin")]
+use rod_core::TrustRegionSearch;
+use rod_core::{PhysicalRod, Pose, SolveReport};
 
 /// What a solve for a given contact set came to.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +34,8 @@ pub struct Equilibrium {
 const DEEPEST: f64 = 1e-9;
 
 impl Equilibrium {
-    /// Whether the rod can be in this state: it is solved, no contact pulls or lies beyond the tip, the contacts are in order, the
-    /// rod is nowhere more than 1e-9 L inside an object, and it is stable.
+    /// Whether the rod can be in this state: it is solved, no contact pulls or lies beyond the tip, the contacts are in order
+    /// and on their pieces (to 1e-9 L), the rod is nowhere more than 1e-9 L inside an object, and it is stable.
     ///
     /// # Errors
     /// The first of these conditions that is broken, with what to try.
@@ -55,7 +59,13 @@ impl Equilibrium {
 }
 
 /// The first condition that a solved or unsolved state breaks.
-fn judged(report: &SolveReport, in_order: bool, state: &State, length: f64) -> Result<(), Inadmissible> {
+fn judged(
+    report: &SolveReport,
+    in_order: bool,
+    off_piece: Option<usize>,
+    state: &State,
+    length: f64,
+) -> Result<(), Inadmissible> {
     if !report.status.is_solved() {
         return Err(Inadmissible::NotSolved(report.status));
     }
@@ -68,6 +78,9 @@ fn judged(report: &SolveReport, in_order: bool, state: &State, length: f64) -> R
     }
     if !in_order {
         return Err(Inadmissible::NotInOrder);
+    }
+    if let Some(contact) = off_piece {
+        return Err(Inadmissible::OffPiece { contact });
     }
     let depth = -state.certificate.min_gap.seen;
     if depth > DEEPEST * length {
@@ -99,47 +112,75 @@ fn judged(report: &SolveReport, in_order: bool, state: &State, length: f64) -> R
 ///
 /// # Errors
 /// [`ContactError::NotFinite`], [`ContactError::Angle`], [`ContactError::Guess`] where a contact cannot be where it is said to be.
-pub fn equilibrium(
-    rod: &Rod,
+pub fn equilibrium<R: PhysicalRod>(
+    rod: &R,
     objects: &(impl AsRef<[Composite]> + ?Sized),
     pose: Pose,
     guess: &[Contact],
 ) -> Result<Equilibrium, ContactError> {
+    #[cfg(feature = "argmin")]
+    let rescue = |corrector: &mut Corrector<'_, R>, configuration: &mut Configuration| {
+        Some(corrector.solve_by_trust_region(configuration, 0.0, |search| search))
+    };
+    #[cfg(not(feature = "argmin"))]
+    let rescue = |_: &mut Corrector<'_, R>, _: &mut Configuration| None;
+    found(rod, objects.as_ref(), pose, guess, rescue)
+}
+
+/// [`equilibrium`] with the user's limits and observers of `argmin`'s trust region: `search` gets its executor before it runs, up to
+/// three times, where Newton's method has failed.
+///
+/// ```
+/// use rod_contact::{Contact, ContactKind, equilibrium_with_search};
+/// use rod_contours::{Composite, Parabola};
+/// use rod_core::{Pose, Rod};
+/// let contour = Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?;
+/// let pose = Pose { x: 0.1, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0 };
+/// let found = equilibrium_with_search(&Rod::new(1.0, 1.0)?, &contour, pose, &[guess], |search| {
+///     search.configure(|state| state.max_iters(20)).timeout(std::time::Duration::from_millis(5))
+/// })?;
+/// assert_eq!(found.is_admissible(), Ok(()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`equilibrium`].
+#[cfg(feature = "argmin")]
+pub fn equilibrium_with_search<R: PhysicalRod>(
+    rod: &R,
+    objects: &(impl AsRef<[Composite]> + ?Sized),
+    pose: Pose,
+    guess: &[Contact],
+    mut search: impl FnMut(TrustRegionSearch<'_>) -> TrustRegionSearch<'_>,
+) -> Result<Equilibrium, ContactError> {
+    let rescue = |corrector: &mut Corrector<'_, R>, configuration: &mut Configuration| {
+        Some(corrector.solve_by_trust_region(configuration, 0.0, &mut search))
+    };
+    found(rod, objects.as_ref(), pose, guess, rescue)
+}
+
+/// The equilibrium by Newton's method, or by `rescue` where that fails.
+fn found<R: PhysicalRod>(
+    rod: &R,
+    objects: &[Composite],
+    pose: Pose,
+    guess: &[Contact],
+    rescue: impl FnMut(&mut Corrector<'_, R>, &mut Configuration) -> Option<SolveReport>,
+) -> Result<Equilibrium, ContactError> {
     check(pose, ["pose.x", "pose.y", "pose.phi"])?;
     let units = rod.units();
-    let mut corrector = Corrector::new(Setup::new(rod, objects.as_ref(), ClampPath::standing(pose)));
-    let Setup { world, path, .. } = &corrector.setup;
-    let supposed = supposed(world, units, guess)?;
-    let clamp = path.at(0.0);
-    // a force may be a mere guess, and then the chords know better
-    let [by_chords, by_forces] =
-        [by_chords(clamp, &supposed), by_forces(clamp, &supposed)].map(|phi| held(&supposed, &phi));
-    let off = |configuration: &Configuration| {
-        let (supports, u) = (configuration.supports(world), configuration.of_contacts());
-        let mut residual = Unknowns::from_elem(0.0, u.len());
-        corrector.setup.problem(&supports, 0.0).evaluate_into(u, &mut residual, None);
-        residual.iter().map(|r| r * r).sum::<f64>()
-    };
-    let (first, second) =
-        if off(&by_forces) < off(&by_chords) { (by_forces, by_chords) } else { (by_chords, by_forces) };
-    let mut solve = |mut configuration: Configuration| {
-        let report = corrector.solve_from_guess(&mut configuration, 0.0);
-        (configuration, report)
-    };
-    let (mut configuration, mut report) = solve(first);
-    if !report.status.is_solved() {
-        let other = solve(second);
-        if other.1.status.is_solved() {
-            (configuration, report) = other;
-        }
-    }
+    let mut corrector = Corrector::new(Setup::new(rod, objects, ClampPath::standing(pose)));
+    let supposed = supposed(&corrector.setup.world, units, guess)?;
+    let (configuration, report) = solve_guess(&mut corrector, &supposed, rescue);
     let mut scanner = Scanner::default();
     let setup = &corrector.setup;
     let scan = scanner.scan(setup, &configuration);
-    let stable = report.status.is_solved() && scanner.is_stable(&setup.world, &configuration, &scan);
+    let stable = report.status.is_solved() && scanner.is_stable(setup, &configuration, &scan);
     let quality = Quality::new(&report, stable);
     let in_order = ordered(&setup.world, &configuration);
+    let off_piece = off_piece(&setup.world, &configuration);
     let state = state(setup, &configuration, &scan, quality);
-    let admissible = judged(&report, in_order, &state, units.length);
+    let admissible = judged(&report, in_order, off_piece, &state, units.length);
     Ok(Equilibrium { state, report, admissible })
 }

@@ -33,13 +33,13 @@ pub enum ContactError {
         value: f64,
     },
     /// The path leads nowhere.
-    #[error("the path ends where it starts, at ({}, {}) m and {} rad, expected two different poses", pose.x, pose.y, pose.phi)]
+    #[error("the path leads nowhere from ({}, {}) m and {} rad, expected two different poses", pose.x, pose.y, pose.phi)]
     NoPath {
         /// The pose given twice.
         pose: Pose,
     },
     /// A guess of a contact that cannot be.
-    #[error("contact {index} of the guess: {reason}")]
+    #[error("contact {index}: {reason}")]
     Guess {
         /// Number of the contact, from 0 at the clamp.
         index: usize,
@@ -102,8 +102,30 @@ pub enum ContactError {
         /// The kind of the transition, by its name.
         event: String,
     },
+    /// The rate of a path is not the derivative of its pose by the path's parameter.
+    #[error(
+        "the rate of {what} of the path is {rate} at the parameter {t}, expected {difference}, by differences of its poses"
+    )]
+    Rate {
+        /// Of x, y (m per unit of the parameter) or the angle (rad).
+        what: &'static str,
+        /// The parameter.
+        t: f64,
+        /// The rate as given.
+        rate: f64,
+        /// The rate by differences.
+        difference: f64,
+    },
+    /// A path has another number of legs than there are steps.
+    #[error("there are {steps} steps for a path of {legs} legs, expected one for each leg")]
+    Steps {
+        /// Number of steps as given.
+        steps: usize,
+        /// Number of legs of the path.
+        legs: usize,
+    },
     /// The distance between reported states is no distance, or so small that the path has more than 1e15 of them.
-    #[error("step is {value}, expected a positive, finite length, not below 1e-15 of the path")]
+    #[error("step is {value:?}, expected a positive, finite length, not below 1e-15 of the path")]
     Step {
         /// Its value as given.
         value: f64,
@@ -137,6 +159,8 @@ pub enum StopReason {
     EndOfContour,
     /// The rod is bent around the contour so tightly that it touches along a line, not at a point.
     LineContact,
+    /// The tip slides along one object into another one that overlaps it: the notch between them belongs to no contour.
+    BetweenObjects,
     /// The clamp itself runs into the object, or is inside it in the first pose.
     ClampInside,
     /// More events at one pose than a rod can have.
@@ -199,6 +223,7 @@ impl std::fmt::Display for StopReason {
             Self::NoLanding => "no-landing",
             Self::EndOfContour => "end-of-contour",
             Self::LineContact => "line-contact",
+            Self::BetweenObjects => "between-objects",
             Self::ClampInside => "clamp-inside",
             Self::Chatter => "chatter",
             Self::NoPose => "no-pose",
@@ -226,11 +251,16 @@ impl std::fmt::Display for Stop {
             StopReason::LineContact => {
                 "the rod wraps around the contour and would touch it along a line; end the path before it"
             }
+            StopReason::BetweenObjects => {
+                "the tip is caught between two objects that overlap; join them into one contour, or take one of them away"
+            }
             StopReason::ClampInside if self.tau == 0.0 => {
                 "the clamp is inside an object in the first pose; start with the clamp outside of all objects"
             }
             StopReason::ClampInside => "the clamp itself runs into the object; end the path before it",
-            StopReason::NoPose => "the pose to go to is none; give finite numbers, and an angle in radians",
+            StopReason::NoPose => {
+                "the pose to go to has a number that is not finite, or an angle beyond 100 rad; give m, m and rad"
+            }
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",
         };

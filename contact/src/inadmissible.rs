@@ -26,12 +26,23 @@ pub enum Inadmissible {
         length: f64,
     },
     /// The contacts are not in the order of the guess along the rod.
-    #[error("the contacts are not in order along the rod, or not on their pieces; give the guess in another order")]
+    #[error("the contacts are not in order along the rod; give the guess in another order")]
     NotInOrder,
-    /// The rod goes through an object.
-    #[error("the rod is {depth:e} m inside an object; a contact is missing, or the one of the tip is tangential")]
+    /// A contact lies on the curve of its piece, but beyond the end of the piece, or the force at a corner points out of the cone of its
+    /// normals.
+    #[error(
+        "contact {contact} lies beyond the end of its piece; take the corner or the piece that follows there, or leave it out"
+    )]
+    OffPiece {
+        /// Number of the contact, from 0 at the clamp.
+        contact: usize,
+    },
+    /// The rod goes into or through an object.
+    #[error(
+        "the rod goes {depth:e} m into or through an object; a contact is missing, or the one of the tip is tangential"
+    )]
     Inside {
-        /// Depth, m.
+        /// Depth, m; of a rod that comes out again, how far it is behind the contour where it went in.
         depth: f64,
     },
     /// The energy is not a minimum.

@@ -28,6 +28,7 @@ mod path;
 mod phase;
 mod scene;
 mod snap;
+mod solve_guess;
 mod stability;
 mod state;
 mod sweep;
@@ -35,11 +36,14 @@ mod sweep;
 mod unbounded;
 
 pub use derivatives::{Derivatives, Quantity, TransitionDerivatives};
+#[cfg(feature = "argmin")]
+pub use equilibrium::equilibrium_with_search;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};
 pub use inadmissible::Inadmissible;
 pub use path::{Chain, ClampArc, ClampPath, ClampSpline, Path, PathPoint, SuspiciousAngle};
 pub use phase::Phase;
+pub use rod_core::{ContactRate, Response};
 pub use state::{Certificate, Contact, ContactKind, GapBounds, State};
-pub use sweep::{Follower, Item, Outcome, Sweep};
+pub use sweep::{Approach, Follower, Item, Outcome, Start, StartCandidate, Sweep};

@@ -1,7 +1,7 @@
 //! One equilibrium of the rod, with its certificate.
 
 use crate::phase::Phase;
-use rod_core::{Elastica, Load, Pose, Reactions, Rod, RodError};
+use rod_core::{Elastica, Load, PhysicalRod, Pose, Reactions, RodError};
 
 /// How a contact holds the rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -86,8 +86,8 @@ pub struct Certificate {
     /// Smallest contact force, N; none where there is no contact.
     pub min_force: Option<f64>,
     /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi) along a segment plus its jump,
-    /// dimensionless.
-    pub first_integral: f64,
+    /// dimensionless; none for a rod whose stiffness or natural curvature varies, along which it is not constant.
+    pub first_integral: Option<f64>,
     /// Whether the equilibrium is stable: positive second variation of the energy under the contacts.
     pub stable: bool,
     /// Condition number (1-norm) of the Jacobian; 1 for a free rod.
@@ -128,8 +128,8 @@ impl State {
     ///
     /// # Errors
     /// [`RodError`] where the state's numbers are not those of a rod as long as `rod`.
-    pub fn elastica(&self, rod: &Rod) -> Result<Elastica, RodError> {
+    pub fn elastica<R: PhysicalRod>(&self, rod: &R) -> Result<Elastica<R::Model>, RodError> {
         let loads: Vec<_> = self.contacts.iter().map(|c| Load { s: c.s, force: c.force, alpha: c.alpha }).collect();
-        Elastica::from_clamp(rod.units(), self.pose, self.reactions.m0z, &loads)
+        Elastica::of_rod(rod.model().clone(), rod.units(), self.pose, self.reactions.m0z, &loads)
     }
 }

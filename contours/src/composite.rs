@@ -398,10 +398,12 @@ impl Composite {
         let cell = if self.cells.is_empty() {
             piece
         } else {
-            let behind = self.cells.partition_point(|cell| (cell.piece as usize) < piece);
-            let own = self.cells[behind..].iter().take_while(|cell| cell.piece as usize == piece);
-            let last = own.clone().count().saturating_sub(1);
-            behind + if is_joint { last } else { own.take_while(|cell| cell.range.to < t).count().min(last) }
+            let of_piece = |cell: &Cell| cell.piece as usize == piece;
+            let first = self.cells.partition_point(|cell| (cell.piece as usize) < piece);
+            let own = &self.cells[first..];
+            let last = own.partition_point(of_piece).saturating_sub(1);
+            let within = own.partition_point(|cell| of_piece(cell) && cell.range.to < t);
+            first + if is_joint { last } else { within.min(last) }
         };
         let last = last as usize - usize::from(is_joint && !closed);
         (first as usize..last).contains(&cell)

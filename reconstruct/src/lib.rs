@@ -11,7 +11,8 @@
 //! - [`plausibility`]: whether a recording can be of the rod that is given.
 //! - `NoiseModel` (feature `sensor-noise`): simulated sensors. `score` (feature `score`): scores of a result against the truth.
 //!
-//! This crate needs reactions only: it does not depend on sensors, nor on how a rod is swept. Units are SI at its border and
+//! This crate needs reactions only: it does not depend on sensors, nor on how a rod is swept. Only with the feature `contact` it knows
+//! `rod-contact`, for which [`Reading::guess`] and `Contact::from` make guesses. Units are SI at its border and
 //! dimensionless inside (lengths in L, forces in EI/L^2, moments in EI/L).
 //!
 //! Without the feature `std` there is no heap. [`single`] is left, in `f32` or `f64`, for a microcontroller.
@@ -22,6 +23,8 @@
 mod check;
 #[cfg(feature = "std")]
 mod contour;
+#[cfg(feature = "contact")]
+mod forward;
 #[cfg(feature = "std")]
 pub mod kink;
 #[cfg(feature = "std")]

@@ -214,3 +214,27 @@ fn nothing_to_check() {
     assert!(check.line.is_none() && check.findings.contains(&Finding::NoLine), "{check:?}");
     assert!(check.fits(), "nothing speaks against it");
 }
+
+/// Such samples panicked: their squares overflow, and no place of the scan could be evaluated.
+#[test]
+fn numbers_that_overflow_are_refused() {
+    use rod_core::{Pose, Reactions, Rod, Sample};
+    use rod_reconstruct::{Settings, reconstruct};
+    let rod = Rod::new(0.1, 6.3e-4).unwrap();
+    for size in [1e140, 1e160, 1e200, 1e300] {
+        let sample = |k: u32| {
+            let t = f64::from(k);
+            let pose = Pose { x: 1e-4 * t, y: 0.0, phi: 1.5 };
+            let bent = size * (0.01 * t).sin();
+            Sample::new(pose, Reactions { f0x: bent, f0y: 0.5 * bent, m0z: 0.1 * bent + 1e-3 * size })
+        };
+        let samples: Vec<_> = (0..2000).map(sample).collect();
+        // whatever the answer, it is one
+        drop(reconstruct(&rod, &samples, &Settings::default()));
+        let scaled: Vec<_> = samples
+            .iter()
+            .map(|sample| Sample { pose: Pose { x: size * sample.pose.x, ..sample.pose }, ..*sample })
+            .collect();
+        drop(reconstruct(&rod, &scaled, &Settings::default()));
+    }
+}

@@ -4,13 +4,13 @@
 
 use crate::newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step};
 use argmin::core::{
-    CostFunction, Error, Gradient, IterState, Jacobian, KV, Operator, Problem, Solver, TerminationReason,
+    CostFunction, Error, Gradient, Hessian, IterState, Jacobian, KV, Operator, Problem, Solver, TerminationReason,
     TerminationStatus,
 };
 use nalgebra::{DMatrix, DVector};
 
 /// A [`System`] as a problem of `argmin`: the operator F(u) with its Jacobian for root-finders, 1/2 |F|^2 with its gradient
-/// for minimisers.
+/// and the Hessian of Gauss and Newton, J^T J, for minimisers. Derivatives that are not finite, or above 1e100, are an error.
 #[derive(Clone, Copy, Debug)]
 pub struct RootProblem<S>(pub S);
 
@@ -20,6 +20,14 @@ impl<S: System> RootProblem<S> {
         self.0.evaluate(u.as_slice(), residual.as_mut_slice(), None);
         residual
     }
+}
+
+/// Largest derivative that a minimiser gets: squares of larger ones overflow.
+const LARGEST: f64 = 1e100;
+
+fn moderate(derivatives: &[f64]) -> Result<(), Error> {
+    let within = derivatives.iter().all(|v| v.abs() <= LARGEST);
+    if within { Ok(()) } else { Err(Error::msg("the derivatives are not finite, or above 1e100")) }
 }
 
 impl<S: System> Operator for RootProblem<S> {
@@ -53,7 +61,20 @@ impl<S: System> Gradient for RootProblem<S> {
     type Param = DVector<f64>;
     type Gradient = DVector<f64>;
     fn gradient(&self, u: &Self::Param) -> Result<Self::Gradient, Error> {
-        Ok(self.jacobian(u)?.tr_mul(&self.residual(u)))
+        let gradient = self.jacobian(u)?.tr_mul(&self.residual(u));
+        moderate(gradient.as_slice())?;
+        Ok(gradient)
+    }
+}
+
+impl<S: System> Hessian for RootProblem<S> {
+    type Param = DVector<f64>;
+    type Hessian = DMatrix<f64>;
+    fn hessian(&self, u: &Self::Param) -> Result<Self::Hessian, Error> {
+        let jacobian = self.jacobian(u)?;
+        let hessian = jacobian.tr_mul(&jacobian);
+        moderate(hessian.as_slice())?;
+        Ok(hessian)
     }
 }
 

@@ -1,25 +1,25 @@
 //! The shape of a rod under any number of point forces.
 
-use crate::agm::agm;
 use crate::brent::Root;
 use crate::error::{RodError, finite};
 use crate::loads::{Load, clamp_cut, clamp_moment, forces_ahead, march};
+use crate::model::{RodModel, Uniform};
 use crate::pose::{Pose, Reactions};
-use crate::propagator::{ClosedForm, Cut};
-use crate::segment::{Section, Segment, advance, axial};
+use crate::propagator::Cut;
+use crate::segment::{Section, Segment};
 use crate::units::Units;
-use std::f64::consts::{PI, TAU};
 
-/// The elastica of a clamped uniform rod under n point forces, by the closed form, segment by segment.
+/// The elastica of a clamped rod under n point forces, segment by segment: of a uniform one by the closed form, of another
+/// [`RodModel`] by what that offers.
 ///
 /// All lengths, forces and moments that go in and come out share the [`Units`] given (SI for `rod.units()`, or
-/// dimensionless for [`Units::ONE`]). Accuracy: that of [`advance`](crate::advance), segment by
-/// segment.
+/// dimensionless for [`Units::ONE`]). Accuracy: that of the model, segment by segment ([`advance`](crate::advance) for a uniform rod).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Elastica {
+pub struct Elastica<M = Uniform> {
+    rod: M,
     units: Units,
     /// The last one is free.
-    pub(crate) segments: Vec<Segment>,
+    segments: Vec<Segment<Cut>>,
 }
 
 impl Elastica {
@@ -30,15 +30,7 @@ impl Elastica {
     /// # Errors
     /// [`RodError::LoadOrder`] where the loads are not ordered within the rod, [`RodError::NotFinite`].
     pub fn from_clamp(units: Units, pose: Pose, m0z: f64, loads: &[Load]) -> Result<Self, RodError> {
-        let forces = forces_ahead(units, loads)?;
-        finite("m0z", m0z)?;
-        let clamp = clamp_cut(units, pose, -m0z / units.moment);
-        clamp.check()?;
-        let mut segments = Vec::with_capacity(loads.len() + 1);
-        march(&ClosedForm, clamp, &forces, |s, Cut { x, y, phi, moment }, a, b| {
-            segments.push(Segment { s, start: Section { x, y, phi, kappa: moment }, a, b });
-        })?;
-        Ok(Self { units, segments })
+        Self::of_rod(Uniform, units, pose, m0z, loads)
     }
 
     /// The elastica of a rod clamped at `pose` under `loads` of fixed magnitude and direction, ordered from clamp to
@@ -61,13 +53,45 @@ impl Elastica {
     /// # Errors
     /// [`RodError::LoadOrder`], [`RodError::NotFinite`] for what is wrong with the input.
     pub fn under_loads(units: Units, pose: Pose, loads: &[Load]) -> Result<(Self, Root), RodError> {
-        let root = clamp_moment(&ClosedForm, units, pose, loads)?;
+        let root = clamp_moment(&Uniform, units, pose, loads)?;
         Ok((Self::from_clamp(units, pose, root.at, loads)?, root))
     }
+}
 
-    /// From segments that are known, at least one.
-    pub(crate) fn known(units: Units, segments: Vec<Segment>) -> Self {
-        Self { units, segments }
+impl<M: RodModel> Elastica<M> {
+    /// The elastica of dimensionless segments that are known, as [`MultiPoint::cuts`](crate::MultiPoint::cuts) gives them: at least
+    /// one, the last one free.
+    pub fn of_segments(rod: M, units: Units, segments: Vec<Segment<Cut>>) -> Self {
+        Self { rod, units, segments }
+    }
+
+    /// [`from_clamp`](Elastica::from_clamp) of a rod of any model.
+    ///
+    /// # Errors
+    /// As [`from_clamp`](Elastica::from_clamp), and [`RodError::Integration`] where the rod turns too fast.
+    pub fn of_rod(rod: M, units: Units, pose: Pose, m0z: f64, loads: &[Load]) -> Result<Self, RodError> {
+        let forces = forces_ahead(units, loads)?;
+        finite("m0z", m0z)?;
+        let clamp = clamp_cut(units, pose, -m0z / units.moment);
+        clamp.check()?;
+        let mut segments = Vec::with_capacity(loads.len() + 1);
+        march(&rod, clamp, &forces, |s, start, a, b| segments.push(Segment { s, start, a, b }))?;
+        Ok(Self { rod, units, segments })
+    }
+
+    /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi), dimensionless, from the start of a segment
+    /// to the start of the next: rounding where the one leads to the other, as it does in a solution. No segment is evaluated again.
+    /// None for a rod whose stiffness or natural curvature varies: along it nothing of that kind is constant.
+    pub fn first_integral_error(&self) -> Option<f64> {
+        let change = |(&Segment { start, a, b, .. }, next): (&Segment<Cut>, &Segment<Cut>)| {
+            let invariant = |at: &Cut| {
+                let (sin, cos) = at.phi.sin_cos();
+                0.5 * at.moment * at.moment - (a * sin - b * cos)
+            };
+            (invariant(&start) - invariant(&next.start)).abs()
+        };
+        let changes = self.segments.iter().zip(&self.segments[1..]).map(change);
+        self.rod.is_uniform().then(|| changes.fold(0.0, f64::max))
     }
 
     /// Length of the rod.
@@ -75,27 +99,29 @@ impl Elastica {
         self.units.length
     }
 
-    fn section(&self, s: f64) -> Section {
-        let s = s / self.units.length;
+    /// The cut at an arc length, both dimensionless.
+    fn cut(&self, s: f64) -> Cut {
         let i = self.segments.partition_point(|segment| segment.s <= s).saturating_sub(1);
         let segment = &self.segments[i];
-        advance(&segment.start, segment.a, segment.b, s - segment.s)
+        self.rod.carry(segment.s, &segment.start, segment.a, segment.b, s - segment.s)
     }
 
-    /// Position, slope angle and curvature at arc length `s` (0 at the clamp).
+    /// Position, slope angle and curvature at arc length `s` (0 at the clamp). Where the curvature jumps it is that on the side of
+    /// the tip.
     pub fn at(&self, s: f64) -> Section {
-        let d = self.section(s);
+        let s = s / self.units.length;
+        let Cut { x, y, phi, moment } = self.cut(s);
         Section {
-            x: d.x * self.units.length,
-            y: d.y * self.units.length,
-            phi: d.phi,
-            kappa: d.kappa * self.units.curvature,
+            x: x * self.units.length,
+            y: y * self.units.length,
+            phi,
+            kappa: self.rod.curvature_at(s, moment) * self.units.curvature,
         }
     }
 
-    /// Bending moment E I kappa at arc length `s`.
+    /// Bending moment at arc length `s`: E I (kappa - kappa at rest).
     pub fn moment(&self, s: f64) -> f64 {
-        self.section(s).kappa * self.units.moment
+        self.cut(s / self.units.length).moment * self.units.moment
     }
 
     /// `n` >= 2 sections at equal distances from clamp to tip.
@@ -110,83 +136,38 @@ impl Elastica {
         Reactions {
             f0x: 0.0 - first.b * self.units.force,
             f0y: first.a * self.units.force,
-            m0z: 0.0 - first.start.kappa * self.units.moment,
+            m0z: 0.0 - first.start.moment * self.units.moment,
         }
     }
 
-    /// Every segment but the free end, with the section and arc length where it ends: the start of the next.
-    fn loaded(&self) -> impl Iterator<Item = (&Segment, &Segment)> {
-        self.segments.iter().zip(&self.segments[1..])
-    }
-
-    /// Bending energy 1/2 int E I kappa^2 ds, in J for SI units. kappa^2 / 2 = A sin phi - B cos phi + constant along a
-    /// segment, and the integrals of sin phi and cos phi are the differences of position: no segment is evaluated
-    /// again. Exact but for rounding, about 1e-15 of the sum of |A|, |B| and kappa^2.
+    /// Bending energy 1/2 int m^2 / E I ds, in J for SI units. That of the uniform rod is exact but for rounding, about 1e-15 of
+    /// the sum of |A|, |B| and kappa^2, and no segment is evaluated again.
     pub fn bending_energy(&self) -> f64 {
-        let loaded: f64 = self
-            .loaded()
-            .map(|(&Segment { s, start, a, b }, next)| {
-                let (sin, cos) = start.phi.sin_cos();
-                let constant = 0.5 * start.kappa * start.kappa - a * sin + b * cos;
-                a * (next.start.y - start.y) - b * (next.start.x - start.x) + constant * (next.s - s)
-            })
-            .sum();
-        // the free end is a circle, straight where m0z belongs to the loads
-        let free = self.free_end();
-        (loaded + 0.5 * free.start.kappa * free.start.kappa * (1.0 - free.s)) * self.units.energy
+        let loaded: f64 = self.loaded().map(|(segment, to, end)| self.rod.bending_energy(segment, to, end)).sum();
+        let free = self.free();
+        // without force and moment nothing is bent but as at rest
+        let free = if free.start.moment == 0.0 { 0.0 } else { self.rod.bending_energy(free, 1.0, &self.cut(1.0)) };
+        (loaded + free) * self.units.energy
     }
 
     /// Largest |kappa| along the rod, in 1/m for SI units: what bends a wire past its yield stress
-    /// ([`Rod::bending_stress`](crate::Rod::bending_stress)). Exact but for rounding, and no segment is evaluated again.
-    ///
-    /// It is at the end of a segment or where the rod runs along the stable direction of the pendulum, phi = atan2(B,
-    /// A) + pi / 2: there kappa^2 / 4 = M.
+    /// ([`Rod::bending_stress`](crate::Rod::bending_stress)). That of the uniform rod is exact but for rounding, and no segment is
+    /// evaluated again.
     pub fn largest_curvature(&self) -> f64 {
-        let inside = self.loaded().map(|(segment, next)| segment.largest_curvature_inside(next).unwrap_or(0.0));
-        let ends = self.segments.iter().map(|segment| segment.start.kappa.abs());
-        ends.chain(inside).fold(0.0, f64::max) * self.units.curvature
+        let loaded = self.loaded().map(|(segment, to, end)| self.rod.largest_curvature(segment, to, end));
+        let Segment { s, start, .. } = self.free();
+        let free = self.rod.largest_free_curvature(*s, start, 1.0);
+        loaded.fold(free, f64::max) * self.units.curvature
     }
 
-    /// Largest change of the first integral kappa^2 / 2 - (A sin phi - B cos phi), dimensionless, from the start of a segment
-    /// to the start of the next: rounding where the one leads to the other, as it does in a solution.
-    pub fn first_integral_error(&self) -> f64 {
-        let change = |(&Segment { s, start, a, b }, next): (&Segment, &Segment)| {
-            let invariant = |at: &Section| {
-                let (sin, cos) = at.phi.sin_cos();
-                0.5 * at.kappa * at.kappa - (a * sin - b * cos)
-            };
-            (invariant(&advance(&start, a, b, next.s - s)) - invariant(&next.start)).abs()
-        };
-        self.loaded().map(change).fold(0.0, f64::max)
+    /// Every segment under load with the arc length and the cut where it ends: the start of the next.
+    fn loaded(&self) -> impl Iterator<Item = (&Segment<Cut>, f64, &Cut)> {
+        self.segments.iter().zip(&self.segments[1..]).map(|(segment, next)| (segment, next.s, &next.start))
     }
 
-    fn free_end(&self) -> &Segment {
-        // there always is one: it is pushed after the loads
+    /// The segment beyond the last load.
+    fn free(&self) -> &Segment<Cut> {
         &self.segments[self.segments.len() - 1]
-    }
-}
-
-impl Segment {
-    /// |kappa| where the rod passes the stable direction between the start of this segment and of the `next`, if it does.
-    ///
-    /// A pendulum that does not go over the top passes it once every half period: surely in that time, and in less exactly
-    /// if it ends on the other side. One that goes over the top turns one way only, so that the ends tell.
-    fn largest_curvature_inside(&self, next: &Self) -> Option<f64> {
-        let Self { s, start, a, b } = *self;
-        let (sin, cos) = start.phi.sin_cos();
-        let (c, d) = (a * sin - b * cos, a * cos + b * sin);
-        let p = c.hypot(d);
-        if p == 0.0 {
-            return None;
-        }
-        let excess = 0.25 * start.kappa * start.kappa - axial(c, d, p);
-        // turning angles from the stable direction to both ends: is there a multiple of 2 pi between them?
-        let from = d.atan2(-c) - PI;
-        let to = from + next.start.phi - start.phi;
-        let passes = (from.min(to) / TAU).ceil() <= (from.max(to) / TAU).floor();
-        let length = next.s - s;
-        let swings_back = length * p.sqrt() >= PI && excess < 0.0 && length >= PI / agm(p.sqrt(), (-excess).sqrt());
-        (passes || swings_back).then(|| 2.0 * (p + excess).max(0.0).sqrt())
     }
 }
 
@@ -241,7 +222,7 @@ mod tests {
         let ends = shape.segments.iter().skip(1).map(|next| next.s).chain([1.0]);
         for (segment, end) in shape.segments.iter().zip(ends) {
             let h = (end - segment.s) / n as f64;
-            let kappa = |i: usize| advance(&segment.start, segment.a, segment.b, h * i as f64).kappa;
+            let kappa = |i: usize| Uniform.carry(segment.s, &segment.start, segment.a, segment.b, h * i as f64).moment;
             for i in (0..n).step_by(2) {
                 let (u, v, w) = (kappa(i), kappa(i + 1), kappa(i + 2));
                 most = most.max(u.abs()).max(v.abs()).max(w.abs());

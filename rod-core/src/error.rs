@@ -28,6 +28,16 @@ pub enum RodError {
         /// Length as given, m.
         length: f64,
     },
+    /// A tapered wire whose ends differ too much in thickness.
+    #[error(
+        "tip_diameter is {tip_diameter:?} m, expected between 0.01 and 100 times base_diameter, {base_diameter:?} m"
+    )]
+    TooTapered {
+        /// Diameter at the tip as given, m.
+        tip_diameter: f64,
+        /// Diameter at the clamp as given, m.
+        base_diameter: f64,
+    },
     /// The arc lengths of the loads do not grow from the clamp to the tip.
     #[error(
         "load {index} acts at arc length {s}, expected a value from {least} to {most}: loads are ordered from clamp to tip"
@@ -41,6 +51,78 @@ pub enum RodError {
         least: f64,
         /// Length of the rod.
         most: f64,
+    },
+    /// A quantity of a section of a rod is not what a rod can have.
+    #[error("{what} of section {index} is {value}, expected {expected}")]
+    Section {
+        /// Number of the section, from 0 at the clamp.
+        index: usize,
+        /// Which quantity.
+        what: &'static str,
+        /// Its value as given.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// The lengths of the sections of a rod do not add up to its length.
+    #[error("the lengths of the sections add up to {total}, expected {expected}, the length of the rod")]
+    SectionsLength {
+        /// Their sum.
+        total: f64,
+        /// The length of the rod.
+        expected: f64,
+    },
+    /// A stiffness of an elastic clamp is not what a spring can have.
+    #[error("{what} of the clamp is {value:?}, expected {expected}")]
+    ClampStiffness {
+        /// Which: of x, y (N/m) or phi (N m/rad), or an entry of the matrix.
+        what: &'static str,
+        /// Its value as given.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// The bending stiffness of a rod is not a positive, finite number somewhere.
+    #[error("stiffness is {value} at arc length {s}, expected a positive, finite number")]
+    Stiffness {
+        /// Where.
+        s: f64,
+        /// Its value there.
+        value: f64,
+    },
+    /// The natural curvature of a rod is not finite somewhere.
+    #[error("natural curvature is {value} at arc length {s}, expected a finite number")]
+    NaturalCurvature {
+        /// Where.
+        s: f64,
+        /// Its value there.
+        value: f64,
+    },
+    /// Stiffness or natural curvature of a rod have a jump, a kink or a pole, or vary too fast.
+    #[error(
+        "stiffness or natural curvature are not smooth near arc length {s}, expected smooth functions: make each jump and kink a border"
+    )]
+    NotSmooth {
+        /// Where.
+        s: f64,
+    },
+    /// The borders between the smooth parts of a rod are out of order.
+    #[error("border at arc length {s}, expected more than {least} and less than the length of the rod")]
+    Border {
+        /// The border.
+        s: f64,
+        /// The one before it, or 0.
+        least: f64,
+    },
+    /// A rod crosses itself at rest.
+    #[error(
+        "the rod crosses itself at rest, at the arc lengths {one} and {other}, expected a shape at rest without a loop"
+    )]
+    CrossesItself {
+        /// Where.
+        one: f64,
+        /// Where it comes back.
+        other: f64,
     },
     /// An integrator of differential equations gave up.
     #[cfg(feature = "std")]

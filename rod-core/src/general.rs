@@ -112,8 +112,8 @@ impl<'rod> GeneralElastica<'rod> {
 mod tests {
     use super::*;
     use crate::elastica::Elastica;
+    use crate::model::Uniform;
     use crate::ode::{Method, Ode};
-    use crate::propagator::ClosedForm;
     use crate::rod::Rod;
 
     fn scene() -> (Units, Pose, Vec<Load>) {
@@ -128,7 +128,7 @@ mod tests {
         let (units, pose, loads) = scene();
         let (exact, root) = Elastica::under_loads(units, pose, &loads).unwrap();
         let ode = Ode::uniform(Method::Dop853, 1e-13).unwrap();
-        let routes: [(&dyn Propagator, f64); 2] = [(&ClosedForm, 1e-14), (&ode, 1e-11)];
+        let routes: [(&dyn Propagator, f64); 2] = [(&Uniform, 1e-14), (&ode, 1e-11)];
         for (rod, bound) in routes {
             let (shape, found) = GeneralElastica::under_loads(rod, units, pose, &loads).unwrap();
             assert!((found.at - root.at).abs() < bound * units.moment);

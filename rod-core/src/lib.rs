@@ -1,13 +1,16 @@
 #![doc = include_str!("../README.md")]
 //!
-//! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts.
+//! - [`Rod`], [`Units`]: the rod in SI, and the one place that converts. [`VaryingRod`]: one that is not uniform or not straight at rest.
 //! - [`Sample`]: where the clamp was and what it felt, as a sensor measures it.
 //! - [`advance`], [`advance_with_sensitivities`], [`walk`], [`stations`]: one segment between two contacts in closed form.
 //! - [`inflection`]: where a segment is straight.
 //! - [`Elastica`]: the whole rod under any number of forces. [`GeneralElastica`] and [`Propagator`]: the same through the closed
 //!   form or through differential equations ([`Ode`]), the way for rods that vary along their length.
+//! - [`RodModel`]: what a rod of any kind answers, with exact derivatives. [`Uniform`], [`Sections`], [`Smooth`].
 //! - [`MultiPoint`]: the boundary-value problem of a rod on any number of supports, with its exact Jacobian.
-//! - [`solve`], [`NewtonSolver`]: damped Newton's method as a plain loop and under `argmin`; [`find_root`] for one variable.
+//! - [`Clamp`]: how the base of the rod is held there, rigidly by a [`Pose`], on springs ([`ElasticClamp`], [`Elastic`]), or on a [`Pivot`].
+//! - [`solve`], [`NewtonSolver`]: damped Newton's method as a plain loop and under `argmin`; [`solve_by_trust_region`] from guesses
+//!   from which it fails; [`find_root`] for one variable.
 //!
 //! Conventions: s from the clamp (0) to the tip; phi the slope angle, kappa = phi'; x' = cos phi, y' = sin phi. A
 //! support with tangent angle alpha, its solid to the left, pushes with the force f (sin alpha, -cos alpha), f >= 0.
@@ -28,6 +31,8 @@ mod basis;
 #[cfg(feature = "std")]
 mod brent;
 mod circular;
+#[cfg(feature = "std")]
+mod clamp;
 mod dual;
 #[cfg(feature = "std")]
 mod elastica;
@@ -42,11 +47,15 @@ mod linearisation;
 #[cfg(feature = "std")]
 mod loads;
 #[cfg(feature = "std")]
+mod model;
+#[cfg(feature = "std")]
 mod multipoint;
 #[cfg(feature = "std")]
 mod newton;
 #[cfg(feature = "ode")]
 mod ode;
+#[cfg(feature = "std")]
+mod physical;
 mod pose;
 #[cfg(feature = "std")]
 mod propagator;
@@ -54,7 +63,11 @@ mod rod;
 mod sample;
 mod scalar;
 mod segment;
+#[cfg(feature = "argmin")]
+mod trust_region;
 mod units;
+#[cfg(feature = "std")]
+mod varying;
 mod walk;
 
 // Their types are in the interface of `NewtonSolver`.
@@ -65,6 +78,8 @@ pub use {argmin, nalgebra};
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
 pub use brent::{Root, find_root};
+#[cfg(feature = "std")]
+pub use clamp::{Clamp, ClampLaw, Elastic, ElasticClamp, Pivot};
 pub use dual::Dual;
 #[cfg(feature = "std")]
 pub use elastica::Elastica;
@@ -77,17 +92,25 @@ pub use linearisation::{ContactRate, Linearisation, PathRow, Response, SupportRa
 #[cfg(feature = "std")]
 pub use loads::Load;
 #[cfg(feature = "std")]
+pub use model::{Bent, Cone, CutSensitivities, Profile, RodModel, RodSection, Sections, Smooth, Uniform};
+#[cfg(feature = "std")]
 pub use multipoint::{Hold, MultiPoint, Support, Supports};
 #[cfg(feature = "std")]
 pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
 #[cfg(feature = "ode")]
 pub use ode::{Method, Ode};
+#[cfg(feature = "std")]
+pub use physical::PhysicalRod;
 pub use pose::{Pose, Reactions};
 #[cfg(feature = "std")]
-pub use propagator::{ClosedForm, Cut, Propagator};
+pub use propagator::{Cut, Propagator};
 pub use rod::Rod;
 pub use sample::Sample;
 pub use scalar::Scalar;
 pub use segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
+#[cfg(feature = "argmin")]
+pub use trust_region::{Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region};
 pub use units::Units;
+#[cfg(feature = "std")]
+pub use varying::{NaturalCurvature, VaryingRod};
 pub use walk::{Station, stations, walk};

@@ -3,11 +3,13 @@
 //! F(u, p) = 0 gives du/dp = -(dF/du)^-1 dF/dp. The Jacobian dF/du and the sensitivities of the segments are computed once, at the
 //! solution itself: that of the last Newton step belongs to the point before it, and is as inexact as that step is long.
 
+use crate::clamp::{Clamp, ClampLaw, product};
 use crate::linear::{invert, multiply};
-use crate::multipoint::{Hold, MultiPoint, Node, Supports, natural_sizes};
+use crate::model::{CutSensitivities, RodModel};
+use crate::multipoint::{Hold, MultiPoint, Node, Supports, natural_sizes, reactions};
 use crate::newton::System;
 use crate::pose::{Pose, Reactions};
-use crate::segment::Sensitivities;
+use crate::propagator::Cut;
 use smallvec::SmallVec;
 
 /// The change of a support's point and tangent angle per unit of something, at a fixed parameter of its curve.
@@ -38,7 +40,8 @@ pub struct ContactRate {
     pub force: f64,
 }
 
-/// The change of a whole equilibrium per unit of something, dimensionless.
+/// The change of a whole equilibrium per unit of something, in the units of what gives it: a [`Linearisation`] is dimensionless, the
+/// derivatives of an equilibrium in `rod-contact` have SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Response {
     /// Of the reactions at the clamp.
@@ -63,7 +66,7 @@ type Vector = SmallVec<[f64; 25]>;
 /// A [`MultiPoint`] problem to first order about a solution.
 ///
 /// ```
-/// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, solve};
+/// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Uniform, solve};
 /// // the tip of an upright rod just touches a frictionless wall x = 0.5
 /// struct Wall;
 /// impl Supports for Wall {
@@ -74,7 +77,7 @@ type Vector = SmallVec<[f64; 25]>;
 ///     }
 /// }
 /// let up = std::f64::consts::FRAC_PI_2;
-/// let problem = MultiPoint { clamp: Pose { x: 0.5, y: 0.0, phi: up }, supports: &Wall };
+/// let problem = MultiPoint { rod: Uniform, clamp: Pose { x: 0.5, y: 0.0, phi: up }, supports: &Wall };
 /// let linear = problem.linearise(&[1.0, 0.0, up]);
 /// // moved towards the wall it is a cantilever: 3 E I / L^3
 /// let moved = linear.response(Pose { x: 1.0, y: 0.0, phi: 0.0 }, &[Default::default()]).ok_or("singular")?;
@@ -83,8 +86,11 @@ type Vector = SmallVec<[f64; 25]>;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Linearisation {
-    clamp: Pose,
+    /// The base of the rod.
+    base: Cut,
     // On the heap: what is this large and moved costs more to copy than to allocate.
+    /// How the base gives way.
+    law: Option<Box<ClampLaw>>,
     held: Vec<Held>,
     residual: Vector,
     jacobian: Vec<f64>,
@@ -99,7 +105,19 @@ pub struct Linearisation {
 struct Held {
     node: Node,
     tangent: bool,
-    segment: Sensitivities,
+    segment: CutSensitivities,
+}
+
+impl Held {
+    /// How the end of the segment, (x, y, phi), moves with the support where it starts.
+    #[inline(always)]
+    fn end(&self, NodeRate { contact, a, b, moment }: &NodeRate) -> [f64; 3] {
+        let (d, start) = (&self.segment, [contact.x, contact.y, 0.0]);
+        [0, 1, 2].map(|i| {
+            let held = start[i] + contact.phi * d.by_phi[i] + moment * d.by_moment[i] + a * d.by_a[i] + b * d.by_b[i];
+            held + contact.s * d.by_from[i]
+        })
+    }
 }
 
 /// How a support moves in all, with what its contact does on it.
@@ -108,10 +126,10 @@ struct NodeRate {
     contact: ContactRate,
     a: f64,
     b: f64,
-    kappa: f64,
+    moment: f64,
 }
 
-impl<S: Supports + ?Sized> MultiPoint<'_, S> {
+impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// The problem to first order about the solution `u`: one Jacobian, one inverse.
     pub fn linearise(&self, u: &[f64]) -> Linearisation {
         let nodes = self.nodes(u);
@@ -126,8 +144,9 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         let weights = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
         let mut inverse = vec![0.0; size * size];
         let regular = invert(size, &jacobian, &mut inverse);
+        let (base, law) = (self.base_of(&nodes), self.clamp.law().map(Box::new));
         let mut linear =
-            Linearisation { clamp: self.clamp, held, residual, jacobian, inverse, condition: f64::INFINITY, weights };
+            Linearisation { base, law, held, residual, jacobian, inverse, condition: f64::INFINITY, weights };
         if regular {
             linear.condition = weighted_condition(&linear.jacobian, &linear.inverse, &linear.weights);
         }
@@ -148,7 +167,8 @@ impl Linearisation {
         self.residual.iter().fold(0.0, |most, r| if r.abs() > most || r.is_nan() { r.abs() } else { most })
     }
 
-    /// The change of the equilibrium when clamp and supports move like this. None where the Jacobian has no inverse, or there is
+    /// The change of the equilibrium when clamp and supports move like this; of a clamp that gives way it is the support that moves,
+    /// and the reactions are those at the base of the rod, wherever that goes. None where the Jacobian has no inverse, or there is
     /// not one rate for each support.
     pub fn response(&self, clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
         let rates = self.residual_rates(clamp, supports)?;
@@ -157,12 +177,43 @@ impl Linearisation {
         Some(Response { reactions, contacts: nodes.into_iter().map(|node| node.contact).collect() })
     }
 
+    /// The change of the equilibrium per unit of a change of the compliance of the clamp ([`ClampLaw`]; of a rigid one, from 0), with
+    /// clamp and supports at rest. None where the Jacobian has no inverse.
+    pub fn response_to_compliance(&self, change: &[[f64; 3]; 3]) -> Option<Response> {
+        let first = self.held.first()?;
+        let mut rows = product(change, &reactions(&first.node, &self.base));
+        if self.law.as_ref().is_some_and(|law| law.torque.is_some()) {
+            rows[2] = 0.0;
+        }
+        self.response_to_equations(rows)
+    }
+
+    /// The change of the equilibrium per unit of the torque of a [`Pivot`](crate::Pivot). None for other clamps, and where the
+    /// Jacobian has no inverse.
+    pub fn response_to_torque(&self) -> Option<Response> {
+        self.law.as_ref()?.torque?;
+        self.response_to_equations([0.0, 0.0, -1.0])
+    }
+
+    /// The response where the three equations of the clamp, and nothing else, have these rates.
+    fn response_to_equations(&self, rows: [f64; 3]) -> Option<Response> {
+        let mut rates = Vector::from_elem(0.0, self.residual.len());
+        rates.iter_mut().zip(rows).for_each(|(rate, row)| *rate = row);
+        let nodes = self.solved(&rates, &self.still())?;
+        // a rigid clamp would have to go where the equations say
+        let reactions = self.reactions(Pose { x: -rows[0], y: -rows[1], phi: -rows[2] }, &nodes);
+        Some(Response { reactions, contacts: nodes.into_iter().map(|node| node.contact).collect() })
+    }
+
+    fn still(&self) -> SmallVec<[SupportRate; 8]> {
+        SmallVec::from_elem(SupportRate::default(), self.held.len())
+    }
+
     /// The reactions of the [`response`](Self::response) where the clamp moves and nothing else does.
     pub fn reactions_to_clamp(&self, clamp: Pose) -> Option<Reactions> {
         let mut rates = Vector::from_elem(0.0, self.residual.len());
-        rates.iter_mut().zip([clamp.x, clamp.y, clamp.phi]).for_each(|(rate, moves)| *rate = -moves);
-        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.held.len());
-        Some(self.reactions(clamp, &self.solved(&rates, &still)?))
+        rates.iter_mut().zip(self.target_rates(clamp)).for_each(|(rate, moves)| *rate = -moves);
+        Some(self.reactions(clamp, &self.solved(&rates, &self.still())?))
     }
 
     /// The motion of the contacts by the rates of the residual, and by those of the supports that they come from.
@@ -178,12 +229,29 @@ impl Linearisation {
     /// The change of the reactions at a clamp that moves like this.
     fn reactions(&self, clamp: Pose, nodes: &[NodeRate]) -> Reactions {
         nodes.first().map_or_else(Reactions::default, |first| {
-            let (node, moves) = (&self.held[0].node, first.contact);
-            let (dx, dy) = (self.clamp.x - node.at.x, self.clamp.y - node.at.y);
-            let kappa =
-                first.kappa + first.a * dx + node.a * (clamp.x - moves.x) + first.b * dy + node.b * (clamp.y - moves.y);
-            Reactions { f0x: -first.b, f0y: first.a, m0z: -kappa }
+            let (x, y) = match self.law {
+                None => (clamp.x, clamp.y),
+                Some(_) => {
+                    let [x, y, _] = self.held[0].end(first);
+                    (x, y)
+                }
+            };
+            self.reactions_of(first, x, y)
         })
+    }
+
+    /// The change of the reactions where the base moves like this.
+    fn reactions_of(&self, first: &NodeRate, x: f64, y: f64) -> Reactions {
+        let (node, moves) = (&self.held[0].node, first.contact);
+        let (dx, dy) = (self.base.x - node.at.x, self.base.y - node.at.y);
+        let moment = first.moment + first.a * dx + node.a * (x - moves.x) + first.b * dy + node.b * (y - moves.y);
+        Reactions { f0x: -first.b, f0y: first.a, m0z: -moment }
+    }
+
+    /// What the equations of a clamp that moves like this lose by it.
+    fn target_rates(&self, clamp: Pose) -> [f64; 3] {
+        let turns_freely = self.law.as_ref().is_some_and(|law| law.torque.is_some());
+        [clamp.x, clamp.y, if turns_freely { 0.0 } else { clamp.phi }]
     }
 
     /// The change of the path parameter, along which the clamp moves like `path`, at the point of the path where one unknown has a
@@ -192,8 +260,7 @@ impl Linearisation {
     ///
     /// Unknowns are counted as in [`MultiPoint`]. None where the bordered matrix has no inverse.
     pub fn path_row(&self, path: Pose, unknown: usize) -> Option<PathRow> {
-        let still = SmallVec::<[SupportRate; 8]>::from_elem(SupportRate::default(), self.held.len());
-        let by_path = self.residual_rates(path, &still)?;
+        let by_path = self.residual_rates(path, &self.still())?;
         let (size, whole) = (by_path.len(), by_path.len() + 1);
         let mut bordered = SmallVec::<[f64; 64]>::from_elem(0.0, whole * whole);
         for (k, column) in self.jacobian.chunks_exact(size.max(1)).enumerate() {
@@ -221,19 +288,21 @@ impl Linearisation {
         }
         let nodes = self.node_rates(supports, None);
         let mut rates = Vector::with_capacity(3 * nodes.len());
-        let mut target = [clamp.x, clamp.y, clamp.phi];
-        for (NodeRate { contact, a, b, kappa }, Held { segment: d, .. }) in nodes.iter().zip(&self.held) {
-            let start = [contact.x, contact.y, 0.0];
-            rates.extend((0..3).map(|i| {
-                let end = start[i] + contact.phi * d.by_phi[i] + kappa * d.by_kappa[i] + a * d.by_a[i] + b * d.by_b[i];
-                end - target[i]
-            }));
-            target = [contact.x, contact.y, contact.phi];
+        let mut target = self.target_rates(clamp);
+        for (j, (rate, held)) in nodes.iter().zip(&self.held).enumerate() {
+            let mut end = held.end(rate);
+            if j == 0
+                && let Some(law) = &self.law
+            {
+                end = law.rates(end, &self.reactions_of(rate, end[0], end[1]));
+            }
+            rates.extend((0..3).map(|i| end[i] - target[i]));
+            target = [rate.contact.x, rate.contact.y, rate.contact.phi];
         }
         Some(rates)
     }
 
-    /// How the supports move, and force and curvature with them; with the rates of the unknowns, if any, how the contacts do.
+    /// How the supports move, and force and moment with them; with the rates of the unknowns, if any, how the contacts do.
     fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
         let mut rates: Vec<NodeRate> = Vec::with_capacity(supports.len());
         for (j, (Held { node, tangent, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
@@ -247,7 +316,7 @@ impl Linearisation {
                 contact: ContactRate { x, y, alpha, phi, s, force },
                 a: force * node.cos - turned * node.sin,
                 b: force * node.sin + turned * node.cos,
-                kappa: 0.0,
+                moment: 0.0,
             });
         }
         for j in (1..rates.len()).rev() {
@@ -255,7 +324,7 @@ impl Linearisation {
             let (dx, dy) = (before.at.x - node.at.x, before.at.y - node.at.y);
             let rate = &mut rates[j - 1];
             let (x, y) = (rate.contact.x - ahead.contact.x, rate.contact.y - ahead.contact.y);
-            rate.kappa = ahead.kappa + ahead.a * dx + node.a * x + ahead.b * dy + node.b * y;
+            rate.moment = ahead.moment + ahead.a * dx + node.a * x + ahead.b * dy + node.b * y;
             rate.a += ahead.a;
             rate.b += ahead.b;
         }
@@ -277,80 +346,4 @@ fn weighted_condition(matrix: &[f64], inverse: &[f64], weights: &[f64]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::multipoint::Support;
-    use proptest::prelude::*;
-
-    /// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre.
-    struct Circles {
-        all: Vec<(Hold, [f64; 3], SupportRate)>,
-        amount: f64,
-    }
-
-    impl Supports for Circles {
-        fn count(&self) -> usize {
-            self.all.len()
-        }
-        fn hold(&self, j: usize) -> Hold {
-            self.all[j].0
-        }
-        fn support(&self, j: usize, t: f64) -> Support {
-            let (_, [x, y, radius], rate) = self.all[j];
-            let at = |v: f64| self.amount * v;
-            let (x, y, alpha) =
-                (x + radius * t.sin() + at(rate.x), y - radius * t.cos() + at(rate.y), t + at(rate.alpha));
-            Support { x, y, alpha, speed: radius, turning: 1.0 }
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn rates_of_the_residual_are_its_derivatives(
-            contacts in prop::collection::vec(
-                (-1.0..1.0_f64, -4.0..4.0_f64, 0.1..0.4_f64, 0.05..2.0_f64, [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0]),
-                1..5,
-            ),
-            tip: bool,
-            path in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0],
-        ) {
-            let n = contacts.len();
-            let mut s = 0.0;
-            let (mut u, mut all) = (Vec::new(), Vec::new());
-            for (j, (t, f, ds, radius, [x, y, alpha])) in contacts.into_iter().enumerate() {
-                s += ds;
-                let at_tip = tip && j + 1 == n;
-                u.extend([t, f, if at_tip { 0.7 } else { s }]);
-                let offset = if j % 2 == 0 { 0.0 } else { std::f64::consts::PI };
-                let hold = if at_tip { Hold::Tip } else { Hold::Tangent { offset } };
-                all.push((hold, [0.3 * j as f64, 0.2, radius], SupportRate { x, y, alpha }));
-            }
-            let path = Pose { x: path[0], y: path[1], phi: path[2] };
-            let residual = |amount: f64| {
-                let circles = Circles { all: all.clone(), amount };
-                let clamp = Pose { x: amount * path.x, y: amount * path.y, phi: 1.5 + amount * path.phi };
-                let mut residual = vec![0.0; 3 * n];
-                MultiPoint { clamp, supports: &circles }.evaluate(&u, &mut residual, None);
-                residual
-            };
-            let circles = Circles { all: all.clone(), amount: 0.0 };
-            let linear = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 1.5 }, supports: &circles }.linearise(&u);
-            let moves: Vec<_> = all.iter().map(|one| one.2).collect();
-            let rates = linear.residual_rates(path, &moves).unwrap();
-            let (up, down) = (residual(1e-5), residual(-1e-5));
-            for (row, ours) in rates.iter().enumerate() {
-                let difference = (up[row] - down[row]) / 2e-5;
-                prop_assert!((difference - ours).abs() < 1e-6 * (1.0 + ours.abs()), "{row}: {ours} {difference}");
-            }
-            prop_assert!(linear.residual_rates(path, &moves[1..]).is_none());
-        }
-    }
-
-    #[test]
-    fn a_rod_that_touches_nothing_feels_nothing() {
-        let none = Circles { all: Vec::new(), amount: 0.0 };
-        let linear = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 0.0 }, supports: &none }.linearise(&[]);
-        let moved = linear.response(Pose { x: 1.0, y: 2.0, phi: 3.0 }, &[]).unwrap();
-        assert_eq!((moved, linear.condition(), linear.residual()), (Response::default(), 1.0, 0.0));
-    }
-}
+mod tests;

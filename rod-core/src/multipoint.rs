@@ -8,16 +8,22 @@
 //! ```
 //!
 //! Segment j runs backwards from support j to support j - 1 (or the clamp). Its start is known from the unknowns alone:
-//! the position and angle of the support, the force (A, B) as the sum over all supports ahead, and the curvature by
-//! moment balance, kappa_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
-//! kappa(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3
+//! the position and angle of the support, the force (A, B) as the sum over all supports ahead, and the bending moment by
+//! moment balance, m_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
+//! m(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3
 //! equations a support (Merker et al. 2020, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
 //! unknowns: no error grows from one to the next.
+//!
+//! A clamp that gives way ([`ClampLaw`]) changes the three equations of segment 0. The moment in them is that at the end of the segment,
+//! which is the base of the rod: m0z has the lever of the displaced base.
 
+use crate::clamp::{Clamp, ClampLaw};
 use crate::elastica::Elastica;
+use crate::model::{CutSensitivities, RodModel, Uniform, uniform};
 use crate::newton::System;
-use crate::pose::Pose;
-use crate::segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
+use crate::pose::{Pose, Reactions};
+use crate::propagator::Cut;
+use crate::segment::Segment;
 use crate::units::Units;
 use smallvec::SmallVec;
 
@@ -60,10 +66,10 @@ pub trait Supports {
     fn support(&self, j: usize, t: f64) -> Support;
 }
 
-/// The boundary-value problem of a clamped rod on given supports, dimensionless.
+/// The boundary-value problem of a clamped rod of any kind on given supports, dimensionless.
 ///
 /// ```
-/// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, solve};
+/// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Uniform, solve};
 /// // the tip on a frictionless wall x = 0.5 that is travelled upwards, the solid to its left: it pushes the tip to +x
 /// struct Wall;
 /// impl Supports for Wall {
@@ -73,16 +79,19 @@ pub trait Supports {
 ///         Support { x: 0.5, y: t, alpha: std::f64::consts::FRAC_PI_2, speed: 1.0, turning: 0.0 }
 ///     }
 /// }
-/// let problem = MultiPoint { clamp: Pose { x: 0.45, y: 0.0, phi: std::f64::consts::FRAC_PI_2 }, supports: &Wall };
+/// let clamp = Pose { x: 0.45, y: 0.0, phi: std::f64::consts::FRAC_PI_2 };
+/// let problem = MultiPoint { rod: Uniform, clamp, supports: &Wall };
 /// let mut u = [1.0, 0.1, 1.5]; // t, f, phi(1)
 /// let report = solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
 /// assert!(report.status.is_solved() && report.residual < 1e-14);
 /// assert!((u[1] - 3.0 * 0.05).abs() < 1e-3); // a cantilever's 3 EI w / L^3
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct MultiPoint<'a, S: ?Sized> {
-    /// The clamp, dimensionless.
-    pub clamp: Pose,
+pub struct MultiPoint<'a, S: ?Sized, M = Uniform, C = Pose> {
+    /// The rod: a [`RodModel`], or a reference to one.
+    pub rod: M,
+    /// The clamp, dimensionless: a [`Pose`] is the rigid one.
+    pub clamp: C,
     /// What holds the rod.
     pub supports: &'a S,
 }
@@ -101,12 +110,13 @@ pub(crate) struct Node {
     /// Force on the segment before: sums over this support and all ahead.
     pub a: f64,
     pub b: f64,
-    pub kappa: f64,
+    /// Bending moment.
+    pub moment: f64,
 }
 
 impl Node {
-    fn section(&self) -> Section {
-        Section { x: self.at.x, y: self.at.y, phi: self.phi, kappa: self.kappa }
+    fn cut(&self) -> Cut {
+        Cut { x: self.at.x, y: self.at.y, phi: self.phi, moment: self.moment }
     }
 }
 
@@ -119,7 +129,7 @@ pub(crate) fn natural_sizes(at: &Support, force: f64) -> [f64; 3] {
 
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
-impl<S: Supports + ?Sized> MultiPoint<'_, S> {
+impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     #[inline(always)]
     pub(crate) fn nodes(&self, u: &[f64]) -> Nodes {
         let n = self.supports.count();
@@ -133,12 +143,12 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
                 Hold::Tangent { offset } => (at.alpha + offset, third),
                 Hold::Tip => (third, 1.0),
             };
-            nodes.push(Node { at, sin, cos, force, phi, s, a: force * cos, b: force * sin, kappa: 0.0 });
+            nodes.push(Node { at, sin, cos, force, phi, s, a: force * cos, b: force * sin, moment: 0.0 });
         }
         for j in (1..n).rev() {
             let ahead = nodes[j];
             let node = &mut nodes[j - 1];
-            node.kappa = ahead.kappa + ahead.a * (node.at.x - ahead.at.x) + ahead.b * (node.at.y - ahead.at.y);
+            node.moment = ahead.moment + ahead.a * (node.at.x - ahead.at.x) + ahead.b * (node.at.y - ahead.at.y);
             node.a += ahead.a;
             node.b += ahead.b;
         }
@@ -147,13 +157,16 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
 
     /// Writes the residual (3 a support) and, where asked for, the Jacobian into the leading 3n x 3n block of a
     /// column-major matrix with `stride` rows.
+    ///
+    /// Where the support of the clamp moves, and the unknowns do not, the first three equations change by minus its rate, (x, y, phi):
+    /// on springs too, since the reactions follow from the unknowns alone. Only on a pivot the third does not change.
     pub fn evaluate_into(&self, u: &[f64], residual: &mut [f64], jacobian: Option<(&mut [f64], usize)>) {
         let nodes = self.nodes(u);
         match jacobian {
             None => {
                 for j in 0..nodes.len() {
                     let (node, s) = (&nodes[j], self.s_before(&nodes, j));
-                    let end = advance(&node.section(), node.a, node.b, s - node.s);
+                    let end = self.rod.carry(node.s, &node.cut(), node.a, node.b, s - node.s);
                     self.residual_of(&nodes, j, &end, residual);
                 }
             }
@@ -169,12 +182,19 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         if j == 0 { 0.0 } else { nodes[j - 1].s }
     }
 
-    fn residual_of(&self, nodes: &Nodes, j: usize, end: &Section, residual: &mut [f64]) {
-        let (x, y, phi) = match j {
-            0 => (self.clamp.x, self.clamp.y, self.clamp.phi),
-            _ => (nodes[j - 1].at.x, nodes[j - 1].at.y, nodes[j - 1].phi),
+    #[inline(always)]
+    fn residual_of(&self, nodes: &Nodes, j: usize, end: &Cut, residual: &mut [f64]) {
+        let Pose { x, y, phi } = match j {
+            0 => self.clamp.pose(),
+            _ => Pose { x: nodes[j - 1].at.x, y: nodes[j - 1].at.y, phi: nodes[j - 1].phi },
         };
-        residual[3 * j..3 * j + 3].copy_from_slice(&[end.x - x, end.y - y, end.phi - phi]);
+        let mut missed = [end.x - x, end.y - y, end.phi - phi];
+        if j == 0
+            && let Some(law) = self.clamp.law()
+        {
+            missed = law.residual(missed, &reactions(&nodes[0], end));
+        }
+        residual[3 * j..3 * j + 3].copy_from_slice(&missed);
     }
 
     /// The three equations of segment j with their derivatives by all unknowns, and those of the segment.
@@ -186,9 +206,10 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         residual: &mut [f64],
         matrix: &mut [f64],
         stride: usize,
-    ) -> Sensitivities {
+    ) -> CutSensitivities {
         let node = &nodes[j];
-        let (end, d) = advance_with_sensitivities(&node.section(), node.a, node.b, self.s_before(nodes, j) - node.s);
+        let length = self.s_before(nodes, j) - node.s;
+        let (end, d) = self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length);
         self.residual_of(nodes, j, &end, residual);
         let mut put = |column: usize, v: [f64; 3]| matrix[column * stride + 3 * j..][..3].copy_from_slice(&v);
         let three = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
@@ -202,54 +223,73 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
         if j > 0 {
             let Node { at, sin, cos, .. } = &nodes[j - 1];
             put(3 * (j - 1), [-at.speed * cos, -at.speed * sin, -at.turning]);
-            put(3 * (j - 1) + 2, [d.by_s[0], d.by_s[1], d.by_s[2]]);
+            put(3 * (j - 1) + 2, [d.by_to[0], d.by_to[1], d.by_to[2]]);
         }
 
         // This support: its point moves the start, its angle turns start and force.
         let Support { speed, turning, .. } = node.at;
         let (sin, cos, f) = (node.sin, node.cos, node.force);
         let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
-        let kappa_by_t = speed * (ahead_a * cos + ahead_b * sin);
+        let moment_by_t = speed * (ahead_a * cos + ahead_b * sin);
         let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
         let phi_by_t = if tangent { turning } else { 0.0 };
         let shift = [speed * cos, speed * sin, 0.0];
         let force_by_t = |i: usize| turning * f * (cos * d.by_b[i] - sin * d.by_a[i]);
-        put(3 * j, three(&|i| shift[i] + phi_by_t * d.by_phi[i] + kappa_by_t * d.by_kappa[i] + force_by_t(i)));
+        put(3 * j, three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i)));
         put(3 * j + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i]));
-        put(3 * j + 2, three(&|i| if tangent { -d.by_s[i] } else { d.by_phi[i] }));
+        put(3 * j + 2, three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] }));
 
         // Supports ahead: through the force and the moment they leave here.
         for (k, other) in nodes.iter().enumerate().skip(j + 1) {
             let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
             let (sin, cos, f) = (other.sin, other.cos, other.force);
             let Support { speed, turning, .. } = other.at;
-            let kappa_by_f = -(dx * cos + dy * sin);
-            let kappa_by_t = -f * (speed + turning * (dy * cos - dx * sin));
+            let moment_by_f = -(dx * cos + dy * sin);
+            let moment_by_t = -f * (speed + turning * (dy * cos - dx * sin));
             let force_by_t = |i: usize| turning * f * (cos * d.by_b[i] - sin * d.by_a[i]);
-            put(3 * k, three(&|i| kappa_by_t * d.by_kappa[i] + force_by_t(i)));
-            put(3 * k + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i] + kappa_by_f * d.by_kappa[i]));
+            put(3 * k, three(&|i| moment_by_t * d.by_moment[i] + force_by_t(i)));
+            put(3 * k + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i] + moment_by_f * d.by_moment[i]));
             put(3 * k + 2, [0.0; 3]);
+        }
+        if j == 0
+            && let Some(law) = self.clamp.law()
+        {
+            give_way(&law, nodes, &end, matrix, stride);
         }
         d
     }
 
-    /// Curvature at the clamp: -m0z, by moment balance over all supports.
-    pub fn clamp_curvature(&self, u: &[f64]) -> f64 {
-        let nodes = self.nodes(u);
-        nodes.first().map_or(0.0, |first| {
-            first.kappa + first.a * (self.clamp.x - first.at.x) + first.b * (self.clamp.y - first.at.y)
-        })
+    /// Bending moment at the base of the rod, -m0z, by moment balance over all supports.
+    pub fn clamp_moment(&self, u: &[f64]) -> f64 {
+        self.base(u).moment
     }
 
-    /// The segments from the clamp to the last support, and the rod beyond that, which is straight and free of force.
-    pub fn segments(&self, u: &[f64], mut visit: impl FnMut(Segment)) {
+    /// The base of the rod, s = 0: where the clamp is, or, if that gives way, where the rod ends that the unknowns define. Its moment
+    /// is -m0z. The slope angle of a rod without supports on a pivot is NaN: nothing determines it.
+    pub fn base(&self, u: &[f64]) -> Cut {
+        self.base_of(&self.nodes(u))
+    }
+
+    pub(crate) fn base_of(&self, nodes: &Nodes) -> Cut {
+        let Pose { x, y, phi } = self.clamp.pose();
+        match (nodes.first(), self.clamp.law()) {
+            (None, Some(ClampLaw { torque: Some(torque), .. })) => Cut { x, y, phi: f64::NAN, moment: -torque },
+            (None, _) => Cut { x, y, phi, moment: 0.0 },
+            (Some(first), None) => {
+                let moment = first.moment + first.a * (x - first.at.x) + first.b * (y - first.at.y);
+                Cut { x, y, phi, moment }
+            }
+            (Some(first), Some(_)) => self.rod.carry(first.s, &first.cut(), first.a, first.b, -first.s),
+        }
+    }
+
+    /// The segments from the clamp to the last support, and the rod beyond that, which is free of force and moment.
+    pub fn cuts(&self, u: &[f64], mut visit: impl FnMut(Segment<Cut>)) {
         let nodes = self.nodes(u);
-        let kappa =
-            nodes.first().map_or(0.0, |n| n.kappa + n.a * (self.clamp.x - n.at.x) + n.b * (self.clamp.y - n.at.y));
-        let (mut s, mut start) = (0.0, Section { x: self.clamp.x, y: self.clamp.y, phi: self.clamp.phi, kappa });
+        let (mut s, mut start) = (0.0, self.base_of(&nodes));
         for node in &nodes {
             visit(Segment { s, start, a: node.a, b: node.b });
-            (s, start) = (node.s, node.section());
+            (s, start) = (node.s, node.cut());
         }
         visit(Segment { s, start, a: 0.0, b: 0.0 });
     }
@@ -258,7 +298,7 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
     /// left of the residual is between one and the next.
     ///
     /// ```
-    /// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Units, solve};
+    /// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Uniform, Units, solve};
     /// struct Floor; // y = 0, the rod's tip on it
     /// impl Supports for Floor {
     ///     fn count(&self) -> usize { 1 }
@@ -267,21 +307,36 @@ impl<S: Supports + ?Sized> MultiPoint<'_, S> {
     ///         Support { x: -t, y: 0.0, alpha: std::f64::consts::PI, speed: 1.0, turning: 0.0 }
     ///     }
     /// }
-    /// let problem = MultiPoint { clamp: Pose { x: 0.0, y: 0.1, phi: -0.2 }, supports: &Floor };
+    /// let problem = MultiPoint { rod: Uniform, clamp: Pose { x: 0.0, y: 0.1, phi: -0.2 }, supports: &Floor };
     /// let mut u = [-0.9, 0.1, 0.0];
     /// assert!(solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new()).status.is_solved());
     /// let shape = problem.elastica(&u, Units::ONE);
-    /// assert!(shape.at(1.0).y.abs() < 1e-14 && shape.first_integral_error() < 1e-14);
+    /// assert!(shape.at(1.0).y.abs() < 1e-14 && shape.first_integral_error().unwrap() < 1e-14);
     /// assert!((shape.reactions().f0y + u[1]).abs() < 1e-14); // the floor pushes up, the clamp holds down
     /// ```
-    pub fn elastica(&self, u: &[f64], units: Units) -> Elastica {
+    pub fn elastica(&self, u: &[f64], units: Units) -> Elastica<M>
+    where
+        M: Clone,
+    {
         let mut segments = Vec::with_capacity(self.supports.count() + 1);
-        self.segments(u, |segment| segments.push(segment));
-        Elastica::known(units, segments)
+        self.cuts(u, |segment| segments.push(segment));
+        Elastica::of_segments(self.rod.clone(), units, segments)
     }
 }
 
-impl<S: Supports + ?Sized> System for MultiPoint<'_, S> {
+impl<S: Supports + ?Sized, C: Clamp> MultiPoint<'_, S, Uniform, C> {
+    /// Curvature of the uniform rod at the clamp: -m0z.
+    pub fn clamp_curvature(&self, u: &[f64]) -> f64 {
+        self.clamp_moment(u)
+    }
+
+    /// The segments of the uniform rod, as [`MultiPoint::cuts`].
+    pub fn segments(&self, u: &[f64], mut visit: impl FnMut(Segment)) {
+        self.cuts(u, |Segment { s, start, a, b }| visit(Segment { s, start: uniform::section(&start), a, b }));
+    }
+}
+
+impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M, C> {
     fn dimension(&self) -> usize {
         3 * self.supports.count()
     }
@@ -298,66 +353,28 @@ impl<S: Supports + ?Sized> System for MultiPoint<'_, S> {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
+/// What the clamp feels where the first segment ends.
+pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
+    Reactions { f0x: -first.b, f0y: first.a, m0z: -base.moment }
+}
 
-    /// Circles: r = centre + radius (sin t, -cos t), travelled counter-clockwise, tangent angle t.
-    struct Circles(Vec<(Hold, [f64; 3])>);
-
-    impl Supports for Circles {
-        fn count(&self) -> usize {
-            self.0.len()
-        }
-        fn hold(&self, j: usize) -> Hold {
-            self.0[j].0
-        }
-        fn support(&self, j: usize, t: f64) -> Support {
-            let [x, y, radius] = self.0[j].1;
-            Support { x: x + radius * t.sin(), y: y - radius * t.cos(), alpha: t, speed: radius, turning: 1.0 }
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn jacobian_is_the_derivative(
-            unknowns in prop::collection::vec((-1.0..1.0_f64, -4.0..4.0_f64, 0.1..0.4_f64, 0.05..2.0_f64), 1..5),
-            tip: bool,
-            phi in 0.0..3.0_f64,
-        ) {
-            let n = unknowns.len();
-            let mut s = 0.0;
-            let (mut u, mut circles) = (Vec::new(), Vec::new());
-            for (j, (t, f, ds, radius)) in unknowns.into_iter().enumerate() {
-                s += ds;
-                let at_tip = tip && j + 1 == n;
-                u.extend([t, f, if at_tip { phi } else { s }]);
-                let offset = if j % 2 == 0 { 0.0 } else { std::f64::consts::PI };
-                circles.push((if at_tip { Hold::Tip } else { Hold::Tangent { offset } }, [0.3 * j as f64, 0.2, radius]));
-            }
-            let supports = Circles(circles);
-            let problem = MultiPoint { clamp: Pose { x: 0.0, y: 0.0, phi: 1.5 }, supports: &supports };
-            let size = 3 * n;
-            let (mut residual, mut jacobian) = (vec![0.0; size], vec![f64::NAN; size * size]);
-            problem.evaluate(&u, &mut residual, Some(&mut jacobian));
-            let mut plain = vec![0.0; size];
-            problem.evaluate(&u, &mut plain, None);
-            prop_assert_eq!(&plain, &residual);
-            for column in 0..size {
-                let h = 1e-5;
-                let (mut up, mut down) = (vec![0.0; size], vec![0.0; size]);
-                let mut moved = u.clone();
-                moved[column] = u[column] + h;
-                problem.evaluate(&moved, &mut up, None);
-                moved[column] = u[column] - h;
-                problem.evaluate(&moved, &mut down, None);
-                for row in 0..size {
-                    let difference = (up[row] - down[row]) / (2.0 * h);
-                    let ours = jacobian[column * size + row];
-                    prop_assert!((difference - ours).abs() < 2e-7 * (1.0 + ours.abs()), "{row} {column}: {ours} {difference}");
-                }
-            }
+/// Turns the derivatives of the end of segment 0 in the leading three rows into those of the equations of a clamp that gives way. All
+/// unknowns change the reactions: m(0) = sum f_k ((x(0) - x_k) cos alpha_k + (y(0) - y_k) sin alpha_k).
+fn give_way(law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
+    let (a, b) = (nodes[0].a, nodes[0].b);
+    for (k, Node { at, sin, cos, force, .. }) in nodes.iter().enumerate() {
+        let (dx, dy) = (base.x - at.x, base.y - at.y);
+        let turned = at.turning * force;
+        let by_t = [-turned * sin, turned * cos, turned * (dy * cos - dx * sin) - force * at.speed];
+        let by_force = [*cos, *sin, dx * cos + dy * sin];
+        for (column, [a_rate, b_rate, moment_rate]) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
+            let rows = &mut matrix[(3 * k + column) * stride..][..3];
+            let end = [rows[0], rows[1], rows[2]];
+            let moment_rate = moment_rate + a * end[0] + b * end[1];
+            rows.copy_from_slice(&law.rates(end, &Reactions { f0x: -b_rate, f0y: a_rate, m0z: -moment_rate }));
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,6 +22,20 @@ pub trait System {
     }
 }
 
+impl<S: System + ?Sized> System for &S {
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+
+    fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+        (**self).evaluate(u, residual, jacobian);
+    }
+
+    fn weights(&self, u: &[f64], weights: &mut [f64]) {
+        (**self).weights(u, weights);
+    }
+}
+
 /// When to stop, and when to give up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {

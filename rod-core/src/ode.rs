@@ -41,7 +41,7 @@ pub struct Ode<L = fn(f64, f64) -> f64> {
 }
 
 impl Ode {
-    /// The uniform straight rod, curvature = moment: what [`ClosedForm`](crate::ClosedForm) solves exactly.
+    /// The uniform straight rod, curvature = moment: what [`Uniform`](crate::Uniform) solves exactly.
     ///
     /// # Errors
     /// As [`Ode::with_law`].
@@ -129,7 +129,7 @@ impl<L: Fn(f64, f64) -> f64> System<f64, Vector5<f64>> for Equations<'_, L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::propagator::ClosedForm;
+    use crate::model::Uniform;
 
     const CLAMP: Cut = Cut { x: 0.0, y: 0.0, phi: 0.0, moment: 0.0 };
 
@@ -144,7 +144,7 @@ mod tests {
             {
                 let start = Cut { phi, moment, ..CLAMP };
                 let ours = rod.advance(0.2, &start, a, b, length).unwrap();
-                let exact = ClosedForm.advance(0.2, &start, a, b, length).unwrap();
+                let exact = Uniform.advance(0.2, &start, a, b, length).unwrap();
                 assert!((ours.x - exact.x).abs() < bound && (ours.y - exact.y).abs() < bound, "{method:?}");
                 assert!((ours.phi - exact.phi).abs() < bound && (ours.moment - exact.moment).abs() < bound);
             }

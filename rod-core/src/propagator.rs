@@ -1,7 +1,7 @@
-//! What carries the state of a rod from one place to another: the closed form, an integrator, or a rod of your own.
+//! What carries the state of a rod from one place to another: a rod model, an integrator, or a rod of your own.
 
 use crate::error::{RodError, finite};
-use crate::segment::{Section, advance};
+use crate::walk::Station;
 
 /// What one side of a cut through the rod hands to the other: where it is, where it points, and the bending moment.
 /// Dimensionless (lengths in L, moments in E I / L, E I being the reference stiffness of a rod that varies).
@@ -23,8 +23,8 @@ pub struct Cut {
 /// (Merker et al. 2020, eq. 10, times E I), phi' = the curvature that the rod answers (s, m) with.
 ///
 /// # For users
-/// Take [`ClosedForm`] for a uniform rod, [`Ode`](crate::Ode) for any other and to check the first;
-/// [`GeneralElastica`](crate::GeneralElastica) puts point forces on either.
+/// Every [`RodModel`](crate::RodModel) is one; [`Ode`](crate::Ode) takes any law of curvature, and checks the models.
+/// [`GeneralElastica`](crate::GeneralElastica) puts point forces on all of them.
 ///
 /// # For rod authors
 /// 1. A length of 0 gives the start, exactly.
@@ -48,24 +48,10 @@ pub trait Propagator {
     }
 }
 
-/// The uniform straight rod by the closed form: see [`advance`].
-///
-/// ```
-/// use rod_core::{ClosedForm, Cut, Propagator};
-/// let clamp = Cut { x: 0.0, y: 0.0, phi: 0.0, moment: 2.0 };
-/// let quarter_circle = ClosedForm.advance(0.0, &clamp, 0.0, 0.0, std::f64::consts::FRAC_PI_4)?;
-/// assert!((quarter_circle.x - 0.5).abs() < 1e-15);
-/// # Ok::<(), rod_core::RodError>(())
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ClosedForm;
-
-impl Propagator for ClosedForm {
-    fn advance(&self, s: f64, start: &Cut, a: f64, b: f64, length: f64) -> Result<Cut, RodError> {
-        check(s, start, a, b, length)?;
-        let Cut { x, y, phi, moment } = *start;
-        let end = advance(&Section { x, y, phi, kappa: moment }, a, b, length);
-        Ok(Cut { x: end.x, y: end.y, phi: end.phi, moment: end.kappa })
+impl From<&Cut> for Station {
+    fn from(&Cut { x, y, phi, moment }: &Cut) -> Self {
+        let (sin, cos) = phi.sin_cos();
+        Self { x, y, cos, sin, moment }
     }
 }
 
@@ -91,6 +77,7 @@ pub(crate) fn check(s: f64, start: &Cut, a: f64, b: f64, length: f64) -> Result<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Uniform;
     use crate::ode::{Method, Ode};
     use proptest::prelude::*;
 
@@ -100,7 +87,7 @@ mod tests {
 
     fn propagators() -> Vec<(Box<dyn Propagator>, f64)> {
         vec![
-            (Box::new(ClosedForm), 1e-12),
+            (Box::new(Uniform), 1e-12),
             (Box::new(Ode::uniform(Method::Dop853, 1e-13).unwrap()), 1e-9),
             (Box::new(Ode::with_law(|s, m| 0.5 + m * (1.0 + s), Method::Dopri5, 1e-12).unwrap()), 1e-8),
         ]

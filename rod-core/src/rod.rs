@@ -123,7 +123,7 @@ impl<T: Scalar> Rod<T> {
     }
 }
 
-fn positive(what: &'static str, value: f64) -> Result<(), RodError> {
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), RodError> {
     if value.is_finite() && value > 0.0 { Ok(()) } else { Err(RodError::NotPositive { what, value }) }
 }
 

@@ -56,14 +56,14 @@ pub struct Station<T = f64> {
     pub cos: T,
     /// Sine of the slope angle.
     pub sin: T,
-    /// Curvature d phi / d s.
-    pub kappa: T,
+    /// Bending moment; of a uniform straight rod it is the curvature d phi / d s.
+    pub moment: T,
 }
 
 impl<T: Scalar> From<&Section<T>> for Station<T> {
     fn from(&Section { x, y, phi, kappa }: &Section<T>) -> Self {
         let (sin, cos) = phi.sin_cos();
-        Self { x, y, cos, sin, kappa }
+        Self { x, y, cos, sin, moment: kappa }
     }
 }
 
@@ -91,7 +91,7 @@ pub fn stations<T: Scalar>(
         }
         route.walker.step();
         let ((x, y), (cos, sin)) = (route.position(), route.direction());
-        Station { x, y, cos, sin, kappa: route.walker.kappa }
+        Station { x, y, cos, sin, moment: route.walker.kappa }
     })
 }
 
@@ -241,7 +241,7 @@ mod tests {
                 let exact = advance(&start, a, b, length * (i + 1) as f64 / steps as f64);
                 worst = worst.max(furthest(&at, &exact));
                 let there = Station::from(&exact);
-                assert_eq!((at.x, at.y, at.kappa), (station.x, station.y, station.kappa));
+                assert_eq!((at.x, at.y, at.kappa), (station.x, station.y, station.moment));
                 worst = worst.max((station.cos - there.cos).abs()).max((station.sin - there.sin).abs());
             }
         }

@@ -4,3 +4,4 @@
 mod kernel;
 mod properties;
 mod reference;
+mod rods;

@@ -49,7 +49,8 @@ fn balances(scene: &Scene, state: &State) -> Result<(), String> {
     hold(certificate.min_force.unwrap_or(f64::INFINITY) == least, || format!("the smallest force is {least:e}"))?;
     hold(certificate.residual <= 1e-10, || format!("residual {:e}", certificate.residual))?;
     let scale = 1.0 + total / units.force;
-    hold(certificate.first_integral <= 1e-10 * scale, || format!("first integral {:e}", certificate.first_integral))?;
+    let first_integral = certificate.first_integral.unwrap_or(0.0);
+    hold(first_integral <= 1e-10 * scale, || format!("first integral {first_integral:e}"))?;
     hold(certificate.stable, || "not stable".into())?;
     hold(certificate.condition >= 1.0, || format!("condition {}", certificate.condition))?;
     hold(state.energy >= 0.0 && state.energy.is_finite(), || format!("energy {}", state.energy))

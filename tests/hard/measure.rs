@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use twofloat::TwoFloat;
 use vibrissa::contact::{Contact, ContactKind};
-use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, SolveStatus, System, solve};
+use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, SolveStatus, System, Uniform, solve};
 use vibrissa::{Rod, State};
 
 /// A residual beyond this is that of no solution.
@@ -51,7 +51,7 @@ impl fmt::Display for Measure {
 
 /// Solves from `u` down to `tolerance` and measures what came out.
 pub fn solved(problem: &Problem, u: &mut [f64], tolerance: f64) -> Measure {
-    let system = MultiPoint { clamp: problem.clamp, supports: problem };
+    let system = MultiPoint { rod: Uniform, clamp: problem.clamp, supports: problem };
     let options = NewtonOptions { tolerance, ..NewtonOptions::default() };
     let report = solve(&system, u, &options, &mut NewtonWorkspace::new());
     measure(problem, u, report.status)
@@ -76,7 +76,7 @@ pub fn of_state(state: &State, status: SolveStatus, place: impl Fn(&Contact) -> 
 /// The errors of `u`.
 pub fn measure(problem: &Problem, u: &[f64], status: SolveStatus) -> Measure {
     let n = u.len();
-    let system = MultiPoint { clamp: problem.clamp, supports: problem };
+    let system = MultiPoint { rod: Uniform, clamp: problem.clamp, supports: problem };
     let (mut residual, mut jacobian, mut weights) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n]);
     system.evaluate(u, &mut residual, Some(&mut jacobian));
     system.weights(u, &mut weights);

@@ -70,6 +70,7 @@ fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
         foot: abscissa.label(path),
         phases: phases.collect(),
         marks: found.kink_poses().into_iter().map(|pose| abscissa.value(pose)).collect(),
+        legs: Vec::new(),
     }
 }
 

@@ -5,7 +5,7 @@ use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
 use super::trace::{self, Along, Trace};
-use crate::Scan;
+use crate::{Scan, SceneRod};
 use std::ops::Range;
 use vibrissa::State;
 
@@ -20,7 +20,7 @@ const EDGE: i32 = 24;
 const LEFT: u32 = 860;
 
 /// Draws a sweep.
-pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
+pub(crate) fn sweep<R: SceneRod>(scan: &Scan<R>) -> Result<String, FigureError> {
     let legend = Legend::of(&scan.intervals(), WIDTH as i32 - 2 * EDGE);
     let height = f64::from(HEAD + legend.height() + GAP) + elasticae::height(scan, LEFT)?;
     svg((WIDTH, height.clamp(HEIGHT.start, HEIGHT.end) as u32), |root| {
@@ -34,7 +34,7 @@ pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
 }
 
 /// The name of the scene and its phases, as many as there is room for.
-fn title(scan: &Scan) -> String {
+fn title<R: SceneRod>(scan: &Scan<R>) -> String {
     let stop = match (&scan.interrupted, &scan.outcome.stop) {
         (Some(_), _) => ", interrupted",
         (None, Some(_)) => ", stopped early",
@@ -55,7 +55,7 @@ fn title(scan: &Scan) -> String {
 type Quantity = fn(&State) -> f64;
 
 /// The three reactions above each other.
-fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
+fn reactions<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>) -> Result<(), FigureError> {
     let quantities: [(&str, Quantity); 3] = [
         ("f_{0x} in N", |state| state.reactions.f0x),
         ("f_{0y} in N", |state| state.reactions.f0y),

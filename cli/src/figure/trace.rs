@@ -1,12 +1,13 @@
 //! One quantity along a scan, with its phases.
 
-use super::abscissa::Abscissa;
+use super::abscissa::Course;
 use super::canvas::{Area, BODY, FigureError, HPos, span, width, write};
 use super::chart::{Chart, Room};
 use super::element::Element;
 use super::labels::Labels;
 use super::palette::{FAINT, INK, RGBColor, TRANSITION, colour};
-use crate::Scan;
+use crate::interval::Interval;
+use crate::{Scan, SceneRod};
 use std::ops::Range;
 use vibrissa::State;
 
@@ -29,6 +30,8 @@ pub(crate) struct Along {
     pub phases: Vec<(Range<f64>, String)>,
     /// Where something happens.
     pub marks: Vec<f64>,
+    /// Where one leg of the path ends and the next one begins.
+    pub legs: Vec<f64>,
 }
 
 /// A part of a trace: points in the units of the axes.
@@ -56,23 +59,28 @@ pub(crate) fn trimmings(phases: bool, foot: bool) -> u32 {
 
 impl Along {
     /// A sweep, with its transitions as marks.
-    pub fn of(scan: &Scan) -> Self {
-        let (path, abscissa) = (&scan.scene.path, Abscissa::of(&scan.scene.path));
+    pub fn of<R: SceneRod>(scan: &Scan<R>) -> Self {
+        let course = Course::of(&scan.scene);
         let intervals = scan.intervals();
-        let phase = |from, to, name: String| (abscissa.value(from)..abscissa.value(to), name);
+        let ends = |part: &Interval<'_>| {
+            let at = |state: Option<&&State>| state.map_or(0.0, |state| course.value(state));
+            at(part.states.first())..at(part.states.last())
+        };
+        let ended = intervals.iter().filter(|part| part.end.is_some());
         Self {
-            across: span(scan.scene.poses().into_iter().map(|pose| abscissa.value(pose)), 0.02),
-            foot: abscissa.label(path),
-            phases: intervals.iter().map(|part| phase(part.from, part.to, part.phase.to_string())).collect(),
-            marks: intervals.iter().filter(|part| part.end.is_some()).map(|part| abscissa.value(part.to)).collect(),
+            across: span(course.ends(), 0.02),
+            foot: course.label(),
+            phases: intervals.iter().map(|part| (ends(part), part.phase.to_string())).collect(),
+            marks: ended.map(|part| ends(part).end).collect(),
+            legs: if let [_, between @ .., _] = &course.ends()[..] { between.to_vec() } else { Vec::new() },
         }
     }
 }
 
 /// A quantity along a sweep, coloured by phase.
-pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
-    let abscissa = Abscissa::of(&scan.scene.path);
-    let point = |state: &&State| (abscissa.value(state.pose), quantity(state));
+pub(crate) fn parts<R: SceneRod>(scan: &Scan<R>, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
+    let course = Course::of(&scan.scene);
+    let point = |state: &&State| (course.value(state), quantity(state));
     let intervals = scan.intervals();
     let part = intervals
         .iter()
@@ -82,7 +90,7 @@ pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> 
 
 /// Draws a trace into a part of `root`.
 pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Result<(), FigureError> {
-    let Along { across, foot, phases, marks } = trace.along;
+    let Along { across, foot, phases, marks, legs } = trace.along;
     let values = trace.parts.iter().flat_map(|part| part.points.iter().map(|point| point.1));
     let up = span(values.chain([0.0]), 0.08);
     let room = Room {
@@ -94,6 +102,9 @@ pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Resul
     let chart = Chart::new(area, room, across.clone(), up.clone());
     chart.axes((12, 5), (if trace.foot { foot } else { "" }, trace.name))?;
     chart.draw_series([Element::line(vec![(across.start, 0.0), (across.end, 0.0)], FAINT)])?;
+    for &place in legs {
+        chart.draw_series([Element::line(vec![(place, up.start), (place, up.end)], FAINT.stroke_width(2))])?;
+    }
     for part in &trace.parts {
         chart.draw_series([Element::line(part.points.iter().copied(), part.colour.stroke_width(4))])?;
     }

@@ -12,13 +12,13 @@ pub use profile::{write_profile_table, write_profiles};
 pub use staged::{OutputError, Staged};
 pub use stages::abandon;
 
-use crate::{Error, Scan, figure};
+use crate::{Error, Scan, SceneRod, figure};
 use records::{CONTACT_COLUMNS, EventRecord, STATE_COLUMNS, StateRecord, contact_rows, state_row};
 use std::io::{self, Write};
 use std::path::Path;
 use sweep::SweepRecord;
 
-impl Scan {
+impl<R: SceneRod> Scan<R> {
     /// Writes states.jsonl, states.csv, contacts.csv, events.jsonl, sweep.svg and sweep.json into `folder` of the staged directory.
     ///
     /// # Errors

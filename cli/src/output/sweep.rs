@@ -1,8 +1,9 @@
 //! What sweep.json says of a sweep as a whole.
 
-use crate::Scan;
+use crate::{Scan, SceneRod};
 use serde::Serialize;
 use vibrissa::Pose;
+use vibrissa::contact::{Start, StartCandidate};
 
 /// sweep.json: whether the other files hold the whole path of the clamp, and if not, why and where they end.
 #[derive(Serialize)]
@@ -10,10 +11,32 @@ pub(super) struct SweepRecord<'a> {
     scene: &'a str,
     complete: bool,
     stop: Option<StopRecord>,
+    /// None without a first equilibrium.
+    start: Option<StartRecord<'a>>,
     states: usize,
     events: usize,
     /// None without a single state.
     phases: Option<String>,
+}
+
+/// How the first equilibrium was found.
+#[derive(Serialize)]
+struct StartRecord<'a> {
+    /// `free`, `in-contact` or `given`.
+    kind: &'static str,
+    /// Of a start in contact, the one taken first.
+    reached: &'a [StartCandidate],
+}
+
+impl<'a> StartRecord<'a> {
+    fn new(start: &'a Start) -> Self {
+        let (kind, reached): (_, &[_]) = match start {
+            Start::InContact(reached) => ("in-contact", reached),
+            Start::Given => ("given", &[]),
+            _ => ("free", &[]),
+        };
+        Self { kind, reached }
+    }
 }
 
 /// Where and why a sweep ended before its path; SI units.
@@ -34,8 +57,8 @@ impl StopRecord {
     }
 }
 
-impl<'a> From<&'a Scan> for SweepRecord<'a> {
-    fn from(scan: &'a Scan) -> Self {
+impl<'a, R: SceneRod> From<&'a Scan<R>> for SweepRecord<'a> {
+    fn from(scan: &'a Scan<R>) -> Self {
         let interrupted = scan.interrupted.map(|at| StopRecord::new("interrupted".into(), at.pose, at.to_string()));
         let stop = scan.outcome.stop.as_ref();
         let stopped = || stop.map(|stop| StopRecord::new(stop.reason.to_string(), Some(stop.pose), stop.to_string()));
@@ -43,6 +66,7 @@ impl<'a> From<&'a Scan> for SweepRecord<'a> {
             scene: &scan.scene.name,
             complete: scan.is_complete(),
             stop: interrupted.or_else(stopped),
+            start: scan.outcome.start.as_ref().map(StartRecord::new),
             states: scan.outcome.states.len(),
             events: scan.outcome.events.len(),
             phases: (!scan.is_empty()).then(|| scan.cycle().to_string()),

@@ -1,74 +1,37 @@
 //! From a document to a scene: every number checked where it stands.
 
-use super::document::{Document, Point, RodTable, SweepTable};
-use super::{Scene, files, leg, object, plausible};
+use super::document::{Document, Point, SweepTable};
+use super::rod_table::{self, AnyRod};
+use super::{AnyScene, Scene, files, leg, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use vibrissa::contact::{ContactError, LARGEST_ANGLE};
-use vibrissa::rod::RodError;
-use vibrissa::{ClampPath, Pose, Rod};
+use vibrissa::{ClampPath, Pose};
 
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
 pub(crate) const MOST_STATES: f64 = 1e6;
 
 /// Files that the objects name are looked for in `directory`.
-pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<Scene, Fault> {
+pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<AnyScene, Fault> {
     let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
     let Document { tables, contour, objects } = document;
-    let rod = rod(&tables.rod)?;
+    let rod = rod_table::rod(&tables.rod)?;
     let objects = object::all(&tables, &contour, &objects, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
     let legs = leg::all(tables.sweep.get_ref(), path.at(path.length()), rod.length())?;
     let warnings =
         plausible::rod(tables.rod.get_ref()).into_iter().map(|fault| source.place(fault).to_string()).collect();
-    Ok(Scene { name, rod, objects, path, step, legs, warnings, files, source })
-}
-
-pub(super) fn rod(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
-    let RodTable { length, diameter, youngs_modulus, bending_stiffness, yield_stress } = table.get_ref();
-    let fields = [
-        ("length", Some(length)),
-        ("diameter", diameter.as_ref()),
-        ("youngs_modulus", youngs_modulus.as_ref()),
-        ("bending_stiffness", bending_stiffness.as_ref()),
-        ("yield_stress", yield_stress.as_ref()),
-    ];
-    let at = |error: RodError| {
-        let field = match &error {
-            RodError::NotPositive { what, .. } => {
-                fields.iter().find(|(name, _)| name == what).and_then(|(_, field)| *field)
-            }
-            RodError::TooThick { .. } => diameter.as_ref(),
-            _ => None,
-        };
-        Fault::new(field.map_or(table.span(), Spanned::span), error.to_string())
-    };
-    let missing = |what: &str| {
-        Fault::new(
-            table.span(),
-            format!("missing field `{what}`, expected diameter and youngs_modulus, or bending_stiffness"),
-        )
-    };
-    let rod = match (bending_stiffness, diameter, youngs_modulus) {
-        (Some(stiffness), None, None) => Rod::new(*length.get_ref(), *stiffness.get_ref()).map_err(at)?,
-        (None, Some(diameter), Some(modulus)) => {
-            Rod::from_diameter(*length.get_ref(), *diameter.get_ref(), *modulus.get_ref()).map_err(at)?
+    Ok(match rod {
+        AnyRod::Uniform(rod) => {
+            AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, warnings, files, source })
         }
-        (Some(stiffness), ..) => {
-            let message = "given beside diameter or youngs_modulus, expected either it or those two";
-            return Err(Fault::new(stiffness.span(), message));
+        AnyRod::Varying(rod) => {
+            AnyScene::Varying(Scene { name, rod, objects, path, step, legs, warnings, files, source })
         }
-        (None, Some(_), None) => return Err(missing("youngs_modulus")),
-        (None, None, Some(_)) => return Err(missing("diameter")),
-        (None, None, None) => return Err(missing("bending_stiffness")),
-    };
-    match yield_stress {
-        Some(stress) => rod.with_yield_stress(*stress.get_ref()).map_err(at),
-        None => Ok(rod),
-    }
+    })
 }
 
 fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {
@@ -106,7 +69,13 @@ pub(super) fn too_large(what: &str, value: f64) -> String {
 
 /// The step in the unit of the path's parameter.
 fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
-    let SweepTable { step, step_angle, .. } = table.get_ref();
+    let SweepTable { step, step_angle, leg, .. } = table.get_ref();
+    // with legs, one of them may be meant for these
+    let (step, step_angle) = match (leg.is_empty(), path.turns_only(), step, step_angle) {
+        (false, true, _, angle @ Some(_)) => (&None, angle),
+        (false, false, step @ Some(_), _) => (step, &None),
+        (.., step, angle) => (step, angle),
+    };
     let missing =
         |what: &str| Fault::new(table.span(), format!("missing field {what}, the distance between reported states"));
     match (path.turns_only(), step, step_angle) {

@@ -32,9 +32,25 @@ pub(super) struct Tables {
 pub(super) struct RodTable {
     pub length: Spanned<f64>,
     pub diameter: Option<Spanned<f64>>,
+    pub tip_diameter: Option<Spanned<f64>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub bending_stiffness: Option<Spanned<f64>>,
+    /// A number, or a list of points.
+    pub natural_curvature: Option<Spanned<toml::Value>>,
     pub yield_stress: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub section: Vec<Spanned<SectionTable>>,
+}
+
+/// One `[[rod.section]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SectionTable {
+    pub length: Spanned<f64>,
+    pub diameter: Option<Spanned<f64>>,
+    pub youngs_modulus: Option<Spanned<f64>>,
+    pub bending_stiffness: Option<Spanned<f64>>,
+    pub natural_curvature: Option<Spanned<f64>>,
 }
 
 /// `[contour]` or one `[[object]]`: a contour and where it stands.
@@ -109,6 +125,10 @@ pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<Document, Faul
         }
         _ => Vec::new(),
     };
+    let sweep = table.get_ref().get("sweep").and_then(|sweep| sweep.get_ref().as_table());
+    if let Some(leg) = sweep.and_then(|sweep| sweep.get("leg")).filter(|leg| leg.get_ref().is_table()) {
+        return Err(Fault::new(leg.span(), "a table where a list belongs, expected [[sweep.leg]] before each leg"));
+    }
     let tables = Tables::deserialize(toml::de::Deserializer::from(table))?;
     Ok(Document { tables, contour, objects })
 }

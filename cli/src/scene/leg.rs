@@ -120,9 +120,13 @@ fn path(table: &Spanned<LegTable>, from: Pose, same: f64) -> Result<LegPath, Fau
                 }
             })
         }
-        _ => wrong(
-            "expected to and angle_to for a straight leg, or pivot and turn for a leg about a pivot, and all of one",
-        ),
+        (None, None, Some(pivot), None) => {
+            Err(Fault::new(pivot.span(), "the leg has a pivot, expected turn (degrees) beside it"))
+        }
+        (None, None, None, Some(turn)) => {
+            Err(Fault::new(turn.span(), "the leg has a turn, expected pivot = [x, y] (m) beside it"))
+        }
+        _ => wrong("the leg is both straight and about a pivot, expected to, angle_to, or both, or pivot and turn"),
     }
 }
 
@@ -135,7 +139,8 @@ fn step(table: &Spanned<LegTable>, sweep: &SweepTable, path: &LegPath) -> Result
         ("step", own.step.as_ref().or(sweep.step.as_ref()), own.step_angle.as_ref())
     };
     if let Some(other) = other {
-        let message = format!("the leg needs {what} in its place: the clamp turns on the spot, or moves");
+        let (given, moves) = if path.turns_only() { ("step", "turns on the spot") } else { ("step_angle", "moves") };
+        let message = format!("{given} is {}, but the clamp {moves} on this leg, expected {what}", other.get_ref());
         return Err(Fault::new(other.span(), message));
     }
     let Some(one) = one else {

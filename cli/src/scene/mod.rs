@@ -7,14 +7,17 @@
 mod check;
 mod document;
 mod files;
+mod kind;
 mod known_rod;
 mod leg;
 mod object;
 mod plausible;
 mod rod;
+mod rod_table;
 mod shape;
 
 pub(crate) use check::MOST_STATES;
+pub use kind::{AnyScene, SceneRod};
 pub(crate) use known_rod::written;
 pub use known_rod::{KnownRod, read_known_rod};
 pub use leg::{Leg, LegPath};
@@ -34,11 +37,11 @@ const PARTS: u32 = 32;
 
 /// A rod swept along a contour.
 #[derive(Debug)]
-pub struct Scene {
+pub struct Scene<R = Rod> {
     /// What to call it: the file's name without its extension.
     pub name: String,
     /// The rod.
-    pub rod: Rod,
+    pub rod: R,
     /// The objects, coordinates in m.
     pub objects: Vec<Composite>,
     /// The way of the clamp; with `legs`, the first one of it.
@@ -90,14 +93,11 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        let directory = file.parent().unwrap_or(file);
-        let source = Source::new(file, text);
-        let read =
-            |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
-        let (scene, warnings) = toml_file::parse_angles(file, text, read)?;
-        Ok(Self { warnings: [scene.warnings, warnings].concat(), ..scene })
+        parse(file, text)?.uniform()
     }
+}
 
+impl<R: SceneRod> Scene<R> {
     /// Whether the clamp is outside of all objects in its first pose.
     ///
     /// # Errors
@@ -117,7 +117,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
-    pub fn sweep(&self) -> Result<Sweep<'_>, ContactError> {
+    pub fn sweep(&self) -> Result<Sweep<'_, R>, ContactError> {
         if self.legs.is_empty() {
             return Sweep::new(&self.rod, &self.objects, self.path, self.step);
         }
@@ -134,9 +134,30 @@ impl Scene {
 
     /// Way along the whole path at a state of its sweep: m, where the clamp moves, plus radians, where it only turns.
     pub(crate) fn way(&self, state: &State) -> f64 {
-        let Some(number) = state.leg.checked_sub(1) else { return crate::interval::way(&self.path, state.pose) };
-        let before = self.legs[..number].iter().map(|leg| leg.path.length()).sum::<f64>();
-        self.path.length() + before + self.legs[number].path.way(state.pose)
+        self.way_by(state.leg, state.pose, 1.0)
+    }
+
+    /// The same in m: where the clamp only turns, the way of the tip of a straight rod.
+    pub(crate) fn way_in_m(&self, leg: usize, pose: Pose) -> f64 {
+        self.way_by(leg, pose, self.rod.units().length)
+    }
+
+    /// Way along the whole path at a pose of a leg, where a radian of a leg on which the clamp only turns counts as `radian`.
+    fn way_by(&self, leg: usize, pose: Pose, radian: f64) -> f64 {
+        let unit = |turns_only: bool| if turns_only { radian } else { 1.0 };
+        let first = unit(self.path.turns_only());
+        let Some(number) = leg.checked_sub(1) else { return first * crate::interval::way(&self.path, pose) };
+        let way = |leg: &LegPath, way: f64| unit(leg.turns_only()) * way;
+        let before = self.legs[..number].iter().map(|leg| way(&leg.path, leg.path.length())).sum::<f64>();
+        let here = &self.legs[number].path;
+        first * self.path.length() + before + way(here, here.way(pose))
+    }
+
+    /// Where its legs end, in m as [`way_in_m`](Self::way_in_m).
+    pub(crate) fn ends_of_legs(&self) -> Vec<f64> {
+        let first = std::iter::once(self.path.at(self.path.length()));
+        let ends = first.chain(self.legs.iter().map(|leg| leg.path.at(leg.path.length())));
+        ends.enumerate().map(|(leg, end)| self.way_in_m(leg, end)).collect()
     }
 
     /// Poses along the path: the ends of straight legs, and others in between where the clamp goes about a pivot.
@@ -161,6 +182,19 @@ impl Scene {
         let message = "several legs, which only `sweep` and `contour` take, expected a path without [[sweep.leg]]";
         Err(self.source.error("sweep.leg", message))
     }
+}
+
+/// The scene in a text.
+fn parse(file: &Path, text: &str) -> Result<AnyScene, SceneError> {
+    let directory = file.parent().unwrap_or(file);
+    let source = Source::new(file, text);
+    let read = |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
+    let (mut scene, warnings) = toml_file::parse_angles(file, text, read)?;
+    match &mut scene {
+        AnyScene::Uniform(scene) => scene.warnings.extend(warnings),
+        AnyScene::Varying(scene) => scene.warnings.extend(warnings),
+    }
+    Ok(scene)
 }
 
 fn stem(file: &Path) -> String {

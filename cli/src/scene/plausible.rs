@@ -14,10 +14,11 @@ const MODULUS: RangeInclusive<f64> = 1e4..=2e12;
 
 /// A warning for each number of a rod outside of its plausible range.
 pub(super) fn rod(table: &RodTable) -> Vec<Fault> {
-    let RodTable { length, diameter, youngs_modulus, .. } = table;
+    let RodTable { length, diameter, tip_diameter, youngs_modulus, .. } = table;
     let fields = [
         ("length", Some(length), LENGTH, "m"),
         ("diameter", diameter.as_ref(), DIAMETER, "m"),
+        ("tip_diameter", tip_diameter.as_ref(), DIAMETER, "m"),
         ("youngs_modulus", youngs_modulus.as_ref(), MODULUS, "Pa"),
     ];
     let check = |(name, field, range, unit): (&str, Option<&Spanned<f64>>, RangeInclusive<f64>, &str)| {

@@ -1,8 +1,8 @@
 //! A rod on its own.
 
-use super::check;
 use super::document::RodTable;
 use super::known_rod::CalibrationTable;
+use super::rod_table;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -34,7 +34,7 @@ pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
 }
 
 fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
-    toml_file::parse(file, text, |table| check::rod(&RodFile::deserialize(Deserializer::from(table))?.rod))
+    toml_file::parse(file, text, |table| rod_table::uniform(&RodFile::deserialize(Deserializer::from(table))?.rod))
 }
 
 #[cfg(test)]

@@ -44,13 +44,21 @@ impl Simulation {
     }
 }
 
+/// Share of a step by which a state may be off its sample by rounding.
+const ROUNDING: f64 = 1e-6;
+
 impl Ticks<'_> {
-    fn tick(&mut self, state: &State) -> Tick {
+    /// None of the end of the path, which the sweep reports too, where no sample is due.
+    fn tick(&mut self, state: &State) -> Option<Tick> {
         let Pose { x, y, phi } = state.pose;
         let path = &self.simulation.scene.path;
         let start = path.at(0.0);
         let way = if path.turns_only() { (phi - start.phi).abs() } else { (x - start.x).hypot(y - start.y) };
-        let number = (way / self.step).round() as usize;
+        let due = way / self.step;
+        if (due - due.round()).abs() > ROUNDING {
+            return None;
+        }
+        let number = due.round() as usize;
         // The sensor goes on where the sweep has nothing to report.
         for _ in self.next..number {
             self.sensor.sample(Reactions::default());
@@ -58,7 +66,7 @@ impl Ticks<'_> {
         self.next = number + 1;
         let phase = state.phase();
         let label = Label::of(phase.contacts, phase.tip);
-        Tick { number, pose: state.pose, label, reactions: self.sensor.sample(state.reactions) }
+        Some(Tick { number, pose: state.pose, label, reactions: self.sensor.sample(state.reactions) })
     }
 }
 
@@ -68,7 +76,10 @@ impl Iterator for Ticks<'_> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             return match self.sweep.next()? {
-                Ok(Item::State(state)) => Some(Ok(self.tick(&state))),
+                Ok(Item::State(state)) => match self.tick(&state) {
+                    None => continue,
+                    tick => tick.map(Ok),
+                },
                 Ok(Item::Event(_)) => continue,
                 Err(stop) => Some(Err(stop)),
             };

@@ -38,30 +38,37 @@ impl Field {
         if rest.is_empty() {
             return put(table, first, number);
         }
-        let mut at = table.get_mut(first).ok_or_else(|| format!("the scene has no `{first}`"))?;
+        let mut at = named(table, first)?;
         for (index, part) in rest.iter().enumerate() {
             let last = index + 1 == rest.len();
             at = match (part, at) {
                 (Part::Name(name), Value::Table(table)) if last => return put(table, name, number),
-                (Part::Name(name), Value::Table(table)) => {
-                    table.get_mut(name).ok_or_else(|| format!("the scene has no `{name}` there"))?
-                }
+                (Part::Name(name), Value::Table(table)) => named(table, name)?,
                 (Part::Number(n), Value::Array(array)) => {
                     let count = array.len();
-                    let missing =
-                        || format!("there are {count} of them in the scene, expected a number from 1 to {count}");
+                    let missing = || format!("the scene has {count}, expected a number from 1 to {count}");
                     array.get_mut(*n).ok_or_else(missing)?
                 }
                 (Part::Name(name), found) => {
-                    return Err(format!("`{name}` is asked of {}, expected a table", found.type_str()));
+                    return Err(format!("`{name}` is asked of a value of type {}, expected a table", found.type_str()));
                 }
                 (Part::Number(n), found) => {
-                    return Err(format!("[{}] is asked of {}, expected a list", n + 1, found.type_str()));
+                    return Err(format!(
+                        "[{}] is asked of a value of type {}, expected a list",
+                        n + 1,
+                        found.type_str()
+                    ));
                 }
             };
         }
         replace(at, number)
     }
+}
+
+/// What a table has under a name.
+fn named<'a>(table: &'a mut Table, name: &str) -> Result<&'a mut Value, String> {
+    let names = table.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    table.get_mut(name).ok_or_else(|| format!("the scene has no `{name}` there, only {names}"))
 }
 
 fn put(table: &mut Table, name: &str, number: f64) -> Result<(), String> {
@@ -76,7 +83,7 @@ fn put(table: &mut Table, name: &str, number: f64) -> Result<(), String> {
 
 fn replace(value: &mut Value, number: f64) -> Result<(), String> {
     if !matches!(value, Value::Float(_) | Value::Integer(_)) {
-        return Err(format!("it is {} in the scene, expected a number", value.type_str()));
+        return Err(format!("the scene has a value of type {} there, expected a number", value.type_str()));
     }
     *value = Value::Float(number);
     Ok(())
@@ -108,12 +115,12 @@ mod tests {
             assert_eq!(Field::parse(text), None, "{text}");
         }
         for (name, message) in [
-            ("sweep.from[1]", "the scene has no `sweep`"),
-            ("object[2].angle", "there are 1 of them in the scene, expected a number from 1 to 1"),
-            ("object.angle", "`angle` is asked of array, expected a table"),
-            ("rod[1]", "[1] is asked of table, expected a list"),
-            ("object[1].piece[1].shape", "it is string in the scene, expected a number"),
-            ("object[1].position", "it is array in the scene, expected a number"),
+            ("sweep.from[1]", "the scene has no `sweep` there, only `object`, `rod`"),
+            ("object[2].angle", "the scene has 1, expected a number from 1 to 1"),
+            ("object.angle", "`angle` is asked of a value of type array, expected a table"),
+            ("rod[1]", "[1] is asked of a value of type table, expected a list"),
+            ("object[1].piece[1].shape", "the scene has a value of type string there, expected a number"),
+            ("object[1].position", "the scene has a value of type array there, expected a number"),
         ] {
             assert_eq!(Field::parse(name).unwrap().set(&mut scene(), 1.0), Err(message.to_owned()));
         }

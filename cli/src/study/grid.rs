@@ -3,8 +3,9 @@
 use super::document::Document;
 use super::parameter::Parameter;
 use super::row::StudyRow;
+use super::run::StudyError;
 use crate::toml_file::{self, Fault};
-use crate::{Scan, Scene, SceneError};
+use crate::{AnyScene, SceneError};
 use serde::Deserialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -54,12 +55,18 @@ impl Study {
         let mut scene = PathBuf::new();
         let parameters = toml_file::parse(file, &text, |table| {
             let document = Document::deserialize(Deserializer::from(table))?;
-            scene.clone_from(document.scene.get_ref());
+            scene = file.parent().unwrap_or(Path::new("")).join(document.scene.get_ref());
+            if let Err(error) = std::fs::metadata(&scene) {
+                return Err(Fault::new(document.scene.span(), format!("the scene {}: {error}", scene.display())));
+            }
             let parameters: Vec<_> = document.parameter.iter().map(Parameter::new).collect::<Result<_, _>>()?;
             let mut names = HashSet::new();
             for (table, parameter) in document.parameter.iter().zip(&parameters) {
                 if !names.insert(parameter.name.clone()) || StudyRow::COLUMNS.contains(&parameter.name.as_str()) {
-                    let message = format!("the name {:?} is taken, expected another one", parameter.name);
+                    let message = format!(
+                        "the name {:?} is that of another parameter or of a column of the results, expected another one",
+                        parameter.name
+                    );
                     return Err(Fault::new(table.get_ref().name.span(), message));
                 }
             }
@@ -69,10 +76,9 @@ impl Study {
             }
             Ok(parameters)
         })?;
-        let scene = file.parent().unwrap_or(Path::new("")).join(scene);
         let of_scene = toml_file::text("the scene", &scene)?;
         // told with its place there, before anything is changed
-        Scene::parse(&scene, &of_scene)?;
+        AnyScene::parse(&scene, &of_scene)?;
         let table = toml_file::parse(&scene, &of_scene, |table| Ok(Table::deserialize(Deserializer::from(table))?))?;
         let study = Self { scene, texts: [text, of_scene], table, parameters };
         study.check_fields(file)?;
@@ -118,11 +124,19 @@ impl Study {
         values
     }
 
-    /// A scene as a text, from 0.
+    /// A scene as a scene file, by its number from 0. Files that it names are relative to the study's scene.
     ///
     /// # Errors
-    /// What is wrong with a field, for a message.
-    pub fn text(&self, number: usize) -> Result<String, String> {
+    /// [`StudyError::NoScene`].
+    pub fn text(&self, number: usize) -> Result<String, StudyError> {
+        let count = self.count();
+        if number >= count {
+            return Err(StudyError::NoScene { number, last: count - 1 });
+        }
+        self.changed(number).map_err(|reason| StudyError::Field { number, reason })
+    }
+
+    fn changed(&self, number: usize) -> Result<String, String> {
         let mut table = self.table.clone();
         let values = self.values(number);
         let sets =
@@ -137,10 +151,9 @@ impl Study {
     /// Sweeps a scene, from 0, and measures it.
     pub fn row(&self, number: usize) -> StudyRow {
         let values = self.values(number);
-        let scan = self.text(number).and_then(|text| {
-            let scene = Scene::parse(&self.scene, &text).map_err(|error| error.without_place())?;
-            Scan::run(scene).map_err(|error| error.to_string())
-        });
-        StudyRow::of(number, values, scan)
+        match self.changed(number) {
+            Ok(text) => StudyRow::sweep(number, values, &self.scene, &text),
+            Err(reason) => StudyRow::refused(number, values, reason),
+        }
     }
 }

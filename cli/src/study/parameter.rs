@@ -74,7 +74,10 @@ fn values(table: &Spanned<ParameterTable>) -> Result<Vec<f64>, Fault> {
 fn setting(table: &Spanned<SetTable>) -> Result<Set, Fault> {
     let SetTable { field, offset, scale } = table.get_ref();
     let no_field = || {
-        let message = format!("the field is {:?}, expected a name such as contour.piece[1].vertex[2]", field.get_ref());
+        let message = format!(
+            "the field is {:?}, expected a name such as contour.piece[1].vertex[2], with numbers from 1",
+            field.get_ref()
+        );
         Fault::new(field.span(), message)
     };
     for (what, value) in [("offset", offset), ("scale", scale)] {

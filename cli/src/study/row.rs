@@ -1,8 +1,9 @@
 //! What is measured in one scene of a study.
 
 use super::touched::touched;
-use crate::{Scan, naive_touch};
+use crate::{AnyScene, Scan, SceneRod, naive_touch};
 use serde::Serialize;
+use std::path::Path;
 use vibrissa::contact::EventKind;
 use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::{Sample, State};
@@ -32,7 +33,7 @@ pub struct Measured {
     /// Way of the clamp with two contacts or more: m, or rad where the clamp only turns.
     pub several: f64,
     /// Largest distance from the contour, m, of a contact point that is computed from the reactions as if there were one contact,
-    /// where there are several: over the reported states.
+    /// where there are several: over the reported states and those at transitions. None for a rod that is not uniform.
     pub naive_error: Option<f64>,
     /// Share of the contour between its outermost touched points that a contact went over, 0 to 1; of a closed contour, all but
     /// its largest untouched part.
@@ -59,14 +60,29 @@ impl StudyRow {
         "reason",
     ];
 
-    pub(super) fn of(scene: usize, values: Vec<f64>, scan: Result<Scan, String>) -> Self {
+    /// Sweeps a scene that is written as in a scene file, and measures it. Files that it names are relative to `file`, which is
+    /// not opened.
+    pub fn sweep(scene: usize, values: Vec<f64>, file: &Path, text: &str) -> Self {
+        match AnyScene::parse(file, text) {
+            Ok(AnyScene::Uniform(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
+            Ok(AnyScene::Varying(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
+            Err(error) => Self::refused(scene, values, error.without_place()),
+        }
+    }
+
+    /// A scene that is none, and why.
+    pub(super) fn refused(scene: usize, values: Vec<f64>, reason: String) -> Self {
+        Self { scene, values, measured: None, reason: Some(reason) }
+    }
+
+    fn of<R: SceneRod>(scene: usize, values: Vec<f64>, scan: Result<Scan<R>, String>) -> Self {
         match scan {
             Ok(scan) => {
                 let reason = scan.outcome.stop.as_ref().map(ToString::to_string);
                 let measured = (!scan.is_empty()).then(|| Measured::of(&scan));
                 Self { scene, values, measured, reason }
             }
-            Err(reason) => Self { scene, values, measured: None, reason: Some(reason) },
+            Err(reason) => Self::refused(scene, values, reason),
         }
     }
 
@@ -107,22 +123,24 @@ impl StudyRow {
 }
 
 impl Measured {
-    fn of(scan: &Scan) -> Self {
+    fn of<R: SceneRod>(scan: &Scan<R>) -> Self {
         let Scan { scene, outcome, .. } = scan;
         let intervals = scan.intervals();
-        let several = intervals.iter().filter(|interval| interval.phase.contacts > 1);
+        let several = || intervals.iter().filter(|interval| interval.phase.contacts > 1);
         let way = |state: &&State| scene.way(state);
-        let ways = several.filter_map(|one| Some(way(one.states.last()?) - way(one.states.first()?)));
+        let ways = several().filter_map(|one| Some(way(one.states.last()?) - way(one.states.first()?)));
         let cycle = scan.cycle();
-        let naive = outcome.states.iter().filter(|state| state.contacts.len() > 1).filter_map(|state| {
-            let touch = naive_touch(&scene.rod, &Sample::new(state.pose, state.reactions))?;
-            signed_distance(&scene.objects, touch.x, touch.y).map(f64::abs)
-        });
+        let naive =
+            several().flat_map(|one| &one.states).filter(|state| state.contacts.len() > 1).filter_map(|state| {
+                let touch = naive_touch(scene.rod.uniform()?, &Sample::new(state.pose, state.reactions))?;
+                signed_distance(&scene.objects, touch.x, touch.y).map(f64::abs)
+            });
         Self {
             phases: cycle.to_string(),
             cycle: cycle.name(),
             snaps: outcome.events.iter().filter(|event| event.kind == EventKind::Snap).count(),
-            several: ways.sum(),
+            // a sum of nothing is -0
+            several: 0.0 + ways.sum::<f64>(),
             naive_error: naive.reduce(f64::max),
             touched: touched(scan),
             largest_moment: outcome.states.iter().map(|state| state.reactions.m0z.abs()).fold(0.0, f64::max),

@@ -31,6 +31,22 @@ pub enum StudyError {
         /// Its study.json.
         file: PathBuf,
     },
+    /// A scene that the study does not have.
+    #[error("--scene is {number}, expected a number from 0 to {last}: the study has so many scenes")]
+    NoScene {
+        /// Its number.
+        number: usize,
+        /// The last one.
+        last: usize,
+    },
+    /// A scene cannot be written.
+    #[error("scene {number}: {reason}")]
+    Field {
+        /// Its number.
+        number: usize,
+        /// Why.
+        reason: String,
+    },
     /// A file of a part cannot be read or removed.
     #[error("cannot read {}: {source}", file.display())]
     Part {
@@ -57,14 +73,14 @@ pub struct StudyRun {
     pub scenes: usize,
     /// How many rows an earlier run had written.
     pub found: usize,
-    /// How many rows this run has added, by status.
+    /// How many of all rows there are now, by status.
     pub done: usize,
     /// Swept, but not to the end of the path.
     pub stopped: usize,
     /// Not swept.
     pub refused: usize,
-    /// The first reason for a scene that was not swept.
-    pub first_refusal: Option<String>,
+    /// The first scene that was not swept, and the reason.
+    pub first_refusal: Option<(usize, String)>,
     /// Whether all rows are there.
     pub complete: bool,
 }
@@ -81,6 +97,7 @@ impl Study {
         let mut run = StudyRun { scenes, ..StudyRun::default() };
         if self.is_begun(out)? {
             if out.join(ROWS).exists() {
+                run.count_all(&out.join(ROWS), true, self.names().count())?;
                 return Ok(StudyRun { found: scenes, complete: true, ..run });
             }
         } else {
@@ -92,11 +109,12 @@ impl Study {
             let last = (first + PART).min(scenes);
             if part(out, first).exists() {
                 run.found += last - first;
+                run.count_all(&part(out, first), false, self.names().count())?;
                 continue;
             }
             let row = |number| (!interrupt.is_raised()).then(|| self.row(number));
             let Some(rows) = (first..last).into_par_iter().map(row).collect::<Option<Vec<_>>>() else { return Ok(run) };
-            rows.iter().for_each(|row| run.count(row));
+            (first..).zip(&rows).for_each(|(number, row)| run.count(number, row.status(), row.reason.as_deref()));
             self.write_part(out, first, &rows)?;
             interrupt.pass(last as f64 / scenes as f64);
         }
@@ -153,15 +171,28 @@ impl Study {
 }
 
 impl StudyRun {
-    fn count(&mut self, row: &StudyRow) {
-        match row.status() {
+    fn count(&mut self, number: usize, status: &str, reason: Option<&str>) {
+        match status {
             "done" => self.done += 1,
             "stopped" => self.stopped += 1,
             _ => {
                 self.refused += 1;
-                self.first_refusal = self.first_refusal.take().or_else(|| row.reason.clone());
+                self.first_refusal.get_or_insert_with(|| (number, reason.unwrap_or_default().to_owned()));
             }
         }
+    }
+
+    /// Counts the rows of a file, which have as many parameters.
+    fn count_all(&mut self, file: &Path, has_names: bool, parameters: usize) -> Result<(), StudyError> {
+        let broken = |source: csv::Error| StudyError::Part { file: file.to_owned(), source: source.into() };
+        let mut table = csv::ReaderBuilder::new().has_headers(has_names).from_path(file).map_err(broken)?;
+        for row in table.records() {
+            let row = row.map_err(broken)?;
+            let cell = |column: usize| row.get(column).unwrap_or_default();
+            let number = cell(0).parse().unwrap_or_default();
+            self.count(number, cell(1 + parameters), row.iter().next_back());
+        }
+        Ok(())
     }
 }
 

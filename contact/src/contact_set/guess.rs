@@ -2,10 +2,11 @@
 
 use crate::contact_set::{Configuration, Held, lying};
 use crate::error::ContactError;
+use crate::scene::rod::{Walk, at_clamp};
 use crate::scene::world::{Foot, World};
 use crate::state::{Contact, ContactKind};
 use rod_contours::StretchKind;
-use rod_core::{Hold, Pose, Section, Units, advance};
+use rod_core::{Hold, Pose, RodModel, Units};
 use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
@@ -19,16 +20,19 @@ pub(crate) struct Supposed {
     pub force: f64,
 }
 
+/// Share of its cone by which the force of a state may point out of it.
+const ROUNDING: f64 = 1e-6;
+
 type Slopes = SmallVec<[f64; 8]>;
 
-/// The rod's slope angles at the contacts from the chords between them: an arc turns twice as far as its chord. On a smooth
-/// contour it lies along that.
-pub(crate) fn by_chords(clamp: Pose, supposed: &[Supposed]) -> Slopes {
+/// The rod's slope angles at the contacts from the chords between them, where the rod turns `turns` times as far as its chord: twice,
+/// if it is an arc, once, if it is straight. On a smooth contour it lies along that.
+pub(crate) fn by_chords(clamp: Pose, supposed: &[Supposed], turns: f64) -> Slopes {
     let (mut from, mut phi) = ((clamp.x, clamp.y), clamp.phi);
     let slope = |Supposed { foot, tip, .. }: &Supposed| {
         let chord = (foot.y - from.1).atan2(foot.x - from.0);
         let turn = chord - phi;
-        phi += 2.0 * (turn - TAU * (turn / TAU).round());
+        phi += turns * (turn - TAU * (turn / TAU).round());
         from = (foot.x, foot.y);
         if !tip {
             phi = foot.alpha + PI * ((phi - foot.alpha) / PI).round();
@@ -38,8 +42,19 @@ pub(crate) fn by_chords(clamp: Pose, supposed: &[Supposed]) -> Slopes {
     supposed.iter().map(slope).collect()
 }
 
-/// The same by the shape that the forces would give the rod.
-pub(crate) fn by_forces(clamp: Pose, supposed: &[Supposed]) -> Slopes {
+/// The contacts with arc lengths that are those of the chords between them.
+pub(crate) fn along_chords(clamp: Pose, supposed: &[Supposed]) -> SmallVec<[Supposed; 8]> {
+    let (mut from, mut s) = ((clamp.x, clamp.y), 0.0);
+    let moved = |contact: &Supposed| {
+        s += (contact.foot.x - from.0).hypot(contact.foot.y - from.1);
+        from = (contact.foot.x, contact.foot.y);
+        Supposed { s, ..*contact }
+    };
+    supposed.iter().map(moved).collect()
+}
+
+/// The rod's slope angles at the contacts by the shape that the forces would give it.
+pub(crate) fn by_forces(rod: &impl RodModel, clamp: Pose, supposed: &[Supposed]) -> Slopes {
     let [mut a, mut b, mut m0z] = [0.0; 3];
     for Supposed { foot, force, .. } in supposed {
         let (sin, cos) = foot.alpha.sin_cos();
@@ -47,15 +62,8 @@ pub(crate) fn by_forces(clamp: Pose, supposed: &[Supposed]) -> Slopes {
         b += force * sin;
         m0z += force * ((foot.x - clamp.x) * cos + (foot.y - clamp.y) * sin);
     }
-    let mut at = (0.0, Section { x: clamp.x, y: clamp.y, phi: clamp.phi, kappa: -m0z });
-    let slope = |Supposed { foot, s, force, .. }: &Supposed| {
-        at = (*s, advance(&at.1, a, b, s - at.0));
-        let (sin, cos) = foot.alpha.sin_cos();
-        a -= force * cos;
-        b -= force * sin;
-        at.1.phi
-    };
-    supposed.iter().map(slope).collect()
+    let mut rod = Walk::new(rod, at_clamp(clamp, m0z), (a, b));
+    supposed.iter().map(|Supposed { foot, s, force, .. }| rod.to(*s, *force, foot.alpha)).collect()
 }
 
 /// The contacts of a guess with a rod that has such slope angles there.
@@ -89,12 +97,33 @@ pub(crate) fn supposed(
             ContactKind::Notch => StretchKind::Notch { before: contact.piece },
         };
         let Some(stretch) = world.find(contact.object, wanted) else {
-            return wrong("there is no such object, or it has no such piece, corner or notch");
+            return wrong(match contact.kind {
+                ContactKind::Tangent | ContactKind::Tip => "there is no such object, or it has no such piece",
+                ContactKind::Corner => "there is no such object, or no corner after that piece of it",
+                ContactKind::Notch => "there is no such object, or no notch after that piece of it",
+            });
         };
-        let foot = world.foot(stretch, contact.x / units.length, contact.y / units.length);
+        let mut foot = world.foot(stretch, contact.x / units.length, contact.y / units.length);
+        turn_on_joint(world, stretch, &mut foot, contact.alpha);
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
         let s = if tip { 1.0 } else { contact.s / units.length };
         supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force });
     }
     Ok(supposed)
+}
+
+/// On a vertex all parameters are one point: the direction of the force, if it is within the cone of the normals, tells them apart.
+fn turn_on_joint(world: &World<'_>, stretch: usize, foot: &mut Foot, alpha: f64) {
+    if !(world.is_corner(stretch) || world.is_notch(stretch)) {
+        return;
+    }
+    let [from, to] = [false, true].map(|upper| world.border(stretch, upper));
+    let [first, last] = [from, to].map(|t| world.support(stretch, t).alpha);
+    let off = alpha - 0.5 * (first + last);
+    let alpha = alpha - TAU * (off / TAU).round();
+    let share = (alpha - first) / (last - first);
+    if (-ROUNDING..=1.0 + ROUNDING).contains(&share) {
+        foot.t = from + (to - from) * share;
+        foot.alpha = alpha;
+    }
 }

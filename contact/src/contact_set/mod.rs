@@ -3,13 +3,15 @@
 pub(crate) mod edit;
 pub(crate) mod guess;
 pub(crate) mod notch;
+pub(crate) mod on_piece;
 pub(crate) mod order;
 
+use crate::scene::rod::Segment;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::state::ContactKind;
 use rod_contours::StretchKind;
-use rod_core::{Hold, Segment, Support, Supports};
+use rod_core::{Hold, PhysicalRod, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -135,11 +137,11 @@ impl Configuration {
     }
 
     /// The rod's segments from the clamp to the tip; the last one is free.
-    pub fn segments(&self, setup: &Setup<'_>) -> Segments {
+    pub fn segments<R: PhysicalRod>(&self, setup: &Setup<'_, R>) -> Segments {
         let mut segments = Segments::new();
         let supports = self.supports(&setup.world);
         let problem = setup.problem(&supports, self.tau());
-        problem.segments(self.of_contacts(), |segment| segments.push(segment));
+        problem.cuts(self.of_contacts(), |segment| segments.push(segment));
         segments
     }
 

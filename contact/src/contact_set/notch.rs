@@ -62,8 +62,14 @@ pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, s
     let last = configuration.count() - 1;
     let (held, f) = (configuration.contacts[last].stretch, configuration.force(last));
     let Some(notch) = world.notch_between(held, stretch) else { return };
-    let (sin, cos) = world.support(held, configuration.t(last)).alpha.sin_cos();
-    let (a, b) = (f * cos + force * alpha.cos(), f * sin + force * alpha.sin());
+    let normal = world.support(held, configuration.t(last)).alpha;
+    rest_in(world, configuration, notch, (alpha, force), (normal, f));
+}
+
+/// The tip rests in `notch`, which gives the sum of two forces: for each, the tangent angle to which it is normal, and its size.
+fn rest_in(world: &World<'_>, configuration: &mut Configuration, notch: usize, one: (f64, f64), other: (f64, f64)) {
+    let last = configuration.count() - 1;
+    let [a, b] = [f64::cos, f64::sin].map(|part| one.1 * part(one.0) + other.1 * part(other.0));
     let range = world.range(notch);
     // along a notch alpha falls by 1 per unit of its parameter
     let turned = world.support(notch, range.from).alpha - b.atan2(a);
@@ -71,6 +77,39 @@ pub(crate) fn into_notch(world: &World<'_>, configuration: &mut Configuration, s
     configuration.contacts[last].stretch = notch;
     configuration.set(Unknown::Parameter(last), t.clamp(range.from, range.to));
     configuration.set(Unknown::Force(last), a.hypot(b));
+}
+
+/// The tip in a notch and a contact on one of its walls as the tip in the notch alone, with the sum of their forces; and the slope angle
+/// at the tip with which the rod lies on that wall.
+pub(crate) fn gathered_in_notch(world: &World<'_>, configuration: &Configuration) -> (Configuration, f64) {
+    let mut gathered = configuration.clone();
+    let (lying, tip) = (configuration.count() - 2, configuration.count() - 1);
+    let (wall, force) = (configuration.contacts[lying].stretch, configuration.force(lying));
+    let alpha = world.support(wall, configuration.t(lying)).alpha;
+    let offset = if let Hold::Tangent { offset } = configuration.contacts[lying].hold { offset } else { 0.0 };
+    let (held, f) = (configuration.contacts[tip].stretch, configuration.force(tip));
+    let normal = world.support(held, configuration.t(tip)).alpha;
+    gathered.remove(lying);
+    rest_in(world, &mut gathered, held, (alpha, force), (normal, f));
+    (gathered, alpha + offset)
+}
+
+/// A rod that lies on a wall up to the tip in its notch, with the tip on the other wall: where the force in the notch vanishes it has no
+/// direction, but the equations of these two contacts are regular.
+pub(crate) fn lying_to_notch(world: &World<'_>, configuration: &Configuration) -> Option<Configuration> {
+    let [lying, tip] = configuration.contacts.last_chunk::<2>()?;
+    let walls = Some(tip.stretch)
+        .filter(|notch| tip.hold == Hold::Tip && world.is_notch(*notch))
+        .map(|notch| world.walls(notch))?;
+    let other = match walls {
+        [Some(wall), other] | [other, Some(wall)] if wall == lying.stretch => other?,
+        _ => return None,
+    };
+    let mut on_wall = configuration.clone();
+    let last = configuration.count() - 1;
+    on_wall.set(Unknown::Parameter(last), edge(world, tip.stretch, other).0);
+    on_wall.contacts[last].stretch = other;
+    Some(on_wall)
 }
 
 /// Whether the last two contacts are the two walls of one notch, the tip on one and the rod lying on the other.

@@ -4,7 +4,11 @@
 
 use crate::contact_set::{Configuration, Held, Holding, Unknown, Unknowns};
 use crate::scene::setup::Setup;
-use rod_core::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, Supports, System, newton_step, solve};
+use rod_core::{
+    NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, Supports, System, newton_step, solve,
+};
+#[cfg(feature = "argmin")]
+use rod_core::{TrustRegionSearch, solve_by_trust_region};
 
 /// The condition that picks a point of the branch.
 #[derive(Clone, Copy, Debug)]
@@ -62,24 +66,24 @@ impl Tangent {
     }
 
     /// Component of the direction of another tangent of the same contact set along this one.
-    pub fn component(&self, other: &Self) -> f64 {
-        (0..self.direction.len()).map(|i| self.row(i) * other.direction[i]).sum()
+    pub fn component(&self, other: &[f64]) -> f64 {
+        other.iter().enumerate().map(|(i, d)| self.row(i) * d).sum()
     }
 
-    /// Cosine of the angle to another tangent of the same contact set.
-    pub fn cosine(&self, other: &Self) -> f64 {
-        let norm: f64 = (0..self.direction.len()).map(|i| (other.direction[i] * self.weights[i]).powi(2)).sum();
+    /// Cosine of the angle to another direction of the same contact set.
+    pub fn cosine(&self, other: &[f64]) -> f64 {
+        let norm: f64 = other.iter().zip(&self.weights).map(|(d, w)| (d * w).powi(2)).sum();
         self.component(other) / norm.sqrt()
     }
 }
 
-struct Bordered<'a> {
-    setup: &'a Setup<'a>,
+struct Bordered<'a, R = Rod> {
+    setup: &'a Setup<'a, R>,
     holding: Holding<'a>,
     condition: Condition<'a>,
 }
 
-impl Bordered<'_> {
+impl<R: PhysicalRod> Bordered<'_, R> {
     fn condition_row(&self, column: usize) -> f64 {
         match self.condition {
             Condition::Fixed { unknown, .. } => f64::from(u8::from(unknown.index(self.holding.count()) == column)),
@@ -88,7 +92,7 @@ impl Bordered<'_> {
     }
 }
 
-impl System for Bordered<'_> {
+impl<R: PhysicalRod> System for Bordered<'_, R> {
     fn dimension(&self) -> usize {
         Unknown::Path.index(self.holding.count()) + 1
     }
@@ -127,8 +131,8 @@ impl System for Bordered<'_> {
 
 /// Solves for points of branches, with the memory to do so.
 #[derive(Debug)]
-pub(crate) struct Corrector<'a> {
-    pub setup: Setup<'a>,
+pub(crate) struct Corrector<'a, R = Rod> {
+    pub setup: Setup<'a, R>,
     workspace: NewtonWorkspace,
 }
 
@@ -141,8 +145,8 @@ fn options(max_iterations: u32) -> NewtonOptions {
     NewtonOptions { max_iterations, longest_step: 0.5, ..NewtonOptions::default() }
 }
 
-impl<'a> Corrector<'a> {
-    pub fn new(setup: Setup<'a>) -> Self {
+impl<'a, R: PhysicalRod> Corrector<'a, R> {
+    pub fn new(setup: Setup<'a, R>) -> Self {
         Self { setup, workspace: NewtonWorkspace::new() }
     }
 
@@ -179,6 +183,19 @@ impl<'a> Corrector<'a> {
         self.solve(configuration, Condition::Fixed { unknown: Unknown::Path, value: tau }, COLD)
     }
 
+    /// Solves at the pose `tau` from a guess from which [`solve_from_guess`](Self::solve_from_guess) fails.
+    #[cfg(feature = "argmin")]
+    pub fn solve_by_trust_region(
+        &mut self,
+        configuration: &mut Configuration,
+        tau: f64,
+        search: impl FnOnce(TrustRegionSearch<'_>) -> TrustRegionSearch<'_>,
+    ) -> SolveReport {
+        let Configuration { contacts, z } = configuration;
+        let system = bordered(&self.setup, contacts, Condition::Fixed { unknown: Unknown::Path, value: tau });
+        solve_by_trust_region(&system, z, &options(COLD), &mut self.workspace, search)
+    }
+
     /// The tangent of the branch at `configuration`, in the direction in which the condition's row grows (with the pose
     /// fixed towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its
     /// equations.
@@ -197,10 +214,16 @@ impl<'a> Corrector<'a> {
         self.inspect(configuration, Condition::Fixed { unknown: Unknown::Path, value: configuration.tau() })
     }
 
+    /// The direction, of any length, of the branch by the inverse that the workspace holds, for so many unknowns: with the pose fixed
+    /// in the last solve that of growing tau.
+    pub fn direction(&self, size: usize) -> &[f64] {
+        &self.workspace.inverse()[size * (size - 1)..][..size]
+    }
+
     /// The tangent at `configuration` by the inverse that the workspace holds.
     fn tangent(&self, configuration: &Configuration) -> Tangent {
         let size = configuration.z.len();
-        let column = &self.workspace.inverse()[size * (size - 1)..][..size];
+        let column = self.direction(size);
         let mut weights = Unknowns::from_elem(1.0, size);
         let holding = configuration.supports(&self.setup.world);
         let problem = self.setup.problem(&holding, configuration.tau());
@@ -210,6 +233,10 @@ impl<'a> Corrector<'a> {
     }
 }
 
-fn bordered<'a>(setup: &'a Setup<'a>, contacts: &'a [Held], condition: Condition<'a>) -> Bordered<'a> {
+fn bordered<'a, R: PhysicalRod>(
+    setup: &'a Setup<'a, R>,
+    contacts: &'a [Held],
+    condition: Condition<'a>,
+) -> Bordered<'a, R> {
     Bordered { setup, holding: Holding { world: &setup.world, contacts }, condition }
 }

@@ -4,7 +4,7 @@ use crate::contact_set::Configuration;
 use crate::gap::scan::Scan;
 use crate::scene::setup::Setup;
 use crate::state::{Certificate, Contact, GapBounds, State};
-use rod_core::{Pose, SolveReport, Supports, Units};
+use rod_core::{Elastica, PhysicalRod, Pose, SolveReport, Supports, Units};
 
 /// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
@@ -27,14 +27,20 @@ impl Quality {
     }
 }
 
-/// The state of the rod in `configuration`.
-pub(crate) fn state(setup: &Setup<'_>, configuration: &Configuration, scan: &Scan, quality: Quality) -> State {
+/// The state of the rod in `configuration`, which was scanned.
+pub(crate) fn state<R: PhysicalRod>(
+    setup: &Setup<'_, R>,
+    configuration: &Configuration,
+    scan: &Scan,
+    quality: Quality,
+) -> State {
     let Setup { rod, world, .. } = setup;
     let Units { length, force, .. } = rod.units();
     let n = configuration.count();
     let supports = configuration.supports(world);
-    let problem = setup.problem(&supports, configuration.tau());
-    let (clamp, shape) = (problem.clamp, problem.elastica(configuration.of_contacts(), rod.units()));
+    let clamp = setup.path.at(configuration.tau());
+    // what was scanned is this configuration
+    let shape = Elastica::of_segments(rod.model().clone(), rod.units(), scan.segments().to_vec());
     let mut contacts = Vec::with_capacity(n);
     for j in 0..n {
         let at = supports.support(j, configuration.t(j));
@@ -68,6 +74,13 @@ pub(crate) fn state(setup: &Setup<'_>, configuration: &Configuration, scan: &Sca
         max_stress: rod.bending_stress(shape.largest_curvature()),
         certificate,
     }
+}
+
+/// Bending energy (J) of the rod in `configuration`.
+pub(crate) fn energy<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> f64 {
+    let supports = configuration.supports(&setup.world);
+    let problem = setup.problem(&supports, configuration.tau());
+    problem.elastica(configuration.of_contacts(), setup.rod.units()).bending_energy()
 }
 
 /// An arc length beyond the tip by rounding is at the tip. One that is further beyond stays, and shows that the contact set is

@@ -2,7 +2,7 @@
 
 use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Corrector, Tangent};
-use rod_core::{RodError, find_root};
+use rod_core::{PhysicalRod, RodError, find_root};
 use std::cell::RefCell;
 
 /// Tolerance of the fold in arclength of the branch. The path parameter is stationary there, so that its error is about the
@@ -11,15 +11,19 @@ const ARCLENGTH: f64 = 1e-13;
 /// The same for the first search, which only gives the second one its tangent and its bracket.
 const FIRST_LOOK: f64 = 1e-6;
 
+/// Way (path parameter) by which a fold may be before the start of the step: a step may begin at one.
+const SAME_FOLD: f64 = 1e-10;
+
 /// Distances of the bracket from the ends of the step, in steps, tried in order.
 const BEYOND: [f64; 4] = [0.0, 0.1, 1.0, 10.0];
 
 /// Half the bracket of the second search, in arclength. It must be larger than the error of the first.
 const AROUND: f64 = 1e-5;
 
-/// The fold between `from` and `to`, a point of the branch on the other side of it along `tangent`.
-pub(crate) fn locate_fold(
-    corrector: &mut Corrector<'_>,
+/// The first fold between `from` and `to`, a point of the branch on the other side of it along `tangent`. None also where another
+/// fold is found: up to the first one the path parameter grows.
+pub(crate) fn locate_fold<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
     from: &Configuration,
     tangent: &Tangent,
     to: &Configuration,
@@ -40,15 +44,14 @@ pub(crate) fn locate_fold(
     // The planes across a tangent at some distance meet the branch at an angle. Those across the tangent of the fold itself
     // find it to the last digits.
     let across = |distance| own.ahead(&fold, distance);
-    if let Some((fold, _)) = between(corrector, &fold, &own, across, (&[-AROUND], &[AROUND]), ARCLENGTH) {
-        return Some(fold);
-    }
-    between(corrector, from, tangent, guess, (&firsts, &lasts), ARCLENGTH).map(|(fold, _)| fold)
+    let closer = between(corrector, &fold, &own, across, (&[-AROUND], &[AROUND]), ARCLENGTH);
+    let (fold, _) = closer.or_else(|| between(corrector, from, tangent, guess, (&firsts, &lasts), ARCLENGTH))?;
+    (fold.tau() > from.tau() - SAME_FOLD).then_some(fold)
 }
 
 /// The fold on planes across `tangent` between one of the distances `firsts` and one of `lasts` from `from`, and its tangent.
-fn between(
-    corrector: &mut Corrector<'_>,
+fn between<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
     from: &Configuration,
     tangent: &Tangent,
     guess: impl Fn(f64) -> Configuration,

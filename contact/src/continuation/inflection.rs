@@ -4,7 +4,7 @@
 //! inflection, with the concave part on the clamp's side, it cannot go on. The contour is y = c x^3 + d x^4 there, and
 //! so is the rod to the leading order: what holds it are two contacts a small distance l apart, the one nearer to the
 //! tip with the force 6 c (the rate of the contour's curvature) and at a distance of order l^2 from the inflection.
-//! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps.
+//! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps. Of a rod that is bent at rest nothing is said.
 
 use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Held, Unknown};
@@ -13,7 +13,7 @@ use crate::continuation::transition::{Transition, on};
 use crate::event::EventKind;
 use crate::scene::world::World;
 use rod_contours::StretchKind;
-use rod_core::{Hold, find_root};
+use rod_core::{Hold, PhysicalRod, RodModel, find_root};
 
 /// Distance (L) of two contacts beside an inflection from which they are solved for. Their forces have an error of rounding over
 /// the third power of it.
@@ -74,8 +74,8 @@ pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration)
 
 /// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is
 /// at the inflection, and after it the two as soon as they can be told apart.
-pub(crate) fn parted(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {
-    let j = from.count().checked_sub(1)?;
+pub(crate) fn parted<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, from: &Configuration) -> Option<Transition> {
+    let j = from.count().checked_sub(1).filter(|_| corrector.setup.rod.model().is_straight())?;
     let Inflection { t, rate, by_s } = inflection(&corrector.setup.world, from, j)?;
     let before = on(corrector, from.clone(), Unknown::Parameter(j), t).ok()?;
     let (s, f) = (before.s(j), before.force(j));
@@ -94,8 +94,11 @@ pub(crate) fn parted(corrector: &mut Corrector<'_>, from: &Configuration) -> Opt
 }
 
 /// The last two contacts, about to run together at an inflection between them, as the one that they will be.
-pub(crate) fn run_together(corrector: &mut Corrector<'_>, from: &Configuration) -> Option<Transition> {
-    let j = from.count().checked_sub(2)?;
+pub(crate) fn run_together<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    from: &Configuration,
+) -> Option<Transition> {
+    let j = from.count().checked_sub(2).filter(|_| corrector.setup.rod.model().is_straight())?;
     let [one, other] = from.contacts.last_chunk::<2>()?;
     if one != other || from.s(j + 1) - from.s(j) > APART {
         return None;

@@ -1,12 +1,11 @@
 //! The configuration that a state was made from: its contact set with all unknowns, so that a sweep goes on from there.
 
-use crate::contact_set::guess::{Supposed, by_forces, held, supposed};
+use crate::contact_set::guess::{by_forces, held, supposed};
 use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
 use crate::error::ContactError;
-use crate::scene::world::World;
 use crate::state::Contact;
-use std::f64::consts::TAU;
+use rod_core::PhysicalRod;
 
 /// Residual (L, rad) up to which the recalled unknowns stay as they are. One more solve would not improve them, and at a fold,
 /// where the pose alone is ill-conditioned, it would move them.
@@ -18,15 +17,15 @@ const NEARLY_SOLVED: f64 = 1e-9;
 const SAME: f64 = 1e-6;
 
 /// The configuration of the contacts of a state (SI units), with the clamp at 0 of the path of `corrector`.
-pub(crate) fn recall(corrector: &mut Corrector<'_>, contacts: &[Contact]) -> Result<Configuration, ContactError> {
+pub(crate) fn recall<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    contacts: &[Contact],
+) -> Result<Configuration, ContactError> {
     let setup = &corrector.setup;
-    let mut all = supposed(&setup.world, setup.rod.units(), contacts)?;
-    for (one, contact) in all.iter_mut().zip(contacts) {
-        turn_on_joint(&setup.world, one, contact.alpha);
-    }
+    let all = supposed(&setup.world, setup.rod.units(), contacts)?;
     // the forces give the rod's angle at each contact, and so its whole turns and the side on which it lies
     let clamp = setup.path.at(0.0);
-    let recalled = held(&all, &by_forces(clamp, &all));
+    let recalled = held(&all, &by_forces(setup.rod.model(), clamp, &all));
     let residual = residual(corrector, &recalled);
     if residual <= SOLVED {
         return Ok(recalled);
@@ -43,21 +42,8 @@ pub(crate) fn recall(corrector: &mut Corrector<'_>, contacts: &[Contact]) -> Res
     }
 }
 
-/// On a vertex all parameters are one point: the direction of the force tells them apart.
-fn turn_on_joint(world: &World<'_>, one: &mut Supposed, alpha: f64) {
-    if !(world.is_corner(one.stretch) || world.is_notch(one.stretch)) {
-        return;
-    }
-    let [from, to] = [false, true].map(|upper| world.border(one.stretch, upper));
-    let [first, last] = [from, to].map(|t| world.support(one.stretch, t).alpha);
-    let off = alpha - 0.5 * (first + last);
-    let alpha = alpha - TAU * (off / TAU).round();
-    one.foot.t = from + (to - from) * (alpha - first) / (last - first);
-    one.foot.alpha = alpha;
-}
-
 /// Largest residual of the boundary-value problem at 0 of the path.
-fn residual(corrector: &Corrector<'_>, configuration: &Configuration) -> f64 {
+fn residual<R: PhysicalRod>(corrector: &Corrector<'_, R>, configuration: &Configuration) -> f64 {
     let (supports, u) = (configuration.supports(&corrector.setup.world), configuration.of_contacts());
     let mut residual = Unknowns::from_elem(0.0, u.len());
     corrector.setup.problem(&supports, 0.0).evaluate_into(u, &mut residual, None);

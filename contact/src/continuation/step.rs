@@ -6,13 +6,14 @@ use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::continuation::certify::Quality;
 use crate::continuation::fold::locate_fold;
 use crate::continuation::inflection::{parted, run_together};
-use crate::continuation::transition::{Break, NoTransition, Transition, breaks};
+use crate::continuation::joint::{self, Passed};
+use crate::continuation::transition::{Break, NoTransition, Transition, breaks, gathered};
 use crate::error::{Obstacle, StopReason};
 use crate::event::EventKind;
 use crate::gap::passing::Passing;
 use crate::gap::scan::{Scan, Scanner};
 use crate::stability::wraps;
-use rod_core::SolveReport;
+use rod_core::{PhysicalRod, Rod, RodModel, SolveReport};
 use smallvec::SmallVec;
 
 /// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
@@ -30,16 +31,18 @@ const FREE_STEP: f64 = 2e-3;
 pub(crate) const FIRST_STEP: f64 = 0.02;
 /// Shortest step (arclength). Where it fails too, the sweep stops with `StepTooSmall`.
 const SHORTEST_STEP: f64 = 1e-9;
+/// Distance (L) of the tip from two objects at which it counts as caught between them.
+const BETWEEN: f64 = 1e-6;
 /// Least cosine of the angle between the tangents at both ends of a step: 26 degrees. Sharper turns may be another branch.
-const LEAST_COSINE: f64 = 0.9;
+pub(crate) const LEAST_COSINE: f64 = 0.9;
 /// Largest distance of the corrected from the predicted point, over the length of the step. A larger one may be another branch.
-const LARGEST_CORRECTION: f64 = 0.3;
+pub(crate) const LARGEST_CORRECTION: f64 = 0.3;
 /// Least d tau / d arclength at which a step aims at a pose. Closer to a fold the pose is ill-conditioned.
-const STEEPEST: f64 = 1e-3;
+pub(crate) const STEEPEST: f64 = 1e-3;
 /// Depth (L) of a free rod beyond that of rounding.
 const DEEPEST: f64 = 1e-9;
 /// Largest residual of a solution (L, rad). The Newton method scales its own tolerance by the forces; this limits it.
-const LARGEST_RESIDUAL: f64 = 1e-9;
+pub(crate) const LARGEST_RESIDUAL: f64 = 1e-9;
 /// Arc length (L) below which a contact counts as at the clamp, where its force has no lever.
 const AT_CLAMP: f64 = 1e-4;
 /// Arclength within which transitions coincide. The one next to the clamp is taken.
@@ -49,8 +52,6 @@ const AT_ONCE: f64 = 1e-12;
 const BEFORE: f64 = 1e-6;
 /// Arclength below which a step is not tested for thin things that it passes over: what is thinner is not met anyway.
 const LEAST_SWEPT: f64 = 1e-8;
-/// Halvings of an interval: 60 reach rounding.
-const MOST_HALVINGS: usize = 60;
 /// Way along the path, and longest way along the branch, after which a new contact set must still hold.
 const PROBE: f64 = 1e-6;
 const FARTHEST_PROBE: f64 = 1e-3;
@@ -99,7 +100,7 @@ impl Point {
 
 impl Step {
     /// The last configuration of the branch that was followed.
-    fn last(&self) -> &Configuration {
+    pub fn last(&self) -> &Configuration {
         match self {
             Self::Moved(next) => &next.configuration,
             Self::Changed(change) => &change.before,
@@ -142,12 +143,14 @@ struct Ahead {
     report: SolveReport,
     /// Arclength of the step along the first tangent.
     length: f64,
+    /// Whether the branch has a kink there, and `tangent` is that behind it.
+    kink: bool,
 }
 
 /// Follows branches.
 #[derive(Debug)]
-pub(crate) struct Stepper<'a> {
-    pub corrector: Corrector<'a>,
+pub(crate) struct Stepper<'a, R = Rod> {
+    pub corrector: Corrector<'a, R>,
     pub scanner: Scanner,
     /// Length of the next step.
     pub h: f64,
@@ -155,8 +158,8 @@ pub(crate) struct Stepper<'a> {
     pub steps_left: u64,
 }
 
-impl<'a> Stepper<'a> {
-    pub fn new(corrector: Corrector<'a>, steps_left: u64) -> Self {
+impl<'a, R: PhysicalRod> Stepper<'a, R> {
+    pub fn new(corrector: Corrector<'a, R>, steps_left: u64) -> Self {
         Self { corrector, scanner: Scanner::default(), h: FIRST_STEP, steps_left }
     }
 
@@ -173,72 +176,12 @@ impl<'a> Stepper<'a> {
         Point { configuration, scan, quality: Quality::new(&report, stable), tangent }
     }
 
-    fn scan(&mut self, configuration: &Configuration) -> Scan {
+    pub fn scan(&mut self, configuration: &Configuration) -> Scan {
         self.scanner.scan(&self.corrector.setup, configuration)
     }
 
-    fn is_stable(&mut self, configuration: &Configuration, scan: &Scan) -> bool {
-        self.scanner.is_stable(&self.corrector.setup.world, configuration, scan)
-    }
-
-    /// The equilibrium at the pose `tau` on the way of `step` from `from`, where all that was known of the step holds there
-    /// too.
-    pub fn between(&mut self, from: &Point, step: &Step, tau: f64) -> Option<Point> {
-        let last = step.last();
-        if last.contacts.len() != from.configuration.contacts.len() {
-            return None;
-        }
-        let length = from.tangent.along(&last.z, &from.configuration.z);
-        let after = if let Step::Moved(next) = step {
-            Some((&next.tangent, 1.0 / from.tangent.component(&next.tangent)))
-        } else {
-            None
-        };
-        let way = Way { from, to: last, after, length };
-        let mut here = way.at_pose(tau)?;
-        let predicted = here.z.clone();
-        let mut report = self.corrector.at_pose(&mut here, tau);
-        let strayed =
-            |here: &Configuration| from.tangent.distance(&here.z, &predicted) > LARGEST_CORRECTION * length + 1e-9;
-        if !report.status.is_solved() || strayed(&here) {
-            here = self.by_arclength(&way, tau)?;
-            report = self.corrector.at_pose(&mut here, tau);
-        }
-        if !report.status.is_solved()
-            || report.residual > LARGEST_RESIDUAL
-            || !ordered(&self.corrector.setup.world, &here)
-        {
-            return None;
-        }
-        here.set_tau(tau);
-        let scan = self.scan(&here);
-        let mut holds = scan.is_outside();
-        breaks(&self.corrector.setup.world, &here, &scan.crossings, |_| holds = false);
-        let stable = holds && self.is_stable(&here, &scan);
-        let tangent = from.tangent.clone();
-        stable.then(|| Point { configuration: here, scan, quality: Quality::new(&report, true), tangent })
-    }
-
-    /// The point of the way at the pose `tau` by its arclength: next to a fold the pose alone is ill-conditioned.
-    fn by_arclength(&mut self, way: &Way<'_>, tau: f64) -> Option<Configuration> {
-        let Way { from, length, .. } = *way;
-        let (mut low, mut high) = (0.0, length);
-        let mut found = None;
-        for _ in 0..MOST_HALVINGS {
-            let distance = 0.5 * (low + high);
-            let mut here = way.at(distance);
-            let plane = Condition::Plane { tangent: &from.tangent, from: &from.configuration.z, distance };
-            if !self.corrector.correct(&mut here, plane).status.is_solved() {
-                return None;
-            }
-            if here.tau() < tau {
-                low = distance;
-            } else {
-                high = distance;
-            }
-            found = Some(here);
-        }
-        found
+    pub fn is_stable(&mut self, configuration: &Configuration, scan: &Scan) -> bool {
+        self.scanner.is_stable(&self.corrector.setup, configuration, scan)
     }
 
     /// One step from `from` towards the pose `target`, at most there.
@@ -262,14 +205,29 @@ impl<'a> Stepper<'a> {
         if touches {
             return Ok(from.ends());
         }
+        if self.is_between_objects(&from.configuration) {
+            return Err(StopReason::BetweenObjects);
+        }
         Err(StopReason::StepTooSmall(obstacle))
+    }
+
+    /// Whether the tip lies on more than one object.
+    fn is_between_objects(&self, from: &Configuration) -> bool {
+        let world = &self.corrector.setup.world;
+        from.ends_at_tip() && {
+            let last = from.count() - 1;
+            let tip = world.support(from.contacts[last].stretch, from.t(last));
+            world.contours_at(tip.x, tip.y, BETWEEN) > 1
+        }
     }
 
     /// A step of the present length.
     fn attempt(&mut self, from: &Point, target: f64) -> Result<Step, Refused> {
-        let Ahead { next, tangent, report, length } =
+        let Ahead { next, tangent, report, length, kink } =
             self.predict_and_correct(from, target).ok_or(Refused::TooLong(Obstacle::NotConverged))?;
-        if tangent.cosine(&from.tangent) < LEAST_COSINE {
+        let bends =
+            tangent.cosine(&from.tangent.direction) < LEAST_COSINE || turns_twice(from, &next, &tangent, length);
+        if bends && !kink {
             return Err(Refused::TooLong(Obstacle::Turns));
         }
         let mut scan = self.scan(&next);
@@ -292,7 +250,7 @@ impl<'a> Stepper<'a> {
         if scan.has_swept_over_an_end(&from.scan) {
             return Err(ends_if_short(StopReason::EndOfContour));
         }
-        let ended = match self.first_transition(from, &next, &scan, &tangent, length) {
+        let ended = match self.first_transition(from, &next, &scan, (&tangent, kink), length) {
             Ok(None) if !scan.is_outside() => return Err(Refused::TooLong(unexplained)),
             Ok(ended) => ended,
             Err(NoTransition::EndOfContour) => return Err(ends_if_short(StopReason::EndOfContour)),
@@ -328,14 +286,15 @@ impl<'a> Stepper<'a> {
 
     /// What the rod, on its way to where it is seen `now`, has gone through and is beside.
     fn passes(&mut self, from: &Point, now: &Scan, length: f64) -> Option<Passing> {
-        let (world, far) = (&self.corrector.setup.world, length > LEAST_SWEPT);
-        far.then(|| self.scanner.passes(world, &from.configuration, &from.scan, now)).flatten()
+        let (setup, far) = (&self.corrector.setup, length > LEAST_SWEPT);
+        far.then(|| self.scanner.passes(setup, &from.configuration, &from.scan, now)).flatten()
     }
 
     /// The end of the branch at `from`, from where `next`, just beyond, is not stable.
     fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
-        match wraps(&self.corrector.setup, next) {
-            Some(last) if last + 1 == next.count() => {
+        match wraps(&self.corrector.setup, next, &next.segments(&self.corrector.setup)) {
+            // a rod that is bent at rest may go on along a line, from the contact to its tip
+            Some(last) if last + 1 == next.count() && self.corrector.setup.rod.model().is_straight() => {
                 let parted = parted(&mut self.corrector, &from.configuration);
                 Ok(parted.map_or_else(|| from.ends(), |transition| self.changed(transition)))
             }
@@ -364,7 +323,12 @@ impl<'a> Stepper<'a> {
 
     /// The last two contacts run together, if they are about to.
     fn runs_together(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
-        let j = next.count().checked_sub(2).filter(|_| !next.ends_at_tip())?;
+        let j = next.count().checked_sub(2)?;
+        if next.ends_at_tip() {
+            return (tangent.rate_of(Unknown::ArcLength(j)) > 0.0)
+                .then(|| gathered(&mut self.corrector, next))
+                .flatten();
+        }
         let closes = tangent.rate_of(Unknown::ArcLength(j + 1)) < tangent.rate_of(Unknown::ArcLength(j));
         closes.then(|| run_together(&mut self.corrector, next)).flatten()
     }
@@ -386,6 +350,9 @@ impl<'a> Stepper<'a> {
         let mut land = to_go <= reach;
         let length = if land { to_go } else { reach };
         let mut next = tangent.ahead(configuration, length);
+        if joint::passes(&self.corrector, configuration, &next) {
+            return self.over_joint(from, &next, target, reach);
+        }
         let predicted = next.z.clone();
         let condition = if land {
             Condition::Fixed { unknown: Unknown::Path, value: target }
@@ -422,8 +389,22 @@ impl<'a> Stepper<'a> {
             // to the last bit, so that the sweep knows it has arrived
             next.set_tau(target);
         }
-        let length = tangent.along(&next.z, &configuration.z);
-        ahead.map(|tangent| Ahead { next, tangent, report, length })
+        let ahead = ahead?;
+        if !joint::passes(&self.corrector, configuration, &next) {
+            let length = tangent.along(&next.z, &configuration.z);
+            return Some(Ahead { next, tangent: ahead, report, length, kink: false });
+        }
+        self.over_joint(from, &next, target, reach)
+    }
+
+    /// The point just behind the first joint on the way to `next`, if that is as near as a step may go.
+    fn over_joint(&mut self, from: &Point, next: &Configuration, target: f64, reach: f64) -> Option<Ahead> {
+        let Passed { configuration: next, tangent, report } =
+            joint::passed(&mut self.corrector, &from.configuration, next)?;
+        let length = from.tangent.along(&next.z, &from.configuration.z);
+        let near = next.tau() <= target && (0.0..=2.0 * reach).contains(&length);
+        let solved = report.residual <= LARGEST_RESIDUAL && ordered(&self.corrector.setup.world, &next);
+        (near && solved).then_some(Ahead { next, tangent, report, length, kink: true })
     }
 
     /// Length of a step that takes a contact over the border of its stretch for certain, but not much further: there may be
@@ -455,7 +436,7 @@ impl<'a> Stepper<'a> {
         None
     }
 
-    /// Fastest way of any point of a straight rod by the path parameter.
+    /// Fastest way of any point of a free rod by the path parameter: none is farther from the clamp than 1.
     fn fastest(&self) -> f64 {
         self.corrector.setup.path.fastest()
     }
@@ -466,7 +447,7 @@ impl<'a> Stepper<'a> {
         from: &Point,
         next: &Configuration,
         scan: &Scan,
-        tangent: &Tangent,
+        (tangent, kink): (&Tangent, bool),
         length: f64,
     ) -> Result<Option<Step>, NoTransition> {
         let mut broken: SmallVec<[Break; 4]> = SmallVec::new();
@@ -488,8 +469,13 @@ impl<'a> Stepper<'a> {
         }
         // Nothing else may be broken there: a shorter step would have met it first.
         if tangent.by_tau() < 0.0 {
-            let fold = locate_fold(&mut self.corrector, &from.configuration, &from.tangent, next)
-                .ok_or(NoTransition::NotLocated)?;
+            // behind a kink the branch may lead back at once
+            let fold = if kink {
+                next.clone()
+            } else {
+                locate_fold(&mut self.corrector, &from.configuration, &from.tangent, next)
+                    .ok_or(NoTransition::NotLocated)?
+            };
             let along = from.tangent.along(&fold.z, &from.configuration.z);
             if first.as_ref().is_none_or(|first| along < first.along) {
                 let fold = self.clean(fold).ok_or(NoTransition::NotLocated)?;
@@ -541,61 +527,17 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// A step from one configuration to another one on the same branch, as a cubic in the arclength along the first tangent.
-struct Way<'a> {
-    from: &'a Point,
-    to: &'a Configuration,
-    /// The tangent at the end, where it is known, and its arclength for one along the first tangent.
-    after: Option<(&'a Tangent, f64)>,
-    length: f64,
-}
-
-impl Way<'_> {
-    fn value(&self, i: usize, x: f64) -> f64 {
-        let (start, end, l) = (self.from.configuration.z[i], self.to.z[i], self.length);
-        let u = x / l;
-        let rate = self.from.tangent.rate(i);
-        let bent = end - start - rate * l;
-        let Some((after, stretch)) = self.after else { return start + rate * x + bent * u * u };
-        let slope = after.rate(i) * stretch - rate;
-        start + rate * x + u * u * ((3.0 - 2.0 * u) * bent + (u - 1.0) * slope * l)
-    }
-
-    fn at(&self, x: f64) -> Configuration {
-        let mut here = self.to.clone();
-        for i in 0..here.z.len() {
-            here.z[i] = self.value(i, x);
-        }
-        here
-    }
-
-    /// The point at the pose `tau`; none where there is no way.
-    fn at_pose(&self, tau: f64) -> Option<Configuration> {
-        let last = self.to.z.len() - 1;
-        let (mut low, mut high) = (0.0, self.length);
-        if high <= 0.0 || high.is_nan() {
-            return None;
-        }
-        let (mut x, mut before) =
-            (high * (tau - self.value(last, 0.0)) / (self.to.tau() - self.value(last, 0.0)), f64::NAN);
-        for _ in 0..MOST_HALVINGS {
-            let value = self.value(last, x);
-            if value < tau {
-                low = x;
-            } else {
-                high = x;
-            }
-            if (value - tau).abs() <= 1e-15 || before == x {
-                break;
-            }
-            before = x;
-            // the slope of the cubic, by a small difference: it is only a guess
-            let slope = (self.value(last, x + 1e-4 * self.length) - value) / (1e-4 * self.length);
-            let newton = x - (value - tau) / slope;
-            x = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
-        Some(self.at(x))
-    }
+/// Whether tau falls somewhere within a step although it grows at both ends, as the cubic of the step tells: there are two folds on the
+/// way. One alone shows in the slope at the end.
+fn turns_twice(from: &Point, next: &Configuration, after: &Tangent, length: f64) -> bool {
+    let chord = (next.tau() - from.configuration.tau()) / length;
+    let stretch = from.tangent.component(&after.direction);
+    let (first, last) = (from.tangent.by_tau(), after.by_tau() / stretch);
+    // its slope is first + x (linear + x square) with x from 0 to 1
+    let (linear, square) = (6.0 * chord - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * chord);
+    let lowest = -0.5 * linear / square;
+    // next to buckling tau hardly changes at all, and falls by rounding
+    square > 0.0 && last > 0.0 && (0.0..1.0).contains(&lowest) && first + 0.5 * linear * lowest < -STEEPEST
 }
 
 /// Whether the last contact, which is at s = 1, is about to leave the rod.

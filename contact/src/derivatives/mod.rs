@@ -14,7 +14,7 @@ use crate::state::State;
 use motion::motion;
 use restored::Restored;
 use rod_contours::Composite;
-use rod_core::{ContactRate, Pose, Reactions, Response, Rod};
+use rod_core::{ContactRate, PhysicalRod, Pose, Reactions, Response, Units};
 
 /// Condition number above which derivatives have less than two digits. At a fold, which a sweep locates to 1e-13 of arclength, it is
 /// 1e10 or more; 1e-14 L before one it is about 1e7.
@@ -47,7 +47,7 @@ const MOST_CONDITION: f64 = 1e7;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Derivatives<'a> {
-    rod: Rod,
+    units: Units,
     world: World<'a>,
     state: &'a State,
     // on the heap, because it is large and is moved
@@ -61,18 +61,18 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// [`ContactError::NotEquilibrium`] and [`ContactError::Guess`] for a state of another rod or of other objects,
     /// [`ContactError::Fold`] at a fold, where the derivatives are infinite.
-    pub fn new(
-        rod: &Rod,
+    pub fn new<R: PhysicalRod>(
+        rod: &R,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         state: &'a State,
     ) -> Result<Self, ContactError> {
-        let world = World::new(objects.as_ref(), rod.length());
+        let world = World::new(objects.as_ref(), rod.units().length);
         let restored = Box::new(Restored::new(rod, &world, state)?);
         let condition = restored.linear.condition();
         if condition > MOST_CONDITION {
             return Err(ContactError::Fold { condition });
         }
-        Ok(Self { rod: *rod, world, state, restored })
+        Ok(Self { units: rod.units(), world, state, restored })
     }
 
     /// Condition number of the equations, with lengths in L and forces in 4 E I / L^2 (1 + force). It grows towards a fold with the
@@ -86,7 +86,7 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// [`ContactError::Fold`].
     pub fn stiffness(&self) -> Result<[[f64; 3]; 3], ContactError> {
-        let (linear, units) = (&self.restored.linear, self.rod.units());
+        let (linear, units) = (&self.restored.linear, self.units);
         let [along_x, along_y] = [(1.0, 0.0), (0.0, 1.0)].map(|(x, y)| Pose { x, y, phi: 0.0 });
         let mut matrix = [[0.0; 3]; 3];
         let moves = [(along_x, units.length), (along_y, units.length), (Pose { x: 0.0, y: 0.0, phi: 1.0 }, 1.0)];
@@ -106,7 +106,7 @@ impl<'a> Derivatives<'a> {
     /// [`ContactError::NoQuantity`] where there is no such object, piece, or parameter of its shape.
     pub fn by(&self, quantity: Quantity<'_>) -> Result<Response, ContactError> {
         let Restored { configuration, linear, clamp } = &*self.restored;
-        let units = self.rod.units();
+        let units = self.units;
         let motion = motion(&self.world, configuration, (*clamp, units.length), quantity)?;
         let mut rates = linear
             .response(motion.clamp, &motion.supports)
@@ -122,7 +122,7 @@ impl<'a> Derivatives<'a> {
 
     /// Adds what comes from the units of length, force (E I / L^2) and moment (E I / L) alone.
     fn add_change_of_units(&self, quantity: Quantity<'_>, rates: &mut Response) {
-        let (length, stiffness) = (self.rod.length(), self.rod.bending_stiffness());
+        let (length, stiffness) = (self.units.length, self.units.moment * self.units.length);
         let [by_length, by_force, by_moment] = match quantity {
             Quantity::Stiffness => [0.0, 1.0 / stiffness, 1.0 / stiffness],
             Quantity::Length => [1.0 / length, -2.0 / length, -1.0 / length],

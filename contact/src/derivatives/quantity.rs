@@ -15,9 +15,9 @@ pub enum Quantity<'a> {
     ClampY,
     /// Angle of the clamp, rad. Of a transition: at each point of the path, which stays where it is.
     ClampAngle,
-    /// Bending stiffness E I, N m^2.
+    /// Bending stiffness E I, N m^2; of a rod that varies that at the clamp, all others in proportion.
     Stiffness,
-    /// Length of the rod, m, at the same bending stiffness.
+    /// Length of the rod, m, at the same bending stiffness. A taper, sections and the shape at rest are stretched with it.
     Length,
     /// Position of an object along x, m.
     ObjectX(usize),

@@ -2,10 +2,11 @@
 
 use crate::contact_set::{Configuration, Held, lying};
 use crate::error::ContactError;
+use crate::scene::rod::{Walk, at_clamp};
 use crate::scene::world::World;
 use crate::state::{ContactKind, State};
 use rod_contours::StretchKind;
-use rod_core::{Hold, Linearisation, MultiPoint, Pose, Reactions, Rod, Section, advance};
+use rod_core::{Hold, Linearisation, MultiPoint, PhysicalRod, Pose, Reactions};
 
 /// Largest residual (L, rad) of a state that counts as an equilibrium. States of a sweep are within 1e-9.
 const LARGEST_RESIDUAL: f64 = 1e-8;
@@ -20,13 +21,14 @@ pub(crate) struct Restored {
 }
 
 impl Restored {
-    pub fn new(rod: &Rod, world: &World<'_>, state: &State) -> Result<Self, ContactError> {
+    pub fn new<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> Result<Self, ContactError> {
         let configuration = configuration(rod, world, state)?;
-        let length = rod.length();
+        let length = rod.units().length;
         let clamp = Pose { x: state.pose.x / length, y: state.pose.y / length, phi: state.pose.phi };
         let linear = {
             let supports = configuration.supports(world);
-            MultiPoint { clamp, supports: &supports }.linearise(configuration.of_contacts())
+            let problem = MultiPoint { rod: rod.model(), clamp, supports: &supports };
+            problem.linearise(configuration.of_contacts())
         };
         let residual = linear.residual();
         if residual.is_nan() || residual > LARGEST_RESIDUAL {
@@ -37,13 +39,13 @@ impl Restored {
 }
 
 /// The contact set of a state with its unknowns.
-fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configuration, ContactError> {
+fn configuration<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> Result<Configuration, ContactError> {
     let units = rod.units();
     let Pose { x, y, phi } = state.pose;
     let Reactions { f0x, f0y, m0z } = state.reactions;
     // the rod from the clamp on, for its slope angles at the contacts
-    let (mut a, mut b, mut s) = (f0y / units.force, -f0x / units.force, 0.0);
-    let mut at = Section { x: x / units.length, y: y / units.length, phi, kappa: -m0z / units.moment };
+    let clamp = at_clamp(Pose { x: x / units.length, y: y / units.length, phi }, m0z / units.moment);
+    let mut rod = Walk::new(rod.model(), clamp, (f0y / units.force, -f0x / units.force));
     let mut configuration = Configuration::free(0.0);
     for (j, contact) in state.contacts.iter().enumerate() {
         let kind = match contact.kind {
@@ -55,12 +57,8 @@ fn configuration(rod: &Rod, world: &World<'_>, state: &State) -> Result<Configur
             index: j,
             reason: "there is no such object, or it has no such piece or joint",
         })?;
-        at = advance(&at, a, b, contact.s / units.length - s);
-        s = contact.s / units.length;
-        let (sin, cos) = contact.alpha.sin_cos();
-        let force = contact.force / units.force;
-        (a, b) = (a - force * cos, b - force * sin);
-        let phi = at.phi;
+        let (s, force) = (contact.s / units.length, contact.force / units.force);
+        let phi = rod.to(s, force, contact.alpha);
         let (x, y) = (contact.x / units.length, contact.y / units.length);
         let (t, alpha) = match contact.kind {
             // the point does not tell the angle

@@ -10,7 +10,7 @@ use crate::error::ContactError;
 use crate::event::{Event, EventKind};
 use crate::scene::world::World;
 use rod_contours::Composite;
-use rod_core::{PathRow, Pose, Rod};
+use rod_core::{PathRow, PhysicalRod, Pose};
 
 /// Largest force (E I / L^2), parameter or angle by which the defining unknown of a located transition is off its value.
 const LOCATED: f64 = 1e-8;
@@ -55,7 +55,8 @@ enum Value {
 /// ```
 #[derive(Clone, Debug)]
 pub struct TransitionDerivatives<'a> {
-    rod: Rod,
+    /// Length of the rod, m.
+    length: f64,
     world: World<'a>,
     restored: Restored,
     value: Value,
@@ -64,20 +65,28 @@ pub struct TransitionDerivatives<'a> {
 
 impl<'a> TransitionDerivatives<'a> {
     /// Of an event of a sweep of `rod` past `objects` whose clamp moves at `rate` there (m, m and rad per unit of the path's
-    /// parameter, as [`ClampPath::rate`](crate::ClampPath::rate)).
+    /// parameter, as [`ClampPath::rate`](crate::ClampPath::rate)). On a path that bends it is `path.point(t).rate` at the parameter t where
+    /// the pose is that of the event; of a [`Chain`](crate::Chain), the rate of the event's leg.
     ///
     /// # Errors
-    /// [`ContactError::NotEquilibrium`] and [`ContactError::Guess`] for an event of another rod or of other objects,
+    /// [`ContactError::NotFinite`] and [`ContactError::NoPath`] for a rate that is none; [`ContactError::NotEquilibrium`] and [`ContactError::Guess`] for an event of another rod or of other objects,
     /// [`ContactError::NoCondition`] where no one equation defines the pose: two contacts that part or run together at an inflection
     /// of the contour, a touch along a straight edge after which no contact set goes on.
-    pub fn new(
-        rod: &Rod,
+    pub fn new<R: PhysicalRod>(
+        rod: &R,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         event: &Event,
         rate: Pose,
     ) -> Result<Self, ContactError> {
-        let world = World::new(objects.as_ref(), rod.length());
-        let length = rod.length();
+        let length = rod.units().length;
+        let world = World::new(objects.as_ref(), length);
+        let speed = rate.x.hypot(rate.y) / length + rate.phi.abs();
+        if !speed.is_finite() {
+            return Err(ContactError::NotFinite { what: "rate of the path", value: speed });
+        }
+        if speed == 0.0 {
+            return Err(ContactError::NoPath { pose: event.pose() });
+        }
         let rate = Pose { x: rate.x / length, y: rate.y / length, phi: rate.phi };
         let [before, after] = [&event.before, &event.after].map(|state| Restored::new(rod, &world, state));
         let before = before?;
@@ -91,7 +100,7 @@ impl<'a> TransitionDerivatives<'a> {
         };
         let (restored, value, row) =
             defined.ok_or_else(|| ContactError::NoCondition { event: event.kind.to_string() })?;
-        Ok(Self { rod: *rod, world, restored, value, row })
+        Ok(Self { length, world, restored, value, row })
     }
 
     /// The change of the path parameter at the transition (m, or rad where the clamp only turns) per unit of one quantity. The path
@@ -102,7 +111,7 @@ impl<'a> TransitionDerivatives<'a> {
     /// how the end of a piece moves at which the transition is.
     pub fn by(&self, quantity: Quantity<'_>) -> Result<f64, ContactError> {
         let Restored { configuration, linear, clamp } = &self.restored;
-        let Motion { clamp, supports } = motion(&self.world, configuration, (*clamp, self.rod.length()), quantity)?;
+        let Motion { clamp, supports } = motion(&self.world, configuration, (*clamp, self.length), quantity)?;
         let missing = || ContactError::NoQuantity { what: quantity.to_string() };
         let rates = linear.residual_rates(clamp, &supports).ok_or_else(missing)?;
         let value = match self.value {

@@ -1,8 +1,9 @@
 //! A short interval of the rod, and how far a function of its points may fall below its values at the ends.
 
 use crate::gap::shape::Node;
+use crate::scene::rod::{self, Segment};
 use rod_contours::Bounds;
-use rod_core::{Segment, Station, advance};
+use rod_core::{RodModel, Station};
 
 /// A point of the rod: its arc length and where it is.
 #[derive(Clone, Copy, Debug)]
@@ -19,15 +20,12 @@ impl From<&Node> for Knot {
 
 impl Knot {
     /// The point of a segment at an arc length.
-    pub fn on(segment: &Segment, s: f64) -> Self {
-        Self { s, at: Station::from(&advance(&segment.start, segment.a, segment.b, s - segment.s)) }
+    pub fn on(rod: &impl RodModel, segment: &Segment, s: f64) -> Self {
+        Self { s, at: Station::from(&rod::at(rod, segment, s)) }
     }
 }
 
 /// The rod between two points of one segment, with bounds that hold everywhere in between.
-///
-/// The curvature obeys kappa' = A cos phi + B sin phi, hence |kappa'| <= P and |kappa''| <= P |kappa| with the force
-/// P = |(A, B)|: over a length l it leaves the range of its end values by no more than P l / 2, nor than P k l^2 / 8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interval {
     pub from: Knot,
@@ -43,20 +41,16 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    pub fn new(from: Knot, to: Knot, segment: usize, force: f64) -> Self {
+    pub fn new(rod: &impl RodModel, from: Knot, to: Knot, segment: usize, force: f64) -> Self {
         let length = to.s - from.s;
-        let (least, largest) = (from.at.kappa.min(to.at.kappa), from.at.kappa.max(to.at.kappa));
-        let ends = least.abs().max(largest.abs());
-        let bent = ends + 0.5 * force * length;
-        let slack = (0.5 * force * length).min(0.125 * force * bent * length * length);
-        let (least, largest) = (least - slack, largest + slack);
+        let (least, largest) = rod.curvature_bounds((from.s, from.at.moment), (to.s, to.at.moment), force);
         Self { from, to, segment, force, length, curvature: (least, largest), bent: least.abs().max(largest.abs()) }
     }
 
     /// The parts before and after the arc length `s`.
-    pub fn split(&self, segment: &Segment, s: f64) -> [Self; 2] {
-        let middle = Knot::on(segment, s);
-        [Self::new(self.from, middle, self.segment, self.force), Self::new(middle, self.to, self.segment, self.force)]
+    pub fn split(&self, rod: &impl RodModel, segment: &Segment, s: f64) -> [Self; 2] {
+        let middle = Knot::on(rod, segment, s);
+        [(self.from, middle), (middle, self.to)].map(|(from, to)| Self::new(rod, from, to, self.segment, self.force))
     }
 
     /// How far at most it leaves its chord.
@@ -124,7 +118,7 @@ fn least_product((a0, a1): (f64, f64), (b0, b1): (f64, f64)) -> f64 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use rod_core::Section;
+    use rod_core::{Cut, Uniform};
 
     proptest! {
         #[test]
@@ -133,18 +127,18 @@ mod tests {
             length in 1e-4..0.3f64,
             (fx, fy, turn) in (-0.3..0.3f64, -0.3..0.3f64, -3.2..3.2f64),
         ) {
-            let segment = Segment { s: 0.0, start: Section { x: 0.0, y: 0.0, phi, kappa }, a, b };
-            let (from, to) = (Knot::on(&segment, 0.0), Knot::on(&segment, length));
-            let interval = Interval::new(from, to, 0, a.hypot(b));
+            let segment = Segment { s: 0.0, start: Cut { x: 0.0, y: 0.0, phi, moment: kappa }, a, b };
+            let (from, to) = (Knot::on(&Uniform, &segment, 0.0), Knot::on(&Uniform, &segment, length));
+            let interval = Interval::new(&Uniform, from, to, 0, a.hypot(b));
             let (uy, ux) = turn.sin_cos();
             let least = interval.least_height((fx, fy), (ux, uy));
             let bounds = interval.bounds(0.0);
             let (dx, dy) = (to.at.x, to.at.y);
             for k in 0..=64 {
-                let Knot { at, .. } = Knot::on(&segment, length * f64::from(k) / 64.0);
+                let Knot { at, .. } = Knot::on(&Uniform, &segment, length * f64::from(k) / 64.0);
                 let height = (at.x - fx) * ux + (at.y - fy) * uy;
                 prop_assert!(height >= least - 1e-13, "{k}: {height} {least}");
-                prop_assert!(at.kappa >= interval.curvature.0 - 1e-12 && at.kappa <= interval.curvature.1 + 1e-12);
+                prop_assert!(at.moment >= interval.curvature.0 - 1e-12 && at.moment <= interval.curvature.1 + 1e-12);
                 prop_assert!(bounds.grown(1e-13).distance(at.x, at.y) == 0.0);
                 let aside = (at.y * dx - at.x * dy).abs() / dx.hypot(dy);
                 prop_assert!(aside <= interval.bulge() + 1e-13);
@@ -155,13 +149,14 @@ mod tests {
 
     #[test]
     fn the_bound_closes_in_on_the_least_height() {
-        let segment = Segment { s: 0.0, start: Section { x: 0.0, y: 0.1, phi: -0.5, kappa: 2.0 }, a: 1.0, b: 0.5 };
+        let segment = Segment { s: 0.0, start: Cut { x: 0.0, y: 0.1, phi: -0.5, moment: 2.0 }, a: 1.0, b: 0.5 };
         let excess = |parts: usize| {
-            let knots: Vec<_> = (0..=parts).map(|k| Knot::on(&segment, 0.5 * k as f64 / parts as f64)).collect();
+            let knots: Vec<_> =
+                (0..=parts).map(|k| Knot::on(&Uniform, &segment, 0.5 * k as f64 / parts as f64)).collect();
             let force = segment.a.hypot(segment.b);
-            let bounds = knots.windows(2).map(|pair| Interval::new(pair[0], pair[1], 0, force));
+            let bounds = knots.windows(2).map(|pair| Interval::new(&Uniform, pair[0], pair[1], 0, force));
             let least = bounds.map(|part| part.least_height((0.0, 0.0), (0.0, 1.0))).fold(f64::INFINITY, f64::min);
-            let fine = (0..=20_000).map(|k| Knot::on(&segment, 0.5 * f64::from(k) / 20_000.0).at.y);
+            let fine = (0..=20_000).map(|k| Knot::on(&Uniform, &segment, 0.5 * f64::from(k) / 20_000.0).at.y);
             fine.fold(f64::INFINITY, f64::min) - least
         };
         assert!(

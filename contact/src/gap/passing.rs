@@ -5,8 +5,10 @@
 //! the rod has gone through it.
 
 use crate::contact_set::{Configuration, Held};
+use crate::gap::interval::{Interval, Knot};
 use crate::gap::shape::Shape;
 use crate::scene::world::World;
+use rod_core::RodModel;
 
 /// What has gone through an object within a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,22 +17,62 @@ pub(crate) enum Passing {
     Rod,
 }
 
+/// Length (L) below which a part of the rod is its chord.
+const SHORTEST: f64 = 1e-12;
+
 /// Whether the rod has swept over an object on its way from one shape to another, other than those that it touches.
-pub(crate) fn swept_over(world: &World<'_>, from: &Shape, to: &Shape, held: &Configuration) -> bool {
+pub(crate) fn swept_over(
+    rod: &impl RodModel,
+    world: &World<'_>,
+    from: &Shape,
+    to: &Shape,
+    held: &Configuration,
+) -> bool {
     let mut found = false;
     world.closed_objects_in(from.bounds().union(to.bounds()), |object, point| {
-        let is_held = held.contacts.iter().any(|contact| world.object(contact.stretch) == object);
-        found |= !is_held && turns_around(point, from, to);
+        if !held.contacts.iter().any(|contact| world.object(contact.stretch) == object) {
+            let mut before = polygon(rod, from, point);
+            let mut after = polygon(rod, to, point);
+            after.reverse();
+            before.append(&mut after);
+            found |= turns_around(point, &before);
+        }
     });
     found
 }
 
-/// Whether the two rods and the ways of their ends go around a point.
-fn turns_around((x, y): (f64, f64), from: &Shape, to: &Shape) -> bool {
-    let points = from.nodes.iter().chain(to.nodes.iter().rev());
-    let points = points.map(|node| (node.at.x - x, node.at.y - y));
+/// Points of the rod, so close together where it is near a point that this is on the same side of the rod and of the chords.
+fn polygon(rod: &impl RodModel, shape: &Shape, point: (f64, f64)) -> Vec<(f64, f64)> {
+    let mut points = vec![shape.ends().0];
+    for pair in shape.nodes.windows(2) {
+        let segment = pair[0].segment;
+        let whole = |from, to| Interval::new(rod, from, to, segment, shape.force(segment));
+        let mut parts = vec![whole(Knot::from(&pair[0]), Knot::from(&pair[1]))];
+        while let Some(part) = parts.pop() {
+            if part.length < SHORTEST || distance(point, &part) > part.bulge() {
+                points.push((part.to.at.x, part.to.at.y));
+            } else {
+                let [before, after] = part.split(rod, &shape.segments[segment], 0.5 * (part.from.s + part.to.s));
+                parts.extend([after, before]);
+            }
+        }
+    }
+    points
+}
+
+/// Distance of a point from the chord of a part of the rod.
+fn distance((x, y): (f64, f64), Interval { from, to, .. }: &Interval) -> f64 {
+    let (dx, dy) = (to.at.x - from.at.x, to.at.y - from.at.y);
+    let (x, y) = (x - from.at.x, y - from.at.y);
+    let share = ((x * dx + y * dy) / (dx * dx + dy * dy).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (x - share * dx).hypot(y - share * dy)
+}
+
+/// Whether a closed polygon goes around a point.
+fn turns_around((x, y): (f64, f64), polygon: &[(f64, f64)]) -> bool {
+    let points = polygon.iter().map(|(px, py)| (px - x, py - y));
     let mut turns = 0;
-    let mut before = (to.nodes[0].at.x - x, to.nodes[0].at.y - y);
+    let mut before = polygon.last().map_or((0.0, 0.0), |(px, py)| (px - x, py - y));
     for here in points {
         // crossings of the ray to the right, upwards and downwards
         if (before.1 < 0.0) != (here.1 < 0.0) {

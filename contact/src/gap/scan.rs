@@ -4,11 +4,12 @@ use crate::contact_set::Configuration;
 use crate::gap::passing::{self, Passing};
 use crate::gap::shape::{Node, Shape};
 use crate::gap::{AT_TRANSITION, Crossing, GAP_TOLERANCE, Proof, Prover};
+use crate::scene::rod::{self, Segment};
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
-use crate::stability::Judge;
+use crate::stability::{Judge, wraps};
 use crate::state::GapBounds;
-use rod_core::{Section, Segment, advance};
+use rod_core::{Cut, PhysicalRod, RodModel};
 use smallvec::SmallVec;
 
 /// Distance (L) between the rod and an end of an open contour up to which a change of sides means that the rod went over the
@@ -36,6 +37,11 @@ pub(crate) struct Scan {
 }
 
 impl Scan {
+    /// The segments of the rod that was scanned.
+    pub fn segments(&self) -> &[Segment] {
+        &self.shape.segments
+    }
+
     /// Whether the rod is outside of all objects: proven.
     pub fn is_outside(&self) -> bool {
         self.crossings.is_empty() && !self.clamp_inside && self.gap.lower > f64::NEG_INFINITY
@@ -73,27 +79,41 @@ pub(crate) struct Scanner {
 
 impl Scanner {
     /// Looks at the whole rod in `configuration`.
-    pub fn scan(&mut self, setup: &Setup<'_>, configuration: &Configuration) -> Scan {
+    pub fn scan<R: PhysicalRod>(&mut self, setup: &Setup<'_, R>, configuration: &Configuration) -> Scan {
         self.scan_shape(Shape::of(setup, configuration), setup, configuration, GAP_TOLERANCE)
     }
 
     /// The same of a rod at a transition, where another contact, about to form, may be deeper.
-    pub fn scan_transition(&mut self, setup: &Setup<'_>, configuration: &Configuration) -> Scan {
+    pub fn scan_transition<R: PhysicalRod>(&mut self, setup: &Setup<'_, R>, configuration: &Configuration) -> Scan {
         let scan = self.scan(setup, configuration);
         if scan.is_outside() { scan } else { self.scan_shape(scan.shape, setup, configuration, AT_TRANSITION) }
     }
 
-    fn scan_shape(&mut self, shape: Shape, setup: &Setup<'_>, configuration: &Configuration, depth: f64) -> Scan {
+    fn scan_shape<R: PhysicalRod>(
+        &mut self,
+        shape: Shape,
+        setup: &Setup<'_, R>,
+        configuration: &Configuration,
+        depth: f64,
+    ) -> Scan {
         let world = &setup.world;
-        let Proof { lower, seen, crossings, clamp_inside } = self.prover.prove(world, configuration, &shape, depth);
+        let Proof { lower, seen, crossings, clamp_inside } =
+            self.prover.prove(setup.rod.model(), world, configuration, &shape, depth);
         let gap = GapBounds { lower, seen, proven: world.is_proven() };
-        let sides = sides(world, &shape);
+        let sides = sides(setup.rod.model(), world, &shape);
         Scan { shape, gap, crossings, clamp_inside, sides }
     }
 
     /// What the rod has gone through, and is beside now, on its way from a configuration and what was seen there to what is seen
     /// `now`.
-    pub fn passes(&mut self, world: &World<'_>, from: &Configuration, before: &Scan, now: &Scan) -> Option<Passing> {
+    pub fn passes<R: PhysicalRod>(
+        &mut self,
+        setup: &Setup<'_, R>,
+        from: &Configuration,
+        before: &Scan,
+        now: &Scan,
+    ) -> Option<Passing> {
+        let world = &setup.world;
         let ((clamp_before, tip_before), (clamp, tip)) = (before.shape.ends(), now.shape.ends());
         if self.prover.is_crossed(world, (clamp_before, clamp), |_| false) {
             return Some(Passing::Clamp);
@@ -103,24 +123,34 @@ impl Scanner {
             return Some(Passing::Rod);
         }
         let clear = world.objects() == 1 && from.count() > 0;
-        let swept = !clear && passing::swept_over(world, &before.shape, &now.shape, from);
+        let swept = !clear && passing::swept_over(setup.rod.model(), world, &before.shape, &now.shape, from);
         swept.then_some(Passing::Rod)
     }
 
+    /// Whether no contact of a configuration that was scanned wraps around the contour.
+    pub fn wraps_nowhere<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, scan: &Scan) -> bool {
+        wraps(setup, configuration, &scan.shape.segments).is_none()
+    }
+
     /// Whether the rod is stable in a configuration that was scanned.
-    pub fn is_stable(&mut self, world: &World<'_>, configuration: &Configuration, scan: &Scan) -> bool {
-        self.judge.is_stable(world, configuration, &scan.shape)
+    pub fn is_stable<R: PhysicalRod>(
+        &mut self,
+        setup: &Setup<'_, R>,
+        configuration: &Configuration,
+        scan: &Scan,
+    ) -> bool {
+        self.judge.is_stable(setup, configuration, &scan.shape)
     }
 }
 
 /// On which side of the rod, and how far, the ends of open contours are.
-fn sides(world: &World<'_>, shape: &Shape) -> SmallVec<[f64; 2]> {
+fn sides(rod: &impl RodModel, world: &World<'_>, shape: &Shape) -> SmallVec<[f64; 2]> {
     let side = |&(x, y): &(f64, f64)| {
         let sides = shape.nodes.windows(2).filter_map(|pair| {
             let ahead = |Node { at, .. }: &Node| (at.x - x) * at.cos + (at.y - y) * at.sin;
             let (before, after) = (ahead(&pair[0]), ahead(&pair[1]));
             (before < 0.0 && after >= 0.0).then(|| {
-                let at = pass(&shape.segments, (&pair[0], &pair[1]), (x, y), before, after);
+                let at = pass(rod, &shape.segments, (&pair[0], &pair[1]), (x, y), before, after);
                 let (sin, cos) = at.phi.sin_cos();
                 (y - at.y) * cos - (x - at.x) * sin
             })
@@ -131,20 +161,28 @@ fn sides(world: &World<'_>, shape: &Shape) -> SmallVec<[f64; 2]> {
 }
 
 /// Where between two nodes the rod runs by a point; (r - point) . tangent is given at both.
-fn pass(segments: &[Segment], nodes: (&Node, &Node), point: (f64, f64), before: f64, after: f64) -> Section {
+fn pass(
+    rod: &impl RodModel,
+    segments: &[Segment],
+    nodes: (&Node, &Node),
+    point: (f64, f64),
+    before: f64,
+    after: f64,
+) -> Cut {
     let segment = &segments[nodes.0.segment];
     let mut s = nodes.0.s + (nodes.1.s - nodes.0.s) * before / (before - after);
     let mut at = segment.start;
     for _ in 0..6 {
-        at = advance(&segment.start, segment.a, segment.b, s - segment.s);
+        at = rod::at(rod, segment, s);
         let (sin, cos) = at.phi.sin_cos();
         let (dx, dy) = (at.x - point.0, at.y - point.1);
-        let rate = (1.0 + at.kappa * (dy * cos - dx * sin)).max(0.1);
+        let rate = (1.0 + rod.curvature_at(s, at.moment) * (dy * cos - dx * sin)).max(0.1);
         let step = -(dx * cos + dy * sin) / rate;
         if step.abs() < 1e-15 {
             break;
         }
-        s = (s + step).clamp(nodes.0.s, nodes.1.s);
+        // a guess may have its last contact beyond the tip, from where the nodes run back to it
+        s = (s + step).max(nodes.0.s.min(nodes.1.s)).min(nodes.0.s.max(nodes.1.s));
     }
     at
 }

@@ -85,19 +85,21 @@ impl Lines {
         }
     }
 
-    /// How many intervals between `nodes` one of the lines clears by more than the first of `limits`, from the first one on,
-    /// and the bound. Hands out those that are not farther from it than the second one.
-    pub fn clear(
+    /// How many intervals between `nodes` one of the `tangents`, or else of the lines, clears by more than the first of `limits`, from
+    /// the first one on, and the bound. Hands out those that are not farther from it than the second one.
+    pub fn clear<'a>(
         &mut self,
         nodes: &[Node],
         interval: impl Fn(usize) -> Interval,
         limits: (f64, f64),
+        mut tangents: impl Iterator<Item = &'a Line>,
         mut touch: impl FnMut(usize, &Line),
     ) -> Option<(usize, f64)> {
-        self.try_each(|line| {
+        let mut clears = |line: &Line| {
             let (count, bound) = line.clears(nodes, &interval, limits, &mut touch);
             (count > 0).then_some((count, bound))
-        })
+        };
+        tangents.find_map(&mut clears).or_else(|| self.try_each(clears))
     }
 
     /// The bound of the first line that clears an interval.

@@ -1,22 +1,21 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
 use crate::contact_set::{Configuration, Segments};
+use crate::scene::rod::{self, Segment};
 use crate::scene::setup::Setup;
 use rod_contours::Bounds;
-use rod_core::{Section, Segment, Station, stations};
+use rod_core::{Cut, PhysicalRod, RodModel, Station};
 use smallvec::{SmallVec, smallvec};
 
-/// Largest distance between the points. Between them the gap to an object is bounded by its slope (a rod moves through the
-/// plane with unit speed, so the gap is 1-Lipschitz).
-const SPACING: f64 = 1.0 / 32.0;
+/// Largest distance between the points. Between them the gap to an object is bounded by values and slopes at both ends; the prover
+/// halves what that does not settle. Twice as many cost more than is halved less.
+const SPACING: f64 = 1.0 / 10.0;
 
-/// Intervals of the straight end of the rod. The prover halves them where it needs more.
-const STRAIGHT: usize = 4;
-
-/// Least number of points up to the last contact: several a wave of the highest mode of the stability test.
+/// The same of a shape whose points stand for the rod between them.
+const FINE: f64 = 1.0 / 32.0;
+/// Least number of intervals of that up to the last contact, several a wave of the highest mode of the stability test, and of a
+/// segment under load, for Simpson's rule.
 const LOADED: f64 = 28.0;
-
-/// Least number of intervals of a segment under load, for Simpson's rule.
 const FEWEST: usize = 4;
 
 /// Largest distance between the points in units of sqrt(E I / force), the length scale of the elastica; and the smallest
@@ -25,7 +24,7 @@ const LARGEST_PHASE: f64 = 0.5;
 const SMALLEST_SPACING: f64 = 1.0 / 512.0;
 
 /// Points for which memory is reserved: most shapes have fewer.
-const USUAL: usize = 80;
+const USUAL: usize = 24;
 
 /// A point of the rod.
 #[derive(Clone, Copy, Debug)]
@@ -48,9 +47,8 @@ impl Node {
     }
 }
 
-/// The rod's segments, and points along all of it from the clamp to the tip. Up to the last contact those of a segment are an
-/// odd number at equal distances.
-#[derive(Clone, Debug, Default)]
+/// The rod's segments, and points along all of it from the clamp to the tip. Those of a segment under load are at equal distances.
+#[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub segments: Segments,
     pub nodes: Vec<Node>,
@@ -63,7 +61,7 @@ pub(crate) struct Shape {
 impl Shape {
     /// A straight line from a point on.
     pub fn straight((x, y): (f64, f64), phi: f64, length: f64) -> Self {
-        let start = Section { x, y, phi, kappa: 0.0 };
+        let start = Cut { x, y, phi, moment: 0.0 };
         let at = Station::from(&start);
         let end = Station { x: x + length * at.cos, y: y + length * at.sin, ..at };
         let node = |s, at| Node { s, at, segment: 0, bulge: 0.0 };
@@ -76,45 +74,58 @@ impl Shape {
     }
 
     /// The shape of the rod in `configuration`.
-    pub fn of(setup: &Setup<'_>, configuration: &Configuration) -> Self {
-        let mut shape = Self { nodes: Vec::with_capacity(USUAL), ..Self::default() };
-        shape.follow(setup, configuration);
-        shape
+    pub fn of<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> Self {
+        let rod = setup.rod.model();
+        Self::through(rod, configuration.segments(setup), |from, to, force, _| {
+            (((to - from) / spacing(rod, (from, to), force, SPACING)).ceil() as usize).max(1)
+        })
     }
 
-    fn follow(&mut self, setup: &Setup<'_>, configuration: &Configuration) {
-        let Self { segments, nodes, firsts, forces } = self;
-        *segments = configuration.segments(setup);
-        forces.clear();
-        forces.extend(segments.iter().map(|segment| segment.a.hypot(segment.b)));
-        nodes.clear();
-        firsts.clear();
+    /// The same with points so close that the chords between them, or an integral by Simpson's rule, may stand for the rod: an odd
+    /// number of them on each segment.
+    pub fn refined(&self, rod: &impl RodModel) -> Self {
+        Self::through(rod, self.segments.clone(), |from, to, force, loaded| {
+            let spacing = spacing(rod, (from, to), force, FINE).min(if from < loaded { loaded / LOADED } else { FINE });
+            2 * ((0.5 * (to - from) / spacing).ceil() as usize).max(FEWEST / 2)
+        })
+    }
+
+    /// Points along `segments`: on each one, by its arc lengths, its force and the arc length of the last contact, so many steps. The
+    /// free end of a rod that is straight at rest is one.
+    fn through(rod: &impl RodModel, segments: Segments, steps: impl Fn(f64, f64, f64, f64) -> usize) -> Self {
+        let mut nodes = Vec::with_capacity(USUAL);
+        let mut firsts = SmallVec::new();
+        let forces: SmallVec<[f64; 9]> = segments.iter().map(|segment| segment.a.hypot(segment.b)).collect();
         let loaded = segments.last().map_or(0.0, |free| free.s);
         for (i, segment) in segments.iter().enumerate() {
             let next = segments.get(i + 1);
             let node = |s, at| Node { s, at, segment: i, bulge: 0.0 };
+            let start = Station::from(&segment.start);
             firsts.push(nodes.len());
-            nodes.push(node(segment.s, Station::from(&segment.start)));
-            let length = next.map_or(1.0, |next| next.s) - segment.s;
+            nodes.push(node(segment.s, start));
+            let to = next.map_or(1.0, |next| next.s);
+            let length = to - segment.s;
             if length <= 0.0 {
                 continue;
             }
-            if next.is_none() {
-                // no moment comes from beyond: it is straight
-                let steps = STRAIGHT;
-                let Station { x, y, cos, sin, .. } = nodes[nodes.len() - 1].at;
-                let at = |s: f64| Station { x: x + s * cos, y: y + s * sin, cos, sin, kappa: 0.0 };
-                let part = |k: usize| length * (k as f64 / steps as f64);
-                nodes.extend((1..=steps).map(|k| node(segment.s + part(k), at(part(k)))));
+            if next.is_none() && rod.is_straight() {
+                let Station { x, y, cos, sin, .. } = start;
+                let tip = Station { x: x + length * cos, y: y + length * sin, cos, sin, moment: 0.0 };
+                nodes.push(node(1.0, tip));
                 continue;
             }
-            let steps = 2 * ((0.5 * length / spacing(forces[i]).min(loaded / LOADED)).ceil() as usize).max(FEWEST / 2);
+            let steps = steps(segment.s, to, forces[i], loaded);
             let h = length / steps as f64;
             // the last point of a segment is the first of the next, where it is known better
-            let between = stations(&segment.start, segment.a, segment.b, length, steps).take(steps - 1).enumerate();
-            nodes.extend(between.map(|(k, at)| node(segment.s + h * (k + 1) as f64, at)));
+            let count = if next.is_some() { steps - 1 } else { steps };
+            let mut k = 0.0;
+            rod.stations(segment, (length, steps), count, |at| {
+                k += 1.0;
+                nodes.push(node((segment.s + h * k).min(1.0), at));
+            });
         }
-        bulge(forces, nodes, firsts);
+        bulge(rod, &forces, &mut nodes, &firsts);
+        Self { segments, nodes, firsts, forces }
     }
 
     /// Where the clamp and the tip are.
@@ -123,9 +134,10 @@ impl Shape {
         (first, last)
     }
 
-    /// A box around the points.
+    /// A box around the rod.
     pub fn bounds(&self) -> Bounds {
-        self.nodes.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y))
+        let points = self.nodes.iter().fold(Bounds::EMPTY, |all, node| all.with(node.at.x, node.at.y));
+        points.grown(self.nodes.iter().map(|node| node.bulge).fold(0.0, f64::max))
     }
 
     /// Size of the force on a segment.
@@ -138,9 +150,9 @@ impl Shape {
         self.firsts.get(segment + 1).copied().unwrap_or(self.nodes.len() - 1)
     }
 
-    /// The contact at a point, if there is one.
-    pub fn contact_at(&self, node: usize) -> Option<usize> {
-        self.firsts[1..].iter().position(|first| *first == node)
+    /// The point that is at contact number `j`.
+    pub fn node_of(&self, j: usize) -> usize {
+        self.firsts[j + 1]
     }
 
     /// The points of segment number `i` with both its ends.
@@ -150,19 +162,19 @@ impl Shape {
     }
 }
 
-/// Finds how far the rod leaves the chords between the points of the segments under load: between two of them the curvature
-/// changes no faster than by the force.
-fn bulge(forces: &[f64], nodes: &mut [Node], firsts: &[usize]) {
-    for (force, ends) in forces.iter().zip(firsts.windows(2)) {
-        let half_force = 0.5 * force;
-        for i in ends[0]..ends[1] {
-            let (h, after) = (nodes[i + 1].s - nodes[i].s, nodes[i + 1].at.kappa.abs());
-            nodes[i].bulge = 0.125 * h * h * (nodes[i].at.kappa.abs().max(after) + half_force * h);
+/// Finds how far the rod leaves the chords between its points.
+fn bulge(rod: &impl RodModel, forces: &[f64], nodes: &mut [Node], firsts: &[usize]) {
+    // what is free and straight is its own chord
+    let bent = if rod.is_straight() { forces.len() - 1 } else { forces.len() };
+    for (i, force) in forces.iter().enumerate().take(bent) {
+        let last = firsts.get(i + 1).copied().unwrap_or(nodes.len() - 1);
+        for k in firsts[i]..last {
+            nodes[k].bulge = rod::bulge(rod, (nodes[k].s, &nodes[k].at), (nodes[k + 1].s, &nodes[k + 1].at), *force);
         }
     }
 }
 
-/// Distance between the points of a segment under load.
-fn spacing(force: f64) -> f64 {
-    (LARGEST_PHASE / force.sqrt()).clamp(SMALLEST_SPACING, SPACING)
+/// Distance between the points of a segment from one arc length to another, at most `most`.
+fn spacing(rod: &impl RodModel, (from, to): (f64, f64), force: f64, most: f64) -> f64 {
+    (LARGEST_PHASE / rod::phase_rate(rod, from, to, force)).clamp(SMALLEST_SPACING, most)
 }

@@ -3,9 +3,10 @@
 use super::interval::Knot;
 use super::{Crossing, GAP_TOLERANCE};
 use crate::gap::shape::Shape;
+use crate::scene::rod;
 use crate::scene::world::{Foot, RunFoot, World};
 use rod_contours::Bend;
-use rod_core::{Section, advance};
+use rod_core::{Cut, RodModel};
 use std::f64::consts::PI;
 
 /// Tolerance (L) of the deepest point of the rod, from which Newton's method starts.
@@ -22,20 +23,19 @@ const FLUSH: f64 = 1e-12;
 const MOST_STRETCHES: usize = 64;
 
 /// A rod in some shape.
-pub(super) struct Rod<'a> {
+pub(super) struct Rod<'a, M> {
+    pub model: &'a M,
     pub world: &'a World<'a>,
     pub shape: &'a Shape,
 }
 
-impl Rod<'_> {
+impl<M: RodModel> Rod<'_, M> {
     /// The rod and its slope angle, whole turns included, at an arc length.
-    fn section(&self, s: f64) -> Section {
-        let segments = &self.shape.segments;
-        let segment = &segments[segments.partition_point(|segment| segment.s <= s).saturating_sub(1)];
-        advance(&segment.start, segment.a, segment.b, s - segment.s)
+    fn section(&self, s: f64) -> Cut {
+        rod::along(self.model, &self.shape.segments, s)
     }
 
-    fn foot(&self, run: usize, s: f64) -> (Section, RunFoot, f64) {
+    fn foot(&self, run: usize, s: f64) -> (Cut, RunFoot, f64) {
         let at = self.section(s);
         let foot = self.world.run_foot(run, at.x, at.y);
         let (sin, cos) = at.phi.sin_cos();
@@ -47,11 +47,11 @@ impl Rod<'_> {
     pub fn touch(&self, run: usize, knot: &Knot) -> Crossing {
         let s = self.deepest(run, knot.s);
         let (at, RunFoot { foot, stretch, .. }, slope) = self.foot(run, s);
-        let flat = self.beside_edge(stretch, &foot, &at);
+        let flat = self.beside_edge(stretch, &foot, s, &at);
         if flat.is_none() && s >= 1.0 && slope < 0.0 {
             return Crossing { stretch, s: 1.0, phi: at.phi, foot, tip: true };
         }
-        let across = flat.or_else(|| self.farthest(run, stretch, &foot, &at));
+        let across = flat.or_else(|| self.farthest(run, stretch, &foot, s, &at));
         let Some((stretch, t)) = across else {
             return Crossing { stretch, s, phi: at.phi, foot, tip: false };
         };
@@ -72,13 +72,13 @@ impl Rod<'_> {
 
     /// The corner next to the clamp at the end of a straight edge that a straight rod is parallel to: the rod comes to lie on
     /// the edge everywhere at once, and there it is held first.
-    fn beside_edge(&self, stretch: usize, foot: &Foot, at: &Section) -> Option<(usize, f64)> {
+    fn beside_edge(&self, stretch: usize, foot: &Foot, s: f64, at: &Cut) -> Option<(usize, f64)> {
         let world = self.world;
         let off = (at.phi - foot.alpha).sin();
         if world.is_corner(stretch) || world.support(stretch, foot.t).turning != 0.0 || off.abs() > FLUSH {
             return None;
         }
-        if at.kappa.abs() > STRAIGHT {
+        if self.model.curvature_at(s, at.moment).abs() > STRAIGHT {
             return None;
         }
         let backwards = (at.phi - foot.alpha).cos() < 0.0;
@@ -120,8 +120,9 @@ impl Rod<'_> {
 
     /// The point of the run, next to `foot`, where the contour is parallel to the rod: the stretch and its
     /// parameter. None where the foot itself is, or where the run ends before.
-    fn farthest(&self, run: usize, stretch: usize, foot: &Foot, at: &Section) -> Option<(usize, f64)> {
-        let Section { phi, kappa, .. } = *at;
+    fn farthest(&self, run: usize, stretch: usize, foot: &Foot, s: f64, at: &Cut) -> Option<(usize, f64)> {
+        let Cut { phi, moment, .. } = *at;
+        let kappa = self.model.curvature_at(s, moment);
         let lean = phi - foot.alpha;
         let lean = lean - PI * (lean / PI).round();
         let world = self.world;
@@ -186,12 +187,12 @@ impl Rod<'_> {
     }
 
     /// The point of the rod, from `s` on, that is next to a point of the plane.
-    fn beside(&self, mut s: f64, (x, y): (f64, f64)) -> (f64, Section) {
+    fn beside(&self, mut s: f64, (x, y): (f64, f64)) -> (f64, Cut) {
         let mut at = self.section(s);
         for _ in 0..8 {
             let (sin, cos) = at.phi.sin_cos();
             let (dx, dy) = (at.x - x, at.y - y);
-            let rate = (1.0 + at.kappa * (dy * cos - dx * sin)).max(0.1);
+            let rate = (1.0 + self.model.curvature_at(s, at.moment) * (dy * cos - dx * sin)).max(0.1);
             s = (s - (dx * cos + dy * sin) / rate).clamp(0.0, 1.0);
             at = self.section(s);
         }

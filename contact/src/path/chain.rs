@@ -6,8 +6,8 @@ use rod_core::Pose;
 use std::fmt;
 use std::sync::Arc;
 
-/// Largest distance between the end of a leg and the start of the next one, relative to the way of both, and largest difference of
-/// angles, rad: the rounding of poses that were computed.
+/// Largest distance between the end of a leg and the start of the next one, relative to the largest coordinate of the begin, middle and
+/// end of any leg, and largest difference of angles, rad: the rounding of poses that were computed.
 const APART: f64 = 1e-9;
 
 /// Paths one after another, each from where the one before ends. The sweep reports the last pose of each leg, and states tell their
@@ -22,6 +22,13 @@ const APART: f64 = 1e-9;
 /// let there_and_back = Chain::polyline(&[clamp(0.0, 0.0), clamp(0.1, 0.0), clamp(0.0, 0.0)])?;
 /// assert_eq!((there_and_back.legs().len(), there_and_back.length()), (2, 0.2));
 /// assert!((there_and_back.point(0.15).pose.x - 0.05).abs() < 1e-15);
+/// // legs of several kinds
+/// use rod_contact::{ClampArc, ClampPath};
+/// use std::sync::Arc;
+/// let approach = ClampPath::new(clamp(0.0, -0.1), clamp(0.0, 0.0))?;
+/// let turn = ClampArc::about(clamp(0.0, 0.0), [0.0, -0.05], -0.5)?;
+/// let legs: Vec<Arc<dyn Path>> = vec![Arc::new(approach), Arc::new(turn)];
+/// assert_eq!(Chain::new(legs)?.legs().len(), 2);
 /// # Ok::<(), rod_contact::ContactError>(())
 /// ```
 #[derive(Clone)]
@@ -40,11 +47,12 @@ impl Chain {
         if legs.is_empty() {
             return Err(ContactError::NoLegs);
         }
+        let poses = legs.iter().flat_map(|leg| [0.0, 0.5, 1.0].map(|part| leg.point(part * leg.length()).pose));
+        let largest = poses.map(|pose| pose.x.abs().max(pose.y.abs())).fold(0.0, f64::max);
         for (leg, pair) in legs.windows(2).enumerate() {
             let [ends, starts] = [pair[0].point(pair[0].length()).pose, pair[1].point(0.0).pose];
-            let begins = pair[0].point(0.0).pose;
-            let scale = way(begins, ends) + ends.x.abs() + ends.y.abs();
-            let near = way(ends, starts) <= APART * scale && (ends.phi - starts.phi).abs() <= APART;
+            let apart = (starts.x - ends.x).hypot(starts.y - ends.y);
+            let near = apart <= APART * largest && (ends.phi - starts.phi).abs() <= APART;
             if !near {
                 return Err(ContactError::Apart { leg: leg + 1, ends, starts });
             }
@@ -61,10 +69,6 @@ impl Chain {
         let legs = poses.windows(2).map(|pair| Ok(Arc::new(ClampPath::new(pair[0], pair[1])?) as Arc<dyn Path>));
         Self::new(legs.collect::<Result<_, _>>()?)
     }
-}
-
-fn way(from: Pose, to: Pose) -> f64 {
-    (to.x - from.x).hypot(to.y - from.y)
 }
 
 /// A leg, or the legs that it consists of.
@@ -113,6 +117,19 @@ mod tests {
         let error = Chain::new(vec![leg(0.0, 1.0), leg(1.0, 2.0), leg(2.1, 3.0)]).unwrap_err();
         assert!(matches!(error, ContactError::Apart { leg: 2, .. }), "{error}");
         assert_eq!(Chain::new(Vec::new()).unwrap_err(), ContactError::NoLegs);
+    }
+
+    /// Such a leg was refused: it begins at 0, and the one before ends 1e-17 beside.
+    #[test]
+    fn a_leg_may_begin_at_the_origin_after_a_turn_about_a_pivot() {
+        let turn = ClampArc::about(Pose { x: 0.0, y: 0.0, phi: 0.0 }, [0.3, 0.1], std::f64::consts::TAU).unwrap();
+        let end = turn.point(turn.length()).pose;
+        let next = ClampPath::new(Pose { x: 0.0, y: 0.0, ..end }, Pose { x: 0.1, y: 0.0, ..end }).unwrap();
+        let legs: Vec<Arc<dyn Path>> = vec![Arc::new(turn), Arc::new(next)];
+        assert_eq!(Chain::new(legs).unwrap().legs().len(), 2);
+        let on_the_spot = ClampPath::new(Pose { x: 0.0, y: 0.0, phi: 0.0 }, Pose { x: 0.0, y: 0.0, phi: 1.0 }).unwrap();
+        let away = ClampPath::new(Pose { x: 0.0, y: 0.0, phi: 1.0 }, Pose { x: 0.1, y: 0.0, phi: 1.0 }).unwrap();
+        assert!(Chain::new(vec![Arc::new(on_the_spot) as Arc<dyn Path>, Arc::new(away)]).is_ok());
     }
 
     #[test]

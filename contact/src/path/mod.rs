@@ -27,7 +27,8 @@ pub struct PathPoint {
 ///
 /// 1. `point(t)` is finite for t from 0 to [`length`](Self::length), its angle at most
 ///    [`LARGEST_ANGLE`](crate::LARGEST_ANGLE). Beyond, the sweep goes straight on by itself.
-/// 2. `rate` is the derivative of `pose` by t, and continuous: a path with corners is a [`Chain`].
+/// 2. `rate` is the derivative of `pose` by t, and continuous: a path with corners is a [`Chain`]. A sweep compares the two at some
+///    parameters ([`ContactError::Rate`](crate::ContactError::Rate)).
 ///
 /// The parameter may be anything. A path may slow down, stand still and turn back; then the sweep reports poses as they come.
 ///
@@ -53,7 +54,7 @@ pub trait Path: Send + Sync {
     /// Pose and rate at a parameter.
     fn point(&self, t: f64) -> PathPoint;
 
-    /// The parameter at the end; at the start it is 0.
+    /// The parameter at the end, 1 unless a path says otherwise; at the start it is 0.
     fn length(&self) -> f64 {
         1.0
     }

@@ -4,30 +4,30 @@ use crate::path::ClampPath;
 use crate::scene::way::Way;
 use crate::scene::world::World;
 use rod_contours::Composite;
-use rod_core::{MultiPoint, Rod, Supports};
+use rod_core::{MultiPoint, PhysicalRod, Rod, Supports};
 
 /// A rod, the objects and the way of the clamp, dimensionless: from it and a contact set comes every boundary-value problem.
 #[derive(Clone, Debug)]
-pub(crate) struct Setup<'a> {
-    pub rod: Rod,
+pub(crate) struct Setup<'a, R = Rod> {
+    pub rod: R,
     pub world: World<'a>,
     pub path: Way,
 }
 
-impl<'a> Setup<'a> {
+impl<'a, R: PhysicalRod> Setup<'a, R> {
     /// `path` is in the units of the rod and the objects.
-    pub fn new(rod: &Rod, objects: &'a [Composite], path: ClampPath) -> Self {
+    pub fn new(rod: &R, objects: &'a [Composite], path: ClampPath) -> Self {
         Self::on(rod, objects, path.dimensionless(rod.units()).into())
     }
 
     /// `path` is dimensionless, the objects are not.
-    pub fn on(rod: &Rod, objects: &'a [Composite], path: Way) -> Self {
-        Self { rod: *rod, world: World::new(objects, rod.units().length), path }
+    pub fn on(rod: &R, objects: &'a [Composite], path: Way) -> Self {
+        Self { rod: rod.clone(), world: World::new(objects, rod.units().length), path }
     }
 
     /// The rod held by `supports`, with its clamp at `tau` of the path.
-    pub fn problem<'s, S: Supports>(&self, supports: &'s S, tau: f64) -> MultiPoint<'s, S> {
-        MultiPoint { clamp: self.path.at(tau), supports }
+    pub fn problem<'s, S: Supports>(&'s self, supports: &'s S, tau: f64) -> MultiPoint<'s, S, &'s R::Model> {
+        MultiPoint { rod: self.rod.model(), clamp: self.path.at(tau), supports }
     }
 
     /// The same rod and objects on another way of the clamp, dimensionless.

@@ -11,6 +11,12 @@ use std::sync::Arc;
 const SAMPLES: u32 = 256;
 const MARGIN: f64 = 1.2;
 
+/// Places at which the rates of a bent path are compared with differences of its poses, the step of these, relative to the length of the
+/// path, and their accepted error, relative to the largest rate. A path may go to and fro a thousand times.
+const COMPARED: u32 = 16;
+const STEP: f64 = 1e-5;
+const ERROR: f64 = 1e-3;
+
 /// A leg.
 #[derive(Clone, Debug)]
 pub(crate) enum Way {
@@ -56,6 +62,7 @@ impl Bent {
         if fastest == 0.0 {
             return Err(ContactError::NoPath { pose: path.point(0.0).pose });
         }
+        check_rates(&*path, end, fastest, units.length)?;
         Ok(Self { path, pace: 1.0 / fastest, length: end * fastest, unit: units.length })
     }
 
@@ -71,6 +78,29 @@ impl Bent {
         }
         PathPoint { pose, rate }
     }
+}
+
+/// A rate that is no derivative leads Newton's method astray, which would blame the equilibrium.
+fn check_rates(path: &dyn Path, end: f64, fastest: f64, length: f64) -> Result<(), ContactError> {
+    let h = STEP * end;
+    for k in 0..COMPARED {
+        let t = end * (f64::from(k) + 0.5) / f64::from(COMPARED);
+        let [before, after] = [t - h, t + h].map(|t| path.point(t).pose);
+        let rate = path.point(t).rate;
+        let by_differences = |from: f64, to: f64| (to - from) / (2.0 * h);
+        for (what, rate, difference, unit) in [
+            ("x", rate.x, by_differences(before.x, after.x), length),
+            ("y", rate.y, by_differences(before.y, after.y), length),
+            ("angle", rate.phi, by_differences(before.phi, after.phi), 1.0),
+        ] {
+            // also where it is not a number
+            let off = (rate - difference).abs();
+            if off.is_nan() || off > ERROR * fastest * unit {
+                return Err(ContactError::Rate { what, t, rate, difference });
+            }
+        }
+    }
+    Ok(())
 }
 
 impl Way {
@@ -139,8 +169,8 @@ impl Way {
         }
     }
 
-    /// Straight ways through the first pose at 0 that may bring the rod there from where it is free: first its own, then others.
-    pub fn to_its_start(&self) -> Vec<ClampPath> {
+    /// Straight ways through the first pose at 0 that may bring the rod there from where it is free: its own, two that turn, and two sideways.
+    pub fn to_its_start(&self) -> [ClampPath; 5] {
         let own = match self {
             Self::Straight(path) => *path,
             Self::Bent(bent) => {
@@ -151,7 +181,8 @@ impl Way {
                 if speed > 0.0 { ClampPath::along(pose, rate) } else { ClampPath::others_to(pose)[0] }
             }
         };
-        std::iter::once(own).chain(ClampPath::others_to(own.from())).collect()
+        let [turning, back, left, right] = ClampPath::others_to(own.from());
+        [own, turning, back, left, right]
     }
 }
 

@@ -13,6 +13,11 @@ const SKIN: f64 = 0.1;
 /// Arc length of the contour that can face a part of the rod, over the length of that part.
 pub(crate) const AHEAD: f64 = 1.25;
 
+/// How far a contour that bends outwards is followed first, over the way on which it turns as much as the rod if it goes on turning
+/// as it does; and how often twice as far.
+const TURNED: f64 = 1.5;
+const LOOKS_AHEAD: usize = 4;
+
 /// Intervals in which the curvature of a part is sampled, for shapes without bounds of it. Such states are not proven.
 const SAMPLES: u32 = 8;
 
@@ -277,6 +282,12 @@ impl<'a> World<'a> {
         least / self.length
     }
 
+    /// How many objects have a contour not farther than `distance` from a point.
+    pub fn contours_at(&self, x: f64, y: f64, distance: f64) -> usize {
+        let (x, y) = (x * self.length, y * self.length);
+        self.objects.iter().filter(|object| object.gap(x, y).abs() <= distance * self.length).count()
+    }
+
     /// Number of objects.
     pub fn objects(&self) -> usize {
         self.objects.len()
@@ -394,7 +405,8 @@ impl<'a> World<'a> {
     }
 
     /// Lower bound of the curvature of a stretch from `t` on in the sense `ahead` (+1 or -1), as far as the contour runs over the
-    /// tangent at `t` for a `length`, or to the end of the stretch; beyond that a run that bends outwards keeps doing so. None
+    /// tangent at `t` for a `length`, or to the end of the stretch; beyond that a run that bends outwards keeps doing so. Where such a
+    /// run has turned as much as the rod does on its way, by `turn`, it falls away from there on, and the bound ends there too. None
     /// where it turns by more than `most`.
     pub fn curvature_ahead(
         &self,
@@ -402,38 +414,44 @@ impl<'a> World<'a> {
         stretch: usize,
         t: f64,
         ahead: f64,
-        length: f64,
+        (length, turn): (f64, f64),
         most: f64,
     ) -> Option<f64> {
         let (object, own) = self.at(stretch);
         let here = self.support(stretch, t);
         let border = self.border(stretch, ahead > 0.0);
         let (sin, cos) = here.alpha.sin_cos();
-        let reach = AHEAD * length;
-        // a contour that slows down is followed for longer
-        for longer in [1.0, 2.0, 4.0] {
-            let to = t + ahead * longer * reach / here.speed;
+        let mut reach = AHEAD * length / here.speed;
+        if outward && here.turning > 0.0 {
+            reach = reach.min(TURNED * turn / here.turning);
+        }
+        for _ in 0..LOOKS_AHEAD {
+            let to = t + ahead * reach;
             let clipped = (to - border) * ahead >= 0.0;
             let to = if clipped { border } else { to };
             if !to.is_finite() {
                 return None;
             }
             let there = self.support(stretch, to);
-            let over = ahead * ((there.x - here.x) * cos + (there.y - here.y) * sin);
-            if (there.alpha - here.alpha).abs() > most {
+            let turned = ahead * (there.alpha - here.alpha);
+            if turned.abs() > most {
                 return None;
             }
-            if !clipped && over < length {
+            let falls_away = outward && turned >= turn;
+            let over = ahead * ((there.x - here.x) * cos + (there.y - here.y) * sin);
+            if !clipped && over < length && !falls_away {
+                // a contour that slows down, or bends less than here, is followed for longer
+                reach *= 2.0;
                 continue;
             }
             let unit = self.unit((object, own));
             let range = Range { from: t.min(to) * unit, to: t.max(to) * unit };
             let (least, largest) = self.curvature(object, own, range);
             // where it bends both ways the ends do not tell the largest turn
-            if least < 0.0 && largest > 0.0 && 2.0 * longer * reach * least.abs().max(largest) > most {
+            if least < 0.0 && largest > 0.0 && 2.0 * reach * here.speed * least.abs().max(largest) > most {
                 return None;
             }
-            return Some(if clipped && outward { least.min(0.0) } else { least });
+            return Some(if clipped && outward && !falls_away { least.min(0.0) } else { least });
         }
         None
     }

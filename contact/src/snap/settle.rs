@@ -10,7 +10,8 @@ use crate::continuation::step::Seen;
 use crate::continuation::transition::{Break, breaks, with_contact};
 use crate::gap::scan::Scanner;
 use crate::scene::world::World;
-use rod_core::Hold;
+use crate::snap::chain::Chain;
+use rod_core::{Hold, PhysicalRod};
 use smallvec::SmallVec;
 
 /// Limit of repairs of one guess.
@@ -18,7 +19,11 @@ const MOST_REPAIRS: usize = 12;
 
 /// Mends `guess` at its own pose until it is an equilibrium that holds (nothing is broken, and it is stable); none
 /// where that does not come about.
-pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess: Configuration) -> Option<Seen> {
+pub(crate) fn settle<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    scanner: &mut Scanner,
+    guess: Configuration,
+) -> Option<Seen> {
     let mut configuration = guess;
     let tau = configuration.tau();
     let mut tried: SmallVec<[SmallVec<[Held; 8]>; 4]> = SmallVec::new();
@@ -35,7 +40,7 @@ pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess
         let mut broken: SmallVec<[(f64, Break); 4]> = SmallVec::new();
         breaks(world, &configuration, &scan.crossings, |b| broken.push((badness(&b, &configuration), b)));
         if broken.is_empty() {
-            let stable = scanner.is_stable(world, &configuration, &scan);
+            let stable = scanner.is_stable(&corrector.setup, &configuration, &scan);
             return (scan.is_outside() && stable).then_some(Seen { configuration, scan });
         }
         // what has led back to a contact set that does not hold is left as it is
@@ -44,6 +49,18 @@ pub(crate) fn settle(corrector: &mut Corrector<'_>, scanner: &mut Scanner, guess
         configuration = mended.find(|mended| !tried.contains(&mended.contacts))?;
     }
     None
+}
+
+/// The first acceptable equilibrium of those where the chain comes to rest, with its clamp at `tau`.
+pub(crate) fn rest<R: PhysicalRod>(
+    chain: &mut Chain,
+    corrector: &mut Corrector<'_, R>,
+    scanner: &mut Scanner,
+    tau: f64,
+    accept: impl Fn(&Seen) -> bool,
+) -> Option<Seen> {
+    let guesses = chain.settle(&corrector.setup.world, tau);
+    guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
 }
 
 /// What to mend first: a force that pulls before all, then what is furthest off.

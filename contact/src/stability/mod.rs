@@ -3,7 +3,7 @@
 //! For a variation eta of the slope angle (eta(0) = 0) that keeps every contact closed to first order,
 //!
 //! ```text
-//! Q = int_0^1 eta'^2 - (A sin phi - B cos phi) eta^2 ds  -  sum_j f_j g_j
+//! Q = int_0^1 EI eta'^2 - (A sin phi - B cos phi) eta^2 ds  -  sum_j f_j g_j
 //! ```
 //!
 //! where (A, B) is the force on the segment and g_j the second-order change of gap j: k u^2 at the tip, and
@@ -12,14 +12,17 @@
 //! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
 //! -|eta|^(3/2), so that eta is held. The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first
 //! modes of a free cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
-//! Cholesky factor.
+//! Cholesky factor. Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
+//! not, the modes decide.
+
+mod condensed;
 
 use crate::contact_set::Configuration;
 use crate::gap::shape::{Node, Shape};
+use crate::scene::rod::{Segment, curvature_behind};
 use crate::scene::setup::Setup;
-use crate::scene::world::World;
 use nalgebra::{DMatrix, SMatrix};
-use rod_core::{Hold, Segment, Supports};
+use rod_core::{Cut, Hold, PhysicalRod, RodModel, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -28,6 +31,11 @@ use std::f64::consts::PI;
 const MODES: usize = 6;
 /// Stiffness of the penalty that keeps contacts closed, over that of the modes.
 const PENALTY: f64 = 1e9;
+
+/// Square of the way (L per rad) by which the modes move a contact across the contour, below which the penalty grows no more. A nearly
+/// straight rod, pressed along its axis, moves across by little: with the same penalty for all, it would give way. Below the limit
+/// the way is one of rounding.
+const LEAST_WAY: f64 = 1e-6;
 
 /// Curvature (1 / L) of a rod on a straight edge by rounding, with a condition number of 1e7.
 const FLAT: f64 = 1e-9;
@@ -50,48 +58,118 @@ pub(crate) struct Judge {
 
 impl Judge {
     /// Whether the second variation is positive definite. `shape` is that of the rod in `configuration`.
-    pub fn is_stable(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape) -> bool {
+    pub fn is_stable<R: PhysicalRod>(
+        &mut self,
+        setup: &Setup<'_, R>,
+        configuration: &Configuration,
+        shape: &Shape,
+    ) -> bool {
         let n = configuration.count();
-        if n == 0 {
-            return true;
-        }
+        n == 0
+            || condensed::is_positive(setup, configuration, shape)
+            || self.is_positive_by_modes(setup, configuration, shape)
+    }
+
+    /// The same by the modes alone.
+    fn is_positive_by_modes<R: PhysicalRod>(
+        &mut self,
+        setup: &Setup<'_, R>,
+        configuration: &Configuration,
+        shape: &Shape,
+    ) -> bool {
+        let (rod, world) = (setup.rod.model(), &setup.world);
+        let n = configuration.count();
         let Self { integrals, quadratic: q, along, across, eta } = self;
+        let shape = &shape.refined(rod);
         let size = MODES + 2 * n;
         let end = configuration.s(n - 1);
-        let scale = PI / end;
-        q.reset(size, |m| 0.5 * end * ((m as f64 + 0.5) * scale).powi(2));
+        let turns = Turns::new(rod, end);
+        q.reset(size, |m| 0.5 / turns.softness * ((m as f64 + 0.5) * PI).powi(2));
         integrals.reset(size);
         let supports = configuration.supports(world);
         for j in 0..n {
             let Segment { a, b, .. } = shape.segments[j];
-            integrals.add(shape.along(j), (a, b), scale);
+            match turns.scale {
+                Some(scale) => integrals.add(shape.along(j), (a, b), scale),
+                None => integrals.add_at(shape.along(j), (a, b), |s| turns.phase(rod, s)),
+            }
             let support = supports.support(j, configuration.t(j));
             integrals.shifts(support.alpha.sin_cos(), along, across);
-            let (v, w, f) = (support.speed, support.turning, configuration.force(j));
-            let form = match configuration.contacts[j].hold {
-                // held in a notch from both sides; on a convex vertex the tip slips
-                Hold::Tip if v == 0.0 && w < 0.0 => [PENALTY, 0.0, 0.0],
-                Hold::Tip if v == 0.0 => return false,
-                Hold::Tip => [-f * w / v, 0.0, 0.0],
-                Hold::Tangent { offset } => {
-                    let kappa = offset.cos() * shape.segments[j + 1].start.kappa;
-                    let divisor = w - v * kappa;
-                    if lies_flat(w, kappa) {
-                        [0.0, 0.0, PENALTY]
-                    } else if divisor > 0.0 {
-                        let scale = f / divisor;
-                        [scale * w * kappa, -scale * w, (scale * v).min(PENALTY)]
-                    } else {
-                        return false;
-                    }
-                }
+            let form = match form(rod, configuration, shape, j, &support) {
+                Form::Moves(form) => form,
+                Form::Held => [PENALTY, 0.0, 0.0],
+                Form::Flat => [0.0, 0.0, PENALTY],
+                Form::Slips => return false,
             };
-            modes_at(configuration.s(j) * scale, size, eta);
+            modes_at(turns.phase(rod, configuration.s(j)), size, eta);
             q.add(form, along, eta);
-            q.add([PENALTY, 0.0, 0.0], across, eta);
+            let square: f64 = across.iter().map(|way| way * way).sum();
+            q.add([PENALTY / square.clamp(LEAST_WAY, 1.0), 0.0, 0.0], across, eta);
         }
         q.add_load(&integrals.moments);
         q.is_positive()
+    }
+}
+
+/// The phase of the modes along the rod, from 0 at the clamp to pi at the last contact: it grows as the rod turns under a constant
+/// moment, x = pi int_0^s ds / EI / int_0^end ds / EI. So the modes sin((m + 1/2) x) are orthogonal in the bending energy of any rod, and
+/// finest where it is soft.
+struct Turns {
+    /// int ds / EI from the clamp to the last contact.
+    softness: f64,
+    /// x / s of a uniform rod.
+    scale: Option<f64>,
+}
+
+impl Turns {
+    fn new(rod: &impl RodModel, end: f64) -> Self {
+        if rod.is_uniform() {
+            return Self { softness: end, scale: Some(PI / end) };
+        }
+        Self { softness: softness(rod, end), scale: None }
+    }
+
+    fn phase(&self, rod: &impl RodModel, s: f64) -> f64 {
+        self.scale.map_or_else(|| PI * softness(rod, s) / self.softness, |scale| scale * s)
+    }
+}
+
+/// int ds / EI from the clamp on: by how much more the rod turns under a moment of 1 than at rest.
+fn softness(rod: &impl RodModel, s: f64) -> f64 {
+    let turned = |moment: f64| rod.carry(0.0, &Cut { x: 0.0, y: 0.0, phi: 0.0, moment }, 0.0, 0.0, s).phi;
+    turned(1.0) - turned(0.0)
+}
+
+/// The second-order change of a contact's gap, times its force: the form of the shift u along the contour and the turn eta.
+enum Form {
+    /// Its coefficients of u^2, 2 u eta and eta^2.
+    Moves([f64; 3]),
+    /// In a notch, from both sides: u = 0.
+    Held,
+    /// The end of a straight rod on a straight edge: eta = 0.
+    Flat,
+    /// The tip on a convex vertex, or a rod as curved as the contour: not stable.
+    Slips,
+}
+
+fn form(rod: &impl RodModel, configuration: &Configuration, shape: &Shape, j: usize, support: &Support) -> Form {
+    let (v, w, f) = (support.speed, support.turning, configuration.force(j));
+    match configuration.contacts[j].hold {
+        Hold::Tip if v == 0.0 && w < 0.0 => Form::Held,
+        Hold::Tip if v == 0.0 => Form::Slips,
+        Hold::Tip => Form::Moves([-f * w / v, 0.0, 0.0]),
+        Hold::Tangent { offset } => {
+            let kappa = offset.cos() * curvature_behind(rod, &shape.segments, j);
+            let divisor = w - v * kappa;
+            if lies_flat(w, kappa) {
+                Form::Flat
+            } else if divisor > 0.0 {
+                let scale = f / divisor;
+                Form::Moves([scale * w * kappa, -scale * w, (scale * v).min(PENALTY)])
+            } else {
+                Form::Slips
+            }
+        }
     }
 }
 
@@ -181,6 +259,33 @@ impl Integrals {
         self.moments.resize(2 * size, zero);
     }
 
+    /// Goes on along the `nodes` of a segment under the force (A, B), with any x of the arc length.
+    fn add_at(&mut self, nodes: &[Node], (a, b): (f64, f64), x: impl Fn(f64) -> f64) {
+        let [first, .., last] = nodes else { return };
+        let intervals = nodes.len() - 1;
+        let h = (last.s - first.s) / intervals as f64;
+        let mut modes = Vec::new();
+        for (k, Node { s, at, .. }) in nodes.iter().enumerate() {
+            let times = if k == 0 || k == intervals {
+                1.0
+            } else if k % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            };
+            let (weight, x) = (times * h / 3.0, x(*s));
+            modes_at(x, self.shifts.len(), &mut modes);
+            for ([by_x, by_y], mode) in self.shifts.iter_mut().zip(&modes) {
+                by_x[0] -= weight * at.sin * mode;
+                by_y[0] += weight * at.cos * mode;
+            }
+            let load = 0.5 * weight * (b * at.cos - a * at.sin);
+            for (m, moment) in self.moments.iter_mut().enumerate() {
+                moment[0] += load * (m as f64 * x).cos();
+            }
+        }
+    }
+
     /// Goes on along the `nodes` of a segment under the force (A, B), with x = `scale` s.
     fn add(&mut self, nodes: &[Node], (a, b): (f64, f64), scale: f64) {
         let [first, .., last] = nodes else { return };
@@ -244,19 +349,20 @@ fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
     std::array::from_fn(f)
 }
 
-/// The contact where the rod is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
-pub(crate) fn wraps(setup: &Setup<'_>, configuration: &Configuration) -> Option<usize> {
+/// The contact where the rod, cut into `segments`, is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
+pub(crate) fn wraps<R: PhysicalRod>(
+    setup: &Setup<'_, R>,
+    configuration: &Configuration,
+    segments: &[Segment],
+) -> Option<usize> {
     let supports = configuration.supports(&setup.world);
-    let segments = configuration.segments(setup);
-    configuration.contacts.iter().zip(&segments[1..]).enumerate().position(|(j, (contact, segment))| {
-        match contact.hold {
-            Hold::Tangent { offset } => {
-                let support = supports.support(j, configuration.t(j));
-                let kappa = offset.cos() * segment.start.kappa;
-                support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
-            }
-            Hold::Tip => false,
+    configuration.contacts.iter().enumerate().position(|(j, contact)| match contact.hold {
+        Hold::Tangent { offset } => {
+            let support = supports.support(j, configuration.t(j));
+            let kappa = offset.cos() * curvature_behind(setup.rod.model(), segments, j);
+            support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
         }
+        Hold::Tip => false,
     })
 }
 
@@ -281,7 +387,7 @@ mod tests {
         let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), contour.as_ref(), path);
         let mut column = Configuration::free(0.0);
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
-        Judge::default().is_stable(&setup.world, &column, &Shape::of(&setup, &column))
+        Judge::default().is_stable(&setup, &column, &Shape::of(&setup, &column))
     }
 
     #[test]

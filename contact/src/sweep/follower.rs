@@ -8,7 +8,7 @@ use crate::path::{ClampPath, check};
 use crate::scene::setup::Setup;
 use crate::state::State;
 use rod_contours::Composite;
-use rod_core::{Pose, Rod};
+use rod_core::{PhysicalRod, Pose, Rod};
 
 /// A rod in equilibrium whose clamp is moved from pose to pose: for controllers, which decide where to go next by what the clamp
 /// feels now. Each move follows the branch of equilibria through all its transitions, as a [`Sweep`] does.
@@ -34,32 +34,32 @@ use rod_core::{Pose, Rod};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Follower<'a> {
-    sweep: Sweep<'a>,
+pub struct Follower<'a, R = Rod> {
+    sweep: Sweep<'a, R>,
     configuration: Configuration,
     /// The clamp, dimensionless.
     pose: Pose,
     state: State,
 }
 
-impl<'a> Follower<'a> {
+impl<'a, R: PhysicalRod> Follower<'a, R> {
     /// A rod with its clamp at `pose` (m, radians). Where it is in contact there, it has the shape that it gets when it is
     /// pushed forward along its own axis, or another one that [`Sweep::new`] describes.
     ///
     /// # Errors
     /// [`Stop`] with [`StopReason::NoPose`], [`StopReason::ClampInside`] or [`StopReason::NoStart`].
-    pub fn new(rod: &Rod, objects: &'a (impl AsRef<[Composite]> + ?Sized), pose: Pose) -> Result<Self, Stop> {
+    pub fn new(rod: &R, objects: &'a (impl AsRef<[Composite]> + ?Sized), pose: Pose) -> Result<Self, Stop> {
         if check(pose, ["x", "y", "phi"]).is_err() {
             return Err(Stop { pose, tau: 0.0, reason: StopReason::NoPose });
         }
         let (sin, cos) = pose.phi.sin_cos();
-        let length = rod.length();
+        let length = rod.units().length;
         let ahead = Pose { x: pose.x + length * cos, y: pose.y + length * sin, ..pose };
         let Ok(path) = ClampPath::new(pose, ahead) else {
             return Err(Stop { pose, tau: 0.0, reason: StopReason::NoPose });
         };
         let mut sweep = Sweep::from_setup(Setup::new(rod, objects.as_ref(), path), MOST_STEPS_TAKEN, 1.0, 0);
-        match sweep.start() {
+        match sweep.begin() {
             Ok(at) => Ok(Self::at_rest(sweep, at)),
             Err(reason) => Err(Stop { pose, tau: 0.0, reason }),
         }
@@ -72,7 +72,7 @@ impl<'a> Follower<'a> {
     /// [`ContactError::NotFinite`], [`ContactError::Angle`]; [`ContactError::Guess`] and [`ContactError::NotEquilibrium`] where
     /// the state is none of this rod on these objects.
     pub fn from_state(
-        rod: &Rod,
+        rod: &R,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         state: &State,
     ) -> Result<Self, ContactError> {
@@ -85,7 +85,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The rod at the first pose of the path of `sweep`.
-    fn at_rest(sweep: Sweep<'a>, at: Point) -> Self {
+    fn at_rest(sweep: Sweep<'a, R>, at: Point) -> Self {
         let (state, pose) = (sweep.state(&at), sweep.setup().path.at(0.0));
         Self { sweep, configuration: at.configuration, pose, state }
     }
@@ -105,7 +105,7 @@ impl<'a> Follower<'a> {
         if check(pose, ["x", "y", "phi"]).is_err() {
             return Err(Stop { pose: self.state.pose, tau: 0.0, reason: StopReason::NoPose });
         }
-        let length = self.sweep.setup().rod.length();
+        let length = self.sweep.setup().rod.units().length;
         let to = Pose { x: pose.x / length, y: pose.y / length, phi: pose.phi };
         let Some(path) = ClampPath::between(self.pose, to).filter(|path| path.length() > SAME_POSE) else {
             return Ok(vec![Item::State(self.state.clone())]);
@@ -132,7 +132,7 @@ impl<'a> Follower<'a> {
 }
 
 /// The clone looks at the objects anew: bounds of the gap may differ in their last digits.
-impl Clone for Follower<'_> {
+impl<R: PhysicalRod> Clone for Follower<'_, R> {
     fn clone(&self) -> Self {
         let setup = self.sweep.setup().clone();
         let sweep = Sweep::from_setup(setup, MOST_STEPS_TAKEN, 1.0, 0);

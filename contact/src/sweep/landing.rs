@@ -1,6 +1,6 @@
 //! A snap: the equilibrium ends, and the rod slips or jumps to another one.
 
-use super::{Sweep, rest};
+use super::{AT_END, Sweep};
 use crate::contact_set::Configuration;
 use crate::contact_set::edit::{across_corner, beyond_corner, off_corner};
 use crate::continuation::inflection::is_at_inflection;
@@ -10,8 +10,8 @@ use crate::event::EventKind;
 use crate::gap::GAP_TOLERANCE;
 use crate::scene::setup::Setup;
 use crate::snap::chain::Chain;
-use crate::snap::settle::settle;
-use rod_core::Pose;
+use crate::snap::settle::{rest, settle};
+use rod_core::{PhysicalRod, Pose};
 
 /// Distances (path parameter) beyond a fold at which the descent starts, tried in order. The chain has its own fold, up to the
 /// square of a link's length away, and must be beyond it. A longer distance may miss an equilibrium that ends soon.
@@ -25,7 +25,7 @@ const BEND: f64 = 0.05;
 const FARTHEST_SLIP: f64 = 0.05;
 const SHORTEST_SLIP: f64 = 1e-9;
 
-impl Sweep<'_> {
+impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
     pub(super) fn snap(&mut self, last: Seen) -> Result<Point, StopReason> {
         let (here, tau) = (&last.configuration, last.configuration.tau());
@@ -49,11 +49,17 @@ impl Sweep<'_> {
             }
             beyond = beyond.or(ahead.filter(elsewhere));
         }
+        if let Some(landed) = self.behind_next_fold(here).and_then(|landed| self.goes_on(landed)) {
+            return Ok(self.jumped(last, landed));
+        }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
         // rest in the descent, but could be free, will be.
         let landed = beyond.or_else(|| self.free(tau).filter(|_| here.count() > 0).map(|free| self.stepper.look(free)));
         if let Some(landed) = landed {
-            let landed = self.stepper.point(landed);
+            let end = self.setup().path.length();
+            let is_beyond = landed.configuration.tau() > end + AT_END && tau <= end;
+            let back = if is_beyond { self.back_to_end(&landed.configuration) } else { None };
+            let landed = self.stepper.point(back.unwrap_or(landed));
             return Ok(self.jumped(last, landed));
         }
         if let Some(landed) = self.slip_off(here) {
@@ -165,6 +171,6 @@ struct Landed {
 }
 
 /// Whether two configurations at one pose are the same equilibrium.
-fn same(a: &Configuration, b: &Configuration) -> bool {
+pub(super) fn same(a: &Configuration, b: &Configuration) -> bool {
     a.contacts == b.contacts && a.z.iter().zip(&b.z).all(|(u, v)| (u - v).abs() < 1e-4 * (1.0 + v.abs()))
 }

@@ -1,59 +1,41 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
+mod begin;
+mod bistable;
+mod crowd;
 mod follower;
 mod landing;
+mod leg;
+mod outcome;
+mod report;
 mod resume;
+mod silent;
 mod start;
 
 pub use follower::Follower;
+pub use outcome::{Item, Outcome};
+pub use start::{Approach, Start, StartCandidate};
 
+use crate::contact_set::Configuration;
 use crate::contact_set::edit::beside_corner;
-use crate::contact_set::{Configuration, Held};
 use crate::continuation::branch::Corrector;
-use crate::continuation::certify::{Quality, state};
 use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
 use crate::error::{ContactError, Stop, StopReason};
-use crate::event::{Event, EventKind};
-use crate::gap::scan::Scanner;
 use crate::path::Path;
 use crate::scene::setup::Setup;
 use crate::scene::way::Way;
-use crate::snap::chain::Chain;
-use crate::snap::settle::settle;
 use crate::state::State;
+use crowd::Crowd;
+use leg::{Leg, legs};
 use rod_contours::Composite;
-use rod_core::{Pose, Rod};
+use rod_core::{PhysicalRod, Rod};
 use std::collections::VecDeque;
-use std::sync::Arc;
-
-/// What a sweep comes to next.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Item {
-    /// The equilibrium at a pose that is reported.
-    State(State),
-    /// A transition.
-    Event(Event),
-}
-
-/// All of a sweep.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Outcome {
-    /// States at start, start + step, ...
-    pub states: Vec<State>,
-    /// Transitions in order.
-    pub events: Vec<Event>,
-    /// Why it stopped before the end of the path, if it did.
-    pub stop: Option<Stop>,
-}
 
 /// A sweep of a rod past a contour: an iterator of states and events in the order in which they come. After an `Err` it is
 /// over; all items before stand.
 #[derive(Debug)]
-pub struct Sweep<'a> {
-    stepper: Stepper<'a>,
+pub struct Sweep<'a, R = Rod> {
+    stepper: Stepper<'a, R>,
     /// The legs that are still to come, number of the present one, and the parameter of the path where it begins.
     legs: VecDeque<Leg>,
     leg: usize,
@@ -64,6 +46,8 @@ pub struct Sweep<'a> {
     reports: usize,
     reported: usize,
     at: Option<Box<Point>>,
+    /// How the first equilibrium was found, once it is.
+    start: Option<Start>,
     /// The equilibrium to begin with, where one is given.
     given: Option<Configuration>,
     /// The step from there, while poses on it are reported.
@@ -72,21 +56,8 @@ pub struct Sweep<'a> {
     over: bool,
     /// Path parameter of the last state, or of a snap without landing: how far it came.
     reached: f64,
-    /// Where the last transition was, and how many there were at that pose.
-    crowd: (f64, usize),
+    crowd: Crowd,
 }
-
-/// A leg of the path, and the states to report on it.
-#[derive(Clone, Debug)]
-struct Leg {
-    way: Way,
-    /// Distance, dimensionless, and number of the states, that at the start included.
-    step: f64,
-    reports: usize,
-}
-
-/// Largest number of reported states. With more, neighbouring poses differ by less than the rounding of the path parameter.
-const MOST_STEPS: f64 = 1e15;
 
 /// Default limit of steps along branches, rejected ones included: one to two minutes. A sweep of the paper takes about 50.
 const MOST_STEPS_TAKEN: u64 = 2_000_000;
@@ -99,32 +70,26 @@ const SAME_START: f64 = 1e-9;
 /// state after it is that of the last pose.
 const AT_END: f64 = 1e-10;
 
-/// Largest number of transitions at one pose. A rod that comes to lie on the edges of a comb needs several; more are a contact
-/// that comes and goes by rounding.
-const MOST_AT_ONE_POSE: usize = 12;
-/// Distance (L) from an end of an open contour. Where contacts come and go closer to it, the sweep stops with `EndOfContour`,
-/// farther away with `Chatter`.
-const AT_OPEN_END: f64 = 1e-3;
-
-impl<'a> Sweep<'a> {
+impl<'a, R: PhysicalRod> Sweep<'a, R> {
     /// A sweep of `rod` along `path` past `objects` (m): one [`Composite`], or a list of them. States are reported at 0,
     /// `step`, 2 `step`, ... of the path's parameter (of a [`ClampPath`](crate::ClampPath) m, or radians where the clamp only
-    /// turns). On a [`Chain`](crate::Chain) of paths each leg counts from its own start, and its last pose is always reported.
+    /// turns), and at its end. On a [`Chain`](crate::Chain) of paths each leg counts from its own start.
     ///
-    /// A start in contact has the shape that a sweep from further back along the same line would have brought there.
-    /// Where there is none, it is one that the clamp turned, or moved sideways, into its first pose would have brought;
-    /// and where there is none either, the straight rod is let go into contact.
+    /// A start in contact has the shape that a sweep from at most two lengths (or radians) further back along the same line would have
+    /// brought there. Where there is none, it takes, of the equilibria that the rod comes to when its clamp moves along the path's
+    /// line, turns, or moves sideways into the first pose, and when it is let go there, the one of least energy; [`start`](Self::start) and
+    /// [`Outcome::start`] tell which and what others there were.
     ///
     /// # Errors
     /// [`ContactError::Step`]; of a path of one's own also [`ContactError::NotFinite`], [`ContactError::Angle`],
-    /// [`ContactError::NoPath`].
+    /// [`ContactError::NoPath`], [`ContactError::Rate`].
     pub fn new(
-        rod: &Rod,
+        rod: &R,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         path: impl Path + 'static,
         step: f64,
     ) -> Result<Self, ContactError> {
-        Self::along(rod, objects.as_ref(), legs(path, rod)?, |_| step)
+        Self::along(rod, objects.as_ref(), legs(path, rod.units())?, |_| step)
     }
 
     /// A sweep that goes on from `state`, an equilibrium of `rod` on `objects` (of an earlier sweep, an event, or
@@ -152,68 +117,55 @@ impl<'a> Sweep<'a> {
     /// [`ContactError::Step`]; [`ContactError::Elsewhere`] where the path begins at another pose; [`ContactError::Guess`] and
     /// [`ContactError::NotEquilibrium`] where the state is none of this rod on these objects.
     pub fn from_state(
-        rod: &Rod,
+        rod: &R,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         state: &State,
         path: impl Path + 'static,
         step: f64,
     ) -> Result<Self, ContactError> {
         let (first, pose) = (path.point(0.0).pose, state.pose);
-        let off = (first.x - pose.x).hypot(first.y - pose.y) / rod.length() + (first.phi - pose.phi).abs();
+        let off = (first.x - pose.x).hypot(first.y - pose.y) / rod.units().length + (first.phi - pose.phi).abs();
         if off.is_nan() || off > SAME_START {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
-        let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod)?, |_| step)?;
+        let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod.units())?, |_| step)?;
         sweep.given = Some(sweep.recalled(state)?);
+        sweep.start = Some(Start::Given);
         Ok(sweep)
     }
 
     /// [`new`](Self::new) with a step for each leg of the path, in the unit of that leg's parameter.
     ///
     /// # Errors
-    /// As [`new`](Self::new); [`ContactError::Step`] also where there are not as many steps as legs.
+    /// As [`new`](Self::new); [`ContactError::Steps`] where there are not as many steps as legs.
     pub fn with_steps(
-        rod: &Rod,
+        rod: &R,
         objects: &'a (impl AsRef<[Composite]> + ?Sized),
         path: impl Path + 'static,
         steps: &[f64],
     ) -> Result<Self, ContactError> {
-        let ways = legs(path, rod)?;
+        let ways = legs(path, rod.units())?;
         if ways.len() != steps.len() {
-            return Err(ContactError::Step { value: f64::NAN });
+            return Err(ContactError::Steps { steps: steps.len(), legs: ways.len() });
         }
         Self::along(rod, objects.as_ref(), ways, |leg| steps[leg])
     }
 
     /// The sweep along such legs.
     fn along(
-        rod: &Rod,
+        rod: &R,
         objects: &'a [Composite],
         ways: Vec<Way>,
         step: impl Fn(usize) -> f64,
     ) -> Result<Self, ContactError> {
-        let many = ways.len() > 1;
-        let leg = |(number, way): (usize, Way)| {
-            let wrong = ContactError::Step { value: step(number) };
-            if !(step(number).is_finite() && step(number) > 0.0) {
-                return Err(wrong);
-            }
-            let (step, length) = (way.tau(step(number), rod.length()), way.length());
-            // a path that is a whole number of steps long but for rounding reports its end
-            let steps = (length / step * (1.0 + 1e-12)).floor();
-            if steps > MOST_STEPS {
-                return Err(wrong);
-            }
-            let beyond = many && steps * step < length - SAME_POSE;
-            Ok(Leg { way, step, reports: steps as usize + 1 + usize::from(beyond) })
-        };
+        let leg = |(number, way)| Leg::new(way, step(number), rod.units().length);
         let mut legs = ways.into_iter().enumerate().map(leg).collect::<Result<VecDeque<_>, _>>()?;
         let Leg { way, step, reports } = legs.pop_front().ok_or(ContactError::NoLegs)?;
         let sweep = Self::from_setup(Setup::on(rod, objects, way), MOST_STEPS_TAKEN, step, reports);
         Ok(Self { legs, ..sweep })
     }
 
-    fn from_setup(setup: Setup<'a>, steps_left: u64, step: f64, reports: usize) -> Self {
+    fn from_setup(setup: Setup<'a, R>, steps_left: u64, step: f64, reports: usize) -> Self {
         Self {
             stepper: Stepper::new(Corrector::new(setup), steps_left),
             legs: VecDeque::new(),
@@ -223,12 +175,13 @@ impl<'a> Sweep<'a> {
             reports,
             reported: 0,
             at: None,
+            start: None,
             given: None,
             ahead: None,
             pending: VecDeque::new(),
             over: false,
             reached: 0.0,
-            crowd: (f64::NAN, 0),
+            crowd: Crowd::NONE,
         }
     }
 
@@ -240,10 +193,10 @@ impl<'a> Sweep<'a> {
         self.given = Some(from);
         (self.at, self.ahead, self.over) = (None, None, false);
         self.pending.clear();
-        (self.reached, self.crowd) = (0.0, (f64::NAN, 0));
+        (self.reached, self.crowd) = (0.0, Crowd::NONE);
     }
 
-    fn setup(&self) -> &Setup<'a> {
+    fn setup(&self) -> &Setup<'a, R> {
         &self.stepper.corrector.setup
     }
 
@@ -255,16 +208,22 @@ impl<'a> Sweep<'a> {
         self
     }
 
+    /// How the first equilibrium was found: none before the first item, or where there is none.
+    pub fn start(&self) -> Option<&Start> {
+        self.start.as_ref()
+    }
+
     /// Runs to the end and keeps everything.
-    pub fn run(self) -> Outcome {
+    pub fn run(mut self) -> Outcome {
         let mut outcome = Outcome::default();
-        for item in self {
+        for item in &mut self {
             match item {
                 Ok(Item::State(state)) => outcome.states.push(state),
                 Ok(Item::Event(event)) => outcome.events.push(event),
                 Err(stop) => outcome.stop = Some(stop),
             }
         }
+        outcome.start = self.start;
         outcome
     }
 
@@ -274,7 +233,7 @@ impl<'a> Sweep<'a> {
         let Some(point) = self.at.take() else {
             let start = Box::new(match self.given.take() {
                 Some(given) => self.resume(given),
-                None => self.start()?,
+                None => self.begin()?,
             });
             if self.reported == 0 {
                 self.report(&start);
@@ -302,7 +261,7 @@ impl<'a> Sweep<'a> {
         let next = match ahead {
             Ok(step) if self.reported < self.reports && pose < step.tau() + step.rounding() => {
                 if let Some(state) = self.stepper.between(&point, &step, pose) {
-                    self.report(&state);
+                    self.hand_out(pose, state);
                     (self.at, self.ahead) = (Some(point), Some(step));
                     return Ok(());
                 }
@@ -330,7 +289,7 @@ impl<'a> Sweep<'a> {
     fn next_leg(&mut self, point: Box<Point>) -> Result<(), StopReason> {
         let way = &self.setup().path;
         let is_beyond = point.configuration.tau() > way.length() + AT_END;
-        let passed = way.parameter(way.length(), self.setup().rod.length());
+        let passed = way.parameter(way.length(), self.setup().rod.units().length);
         let configuration = point.configuration.clone();
         self.at = Some(point);
         let Some(Leg { way, step, reports }) = self.legs.pop_front() else {
@@ -349,23 +308,13 @@ impl<'a> Sweep<'a> {
         Ok(())
     }
 
-    /// The next pose to report; the last one may be beyond the end by rounding.
-    fn pose(&self) -> f64 {
-        (self.step * self.reported as f64).min(self.setup().path.length())
-    }
-
-    /// How far beyond the next pose to report the rod may be by rounding.
-    fn slack(&self) -> f64 {
-        if self.pose() < self.setup().path.length() { SAME_POSE } else { AT_END }
-    }
-
     /// Where a step leads, with the transition that ends it.
     fn arrive(&mut self, step: Step) -> Result<Box<Point>, StopReason> {
         match step {
             Step::Moved(next) => Ok(next),
             Step::Changed(change) => {
                 let Change { kind, before, after } = *change;
-                self.count_crowd(&after.configuration)?;
+                self.crowd.count(&after.configuration, &self.stepper.corrector.setup.world)?;
                 // a corner at the very tip is none
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
@@ -380,7 +329,7 @@ impl<'a> Sweep<'a> {
                 }
             }
             Step::Ended(last) => {
-                self.count_crowd(&last.configuration)?;
+                self.crowd.count(&last.configuration, &self.stepper.corrector.setup.world)?;
                 self.snap(*last).map(Box::new)
             }
         }
@@ -397,79 +346,14 @@ impl<'a> Sweep<'a> {
         self.goes_on(seen)
     }
 
-    fn count_crowd(&mut self, reached: &Configuration) -> Result<(), StopReason> {
-        let tau = reached.tau();
-        self.crowd = if (tau - self.crowd.0).abs() < 1e-9 { (tau, self.crowd.1 + 1) } else { (tau, 0) };
-        if self.crowd.1 <= MOST_AT_ONE_POSE {
-            return Ok(());
-        }
-        // an open contour that is met head-on at its end has no side to rest on
-        let world = &self.setup().world;
-        let at_end = |(held, j): (&Held, usize)| {
-            let at = world.support(held.stretch, reached.t(j));
-            world.open_ends().iter().any(|(x, y)| (at.x - x).hypot(at.y - y) < AT_OPEN_END)
-        };
-        let by_an_end = reached.contacts.iter().zip(0..).any(at_end);
-        Err(if by_an_end { StopReason::EndOfContour } else { StopReason::Chatter })
-    }
-
     /// A point with everything known of it.
     fn at_rest(&mut self, configuration: Configuration) -> Point {
         let seen = self.stepper.look(configuration);
         self.stepper.point(seen)
     }
-
-    fn report(&mut self, point: &Point) {
-        self.reached = self.reached.max(point.configuration.tau());
-        self.pending.push_back(Item::State(self.state(point)));
-        self.reported += 1;
-    }
-
-    fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
-        let event = Event { kind, before: self.state(before), after: self.state(after) };
-        self.pending.push_back(Item::Event(event));
-    }
-
-    fn state(&self, point: &Point) -> State {
-        let free = point.configuration.count() == 0;
-        let quality = if free { Quality::FREE } else { point.quality };
-        State { leg: self.leg, ..state(self.setup(), &point.configuration, &point.scan, quality) }
-    }
-
-    /// How far along the path the sweep has come.
-    fn reached(&self) -> f64 {
-        self.at.as_ref().map_or(0.0, |point| point.configuration.tau()).max(self.reached)
-    }
-
-    fn stop(&self, reason: StopReason) -> Stop {
-        let Setup { rod, path, .. } = self.setup();
-        let tau = self.reached();
-        let length = rod.length();
-        let Pose { x, y, phi } = path.at(tau);
-        let passed = self.before + path.parameter(tau, length);
-        Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: passed, reason }
-    }
 }
 
-/// The first acceptable equilibrium of those where the chain comes to rest, with its clamp at `tau`.
-fn rest(
-    chain: &mut Chain,
-    corrector: &mut Corrector<'_>,
-    scanner: &mut Scanner,
-    tau: f64,
-    accept: impl Fn(&Seen) -> bool,
-) -> Option<Seen> {
-    let guesses = chain.settle(&corrector.setup.world, tau);
-    guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
-}
-
-/// The legs of a path.
-fn legs(path: impl Path + 'static, rod: &Rod) -> Result<Vec<Way>, ContactError> {
-    let path: Arc<dyn Path> = Arc::new(path);
-    Way::legs(&path, rod.units())
-}
-
-impl Iterator for Sweep<'_> {
+impl<R: PhysicalRod> Iterator for Sweep<'_, R> {
     type Item = Result<Item, Stop>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -3,10 +3,12 @@
 use super::Sweep;
 use crate::contact_set::Configuration;
 use crate::continuation::branch::Tangent;
+use crate::continuation::certify::energy;
 use crate::continuation::recall::recall;
 use crate::continuation::step::Point;
 use crate::error::ContactError;
 use crate::state::State;
+use rod_core::PhysicalRod;
 
 /// Pulling force (E I / L^2) up to which a state counts as an equilibrium.
 const PULL: f64 = 1e-9;
@@ -14,7 +16,7 @@ const PULL: f64 = 1e-9;
 /// sense is rounding.
 const STEEP: f64 = 1e-4;
 
-impl Sweep<'_> {
+impl<R: PhysicalRod> Sweep<'_, R> {
     /// The configuration of a state at the first pose of the path.
     pub(super) fn recalled(&mut self, state: &State) -> Result<Configuration, ContactError> {
         let recalled = recall(&mut self.stepper.corrector, &state.contacts)?;
@@ -63,9 +65,7 @@ impl Sweep<'_> {
         let [one, other] = [one, other].map(|configuration| {
             let mut here = configuration.clone();
             corrector.at_pose(&mut here, tau);
-            let supports = here.supports(&corrector.setup.world);
-            let problem = corrector.setup.problem(&supports, tau);
-            problem.elastica(here.of_contacts(), corrector.setup.rod.units()).bending_energy()
+            energy(&corrector.setup, &here)
         });
         one <= other
     }

@@ -1,77 +1,58 @@
-//! The first equilibrium: free, or brought into contact from where the rod is free.
+//! How the first equilibrium of a sweep was found.
 
-use super::{Sweep, rest};
-use crate::contact_set::Configuration;
-use crate::continuation::step::{Point, Seen, Stepper};
-use crate::error::StopReason;
-use crate::gap::scan::Scan;
-use crate::path::ClampPath;
-use crate::snap::chain::Chain;
-use std::f64::consts::PI;
+use crate::phase::Phase;
+use std::fmt;
 
-/// Bends (rad over the length) given to a straight rod that is let go into contact, tried in order. Without a bend the chain
-/// does not buckle; its sign decides to which side.
-const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
-/// Range and step of the search for a free pose behind a start in contact, in the path parameter: lengths of the rod, or
-/// radians of a path that only turns.
-const BACK: (f64, f64) = (4.0, 0.05);
+/// How the first equilibrium was found.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum Start {
+    /// The rod touches nothing in the first pose.
+    Free,
+    /// The rod is in contact there: the equilibria that were reached. The first is the one taken; the others
+    /// follow in order of their energies. Which one a rod is in depends on how it came there: a sweep that leads there from outside gives
+    /// the state with which [`Sweep::from_state`](crate::Sweep::from_state) begins.
+    InContact(Vec<StartCandidate>),
+    /// The equilibrium was given.
+    Given,
+}
 
-impl Sweep<'_> {
-    /// The first point: free, or brought into contact along the path, or else by another way.
-    pub(super) fn start(&mut self) -> Result<Point, StopReason> {
-        if let Some(start) = self.free(0.0) {
-            return Ok(self.at_rest(start));
-        }
-        if self.scan_straight(0.0).clamp_inside {
-            return Err(StopReason::ClampInside);
-        }
-        let ways = self.setup().path.to_its_start();
-        let brought = ways.into_iter().find_map(|way| self.brought_by(way));
-        let brought = brought.map(|start| self.stepper.look(start));
-        let start = brought.or_else(|| self.let_go()).ok_or(StopReason::NoStart)?;
-        let start = self.stepper.point(start);
-        if start.scan.is_outside() { Ok(start) } else { Err(StopReason::NoStart) }
-    }
+/// An equilibrium that was reached in the first pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StartCandidate {
+    /// The first approach that came to it.
+    pub approach: Approach,
+    /// Its contacts.
+    pub phase: Phase,
+    /// Its bending energy, J.
+    pub energy: f64,
+}
 
-    /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
-    /// further back, it is free.
-    fn brought_by(&mut self, way: ClampPath) -> Option<Configuration> {
-        let farthest = if way.turns_only() { PI } else { BACK.0 };
-        let tries = (farthest / BACK.1) as usize;
-        let mut silent = Self::from_setup(self.setup().along(way), self.stepper.steps_left, f64::INFINITY, 0);
-        let start = (1..=tries).find_map(|k| silent.free(-BACK.1 * k as f64))?;
-        let mut point = Box::new(silent.at_rest(start));
-        let brought = loop {
-            if point.configuration.tau() >= 0.0 {
-                break Some(point.configuration);
-            }
-            match silent.stepper.step(&point, 0.0).and_then(|step| silent.arrive(step)) {
-                Ok(next) => point = next,
-                Err(_) => break None,
-            }
-            silent.pending.clear();
-        };
-        self.stepper.steps_left = silent.stepper.steps_left;
-        brought
-    }
+/// Ways in which a rod comes into its first pose, in the order in which they are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum Approach {
+    /// The clamp moves along its path, from where, further back, the rod is free.
+    AlongPath,
+    /// The clamp turns into its first pose, from one side or the other.
+    TurningIn,
+    /// The clamp moves in sideways, across the rod, from one side or the other.
+    MovingIn,
+    /// The rod, straight or slightly bent, is let go in the first pose.
+    LettingGo,
+}
 
-    /// The straight rod at a pose, if it touches nothing there.
-    pub(super) fn free(&mut self, tau: f64) -> Option<Configuration> {
-        let scan = self.scan_straight(tau);
-        scan.is_outside().then(|| Configuration::free(tau))
-    }
-
-    /// A look at the straight rod where it has not come from elsewhere: all that is behind an open contour is solid.
-    fn scan_straight(&mut self, tau: f64) -> Scan {
-        let filled = self.setup().filled();
-        self.stepper.scanner.scan(&filled, &Configuration::free(tau))
-    }
-
-    /// The straight rod let go in the first pose.
-    fn let_go(&mut self) -> Option<Seen> {
-        let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        BENDS.into_iter().find_map(|bend| {
-            rest(&mut Chain::straight(corrector.setup.path.at(0.0), bend), corrector, scanner, 0.0, |_| true)
+/// In words, such as `letting go`.
+impl fmt::Display for Approach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::AlongPath => "moving along the path",
+            Self::TurningIn => "turning in",
+            Self::MovingIn => "moving in sideways",
+            Self::LettingGo => "letting go",
         })
     }
 }

@@ -7,6 +7,7 @@ use super::reconstruction::{Pass, Reconstruction};
 use super::settings::{ReconstructError, Settings};
 use crate::kink::{Kink, KinkKind};
 use crate::phase::{Label, identify};
+use crate::scan::FEWEST_SAMPLES;
 use crate::scan::noise_estimate::ChannelNoise;
 use rod_core::{Rod, Sample};
 
@@ -28,6 +29,10 @@ use rod_core::{Rod, Sample};
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
     let Calibrated { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration } =
         Calibrated::of(rod, samples, settings)?;
+    // numbers so large that their squares overflow leave none
+    if nodes.is_empty() {
+        return Err(ReconstructError::TooFew { usable: 0, samples: samples.len(), fewest: FEWEST_SAMPLES });
+    }
     let identified = identify(&track, &noise, nodes);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
     let systematic =

@@ -176,7 +176,7 @@ impl Candidate {
 mod tests {
     use super::*;
     use crate::single;
-    use rod_core::{ClosedForm, Elastica, GeneralElastica, Load, Method, Ode, Rod};
+    use rod_core::{Elastica, GeneralElastica, Load, Method, Ode, Rod, Uniform};
 
     const CLAMP: Pose = Pose { x: 0.3, y: -0.2, phi: 1.5 };
 
@@ -193,7 +193,7 @@ mod tests {
     fn a_uniform_rod_is_as_in_closed_form() {
         let rod = Rod::new(1.0, 1.0).unwrap();
         let ode = Ode::uniform(Method::Dop853, 1e-13).unwrap();
-        let propagators: [(&dyn Propagator, f64); 2] = [(&ClosedForm, 1e-12), (&ode, 1e-10)];
+        let propagators: [(&dyn Propagator, f64); 2] = [(&Uniform, 1e-12), (&ode, 1e-10)];
         for (s, force, alpha) in [(1.0, 1.5, 1.0), (0.8, 2.0, 1.1), (0.6, 0.5, 0.7), (1.0, 6.0, 0.4)] {
             let bent = Elastica::under_loads(Units::ONE, CLAMP, &[Load { s, force, alpha }]).unwrap().0;
             for covariance in [Matrix3::zeros(), noise()] {
@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(at(0.0, 0.0, 1.0), NoContact::NoMomentZero.into());
         assert_eq!(at(f64::NAN, 0.0, 1.0), NoContact::NotFinite.into());
         let uniform = |f0x: f64, f0y: f64, m0z: f64| {
-            single_general(&ClosedForm, Units::ONE, CLAMP, Reactions { f0x, f0y, m0z }, &none).unwrap_err()
+            single_general(&Uniform, Units::ONE, CLAMP, Reactions { f0x, f0y, m0z }, &none).unwrap_err()
         };
         assert!(matches!(uniform(1.0, 0.0, -1.2), GeneralError::NoContact(NoContact::BeyondTip(_))));
     }

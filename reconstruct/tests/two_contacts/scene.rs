@@ -56,7 +56,9 @@ impl Scene {
         let mut states = Vec::new();
         for item in Sweep::new(&rod, &self.objects, self.path, self.step).unwrap().with_most_steps(100_000) {
             match item {
-                Ok(Item::State(state)) => states.push(state),
+                // a sensor samples at equal times, not at the end of the path
+                Ok(Item::State(state)) if is_whole(self.path.at(0.0), state.pose, self.step) => states.push(state),
+                Ok(Item::State(_)) => {}
                 Ok(Item::Event(_)) => {}
                 Err(_) => break,
             }
@@ -200,4 +202,10 @@ pub fn of_parabolas(name: &str, all: &[([f64; 2], f64)], [from, to, y]: [f64; 3]
     let pose = |x| Pose { x, y, phi: degrees.to_radians() };
     let path = ClampPath::new(pose(from), pose(to)).unwrap();
     Scene { name: name.into(), objects: vec![parabolas(all).unwrap()], path, step: STEP }
+}
+
+/// Whether the clamp has come a whole number of steps.
+fn is_whole(from: Pose, at: Pose, step: f64) -> bool {
+    let steps = (at.x - from.x).hypot(at.y - from.y) / step;
+    (steps - steps.round()).abs() < 1e-6
 }

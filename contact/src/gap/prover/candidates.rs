@@ -5,11 +5,12 @@ use crate::gap::interval::Knot;
 use crate::gap::separator::Line;
 use crate::scene::world::RunFoot;
 use rod_contours::{Bend, Bounds, Run};
+use rod_core::RodModel;
 
 /// Distance (L) from a vertex below which the direction to it has lost half of its digits.
 const AT_VERTEX: f64 = 1e-6;
 
-impl Search<'_> {
+impl<M: RodModel> Search<'_, M> {
     /// Hands out lines that keep the run behind them, as its closest point `foot` to an end of the interval suggests them,
     /// until one is taken.
     pub(super) fn candidates(

@@ -1,10 +1,13 @@
 //! The gap of the rod next to a touch, and to what bends away from it: bounds that no line gives.
 
 use super::{LARGEST_TURN, Search, rate};
+use crate::contact_set::Held;
 use crate::gap::interval::{Interval, Knot};
+use crate::gap::separator::Line;
 use crate::scene::world::{AHEAD, RunFoot};
 use rod_contours::{Bend, Run};
-use rod_core::Hold;
+use rod_core::{Hold, RodModel, Station};
+use smallvec::SmallVec;
 
 /// Sine of the angle between rod and contour below which they count as parallel.
 const PARALLEL: f64 = 1e-9;
@@ -13,31 +16,49 @@ const SLACK: f64 = 1e-9;
 /// Largest number of intervals that are compared with the contour at once.
 const AT_ONCE: usize = 6;
 
-impl Search<'_> {
-    /// How many intervals from number `i` on, up to number `last`, next to a contact with the run, are clear of it.
-    pub(super) fn beside_contact(&mut self, i: usize, last: usize) -> Option<usize> {
-        let (j, forward) = match (self.shape.contact_at(i), self.shape.contact_at(i + 1)) {
-            (Some(j), _) => (j, true),
-            (_, Some(j)) => (j, false),
-            _ => return None,
+/// A contact with the run that is looked at.
+pub(super) struct Touch {
+    /// The point of the rod.
+    node: usize,
+    foot: RunFoot,
+    /// The tangent of a run that bends outwards, which keeps the run behind it; none of another one.
+    pub tangent: Option<Line>,
+    /// Whether the rod is parallel to the run.
+    parallel: bool,
+}
+
+impl<M: RodModel> Search<'_, M> {
+    /// The contacts with the run between two nodes.
+    pub(super) fn touches(&self, first: usize, last: usize) -> SmallVec<[Touch; 2]> {
+        let Some(configuration) = self.configuration else { return SmallVec::new() };
+        let touch = |(j, Held { stretch, hold }): (usize, &Held)| {
+            let (node, t) = (self.shape.node_of(j), configuration.t(j));
+            if !(first..=last).contains(&node) || !self.world.is_on_run(self.run, *stretch, t) {
+                return None;
+            }
+            let Station { x, y, .. } = self.shape.nodes[node].at;
+            let foot = self.world.touched(*stretch, t, x, y);
+            let outward = self.known.lines[self.place].run.is_some_and(|run| run.bend == Bend::Outward);
+            let tangent = outward.then(|| Line { at: (foot.x, foot.y), normal: foot.normal(), outward });
+            let foot = RunFoot { foot, stretch: *stretch, end: None, joint: self.world.is_corner(*stretch) };
+            Some(Touch { node, foot, tangent, parallel: *hold != Hold::Tip })
         };
-        let configuration = self.configuration?;
-        let (contact, t) = (configuration.contacts[j], configuration.t(j));
-        if contact.hold == Hold::Tip || !self.world.is_on_run(self.run, contact.stretch, t) {
-            return None;
-        }
+        configuration.contacts.iter().enumerate().filter_map(touch).collect()
+    }
+
+    /// How many intervals from number `i` on, up to number `last`, next to a contact with the run, are clear of it.
+    pub(super) fn beside_touch(&mut self, touches: &[Touch], i: usize, last: usize) -> Option<usize> {
+        let beside = |touch: &&Touch| touch.parallel && (touch.node == i || touch.node == i + 1);
+        let touch = touches.iter().find(beside)?;
+        let forward = touch.node == i;
         let segment = self.shape.nodes[i].segment;
         // as many intervals as there may be, then one alone
         let most = if forward { AT_ONCE.min(self.shape.last_of(segment).min(last) - i) } else { 1 };
         [most, 1].into_iter().take(if most > 1 { 2 } else { 1 }).find_map(|count| {
             let [from, to] = [i, i + count].map(|k| Knot::from(&self.shape.nodes[k]));
-            let part = Interval::new(from, to, segment, self.shape.force(segment));
-            let at = if forward { &from.at } else { &to.at };
-            let foot = self.world.touched(contact.stretch, t, at.x, at.y);
-            let run = *self.known.lines[self.run].run.get_or_insert_with(|| self.world.run(self.run));
-            let foot =
-                RunFoot { foot, stretch: contact.stretch, end: None, joint: self.world.is_corner(contact.stretch) };
-            let bound = self.compared(&run, &foot, &part, forward).filter(|bound| *bound > self.least())?;
+            let part = Interval::new(self.rod, from, to, segment, self.shape.force(segment));
+            let run = *self.run();
+            let bound = self.compared(&run, &touch.foot, &part, forward).filter(|bound| *bound > self.least())?;
             self.note(if forward { i } else { i + count - 1 }, bound, false);
             Some(count)
         })
@@ -45,7 +66,8 @@ impl Search<'_> {
 
     /// Lower bound of the gap along an interval that begins (or, where it does not go `forward`, ends) where the rod is
     /// parallel to the contour. There both are graphs over the common tangent, with d(sin theta)/dx = curvature: while the rod
-    /// bends towards the solid by no more than the contour does, slopes and heights stay in order.
+    /// bends towards the solid by no more than the contour does, slopes and heights stay in order. Where a contour that bends outwards
+    /// has turned more than the rod does at all, its tangent keeps the two apart from there on.
     pub(super) fn compared(
         &self,
         run: &Run,
@@ -67,7 +89,8 @@ impl Search<'_> {
         }
         let ahead = if forward { sense } else { -sense };
         let outward = run.bend == Bend::Outward;
-        let least = self.world.curvature_ahead(outward, *stretch, foot.t, ahead, part.length, LARGEST_TURN)?;
+        let ways = (part.length, bend.max(0.0) * part.length);
+        let least = self.world.curvature_ahead(outward, *stretch, foot.t, ahead, ways, LARGEST_TURN)?;
         let height = foot.gap - AHEAD * part.length * slope.abs();
         (bend <= least + SLACK).then_some(height - SLACK * part.length * part.length)
     }

@@ -17,6 +17,8 @@ use super::{Crossing, GAP_TOLERANCE};
 use crate::contact_set::Configuration;
 use crate::gap::shape::{Node, Shape};
 use crate::scene::world::{RunFoot, World};
+use rod_contours::Run;
+use rod_core::{RodModel, Uniform};
 use smallvec::SmallVec;
 
 /// Length (L) below which an interval is not halved. Its points are at most half of it deeper than its ends.
@@ -55,8 +57,11 @@ fn holds((x, y, gap): &Disc, point: (f64, f64)) -> bool {
 /// Proves gaps, with what it learned in earlier states.
 #[derive(Debug, Default)]
 pub(crate) struct Prover {
-    /// Of each run.
+    /// Of the runs that have been near.
     lines: Vec<Lines>,
+    /// Where among them each run is, counted from 1; 0 where it is not. Memory that is zero costs nothing until it is written: there may
+    /// be a million runs.
+    place: Vec<usize>,
     /// Of each object.
     outside: Vec<SmallVec<[Disc; DISCS]>>,
     /// Which of an object's discs is replaced next.
@@ -83,9 +88,16 @@ pub(crate) struct Proof {
 
 impl Prover {
     /// Looks at the rod of `configuration`, whose `shape` is known. Points of it no deeper than `depth` (L) count as outside.
-    pub fn prove(&mut self, world: &World<'_>, configuration: &Configuration, shape: &Shape, depth: f64) -> Proof {
+    pub fn prove(
+        &mut self,
+        rod: &impl RodModel,
+        world: &World<'_>,
+        configuration: &Configuration,
+        shape: &Shape,
+        depth: f64,
+    ) -> Proof {
         let free = configuration.count() == 0;
-        let mut search = Search::new(self, world, Some(configuration), shape, depth);
+        let mut search = Search::new(self, rod, world, Some(configuration), shape, depth);
         if free {
             search.proof.seen = search.nearest();
         }
@@ -119,10 +131,10 @@ impl Prover {
         }
         self.gates.clear();
         let shape = Shape::straight(from, dy.atan2(dx), length);
-        let part = interval(&shape, 0);
+        let part = interval(&Uniform, &shape, 0);
         let mut near: SmallVec<[usize; CROWD]> = SmallVec::new();
         world.runs_near(part.bounds(0.0), |run| near.push(run));
-        let mut search = Search::new(self, world, None, &shape, GAP_TOLERANCE);
+        let mut search = Search::new(self, &Uniform, world, None, &shape, GAP_TOLERANCE);
         near.into_iter().filter(|run| !skip(*run)).any(|run| {
             search.take(run);
             search.clear(0, &part);
@@ -131,7 +143,8 @@ impl Prover {
     }
 }
 
-struct Search<'a> {
+struct Search<'a, M> {
+    rod: &'a M,
     world: &'a World<'a>,
     /// The rod's contacts; none where what is looked at is no rod but the way of a point.
     configuration: Option<&'a Configuration>,
@@ -140,28 +153,34 @@ struct Search<'a> {
     depth: f64,
     known: &'a mut Prover,
     proof: Proof,
-    /// The run that is looked at, and its object.
+    /// The run that is looked at, its object, and where its lines are kept.
     run: usize,
     object: usize,
+    place: usize,
     /// Runs that the rod goes through.
     refuted: SmallVec<[usize; 2]>,
     /// Parts of intervals that were looked at one by one.
     looks: usize,
 }
 
-impl<'a> Search<'a> {
+impl<'a, M: RodModel> Search<'a, M> {
     fn new(
         known: &'a mut Prover,
+        rod: &'a M,
         world: &'a World<'a>,
         configuration: Option<&'a Configuration>,
         shape: &'a Shape,
         depth: f64,
     ) -> Self {
-        known.lines.resize_with(world.runs(), Lines::default);
+        if known.place.len() != world.runs() {
+            known.lines.clear();
+            known.place = vec![0; world.runs()];
+        }
         known.outside.resize_with(world.objects(), SmallVec::new);
         // where there is a contact, there the gap is zero
         let proof = Proof { lower: f64::INFINITY, seen: 0.0, crossings: SmallVec::new(), clamp_inside: false };
-        Self { world, configuration, shape, depth, known, proof, run: 0, object: 0, refuted: SmallVec::new(), looks: 0 }
+        let refuted = SmallVec::new();
+        Self { rod, world, configuration, shape, depth, known, proof, run: 0, object: 0, place: 0, refuted, looks: 0 }
     }
 
     /// Whether it is a rod without contacts.
@@ -178,15 +197,22 @@ impl<'a> Search<'a> {
     }
 
     /// A gap of the rod that is not far from the smallest one: at the point where that was seen last, else of a few points.
-    fn nearest(&self) -> f64 {
+    fn nearest(&mut self) -> f64 {
         if let Some((run, s)) = self.known.closest {
             let segments = &self.shape.segments;
-            let knot = Knot::on(&segments[segments.len() - 1], s);
+            let knot = Knot::on(self.rod, &segments[segments.len() - 1], s);
             return self.world.run_foot(run, knot.at.x, knot.at.y).foot.gap.abs();
         }
         // behind an open contour a rod that came around its end is outside all the same
-        let gap = |node: &Node| self.world.gap(node.at.x, node.at.y).abs();
-        self.shape.nodes.iter().map(gap).fold(f64::INFINITY, f64::min)
+        let gap = |node: &Node| (self.world.gap(node.at.x, node.at.y).abs(), *node);
+        let (least, Node { s, at, .. }) = self.shape.nodes[1..]
+            .iter()
+            .map(gap)
+            .fold(gap(&self.shape.nodes[0]), |least, here| if here.0 < least.0 { here } else { least });
+        if self.world.objects() == 1 {
+            self.known.closest = Some((self.world.run_at(0, at.x, at.y), s));
+        }
+        least
     }
 
     fn all(&mut self) {
@@ -216,14 +242,31 @@ impl<'a> Search<'a> {
 
     /// Turns to a run.
     fn take(&mut self, run: usize) {
+        let Prover { lines, place, .. } = &mut *self.known;
+        if place[run] == 0 {
+            lines.push(Lines::default());
+            place[run] = lines.len();
+        }
+        self.place = place[run] - 1;
         (self.run, self.object) = (run, self.world.object_of_run(run));
+    }
+
+    /// What is known of the run.
+    fn lines(&mut self) -> &mut Lines {
+        &mut self.known.lines[self.place]
+    }
+
+    /// The run.
+    fn run(&mut self) -> &Run {
+        let (world, run) = (self.world, self.run);
+        self.lines().run.get_or_insert_with(|| world.run(run))
     }
 
     /// Lists the runs near each interval, and the intervals near too many.
     fn list_near(&self, near: &mut Vec<(usize, usize, usize)>, crowded: &mut SmallVec<[usize; 8]>) {
         let reach = self.least().max(0.0);
         for i in 0..self.shape.nodes.len() - 1 {
-            let (interval, before) = (interval(self.shape, i), near.len());
+            let (interval, before) = (interval(self.rod, self.shape, i), near.len());
             self.world.runs_near(interval.bounds(reach), |run| {
                 if near.len() - before <= CROWD && !interval.misses(&self.world.run_bounds(run), reach) {
                     near.push((run, i, i + 1));
@@ -246,8 +289,8 @@ impl<'a> Search<'a> {
 
     /// Clears the intervals between two nodes of the run.
     fn along(&mut self, first: usize, last: usize) {
-        let world = self.world;
-        let box_of_run = self.known.lines[self.run].run.get_or_insert_with(|| world.run(self.run)).bounds;
+        let box_of_run = self.run().bounds;
+        let touches = self.touches(first, last);
         let mut i = first;
         while i < last {
             let (least, nodes) = (self.least(), &self.shape.nodes[i..=last]);
@@ -258,27 +301,31 @@ impl<'a> Search<'a> {
                 i += beyond;
                 continue;
             }
+            if let Some(count) = self.beside_touch(&touches, i, last) {
+                i += count;
+                continue;
+            }
             let Prover { lines, gates, .. } = &mut *self.known;
-            let (object, run, shape) = (self.object, self.run, self.shape);
+            let (object, run, place) = (self.object, self.run, self.place);
+            let (rod, shape) = (self.rod, self.shape);
             let touch = |k: usize, line: &Line| gates.push((object, i + k, (!line.outward).then_some(run)));
             let limits = (least, GATE.max(least));
-            if let Some((count, bound)) = lines[run].clear(nodes, |k| interval(shape, i + k), limits, touch) {
+            let tangents = touches.iter().filter_map(|touch| touch.tangent.as_ref());
+            if let Some((count, bound)) =
+                lines[place].clear(nodes, |k| interval(rod, shape, i + k), limits, tangents, touch)
+            {
                 self.proof.lower = self.proof.lower.min(bound);
                 i += count;
                 continue;
             }
-            if let Some(count) = self.beside_contact(i, last) {
-                i += count;
-                continue;
-            }
-            self.clear(i, &interval(self.shape, i));
+            self.clear(i, &interval(self.rod, self.shape, i));
             i += 1;
         }
     }
 
     /// Clears an interval of the runs near it, halving it where they are many.
     fn in_crowd(&mut self, i: usize) {
-        let mut parts = vec![interval(self.shape, i)];
+        let mut parts = vec![interval(self.rod, self.shape, i)];
         while let Some(part) = parts.pop() {
             let reach = self.least().max(0.0);
             let mut near: SmallVec<[usize; CROWD]> = SmallVec::new();
@@ -290,7 +337,7 @@ impl<'a> Search<'a> {
                 }
             });
             if near.len() > CROWD && halve {
-                parts.extend(part.split(&self.shape.segments[part.segment], 0.5 * (part.from.s + part.to.s)));
+                parts.extend(part.split(self.rod, &self.shape.segments[part.segment], 0.5 * (part.from.s + part.to.s)));
                 continue;
             }
             for run in near {
@@ -311,7 +358,7 @@ impl<'a> Search<'a> {
     /// Clears a part of interval `i` of the run, halving it where that is needed, or finds where it goes through.
     fn clear(&mut self, i: usize, part: &Interval) {
         let Some(s) = self.clear_at_once(i, part) else { return };
-        let mut parts = part.split(&self.shape.segments[part.segment], s).to_vec();
+        let mut parts = part.split(self.rod, &self.shape.segments[part.segment], s).to_vec();
         parts.reverse();
         while let Some(part) = parts.pop() {
             self.looks += 1;
@@ -320,7 +367,7 @@ impl<'a> Search<'a> {
                 return;
             }
             if let Some(s) = self.clear_at_once(i, &part) {
-                let [before, after] = part.split(&self.shape.segments[part.segment], s);
+                let [before, after] = part.split(self.rod, &self.shape.segments[part.segment], s);
                 parts.push(after);
                 parts.push(before);
             }
@@ -330,11 +377,11 @@ impl<'a> Search<'a> {
     /// The same without halving: where to halve it, if that is needed.
     fn clear_at_once(&mut self, i: usize, part: &Interval) -> Option<f64> {
         let least = self.least();
-        if let Some((bound, line)) = self.known.lines[self.run].clear_interval(part, least) {
+        if let Some((bound, line)) = self.lines().clear_interval(part, least) {
             self.note(i, bound, !line.outward);
             return None;
         }
-        let run = *self.known.lines[self.run].run.get_or_insert_with(|| self.world.run(self.run));
+        let run = *self.run();
         if part.misses(&run.bounds, least.max(0.0)) {
             self.note(i, least.max(GATE), false);
             return None;
@@ -367,7 +414,7 @@ impl<'a> Search<'a> {
                 clears
             });
             if let Some((line, bound)) = found {
-                self.known.lines[self.run].keep(line);
+                self.lines().keep(line);
                 self.note(i, bound, !line.outward);
                 return None;
             }
@@ -411,7 +458,7 @@ impl<'a> Search<'a> {
         }
         self.refuted.push(run);
         let Some(configuration) = self.configuration else { return };
-        let crossing = Rod { world: self.world, shape: self.shape }.touch(run, knot);
+        let crossing = Rod { model: self.rod, world: self.world, shape: self.shape }.touch(run, knot);
         self.proof.seen = self.proof.seen.min(crossing.foot.gap);
         if !(crossing.tip && configuration.ends_at_tip()) {
             self.proof.crossings.push(crossing);
@@ -420,9 +467,9 @@ impl<'a> Search<'a> {
 }
 
 /// The rod between node `i` and the next one.
-fn interval(shape: &Shape, i: usize) -> Interval {
+fn interval(rod: &impl RodModel, shape: &Shape, i: usize) -> Interval {
     let [from, to] = [&shape.nodes[i], &shape.nodes[i + 1]];
-    Interval::new(Knot::from(from), Knot::from(to), from.segment, shape.force(from.segment))
+    Interval::new(rod, Knot::from(from), Knot::from(to), from.segment, shape.force(from.segment))
 }
 
 /// How fast the rod runs in a direction.

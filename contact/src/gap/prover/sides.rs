@@ -2,8 +2,9 @@
 
 use super::{DISCS, Search, holds};
 use crate::gap::interval::Knot;
+use rod_core::RodModel;
 
-impl Search<'_> {
+impl<M: RodModel> Search<'_, M> {
     /// Whether the clamp is inside an object.
     pub(super) fn clamp(&mut self) {
         let Knot { at, .. } = self.point(0, 0.0);
@@ -64,7 +65,7 @@ impl Search<'_> {
             return Knot::from(node);
         }
         let s = node.s + share * (self.shape.nodes[k + 1].s - node.s);
-        Knot::on(&self.shape.segments[node.segment], s)
+        Knot::on(self.rod, &self.shape.segments[node.segment], s)
     }
 
     /// Whether a point of the rod is outside of the object: mostly it is in a disc that is known to be.
@@ -87,6 +88,7 @@ impl Search<'_> {
                 self.known.next = (self.known.next + 1) % DISCS;
                 discs[self.known.next] = disc;
             }
+            return true;
         }
         !world.is_inside(object, at.x, at.y, self.depth)
     }

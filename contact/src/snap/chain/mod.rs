@@ -13,12 +13,13 @@ mod programme;
 mod solution;
 
 use crate::contact_set::Configuration;
+use crate::scene::rod;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
 use programme::Programme;
-use rod_core::{Pose, advance};
+use rod_core::{PhysicalRod, Pose, RodModel};
 use smallvec::{SmallVec, smallvec};
 use solution::solve;
 
@@ -62,41 +63,45 @@ pub(crate) struct Chain {
     pub clamp: Pose,
     /// Turning angle of each joint; the first is between clamp and first link.
     joints: [f64; LINKS],
+    /// The same at rest, and by how much each joint turns by a unit of moment.
+    rest: [f64; LINKS],
+    softness: [f64; LINKS],
 }
 
 impl Chain {
-    /// A straight chain, but for the slight bend (radians over its length) without which it could not buckle.
-    pub fn straight(clamp: Pose, bend: f64) -> Self {
-        Self { clamp, joints: [bend * LINK; LINKS] }
+    /// A chain at rest, but for a slight bend (radians over its length): without one, a straight chain could not buckle.
+    pub fn at_rest(rod: &impl RodModel, clamp: Pose, bend: f64) -> Self {
+        // a full link between two links, half a link between clamp and first one
+        let share = |i: usize| if i == 0 { (0.25 * LINK, 0.5 * LINK) } else { (i as f64 * LINK, LINK) };
+        let rest = std::array::from_fn(|i| {
+            let (s, length) = share(i);
+            length * rod.natural_curvature(s)
+        });
+        let softness = std::array::from_fn(|i| {
+            let (s, length) = share(i);
+            length * (rod.curvature_at(s, 1.0) - rod.natural_curvature(s))
+        });
+        Self { clamp, joints: rest.map(|joint| joint + bend * LINK), rest, softness }
     }
 
     /// The shape of the rod in `configuration`, on another clamp.
-    pub fn of(setup: &Setup<'_>, configuration: &Configuration, clamp: Pose) -> Self {
+    pub fn of<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, clamp: Pose) -> Self {
         let segments = configuration.segments(setup);
-        let phi = |s: f64| {
-            let segment = segments[segments.partition_point(|segment| segment.s <= s).saturating_sub(1)];
-            advance(&segment.start, segment.a, segment.b, s - segment.s).phi
-        };
         let mut before = setup.path.at(configuration.tau()).phi;
         let joints = std::array::from_fn(|i| {
-            let here = phi((i as f64 + 0.5) * LINK);
+            let here = rod::along(setup.rod.model(), &segments, (i as f64 + 0.5) * LINK).phi;
             let joint = here - before;
             before = here;
             joint
         });
-        Self { clamp, joints }
+        Self { joints, ..Self::at_rest(setup.rod.model(), clamp, 0.0) }
     }
 
     /// Bends a straight chain (radians over its length): else it could not buckle.
     pub fn bend_if_straight(&mut self, bend: f64) {
         if self.joints.iter().all(|joint| joint.abs() < STRAIGHT) {
-            *self = Self::straight(self.clamp, bend);
+            self.joints = [bend * LINK; LINKS];
         }
-    }
-
-    /// Stiffness of a joint: a full link between two links, half a link between clamp and first one.
-    fn stiffness(i: usize) -> f64 {
-        if i == 0 { 2.0 / LINK } else { 1.0 / LINK }
     }
 
     /// Ends of the links, the clamp first, and the angle of each link.

@@ -25,7 +25,7 @@ impl Programme {
     pub fn new(chain: &Chain, nodes: &Nodes, near: &[Near], time_step: f64, push: f64) -> Self {
         let damped = 1.0 + 1.0 / time_step;
         // every joint gives way by the same share
-        let free = chain.joints.map(|joint| -joint / damped);
+        let free = std::array::from_fn(|i| -(chain.joints[i] - chain.rest[i]) / damped);
         // by joint i node turns as (dx, dy) -> (-dy, dx); the gap falls along the normal (-sin, cos)
         let gradient = |&Near { s, x, y, alpha, .. }: &Near| -> Joints {
             let (sin, cos) = alpha.sin_cos();
@@ -35,7 +35,7 @@ impl Programme {
         };
         let rows: Vec<Joints> = near.iter().map(gradient).collect();
         let gaps = near.iter().zip(&rows).map(|(near, row)| near.gap.max(-push) - dot(row, &free)).collect();
-        let softness = std::array::from_fn(|i| 1.0 / (Chain::stiffness(i) * damped));
+        let softness = chain.softness.map(|softness| softness / damped);
         Self { rows, gaps, softness, yielding: 0.0, free }
     }
 

@@ -23,12 +23,12 @@ mod tests {
     use super::*;
     use proptest::collection::vec;
     use proptest::prelude::*;
-    use rod_core::Pose;
+    use rod_core::{Pose, Uniform};
     use std::f64::consts::PI;
 
     /// A straight chain above a wavy floor that has come up to it in places.
     fn floored(seed: u32) -> Programme {
-        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
+        let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
         let (nodes, _) = chain.nodes();
         let waves = 2.0 + f64::from(seed) * 0.7;
         let near: Vec<Near> = (1..=LINKS)
@@ -82,7 +82,7 @@ mod tests {
             both_sides in any::<bool>(),
             yields in any::<bool>(),
         ) {
-            let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, bend);
+            let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, bend);
             let (nodes, _) = chain.nodes();
             let wall = |(k, (i, gap, turned)): (usize, (usize, f64, f64))| {
                 let [x, y] = nodes[i];
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn nothing_near_gives_way_freely() {
-        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
+        let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
         let (nodes, _) = chain.nodes();
         let (change, forces) = solve(&Programme::new(&chain, &nodes, &[], 1.0, 0.03), &mut { f64::INFINITY }).unwrap();
         assert!(forces.is_empty());
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn walls_without_room_give_way_only_where_they_may() {
-        let chain = Chain::straight(Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
+        let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
         let (nodes, _) = chain.nodes();
         let [x, y] = nodes[LINKS];
         let wall = |alpha| Near { s: LINKS as f64, x, y, stretch: 0, gap: -0.01, alpha };

@@ -1,0 +1,104 @@
+//! The rods that a scene may have.
+
+use super::Scene;
+use super::rod_table::NOT_UNIFORM;
+use crate::SceneError;
+use crate::toml_file;
+use std::path::{Path, PathBuf};
+use vibrissa::Rod;
+use vibrissa::rod::{PhysicalRod, VaryingRod};
+
+/// A rod of a scene.
+pub trait SceneRod: PhysicalRod {
+    /// The rod, if it is uniform and straight at rest: only of such a rod contacts are found from reactions.
+    fn uniform(&self) -> Option<&Rod>;
+}
+
+impl SceneRod for Rod {
+    fn uniform(&self) -> Option<&Rod> {
+        Some(self)
+    }
+}
+
+impl SceneRod for VaryingRod {
+    fn uniform(&self) -> Option<&Rod> {
+        None
+    }
+}
+
+/// A scene with any rod.
+#[derive(Debug)]
+pub enum AnyScene {
+    /// The rod is uniform and straight at rest.
+    Uniform(Scene),
+    /// Its stiffness varies, or it is bent at rest.
+    Varying(Scene<VaryingRod>),
+}
+
+impl AnyScene {
+    /// The scene in a file, as [`Scene::read`].
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        Self::parse(file, &toml_file::text("the scene", file)?)
+    }
+
+    /// The scene in a text, as [`Scene::parse`].
+    ///
+    /// ```
+    /// use vibrissa_cli::AnyScene;
+    /// let scene = AnyScene::parse("whisker.toml".as_ref(), r#"
+    ///     [rod]
+    ///     length = 0.04
+    ///     diameter = 1e-4
+    ///     tip_diameter = 2e-5
+    ///     youngs_modulus = 3e9
+    ///     natural_curvature = 20.0
+    ///     [[contour.piece]]
+    ///     shape = "parabola"
+    ///     vertex = [0.0, 0.02]
+    ///     coefficient = 0.0
+    ///     [sweep]
+    ///     from = [0.0, -0.03]
+    ///     to = [0.0, 0.01]
+    ///     angle = 45.0
+    ///     step = 1e-3
+    /// "#)?;
+    /// assert!(matches!(scene, AnyScene::Varying(_)));
+    /// # Ok::<(), vibrissa_cli::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Scene::parse`].
+    pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
+        super::parse(file, text)
+    }
+
+    /// What may be a mistake in the file, as [`Scene::warnings`].
+    pub fn warnings(&self) -> &[String] {
+        match self {
+            Self::Uniform(scene) => &scene.warnings,
+            Self::Varying(scene) => &scene.warnings,
+        }
+    }
+
+    /// The files of the scene, as [`Scene::files`].
+    pub fn files(&self) -> &[PathBuf] {
+        match self {
+            Self::Uniform(scene) => &scene.files,
+            Self::Varying(scene) => &scene.files,
+        }
+    }
+
+    /// Takes the scene whose rod is uniform and straight at rest.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `rod` of another one.
+    pub fn uniform(self) -> Result<Scene, SceneError> {
+        match self {
+            Self::Uniform(scene) => Ok(scene),
+            Self::Varying(scene) => Err(scene.source.error("rod", NOT_UNIFORM)),
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The table `[rod]` as a rod.
+
+use super::document::{RodTable, SectionTable};
+use crate::toml_file::Fault;
+use std::ops::Range;
+use toml::{Spanned, Value};
+use vibrissa::Rod;
+use vibrissa::rod::{NaturalCurvature, RodError, RodSection, VaryingRod};
+
+/// What is said where another rod is given than a uniform, straight one.
+pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour` and `study` take, \
+     expected length with diameter and youngs_modulus, or with bending_stiffness";
+
+/// The rod of a table.
+pub(super) enum AnyRod {
+    /// Uniform, and straight at rest.
+    Uniform(Rod),
+    Varying(VaryingRod),
+}
+
+impl AnyRod {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Uniform(rod) => rod.length(),
+            Self::Varying(rod) => rod.length(),
+        }
+    }
+}
+
+/// A field of a table, for messages that point at it.
+type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
+
+/// Where an error of the library belongs in the table.
+fn placed<'a>(fields: &'a [Field<'a>], table: Range<usize>) -> impl Fn(RodError) -> Fault + 'a {
+    move |error| {
+        let named = |wanted: &str| fields.iter().find(|(name, _)| *name == wanted).and_then(|(_, field)| *field);
+        let field = match &error {
+            RodError::NotPositive { what, .. } | RodError::NotFinite { what, .. } => named(what),
+            RodError::Section { what, .. } => named(what),
+            RodError::SectionsLength { .. } => named("length"),
+            RodError::TooThick { diameter, .. } => {
+                let tip = named("tip_diameter").filter(|field| field.get_ref() == diameter);
+                tip.or_else(|| named("diameter"))
+            }
+            RodError::TooTapered { .. } => named("tip_diameter"),
+            _ => None,
+        };
+        let message = match &error {
+            // the place tells which section it is
+            RodError::Section { what, value, expected, .. } => format!("{what} is {value}, expected {expected}"),
+            error => error.to_string(),
+        };
+        Fault::new(field.map_or(table.clone(), Spanned::span), message)
+    }
+}
+
+/// How stiff a rod or section is, as it is written.
+enum Written {
+    Stiffness(f64),
+    Wire { diameter: f64, youngs_modulus: f64 },
+}
+
+fn written(table: Range<usize>, [stiffness, diameter, modulus]: [Option<&Spanned<f64>>; 3]) -> Result<Written, Fault> {
+    let missing = |what: &str| {
+        let message = format!("missing field `{what}`, expected diameter and youngs_modulus, or bending_stiffness");
+        Err(Fault::new(table.clone(), message))
+    };
+    match (stiffness, diameter, modulus) {
+        (Some(stiffness), None, None) => Ok(Written::Stiffness(*stiffness.get_ref())),
+        (None, Some(diameter), Some(modulus)) => {
+            Ok(Written::Wire { diameter: *diameter.get_ref(), youngs_modulus: *modulus.get_ref() })
+        }
+        (Some(stiffness), ..) => {
+            let message = "given beside diameter or youngs_modulus, expected either it or those two";
+            Err(Fault::new(stiffness.span(), message))
+        }
+        (None, Some(_), None) => missing("youngs_modulus"),
+        (None, None, Some(_)) => missing("diameter"),
+        (None, None, None) => missing("bending_stiffness"),
+    }
+}
+
+/// The rod of a table.
+pub(super) fn rod(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
+    let RodTable {
+        length,
+        diameter,
+        tip_diameter,
+        youngs_modulus,
+        bending_stiffness,
+        natural_curvature,
+        yield_stress,
+        section,
+    } = table.get_ref();
+    let fields: [Field<'_>; 6] = [
+        ("length", Some(length)),
+        ("diameter", diameter.as_ref()),
+        ("tip_diameter", tip_diameter.as_ref()),
+        ("youngs_modulus", youngs_modulus.as_ref()),
+        ("bending_stiffness", bending_stiffness.as_ref()),
+        ("yield_stress", yield_stress.as_ref()),
+    ];
+    let at = placed(&fields, table.span());
+    let long = *length.get_ref();
+    let varying = if section.is_empty() {
+        let stiff = written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))?;
+        match (stiff, tip_diameter) {
+            (Written::Wire { diameter, youngs_modulus }, Some(tip)) => {
+                Some(Rod::tapered(long, diameter, *tip.get_ref(), youngs_modulus).map_err(&at)?)
+            }
+            (Written::Stiffness(_), Some(tip)) => {
+                let message =
+                    "given beside bending_stiffness, expected diameter and youngs_modulus of a wire that tapers";
+                return Err(Fault::new(tip.span(), message));
+            }
+            (stiff, None) => {
+                let rod = match stiff {
+                    Written::Stiffness(stiffness) => Rod::new(long, stiffness),
+                    Written::Wire { diameter, youngs_modulus } => Rod::from_diameter(long, diameter, youngs_modulus),
+                };
+                let rod = rod.map_err(&at)?;
+                let rod = match yield_stress {
+                    Some(stress) => rod.with_yield_stress(*stress.get_ref()).map_err(&at)?,
+                    None => rod,
+                };
+                match natural_curvature {
+                    None => return Ok(AnyRod::Uniform(rod)),
+                    Some(_) => Some(rod.with_natural_curvature(0.0).map_err(&at)?),
+                }
+            }
+        }
+    } else {
+        let others = fields[1..5].iter().find_map(|(name, field)| field.map(|field| (name, field)));
+        if let Some((name, field)) = others {
+            let message = format!("{name} is given beside [[rod.section]], expected it in the sections alone");
+            return Err(Fault::new(field.span(), message));
+        }
+        Some(of_sections(length, section)?)
+    };
+    // what a varying rod's surface carries is not known
+    if let Some(stress) = yield_stress {
+        let message =
+            "given for a rod that is not uniform or not straight at rest, expected it with a uniform rod alone";
+        return Err(Fault::new(stress.span(), message));
+    }
+    let Some(rod) = varying else { return Err(Fault::new(table.span(), "no rod")) };
+    let Some(curvature) = natural_curvature else { return Ok(AnyRod::Varying(rod)) };
+    if let Some(bent) = section.iter().find_map(|section| section.get_ref().natural_curvature.as_ref()) {
+        let message = "given beside rod.natural_curvature, expected one of the two";
+        return Err(Fault::new(bent.span(), message));
+    }
+    let wrong = |error: RodError| Fault::new(curvature.span(), error.to_string());
+    let curvature = natural(curvature).and_then(|curvature| curvature.map_err(wrong))?;
+    rod.with_natural_curvature(curvature).map(AnyRod::Varying).map_err(wrong)
+}
+
+/// The rod of a table, if it is uniform and straight at rest.
+pub(super) fn uniform(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
+    match rod(table)? {
+        AnyRod::Uniform(rod) => Ok(rod),
+        AnyRod::Varying(_) => Err(Fault::new(table.span(), NOT_UNIFORM)),
+    }
+}
+
+fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Result<VaryingRod, Fault> {
+    let mut sections = Vec::with_capacity(tables.len());
+    for table in tables {
+        let SectionTable { length, diameter, youngs_modulus, bending_stiffness, natural_curvature } = table.get_ref();
+        let fields: [Field<'_>; 5] = [
+            ("length", Some(length)),
+            ("diameter", diameter.as_ref()),
+            ("youngs_modulus", youngs_modulus.as_ref()),
+            ("bending_stiffness", bending_stiffness.as_ref()),
+            ("natural_curvature", natural_curvature.as_ref()),
+        ];
+        let at = placed(&fields, table.span());
+        let long = *length.get_ref();
+        let bending_stiffness =
+            match written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))? {
+                Written::Stiffness(stiffness) => stiffness,
+                Written::Wire { diameter, youngs_modulus } => {
+                    Rod::from_diameter(long, diameter, youngs_modulus).map_err(&at)?.bending_stiffness()
+                }
+            };
+        let natural_curvature = natural_curvature.as_ref().map_or(0.0, |curvature| *curvature.get_ref());
+        let section = RodSection { length: long, bending_stiffness, natural_curvature };
+        // each on its own, so that the message points at it
+        Rod::sections(long, &[section]).map_err(&at)?;
+        sections.push(section);
+    }
+    let wrong = |error: RodError| Fault::new(length.span(), error.to_string());
+    Rod::sections(*length.get_ref(), &sections).map_err(wrong)
+}
+
+/// A natural curvature as it is written: a number, or points.
+fn natural(field: &Spanned<Value>) -> Result<Result<NaturalCurvature, RodError>, Fault> {
+    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+    let wrong =
+        || Fault::new(field.span(), "expected a number (1/m), or a list of points: [[s, curvature], ...] in m and 1/m");
+    let value = field.get_ref();
+    if let Some(curvature) = number(value) {
+        return Ok(Ok(NaturalCurvature::from(curvature)));
+    }
+    let list = value.as_array().ok_or_else(wrong)?;
+    let point = |point: &Value| match point.as_array()?.as_slice() {
+        [s, curvature] => Some([number(s)?, number(curvature)?]),
+        _ => None,
+    };
+    let points = list.iter().map(point).collect::<Option<Vec<_>>>().ok_or_else(wrong)?;
+    Ok(NaturalCurvature::points(&points))
+}

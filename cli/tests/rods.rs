@@ -1,0 +1,119 @@
+//! Scenes whose rod is not uniform or not straight at rest.
+
+use crate::common::{SCENE, edited, refused_beside, vibrissa};
+use vibrissa_cli::{AnyScene, Scan};
+
+/// The scene with another table `[rod]`.
+fn with_rod(rod: &str) -> String {
+    edited("length = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n", rod)
+}
+
+const WIRE: &str = "length = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n";
+const TWO: &str = "length = 0.1\n[[rod.section]]\nlength = 0.06\nbending_stiffness = 6e-4\n\
+                   [[rod.section]]\nlength = 0.04\ndiameter = 0.3e-3\nyoungs_modulus = 206e9\nnatural_curvature = -3.0\n";
+
+#[test]
+fn each_mistake_has_its_place() {
+    for (rod, parts) in [
+        (
+            format!("{WIRE}tip_diameter = 0\n"),
+            ["scene.toml:5:16: rod.tip_diameter: ", "tip_diameter is 0, expected a positive"],
+        ),
+        (
+            format!("{WIRE}tip_diameter = -1e-4\n"),
+            ["rod.tip_diameter: ", "is -0.0001, expected a positive, finite number"],
+        ),
+        (format!("{WIRE}tip_diameter = 1e-6\n"), ["rod.tip_diameter: ", "100"]),
+        (format!("{WIRE}tip_diameter = 0.2\n"), ["rod.tip_diameter: ", "0.2"]),
+        (
+            "length = 0.1\nbending_stiffness = 1e-3\ntip_diameter = 1e-4\n".into(),
+            ["rod.tip_diameter: ", "expected diameter and youngs_modulus"],
+        ),
+        (
+            format!("{WIRE}natural_curvature = \"left\"\n"),
+            ["rod.natural_curvature: ", "expected a number (1/m), or a list of points"],
+        ),
+        (
+            format!("{WIRE}natural_curvature = [[0.0, 1.0, 2.0]]\n"),
+            ["rod.natural_curvature: ", "[[s, curvature], ...]"],
+        ),
+        (
+            format!("{WIRE}natural_curvature = [[0.05, 1.0], [0.01, 2.0]]\n"),
+            ["rod.natural_curvature: ", "border at arc length 0.01"],
+        ),
+        (format!("{WIRE}natural_curvature = []\n"), ["rod.natural_curvature: ", "number of points"]),
+        (format!("{WIRE}natural_curvature = nan\n"), ["rod.natural_curvature: ", "NaN"]),
+        (format!("{WIRE}natural_curvature = 100.0\n"), ["rod.natural_curvature: ", "crosses itself at rest"]),
+        (format!("{WIRE}tip_diameter = 1e-4\nyield_stress = 1e9\n"), ["rod.yield_stress: ", "uniform rod alone"]),
+        (TWO.replace("0.04", "0.05"), ["scene.toml:2:10: rod.length: ", "add up to 0.11, expected 0.1"]),
+        (TWO.replace("6e-4", "0"), ["rod.section[1].bending_stiffness: ", "bending_stiffness is 0"]),
+        (TWO.replace("length = 0.04", "length = -0.04"), ["rod.section[2].length: ", "-0.04"]),
+        (TWO.replace("diameter = 0.3e-3\n", ""), ["rod.section[2]: ", "missing field `diameter`"]),
+        (
+            TWO.replacen("length = 0.1\n", "length = 0.1\ndiameter = 1e-3\n", 1),
+            ["rod.diameter: ", "beside [[rod.section]]"],
+        ),
+        (
+            TWO.replacen("length = 0.1\n", "length = 0.1\nnatural_curvature = 1.0\n", 1),
+            ["rod.section[2].natural_curvature: ", "one of the two"],
+        ),
+    ] {
+        let message = refused_beside(&with_rod(&rod), &[]);
+        assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} are not in: {message}");
+    }
+}
+
+#[test]
+fn a_rod_of_each_kind_is_swept() {
+    for rod in [
+        format!("{WIRE}tip_diameter = 0.2e-3\n"),
+        format!("{WIRE}natural_curvature = 5\n"),
+        format!("{WIRE}tip_diameter = 0.2e-3\nnatural_curvature = [[0.0, 0.0], [0.05, 3.0], [0.1, 8.0]]\n"),
+        TWO.into(),
+    ] {
+        let AnyScene::Varying(scene) = AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap() else {
+            panic!("uniform: {rod}")
+        };
+        let scan = Scan::run(scene).unwrap();
+        assert!(scan.is_complete() && !scan.outcome.events.is_empty(), "{rod}\n{}", scan.report());
+        let held = scan.outcome.states.iter().filter(|state| !state.contacts.is_empty());
+        let shapes: Vec<_> = held.map(|state| state.elastica(&scan.scene.rod).unwrap()).collect();
+        // what is beyond the last contact carries nothing
+        assert!(!shapes.is_empty() && shapes.iter().all(|shape| shape.moment(0.1).abs() < 1e-12), "{rod}");
+    }
+}
+
+/// The same rod in three ways of writing.
+#[test]
+fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
+    let modulus = "bending_stiffness = 6.320e-4\n";
+    let wire = with_rod(&format!("length = 0.1\n{modulus}"));
+    let section = with_rod(&format!("length = 0.1\n[[rod.section]]\nlength = 0.1\n{modulus}"));
+    let events = |text: &str| match AnyScene::parse("scene.toml".as_ref(), text).unwrap() {
+        AnyScene::Uniform(scene) => Scan::run(scene).unwrap().outcome.events,
+        AnyScene::Varying(scene) => Scan::run(scene).unwrap().outcome.events,
+    };
+    let (wire, section) = (events(&wire), events(&section));
+    assert_eq!(wire.len(), section.len());
+    for (one, other) in wire.iter().zip(&section) {
+        assert!(one.kind == other.kind && (one.pose().x - other.pose().x).abs() < 1e-12);
+        assert!((one.before.reactions.f0x - other.before.reactions.f0x).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn other_commands_refuse_it() {
+    let scene = with_rod(TWO);
+    assert!(scene != SCENE);
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("scene.toml"), scene).unwrap();
+    for arguments in [
+        &["simulate", "scene.toml"][..],
+        &["fake-sensor", "scene.toml", "--protocol", "rdt"],
+        &["budget", "scene.toml"],
+    ] {
+        let output = vibrissa(dir.path(), arguments);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && message.contains("not uniform or not straight at rest"), "{message}");
+    }
+}

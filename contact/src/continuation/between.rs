@@ -1,0 +1,173 @@
+//! The equilibria to report between both ends of a step: by its cubic, corrected.
+
+use crate::contact_set::Configuration;
+use crate::contact_set::order::ordered;
+use crate::continuation::branch::{Condition, Tangent};
+use crate::continuation::certify::{Quality, state};
+use crate::continuation::step::{LARGEST_CORRECTION, LARGEST_RESIDUAL, LEAST_COSINE, Point, STEEPEST, Step, Stepper};
+use crate::continuation::transition::breaks;
+use crate::gap::scan::{Scan, Scanner};
+use crate::state::State;
+use rod_core::PhysicalRod;
+
+/// Halvings of an interval: 60 reach rounding.
+const MOST_HALVINGS: usize = 60;
+/// Distance (path parameter) from the pose at which the cubic is left to Newton's method, which comes to the pose in one step.
+const NEAR_POSE: f64 = 1e-12;
+
+impl<R: PhysicalRod> Stepper<'_, R> {
+    /// The equilibrium at the pose `tau` on the way of `step` from `from`, where all that was known of the step holds there
+    /// too.
+    pub fn between(&mut self, from: &Point, step: &Step, tau: f64) -> Option<State> {
+        let last = step.last();
+        if last.contacts.len() != from.configuration.contacts.len() {
+            return None;
+        }
+        let length = from.tangent.along(&last.z, &from.configuration.z);
+        let after = if let Step::Moved(next) = step {
+            Some((&next.tangent, 1.0 / from.tangent.component(&next.tangent.direction)))
+        } else {
+            None
+        };
+        let way = Way { from, to: last, after, length };
+        let mut here = way.at_pose(tau)?;
+        let predicted = here.z.clone();
+        let mut report = self.corrector.at_pose(&mut here, tau);
+        let strayed =
+            |here: &Configuration| from.tangent.distance(&here.z, &predicted) > LARGEST_CORRECTION * length + 1e-9;
+        if !report.status.is_solved() || strayed(&here) {
+            here = self.by_arclength(&way, tau)?;
+            report = self.corrector.at_pose(&mut here, tau);
+        }
+        if !report.status.is_solved()
+            || report.residual > LARGEST_RESIDUAL
+            || !ordered(&self.corrector.setup.world, &here)
+        {
+            return None;
+        }
+        here.set_tau(tau);
+        let scan = self.scan(&here);
+        let mut holds = scan.is_outside();
+        breaks(&self.corrector.setup.world, &here, &scan.crossings, |_| holds = false);
+        let stable = holds && (self.stays_stable(from, &here, &scan) || self.is_stable(&here, &scan));
+        let quality = if here.count() == 0 { Quality::FREE } else { Quality::new(&report, true) };
+        stable.then(|| state(&self.corrector.setup, &here, &scan, quality))
+    }
+
+    /// Whether the equilibrium `here`, which was solved for last, is as stable as where its step comes from. On the way the signs
+    /// of the second variation change only in a fold, from where on tau falls along the branch, and where a contact wraps around the
+    /// contour.
+    fn stays_stable(&self, from: &Point, here: &Configuration, scan: &Scan) -> bool {
+        let direction = self.corrector.direction(here.z.len());
+        from.quality.stable
+            && from.tangent.by_tau() > STEEPEST
+            && from.tangent.cosine(direction) > LEAST_COSINE
+            && Scanner::wraps_nowhere(&self.corrector.setup, here, scan)
+    }
+
+    /// The point of the way at the pose `tau` by its arclength: next to a fold the pose alone is ill-conditioned.
+    fn by_arclength(&mut self, way: &Way<'_>, tau: f64) -> Option<Configuration> {
+        let Way { from, length, .. } = *way;
+        let (mut low, mut high) = (0.0, length);
+        let mut found = None;
+        for _ in 0..MOST_HALVINGS {
+            let distance = 0.5 * (low + high);
+            let mut here = way.at(distance);
+            let plane = Condition::Plane { tangent: &from.tangent, from: &from.configuration.z, distance };
+            if !self.corrector.correct(&mut here, plane).status.is_solved() {
+                return None;
+            }
+            if here.tau() < tau {
+                low = distance;
+            } else {
+                high = distance;
+            }
+            found = Some(here);
+        }
+        found
+    }
+}
+
+/// A step from one configuration to another one on the same branch, as a cubic in the arclength along the first tangent.
+struct Way<'a> {
+    from: &'a Point,
+    to: &'a Configuration,
+    /// The tangent at the end, where it is known, and its arclength for one along the first tangent.
+    after: Option<(&'a Tangent, f64)>,
+    length: f64,
+}
+
+impl Way<'_> {
+    /// The cubic of unknown number `i` in x: what it is at 0, and the rates of its change from there.
+    fn cubic(&self, i: usize) -> [f64; 4] {
+        let (start, end, l) = (self.from.configuration.z[i], self.to.z[i], self.length);
+        let rate = self.from.tangent.rate(i);
+        let bent = (end - start - rate * l) / (l * l);
+        let Some((after, stretch)) = self.after else { return [start, rate, bent, 0.0] };
+        let turned = (after.rate(i) * stretch - rate) / l;
+        [start, rate, 3.0 * bent - turned, (turned - 2.0 * bent) / l]
+    }
+
+    fn at(&self, x: f64) -> Configuration {
+        let mut here = self.to.clone();
+        for i in 0..here.z.len() {
+            here.z[i] = value(self.cubic(i), x);
+        }
+        here
+    }
+
+    /// The point at the pose `tau`; none where there is no way.
+    fn at_pose(&self, tau: f64) -> Option<Configuration> {
+        let cubic = self.cubic(self.to.z.len() - 1);
+        let (mut low, mut high) = (0.0, self.length);
+        if high <= 0.0 || high.is_nan() {
+            return None;
+        }
+        let (mut x, mut before) = (high * (tau - cubic[0]) / (self.to.tau() - cubic[0]), f64::NAN);
+        for _ in 0..MOST_HALVINGS {
+            let off = value(cubic, x) - tau;
+            if off < 0.0 {
+                low = x;
+            } else {
+                high = x;
+            }
+            if off.abs() <= NEAR_POSE || before == x {
+                break;
+            }
+            before = x;
+            let [_, b, c, d] = cubic;
+            let newton = x - off / (b + x * (2.0 * c + x * 3.0 * d));
+            x = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        }
+        Some(self.at(x))
+    }
+}
+
+/// The cubic with such coefficients at x.
+fn value([a, b, c, d]: [f64; 4], x: f64) -> f64 {
+    a + x * (b + x * (c + x * d))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::path::ClampPath;
+    use crate::{Sweep, equilibrium};
+    use rod_contours::{Composite, Parabola};
+    use rod_core::{Pose, Rod};
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn what_is_stable_by_its_step_is_stable_on_its_own() {
+        let parabola = |x| Box::new(Parabola::new([x, 0.0], 5.0).unwrap()) as _;
+        let contour = Composite::joined(vec![parabola(0.0), parabola(0.3)]).unwrap();
+        let rod = Rod::new(1.0, 1.0).unwrap();
+        let at = |x| Pose { x, y: -0.4, phi: FRAC_PI_2 };
+        let states = Sweep::new(&rod, &contour, ClampPath::new(at(0.8), at(-0.9)).unwrap(), 1e-3).unwrap().run().states;
+        let held: Vec<_> = states.iter().filter(|state| !state.contacts.is_empty()).collect();
+        assert!(held.len() > 1000);
+        for state in held {
+            let alone = equilibrium(&rod, &contour, state.pose, &state.contacts).unwrap().state.certificate;
+            assert!(state.certificate.stable && alone.stable, "{:?}", state.pose);
+        }
+    }
+}

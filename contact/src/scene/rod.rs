@@ -1,0 +1,84 @@
+//! The rod between its contacts, dimensionless, of any model.
+
+use rod_core::{Cut, Pose, RodModel, Station};
+use std::f64::consts::PI;
+
+/// A part of the rod between two contacts, along which the force is constant.
+pub(crate) type Segment = rod_core::Segment<Cut>;
+
+/// The rod at its clamp, which feels the moment `m0z`.
+pub(crate) fn at_clamp(Pose { x, y, phi }: Pose, m0z: f64) -> Cut {
+    Cut { x, y, phi, moment: -m0z }
+}
+
+/// The rod at an arc length of one of its segments.
+#[inline(always)]
+pub(crate) fn at(rod: &impl RodModel, segment: &Segment, s: f64) -> Cut {
+    rod.carry(segment.s, &segment.start, segment.a, segment.b, s - segment.s)
+}
+
+/// The rod at an arc length.
+pub(crate) fn along(rod: &impl RodModel, segments: &[Segment], s: f64) -> Cut {
+    at(rod, &segments[segments.partition_point(|segment| segment.s <= s).saturating_sub(1)], s)
+}
+
+/// The rod walked from the clamp, contact by contact, under the force that it carries there.
+pub(crate) struct Walk<'a, M> {
+    rod: &'a M,
+    s: f64,
+    at: Cut,
+    force: (f64, f64),
+}
+
+impl<'a, M: RodModel> Walk<'a, M> {
+    /// From the clamp with the force (A, B) on the first segment.
+    pub fn new(rod: &'a M, clamp: Cut, force: (f64, f64)) -> Self {
+        Self { rod, s: 0.0, at: clamp, force }
+    }
+
+    /// Goes on to a contact at arc length `s`, that pushes with `force` across the tangent angle `alpha`: the slope angle of the rod
+    /// there.
+    pub fn to(&mut self, s: f64, force: f64, alpha: f64) -> f64 {
+        let (a, b) = self.force;
+        self.at = self.rod.carry(self.s, &self.at, a, b, s - self.s);
+        self.s = s;
+        let (sin, cos) = alpha.sin_cos();
+        self.force = (a - force * cos, b - force * sin);
+        self.at.phi
+    }
+}
+
+/// How far at most the rod leaves the chord between two points of a segment, each with its arc length: by 1/8 of the square of their
+/// distance times the largest curvature.
+#[inline(always)]
+pub(crate) fn bulge(rod: &impl RodModel, from: (f64, &Station), to: (f64, &Station), force: f64) -> f64 {
+    let length = to.0 - from.0;
+    let bent = if rod.is_uniform() {
+        // it changes no faster than by the force: a cheap bound, hardly worse
+        from.1.moment.abs().max(to.1.moment.abs()) + 0.5 * force * length
+    } else {
+        let (least, largest) = rod.curvature_bounds((from.0, from.1.moment), (to.0, to.1.moment), force);
+        least.abs().max(largest.abs())
+    };
+    0.125 * length * length * bent
+}
+
+/// How fast the phase of the elastica grows at most along a segment under a force: sqrt(force / E I), rad a length.
+#[inline(always)]
+pub(crate) fn phase_rate(rod: &impl RodModel, from: f64, to: f64, force: f64) -> f64 {
+    (force / rod.least_stiffness(from, to)).sqrt()
+}
+
+/// Whether a segment is too short to buckle between its ends under a force, both ends clamped in angle: force < E I (pi / length)^2.
+#[inline(always)]
+pub(crate) fn holds_between_ends(rod: &impl RodModel, from: f64, to: f64, force: f64) -> bool {
+    let length = to - from;
+    length > 0.0 && force * length * length < PI * PI * rod.least_stiffness(from, to)
+}
+
+/// Curvature of the rod right behind a contact.
+#[inline(always)]
+pub(crate) fn curvature_behind(rod: &impl RodModel, segments: &[Segment], j: usize) -> f64 {
+    let behind = &segments[j + 1];
+    rod.curvature_at(behind.s, behind.start.moment)
+}

@@ -1,0 +1,142 @@
+//! The first equilibrium: free, or brought along the path, or of all that can be reached the one of least energy.
+
+use super::landing::same;
+use super::start::{Approach, Start, StartCandidate};
+use super::{AT_END, Sweep};
+use crate::contact_set::Configuration;
+use crate::continuation::certify::energy;
+use crate::continuation::step::{Point, Stepper};
+use crate::error::StopReason;
+use crate::gap::scan::Scan;
+use crate::path::ClampPath;
+use crate::phase::Phase;
+use crate::snap::chain::Chain;
+use crate::snap::settle::rest;
+use rod_core::PhysicalRod;
+use std::f64::consts::PI;
+
+/// Bends (rad over the length) given to a straight rod that is let go into contact. Without a bend the chain does not buckle; its
+/// sign decides to which side.
+const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
+/// Range and step of the search for a free pose behind a start in contact, in the path parameter: lengths of the rod, or
+/// radians of a path that only turns.
+const BACK: (f64, f64) = (4.0, 0.05);
+/// Way along its own path from the nearest free pose up to which a rod in contact is taken to have come that way, whatever its
+/// energy: a straight rod passes a point within two lengths. From further back it may have been rolled up on the way.
+const SHORT: f64 = 2.0;
+/// Relative difference of energies that is rounding, as of an equilibrium and its mirror image: then the approach tried first counts.
+const SAME_ENERGY: f64 = 1e-9;
+
+/// The approaches by the ways to the start of a path.
+const APPROACHES: [Approach; 5] =
+    [Approach::AlongPath, Approach::TurningIn, Approach::TurningIn, Approach::MovingIn, Approach::MovingIn];
+
+/// An equilibrium in the first pose.
+struct Candidate {
+    approach: Approach,
+    configuration: Configuration,
+    /// J.
+    energy: f64,
+}
+
+impl<R: PhysicalRod> Sweep<'_, R> {
+    /// The first point: free, come along the path, or in contact with the least energy.
+    pub(super) fn begin(&mut self) -> Result<Point, StopReason> {
+        if let Some(start) = self.free(0.0) {
+            self.start = Some(Start::Free);
+            return Ok(self.at_rest(start));
+        }
+        if self.scan_free(0.0).clamp_inside {
+            return Err(StopReason::ClampInside);
+        }
+        let (mut found, mut has_come) = (Vec::new(), false);
+        for (approach, way) in APPROACHES.into_iter().zip(self.setup().path.to_its_start()) {
+            if let Some((way, brought)) = self.brought_by(way) {
+                self.keep(&mut found, approach, Some(brought));
+                has_come |= approach == Approach::AlongPath && way <= SHORT && !found.is_empty();
+            }
+        }
+        let let_go = BENDS.map(|bend| self.let_go(bend));
+        // what lies behind an open contour has not come there by bending
+        for let_go in let_go.iter().flatten().filter(|let_go| self.is_before(let_go)).cloned().collect::<Vec<_>>() {
+            self.keep(&mut found, Approach::LettingGo, Some(let_go));
+        }
+        if found.is_empty() {
+            self.keep(&mut found, Approach::LettingGo, let_go.into_iter().flatten().next());
+        }
+        let best = if has_come { 0 } else { least(&found).ok_or(StopReason::NoStart)? };
+        let best = found.remove(best);
+        found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+        found.insert(0, best);
+        self.start = Some(Start::InContact(found.iter().map(Candidate::told).collect()));
+        Ok(self.at_rest(found.swap_remove(0).configuration))
+    }
+
+    /// Keeps what an approach came to, if it holds and is not known yet.
+    fn keep(&mut self, found: &mut Vec<Candidate>, approach: Approach, reached: Option<Configuration>) {
+        let Some(configuration) = reached else { return };
+        let known = found.iter().any(|known| same(&known.configuration, &configuration));
+        if known || !self.stepper.look(configuration.clone()).scan.is_outside() {
+            return;
+        }
+        let energy = energy(self.setup(), &configuration);
+        found.push(Candidate { approach, configuration, energy });
+    }
+
+    /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
+    /// further back, it is free; and how far back that was.
+    fn brought_by(&mut self, way: ClampPath) -> Option<(f64, Configuration)> {
+        let farthest = if way.turns_only() { PI } else { BACK.0 };
+        let tries = (farthest / BACK.1) as usize;
+        let mut free = Self::from_setup(self.setup().along(way), 0, f64::INFINITY, 0);
+        let back = (1..=tries).find_map(|k| free.free(-BACK.1 * k as f64))?;
+        let way = ClampPath::between(way.at(back.tau()), way.at(0.0))?;
+        let end = way.length();
+        let mut brought =
+            self.led(way, Configuration::free(0.0), end).filter(|brought| brought.tau() <= end + AT_END)?;
+        brought.set_tau(0.0);
+        // the pose is the same but for rounding
+        let mut exact = brought.clone();
+        let solved = exact.count() > 0 && self.stepper.corrector.at_pose(&mut exact, 0.0).status.is_solved();
+        Some((-back.tau(), if solved { exact } else { brought }))
+    }
+
+    /// The free rod at a pose, if it touches nothing there.
+    pub(super) fn free(&mut self, tau: f64) -> Option<Configuration> {
+        let scan = self.scan_free(tau);
+        scan.is_outside().then(|| Configuration::free(tau))
+    }
+
+    /// A look at the free rod where it has not come from elsewhere: all that is behind an open contour is solid.
+    fn scan_free(&mut self, tau: f64) -> Scan {
+        let filled = self.setup().filled();
+        self.stepper.scanner.scan(&filled, &Configuration::free(tau))
+    }
+
+    /// Whether no part of the rod lies behind an open contour.
+    fn is_before(&mut self, configuration: &Configuration) -> bool {
+        let filled = self.setup().filled();
+        self.stepper.scanner.scan(&filled, configuration).is_outside()
+    }
+
+    /// The free rod let go in the first pose.
+    fn let_go(&mut self, bend: f64) -> Option<Configuration> {
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        let mut chain = Chain::at_rest(corrector.setup.rod.model(), corrector.setup.path.at(0.0), bend);
+        rest(&mut chain, corrector, scanner, 0.0, |_| true).map(|seen| seen.configuration)
+    }
+}
+
+impl Candidate {
+    fn told(&self) -> StartCandidate {
+        let Self { approach, configuration, energy } = self;
+        let phase = Phase { contacts: configuration.count(), tip: configuration.ends_at_tip() };
+        StartCandidate { approach: *approach, phase, energy: *energy }
+    }
+}
+
+/// The candidate of least energy.
+fn least(found: &[Candidate]) -> Option<usize> {
+    let lower = |best: usize, k: usize| found[k].energy < found[best].energy * (1.0 - SAME_ENERGY);
+    (0..found.len()).reduce(|best, k| if lower(best, k) { k } else { best })
+}

@@ -1,0 +1,80 @@
+//! A branch that turns back in a fold and forward again in another one: the rod snaps from the first fold onto the part behind the
+//! second, with the same contacts.
+
+use super::Sweep;
+use super::landing::same;
+use crate::contact_set::Configuration;
+use crate::contact_set::order::ordered;
+use crate::continuation::branch::{Condition, Tangent};
+use crate::continuation::certify::energy;
+use crate::continuation::step::{LARGEST_RESIDUAL, LEAST_COSINE, Seen, Stepper};
+use crate::continuation::transition::breaks;
+use crate::snap::settle::settle;
+use rod_core::PhysicalRod;
+
+/// First and longest step along the branch, in arclength; shorter ones than the last of these are not tried.
+const STEPS: [f64; 3] = [0.02, 0.1, 1e-4];
+/// Limit of steps.
+const MOST_STEPS: usize = 100;
+
+impl<R: PhysicalRod> Sweep<'_, R> {
+    /// The equilibrium at the pose of a fold on the same branch, behind its next fold; none where a contact forms or leaves on the way there,
+    /// or where it has more energy than the rod has in the fold.
+    pub(super) fn behind_next_fold(&mut self, fold: &Configuration) -> Option<Seen> {
+        if fold.count() == 0 {
+            return None;
+        }
+        let (there, _) = self.stepper.corrector.inspect_at_pose(fold);
+        let back = Tangent { direction: there.direction.iter().map(|d| -d).collect(), weights: there.weights.clone() };
+        [there, back].into_iter().find_map(|tangent| self.followed_back(fold, tangent))
+    }
+
+    /// The same in one direction along the branch.
+    fn followed_back(&mut self, fold: &Configuration, mut tangent: Tangent) -> Option<Seen> {
+        let tau = fold.tau();
+        let [mut h, longest, shortest] = STEPS;
+        let (mut here, mut has_turned) = (fold.clone(), false);
+        for _ in 0..MOST_STEPS {
+            let mut next = tangent.ahead(&here, h);
+            let plane = Condition::Plane { tangent: &tangent, from: &here.z, distance: h };
+            let corrector = &mut self.stepper.corrector;
+            let report = corrector.correct(&mut next, plane);
+            let solved = report.status.is_solved() && report.residual <= LARGEST_RESIDUAL;
+            let after = solved.then(|| corrector.inspect(&next, plane).0);
+            let Some(after) = after.filter(|after| after.cosine(&tangent.direction) > LEAST_COSINE) else {
+                h *= 0.5;
+                if h < shortest {
+                    return None;
+                }
+                continue;
+            };
+            let scan = self.stepper.scan(&next);
+            let world = &self.stepper.corrector.setup.world;
+            let mut holds = scan.is_outside() && ordered(world, &next);
+            breaks(world, &next, &scan.crossings, |_| holds = false);
+            if !holds {
+                return None;
+            }
+            if has_turned && next.tau() >= tau {
+                return self.settled_at(tau, &here, &next, fold);
+            }
+            has_turned |= after.by_tau() > 0.0 && next.tau() < tau;
+            (here, tangent, h) = (next, after, (1.5 * h).min(longest));
+        }
+        None
+    }
+
+    /// The equilibrium at `tau` between two points of the branch.
+    fn settled_at(&mut self, tau: f64, from: &Configuration, to: &Configuration, fold: &Configuration) -> Option<Seen> {
+        let share = (tau - from.tau()) / (to.tau() - from.tau());
+        let mut guess = from.clone();
+        for (z, end) in guess.z.iter_mut().zip(&to.z) {
+            *z += share * (end - *z);
+        }
+        guess.set_tau(tau);
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        let landed = settle(corrector, scanner, guess)?;
+        let lower = energy(self.setup(), &landed.configuration) < energy(self.setup(), fold);
+        (lower && !same(&landed.configuration, fold)).then_some(landed)
+    }
+}

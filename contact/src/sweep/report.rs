@@ -1,0 +1,58 @@
+//! What is handed out: the poses to report, states, events and the reason of a stop.
+
+use super::{AT_END, Item, Sweep};
+use crate::continuation::certify::{Quality, state};
+use crate::continuation::step::{Point, SAME_POSE};
+use crate::error::{Stop, StopReason};
+use crate::event::{Event, EventKind};
+use crate::scene::setup::Setup;
+use crate::state::State;
+use rod_core::{PhysicalRod, Pose};
+
+impl<R: PhysicalRod> Sweep<'_, R> {
+    /// The next pose to report; the last one may be beyond the end by rounding.
+    pub(super) fn pose(&self) -> f64 {
+        (self.step * self.reported as f64).min(self.setup().path.length())
+    }
+
+    /// How far beyond the next pose to report the rod may be by rounding.
+    pub(super) fn slack(&self) -> f64 {
+        if self.pose() < self.setup().path.length() { SAME_POSE } else { AT_END }
+    }
+
+    pub(super) fn report(&mut self, point: &Point) {
+        self.hand_out(point.configuration.tau(), self.state(point));
+    }
+
+    /// The state at a pose to report.
+    pub(super) fn hand_out(&mut self, tau: f64, state: State) {
+        self.reached = self.reached.max(tau);
+        self.pending.push_back(Item::State(State { leg: self.leg, ..state }));
+        self.reported += 1;
+    }
+
+    pub(super) fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
+        let event = Event { kind, before: self.state(before), after: self.state(after) };
+        self.pending.push_back(Item::Event(event));
+    }
+
+    pub(super) fn state(&self, point: &Point) -> State {
+        let free = point.configuration.count() == 0;
+        let quality = if free { Quality::FREE } else { point.quality };
+        State { leg: self.leg, ..state(self.setup(), &point.configuration, &point.scan, quality) }
+    }
+
+    /// How far along the path the sweep has come.
+    pub(super) fn reached(&self) -> f64 {
+        self.at.as_ref().map_or(0.0, |point| point.configuration.tau()).max(self.reached)
+    }
+
+    pub(super) fn stop(&self, reason: StopReason) -> Stop {
+        let Setup { rod, path, .. } = self.setup();
+        let tau = self.reached();
+        let length = rod.units().length;
+        let Pose { x, y, phi } = path.at(tau);
+        let passed = self.before + path.parameter(tau, length);
+        Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: passed, reason }
+    }
+}

@@ -1,0 +1,285 @@
+//! Rods that are not uniform or not straight at rest, made from SI units.
+
+mod natural_curvature;
+mod stiffness;
+
+use crate::error::{RodError, finite};
+use crate::model::{Cone, CutSensitivities, RodModel, RodSection, check_sections};
+use crate::propagator::Cut;
+use crate::rod::{Rod, positive};
+use crate::segment::Segment;
+use crate::units::Units;
+use natural_curvature::{Curvature, Function};
+use std::sync::Arc;
+use stiffness::{Model, Stiffness};
+
+pub use natural_curvature::NaturalCurvature;
+
+/// By how much the lengths of sections may miss their sum, relative: rounding of some hundred lengths.
+const ROUNDING: f64 = 1e-13;
+/// Chords of the shape at rest that are compared with each other.
+const CHORDS: usize = 400;
+/// Largest ratio of the diameters of a cone. The stiffness then varies by a factor of 1e8, and its rounding by 100.
+const MOST_TAPERED: f64 = 100.0;
+
+/// An inextensible, unshearable rod (Euler-Bernoulli) whose bending stiffness or natural curvature varies along it.
+///
+/// [`Rod::tapered`], [`Rod::sections`], [`Rod::varying`] and [`Rod::with_natural_curvature`] make it from SI units. It is a
+/// [`RodModel`], in units of its length and of its stiffness at the clamp: [`units`](Self::units) converts.
+///
+/// ```
+/// use rod_core::{GeneralElastica, Load, Pose, Rod};
+/// // a whisker, 40 mm long, 0.1 mm thick at the base and 0.02 mm at the tip, with a radius of 50 mm at rest
+/// let whisker = Rod::tapered(0.04, 1e-4, 2e-5, 3e9)?.with_natural_curvature(20.0)?;
+/// let clamp = Pose { x: 0.0, y: 0.0, phi: 0.0 };
+/// // 1 uN across it at three quarters of its length, towards -y
+/// let load = Load { s: 0.03, force: 1e-6, alpha: 0.0 };
+/// let (shape, _) = GeneralElastica::under_loads(&whisker, whisker.units(), clamp, &[load])?;
+/// let reactions = shape.reactions();
+/// assert!((reactions.f0y - 1e-6).abs() < 1e-18 && reactions.m0z > 0.0); // N, N m
+/// // beyond the load the rod is bent as at rest
+/// assert!((shape.at(0.04)?.kappa - 20.0).abs() < 1e-9); // 1/m
+/// # Ok::<(), rod_core::RodError>(())
+/// ```
+#[derive(Clone)]
+pub struct VaryingRod {
+    /// Length and stiffness at the clamp.
+    at_clamp: Rod,
+    stiffness: Stiffness,
+    model: Model,
+}
+
+impl Rod {
+    /// A wire of `length` (m) whose diameter falls linearly from `base_diameter` at the clamp to `tip_diameter` (m), of
+    /// `youngs_modulus` (Pa): E I = E pi d^4 / 64. The tip may be the thick end.
+    ///
+    /// ```
+    /// use rod_core::Rod;
+    /// let message = Rod::tapered(0.04, 1e-4, 0.0, 3e9).unwrap_err().to_string();
+    /// assert_eq!(message, "tip_diameter is 0, expected a positive, finite number");
+    /// ```
+    ///
+    /// # Errors
+    /// [`RodError::NotPositive`] where one of the four is not a positive, finite number, [`RodError::TooThick`] where a diameter is
+    /// larger than the length, and [`RodError::TooTapered`] where one diameter is more than 100 times the other.
+    pub fn tapered(
+        length: f64,
+        base_diameter: f64,
+        tip_diameter: f64,
+        youngs_modulus: f64,
+    ) -> Result<VaryingRod, RodError> {
+        positive("base_diameter", base_diameter)?;
+        positive("tip_diameter", tip_diameter)?;
+        let at_clamp = Self::from_diameter(length, base_diameter, youngs_modulus)?;
+        if tip_diameter > length {
+            return Err(RodError::TooThick { diameter: tip_diameter, length });
+        }
+        let ratio = tip_diameter / base_diameter;
+        if !(1.0 / MOST_TAPERED..=MOST_TAPERED).contains(&ratio) {
+            return Err(RodError::TooTapered { tip_diameter, base_diameter });
+        }
+        // a taper of exactly 0 where the diameters are equal
+        let taper = (base_diameter - tip_diameter) / base_diameter;
+        VaryingRod::new(at_clamp, Stiffness::Cone(Cone { taper }))
+    }
+
+    /// A rod of `length` (m) that consists of sections from the clamp to the tip, each of constant stiffness and natural curvature.
+    ///
+    /// ```
+    /// use rod_core::{Rod, RodSection};
+    /// // a wire with a softer end
+    /// let wire = RodSection { length: 0.06, bending_stiffness: 6e-4, natural_curvature: 0.0 };
+    /// let end = RodSection { length: 0.04, bending_stiffness: 1e-4, natural_curvature: 0.0 };
+    /// let rod = Rod::sections(0.1, &[wire, end])?;
+    /// let message = Rod::sections(0.2, &[wire, end]).unwrap_err().to_string();
+    /// assert_eq!(message, "the lengths of the sections add up to 0.1, expected 0.2, the length of the rod");
+    /// # Ok::<(), rod_core::RodError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RodError::Section`] where a length or stiffness is not a positive, finite number, or a natural curvature is not finite;
+    /// [`RodError::SectionsLength`] where the lengths do not add up to that of the rod; [`RodError::NotPositive`] where there is no
+    /// section, or where a [unit](Self::units) is not a positive, finite number.
+    pub fn sections(length: f64, sections: &[RodSection]) -> Result<VaryingRod, RodError> {
+        positive("length", length)?;
+        let total = check_sections(sections)?;
+        if (total - length).abs() > ROUNDING * length {
+            return Err(RodError::SectionsLength { total, expected: length });
+        }
+        VaryingRod::of_sections(length, sections)
+    }
+
+    /// A rod of `length` (m) whose `bending_stiffness` (N m^2) is a function of the arc length (m, from the clamp). It is smooth but
+    /// at `borders` (m), which grow from the clamp to the tip.
+    ///
+    /// ```
+    /// use rod_core::Rod;
+    /// // softer towards the tip, and half as stiff from 80 mm on
+    /// let stiffness = |s: f64| if s < 0.08 { 1e-3 * (-9.0 * s).exp() } else { 0.5e-3 * (-9.0 * s).exp() };
+    /// assert!(Rod::varying(0.1, stiffness, &[0.08]).is_ok());
+    /// // a jump that nobody told
+    /// assert!(Rod::varying(0.1, stiffness, &[]).unwrap_err().to_string().contains("not smooth near arc length 0.07"));
+    /// ```
+    ///
+    /// # Errors
+    /// [`RodError::NotPositive`] for the length, [`RodError::Stiffness`] where a stiffness is not a positive, finite number,
+    /// [`RodError::NotSmooth`] near a jump or kink that is not among the borders, [`RodError::Border`] for borders out of order; all
+    /// with the place in m.
+    pub fn varying(
+        length: f64,
+        bending_stiffness: impl Fn(f64) -> f64 + Send + Sync + 'static,
+        borders: &[f64],
+    ) -> Result<VaryingRod, RodError> {
+        positive("length", length)?;
+        let clamp = bending_stiffness(0.0);
+        positive("bending_stiffness at arc length 0", clamp)?;
+        let function: Function = Arc::new(move |s| bending_stiffness(s * length) / clamp);
+        let borders = borders.iter().map(|border| border / length).collect();
+        VaryingRod::new(Self::new(length, clamp)?, Stiffness::Function { function, borders })
+    }
+
+    /// The same rod, bent at rest. A curvature that is a number keeps the closed form; one that is a function has to be smooth. The
+    /// wire of [`Rod::from_diameter`] and the yield stress do not go along.
+    ///
+    /// ```
+    /// use rod_core::Rod;
+    /// let rod = Rod::new(0.1, 1e-3)?;
+    /// let (arc, coil) = (rod.with_natural_curvature(5.0)?, rod.with_natural_curvature(|s: f64| 200.0 * s)?);
+    /// # Ok::<(), rod_core::RodError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`VaryingRod::with_natural_curvature`].
+    pub fn with_natural_curvature(self, curvature: impl Into<NaturalCurvature>) -> Result<VaryingRod, RodError> {
+        let uniform =
+            RodSection { length: self.length(), bending_stiffness: self.bending_stiffness(), natural_curvature: 0.0 };
+        VaryingRod::of_sections(self.length(), &[uniform])?.with_natural_curvature(curvature)
+    }
+}
+
+impl VaryingRod {
+    /// Of sections that have been checked.
+    fn of_sections(length: f64, sections: &[RodSection]) -> Result<Self, RodError> {
+        let clamp = sections.first().map_or(f64::NAN, |first| first.bending_stiffness);
+        let at_clamp = Rod::new(length, clamp)?;
+        let dimensionless = |section: &RodSection| RodSection {
+            length: section.length / length,
+            bending_stiffness: section.bending_stiffness / clamp,
+            natural_curvature: section.natural_curvature * length,
+        };
+        Self::new(at_clamp, Stiffness::Sections(sections.iter().map(dimensionless).collect()))
+    }
+
+    fn new(at_clamp: Rod, stiffness: Stiffness) -> Result<Self, RodError> {
+        let model = stiffness.model().and_then(open).map_err(|error| in_si(error, &at_clamp))?;
+        Ok(Self { at_clamp, stiffness, model })
+    }
+
+    /// The same rod with another curvature at rest (1/m) than it has: a number, or a smooth function of the arc length (m), which may
+    /// jump at the joints of sections and the borders of [`Rod::varying`].
+    ///
+    /// # Errors
+    /// [`RodError::NotFinite`] for a number and [`RodError::NaturalCurvature`] for a function that is not finite,
+    /// [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest.
+    pub fn with_natural_curvature(self, curvature: impl Into<NaturalCurvature>) -> Result<Self, RodError> {
+        let length = self.length();
+        let curvature = curvature.into().0.over(length);
+        if let Curvature::Constant(curvature) = curvature {
+            finite("natural_curvature", curvature)?;
+        }
+        let model = self.stiffness.bent(curvature).and_then(open).map_err(|error| in_si(error, &self.at_clamp))?;
+        Ok(Self { model, ..self })
+    }
+
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        self.at_clamp.length()
+    }
+
+    /// What the dimensionless units of this rod are in SI: those of its length and its stiffness at the clamp.
+    pub fn units(&self) -> Units {
+        self.at_clamp.units()
+    }
+}
+
+/// The rod, if it does not cross itself at rest: its chords do not.
+fn open(rod: Model) -> Result<Model, RodError> {
+    if rod.is_straight() {
+        return Ok(rod);
+    }
+    let mut cut = Cut { x: 0.0, y: 0.0, phi: 0.0, moment: 0.0 };
+    let mut points = vec![[0.0, 0.0]];
+    let (mut least, mut most): (f64, f64) = (0.0, 0.0);
+    for k in 0..CHORDS {
+        cut = rod.carry(k as f64 / CHORDS as f64, &cut, 0.0, 0.0, 1.0 / CHORDS as f64);
+        points.push([cut.x, cut.y]);
+        (least, most) = (least.min(cut.phi), most.max(cut.phi));
+    }
+    // a curve that turns by less than half a turn has no loop
+    if most - least < std::f64::consts::PI {
+        return Ok(rod);
+    }
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    for i in 0..CHORDS {
+        for j in i + 2..CHORDS {
+            let [a, b, c, d] = [points[i], points[i + 1], points[j], points[j + 1]];
+            if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
+                let [one, other] = [i, j].map(|k| (k as f64 + 0.5) / CHORDS as f64);
+                return Err(RodError::CrossesItself { one, other });
+            }
+        }
+    }
+    Ok(rod)
+}
+
+/// An error of a dimensionless rod for the user, who knows it in SI.
+fn in_si(error: RodError, at_clamp: &Rod) -> RodError {
+    let (length, stiffness) = (at_clamp.length(), at_clamp.bending_stiffness());
+    match error {
+        RodError::Stiffness { s, value } => RodError::Stiffness { s: s * length, value: value * stiffness },
+        RodError::NaturalCurvature { s, value } => RodError::NaturalCurvature { s: s * length, value: value / length },
+        RodError::NotSmooth { s } => RodError::NotSmooth { s: s * length },
+        RodError::CrossesItself { one, other } => RodError::CrossesItself { one: one * length, other: other * length },
+        RodError::Border { s, least } => RodError::Border { s: s * length, least: least * length },
+        error => error,
+    }
+}
+
+impl std::fmt::Debug for VaryingRod {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("VaryingRod")
+            .field("length", &self.length())
+            .field("bending_stiffness_at_clamp", &self.at_clamp.bending_stiffness())
+            .finish_non_exhaustive()
+    }
+}
+
+impl RodModel for VaryingRod {
+    fn carry_with_sensitivities(&self, s: f64, start: &Cut, a: f64, b: f64, length: f64) -> (Cut, CutSensitivities) {
+        self.model.carry_with_sensitivities(s, start, a, b, length)
+    }
+    fn curvature_at(&self, s: f64, moment: f64) -> f64 {
+        self.model.curvature_at(s, moment)
+    }
+    fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
+        self.model.bending_energy(segment, to, end)
+    }
+    fn largest_curvature(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
+        self.model.largest_curvature(segment, to, end)
+    }
+    fn curvature_bounds(&self, from: (f64, f64), to: (f64, f64), force: f64) -> (f64, f64) {
+        self.model.curvature_bounds(from, to, force)
+    }
+    fn least_stiffness(&self, from: f64, to: f64) -> f64 {
+        self.model.least_stiffness(from, to)
+    }
+    fn is_straight(&self) -> bool {
+        self.model.is_straight()
+    }
+    fn joints(&self) -> &[f64] {
+        self.model.joints()
+    }
+    fn carry(&self, s: f64, start: &Cut, a: f64, b: f64, length: f64) -> Cut {
+        self.model.carry(s, start, a, b, length)
+    }
+}

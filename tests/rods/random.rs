@@ -1,0 +1,175 @@
+//! Random rods past random discs, judged by an integrator of its own: DOP853 along E I(s) and kappa0(s), written down here once more.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use vibrissa::contact::ContactKind;
+use vibrissa::rod::{Cut, Method, Ode, Pose, Propagator, RodSection, VaryingRod};
+use vibrissa::{CircularArc, ClampPath, Composite, Rod, State, Sweep};
+
+/// Points of a segment at which the gap is measured.
+const SAMPLES: usize = 60;
+/// What may be off (L, rad), relative to 1 + the largest curvature: the integrator's tolerance is 1e-12 a step.
+const ERROR: f64 = 1e-8;
+
+/// A sequence of numbers that is the same on every machine (splitmix64; Steele, Lea and Flood 2014).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn within(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+type Function = Box<dyn Fn(f64) -> f64>;
+
+/// A rod of length 1 with E I = 1 at the clamp, its E I and its natural curvature as functions, and where these jump.
+fn rod(numbers: &mut Numbers) -> (VaryingRod, Function, Function, Vec<f64>) {
+    let bend = numbers.within(-1.5, 1.5);
+    match numbers.next() % 3 {
+        0 => {
+            let (taper, base) = (numbers.within(-0.3, 0.85), 0.01_f64);
+            let youngs_modulus = 64.0 / (PI * base.powi(4));
+            let rod = Rod::tapered(1.0, base, base * (1.0 - taper), youngs_modulus).unwrap();
+            let rod = rod.with_natural_curvature(bend).unwrap();
+            (rod, Box::new(move |s| (1.0 - taper * s).powi(4)), Box::new(move |_| bend), Vec::new())
+        }
+        1 => {
+            let joint = numbers.within(0.2, 0.8);
+            let stiff = [1.0, numbers.within(0.1, 2.0)];
+            let bent = [bend, numbers.within(-1.5, 1.5)];
+            let section =
+                |i: usize, length| RodSection { length, bending_stiffness: stiff[i], natural_curvature: bent[i] };
+            let rod = Rod::sections(1.0, &[section(0, joint), section(1, 1.0 - joint)]).unwrap();
+            let of = move |values: [f64; 2]| move |s: f64| values[usize::from(s >= joint)];
+            (rod, Box::new(of(stiff)), Box::new(of(bent)), vec![joint])
+        }
+        _ => {
+            let grows = numbers.within(-2.0, 2.0);
+            let rod = Rod::new(1.0, 1.0).unwrap().with_natural_curvature(move |s: f64| bend + grows * s).unwrap();
+            (rod, Box::new(|_| 1.0), Box::new(move |s| bend + grows * s), Vec::new())
+        }
+    }
+}
+
+/// Discs: centre and radius.
+type Discs = Vec<([f64; 2], f64)>;
+
+/// Whether the state is an equilibrium of such a rod among the discs.
+fn judge(
+    state: &State,
+    (stiffness, natural, jumps): (&Function, &Function, &[f64]),
+    discs: &Discs,
+) -> Result<(), String> {
+    let ode = Ode::with_law(|s, m| m / stiffness(s) + natural(s), Method::Dop853, 1e-12).unwrap();
+    let mut cut = Cut { x: state.pose.x, y: state.pose.y, phi: state.pose.phi, moment: -state.reactions.m0z };
+    let (mut a, mut b, mut from) = (state.reactions.f0y, -state.reactions.f0x, 0.0);
+    let scale = 1.0 + state.contacts.iter().map(|contact| contact.force).sum::<f64>();
+    let mut least = f64::INFINITY;
+    let ends = state.contacts.iter().map(Some).chain([None]);
+    for contact in ends {
+        let to = contact.map_or(1.0, |contact| contact.s);
+        // in small steps, none of them over a jump
+        let mut stops: Vec<f64> = (1..=SAMPLES).map(|k| from + (to - from) * k as f64 / SAMPLES as f64).collect();
+        stops.extend(jumps.iter().filter(|jump| (from..to).contains(*jump)));
+        stops.sort_by(f64::total_cmp);
+        let mut at = from;
+        for stop in stops.into_iter().filter(|stop| *stop > from) {
+            // one side of a jump: the law is asked at the ends of a step
+            let inside = 1e-13 * f64::from(u8::from(jumps.contains(&at)));
+            cut = ode.advance(at + inside, &cut, a, b, stop - at - 2.0 * inside).map_err(|error| error.to_string())?;
+            at = stop;
+            for ([x, y], radius) in discs {
+                least = least.min((cut.x - x).hypot(cut.y - y) - radius);
+            }
+        }
+        let Some(contact) = contact else { break };
+        let off = (cut.x - contact.x).hypot(cut.y - contact.y);
+        if off > ERROR * scale {
+            return Err(format!("misses a contact by {off:e}"));
+        }
+        if contact.kind == ContactKind::Tangent && (cut.phi - contact.alpha).sin().abs() > ERROR * scale {
+            return Err(format!("crosses a contact by {:e}", (cut.phi - contact.alpha).sin()));
+        }
+        if contact.force < -1e-9 {
+            return Err(format!("a contact pulls with {:e}", contact.force));
+        }
+        let ([x, y], radius) = discs[contact.object];
+        if ((contact.x - x).hypot(contact.y - y) - radius).abs() > ERROR {
+            return Err("a contact is off its disc".into());
+        }
+        (a, b, from) = (a - contact.force * contact.alpha.cos(), b - contact.force * contact.alpha.sin(), to);
+    }
+    if cut.moment.abs() > ERROR * scale || a.abs() + b.abs() > ERROR * scale {
+        return Err(format!("the tip carries the moment {:e}, the force {a:e}, {b:e}", cut.moment));
+    }
+    if least < -ERROR * scale {
+        return Err(format!("goes through a disc by {least:e}"));
+    }
+    Ok(())
+}
+
+/// Scenes with such seeds: how many states and events were judged, what was wrong, and why sweeps stopped.
+fn these(seeds: std::ops::Range<u64>) -> (usize, usize, Vec<String>, Vec<String>) {
+    let (mut states, mut events, mut wrong, mut stops) = (0, 0, Vec::new(), Vec::new());
+    for seed in seeds {
+        let mut numbers = Numbers(seed);
+        let (rod, stiffness, natural, jumps) = rod(&mut numbers);
+        let count = 1 + numbers.next() % 3;
+        let mut discs = Discs::new();
+        for _ in 0..count {
+            let (centre, radius) = ([numbers.within(-0.5, 0.5), numbers.within(0.3, 1.0)], numbers.within(0.03, 0.2));
+            let clear =
+                |([x, y], other): &([f64; 2], f64)| (x - centre[0]).hypot(y - centre[1]) > radius + other + 0.02;
+            if discs.iter().all(clear) {
+                discs.push((centre, radius));
+            }
+        }
+        let objects: Vec<_> = discs
+            .iter()
+            .map(|(centre, radius)| Composite::single(CircularArc::new(*centre, *radius, 0.0, TAU).unwrap()).unwrap())
+            .collect();
+        let sign = if numbers.next().is_multiple_of(2) { 1.0 } else { -1.0 };
+        let lean = numbers.within(-0.4, 0.4);
+        let at = |x: f64| Pose { x, y: 0.0, phi: FRAC_PI_2 + lean };
+        let path = ClampPath::new(at(1.6 * sign), at(-1.6 * sign)).unwrap();
+        let outcome = Sweep::new(&rod, &objects, path, 0.05).unwrap().run();
+        let at_events = outcome.events.iter().flat_map(|event| [&event.before, &event.after]);
+        for state in outcome.states.iter().chain(at_events) {
+            if let Err(what) = judge(state, (&stiffness, &natural, &jumps), &discs) {
+                wrong.push(format!("{seed}: {what} in {} at {:?}", state.phase(), state.pose));
+            }
+        }
+        states += outcome.states.len();
+        events += outcome.events.len();
+        if let Some(stop) = outcome.stop {
+            stops.push(format!("{seed}: {stop}"));
+        }
+    }
+    (states, events, wrong, stops)
+}
+
+#[test]
+fn every_state_is_an_equilibrium() {
+    let (states, events, wrong, stops) = these(0..60);
+    assert!(states > 3000 && events > 150, "{states} {events}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(stops.len() <= 1, "{stops:#?}");
+}
+
+/// `SEEDS=0..2000 cargo test -p vibrissa --test suite rods::random::many -- --ignored --nocapture`
+#[test]
+#[ignore = "takes minutes"]
+fn many() {
+    let seeds = std::env::var("SEEDS").unwrap_or_else(|_| "0..2000".into());
+    let (from, to) = seeds.split_once("..").unwrap();
+    let (states, events, wrong, stops) = these(from.parse().unwrap()..to.parse().unwrap());
+    println!("{states} states, {events} events, wrong {}: {wrong:#?}", wrong.len());
+    println!("stopped {}: {stops:#?}", stops.len());
+    assert!(wrong.is_empty());
+}
