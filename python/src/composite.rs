@@ -1,0 +1,214 @@
+//! Objects: contours of pieces.
+
+use crate::shape::{PyShape, motion, shape};
+use crate::written::Object;
+use crate::{errors, running};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use vibrissa::Composite;
+use vibrissa::contour::description::Pieces;
+
+/// An object: pieces in order, as one contour.
+///
+/// Where a piece ends at the start of the next one they are joined, with a corner or a notch unless they have the same direction
+/// there. Otherwise the two must cross, and both are cut at the crossing. The pieces are joined, then mirrored, scaled, turned and
+/// shifted, then reversed, as in scene files.
+///
+/// Parameters
+/// ----------
+/// pieces : Shape, object with ``frame``, or sequence of these
+///     The pieces, with the solid on their left.
+/// position : tuple of float, optional
+///     Where the origin of the pieces comes to, in m.
+/// angle : float, optional
+///     Rotation about that origin in rad, counter-clockwise.
+/// scale : float, optional
+///     Factor of all lengths, positive.
+/// mirror : bool, optional
+///     Whether y becomes -y; the solid stays the solid.
+/// reversed : bool, optional
+///     Whether solid and outside are exchanged.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Pieces neither meet nor cross, one is hidden by its neighbours, the contour crosses itself, or a number is not possible.
+///
+/// Examples
+/// --------
+/// >>> from vibrissa import Composite, Parabola
+/// >>> left, right = Parabola((0.0, 0.0), 50.0), Parabola((0.03, 0.0), 50.0)
+/// >>> Composite([left, right]).pieces
+/// 2
+#[pyclass(frozen, extends = PyShape, name = "Composite", module = "vibrissa")]
+pub struct PyComposite {
+    pub composite: Composite,
+    pub object: Option<Object>,
+}
+
+impl PyComposite {
+    /// The composite of shapes.
+    pub fn of(py: Python<'_>, shapes: &[Bound<'_, PyShape>]) -> PyResult<(Self, PyShape)> {
+        let pieces: Pieces = shapes.iter().flat_map(|shape| shape.get().pieces()).collect();
+        let composite = running::run(py, || {
+            let composite = Composite::joined(pieces)?;
+            match composite.self_crossing() {
+                Some(crossing) => Err(crossed(&crossing)),
+                None => Ok(composite),
+            }
+        })?;
+        let written: Option<Vec<_>> = shapes.iter().map(|shape| shape.get().written.clone()).collect();
+        let object = written.map(|pieces| Object::of_pieces(pieces.concat()));
+        Ok(Self::with(composite.map_err(errors::value)?, object))
+    }
+
+    /// A composite with its table in a scene file.
+    pub fn with(composite: Composite, object: Option<Object>) -> (Self, PyShape) {
+        let shape = PyShape::single(composite.clone(), None);
+        (Self { composite, object }, shape)
+    }
+}
+
+/// The contours of objects, as the library takes them.
+pub fn contours(objects: &[Bound<'_, PyComposite>]) -> Vec<Composite> {
+    objects.iter().map(|object| object.get().composite.clone()).collect()
+}
+
+fn crossed(crossing: &vibrissa::contour::SelfCrossing) -> vibrissa::contour::ContourError {
+    let ([first, second], [x, y]) = (crossing.pieces, crossing.point);
+    vibrissa::contour::ContourError::Crosses { what: "piece", first: first + 1, second: second + 1, x, y }
+}
+
+/// One shape or several.
+fn shapes<'py>(pieces: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyShape>>> {
+    if pieces.is_instance_of::<PyShape>() || pieces.hasattr("frame")? {
+        return Ok(vec![shape(pieces)?]);
+    }
+    pieces.try_iter()?.map(|piece| shape(&piece?)).collect()
+}
+
+#[pymethods]
+impl PyComposite {
+    #[new]
+    #[pyo3(
+        signature = (pieces, *, position=[0.0, 0.0], angle=0.0, scale=1.0, mirror=false, reversed=false),
+        text_signature = "(pieces, *, position=(0.0, 0.0), angle=0.0, scale=1.0, mirror=False, reversed=False)"
+    )]
+    fn new(
+        pieces: &Bound<'_, PyAny>,
+        position: [f64; 2],
+        angle: f64,
+        scale: f64,
+        mirror: bool,
+        reversed: bool,
+    ) -> PyResult<(Self, PyShape)> {
+        let (made, _) = Self::of(pieces.py(), &shapes(pieces)?)?;
+        let (moved, shape) = made.moved_by(motion(position, angle, scale, mirror))?;
+        Ok(if reversed { moved.turned() } else { (moved, shape) })
+    }
+
+    /// Number of pieces.
+    #[getter]
+    fn pieces(&self) -> usize {
+        self.composite.pieces()
+    }
+
+    /// Whether the end meets the start.
+    #[getter]
+    fn is_closed(&self) -> bool {
+        self.composite.is_closed()
+    }
+
+    /// Whether it is the border of a cavity, with the solid outside.
+    #[getter]
+    fn is_cavity(&self) -> bool {
+        self.composite.is_cavity()
+    }
+
+    /// Whether gaps to it are proven, not sampled.
+    #[getter]
+    fn is_proven(&self) -> bool {
+        self.composite.is_proven()
+    }
+
+    /// The object moved: mirrored (y becomes -y), scaled and turned about the origin, then shifted.
+    ///
+    /// Parameters
+    /// ----------
+    /// position : tuple of float, optional
+    ///     Where the origin comes to, in m.
+    /// angle : float, optional
+    ///     Angle in rad, counter-clockwise.
+    /// scale : float, optional
+    ///     Factor of all lengths, positive.
+    /// mirror : bool, optional
+    ///     Whether y becomes -y before all else.
+    ///
+    /// Returns
+    /// -------
+    /// Composite
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     A number is not finite, or the scale is not positive.
+    #[pyo3(
+        signature = (position=[0.0, 0.0], angle=0.0, scale=1.0, mirror=false),
+        text_signature = "($self, position=(0.0, 0.0), angle=0.0, scale=1.0, mirror=False)"
+    )]
+    fn moved(
+        &self,
+        py: Python<'_>,
+        position: [f64; 2],
+        angle: f64,
+        scale: f64,
+        mirror: bool,
+    ) -> PyResult<Py<PyComposite>> {
+        Py::new(py, self.moved_by(motion(position, angle, scale, mirror))?)
+    }
+
+    /// The object with solid and outside exchanged.
+    ///
+    /// Returns
+    /// -------
+    /// Composite
+    fn reversed(&self, py: Python<'_>) -> PyResult<Py<PyComposite>> {
+        Py::new(py, self.turned())
+    }
+
+    fn __repr__(&self) -> String {
+        let kind = match (self.is_cavity(), self.is_closed()) {
+            (true, _) => "cavity",
+            (_, true) => "closed",
+            _ => "open",
+        };
+        format!("<vibrissa.Composite of {} pieces, {kind}>", self.pieces())
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments, the table of a scene file.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let none = || {
+            errors::value(
+                "the object has a piece that scene files have no name for, such as a Bezier, a Graph or a shape of your own, \
+                 expected Parabola, Line, CircularArc, EllipticArc, Spline or polygons",
+            )
+        };
+        let table = self.object.as_ref().ok_or_else(none)?.table(self.composite.is_cavity());
+        let objects = toml::Value::Array(vec![toml::Value::Table(table)]);
+        let text = toml::to_string(&toml::Table::from_iter([("object".to_owned(), objects)])).map_err(errors::value)?;
+        Ok((py.import("vibrissa._pickled")?.getattr("composite")?, (text,).into_pyobject(py)?))
+    }
+}
+
+impl PyComposite {
+    fn moved_by(&self, motion: vibrissa::contour::Motion) -> PyResult<(Self, PyShape)> {
+        let composite = self.composite.clone().moved(motion).map_err(errors::value)?;
+        let object = self.object.clone().map(|object| Object { motion: object.motion.then(motion), ..object });
+        Ok(Self::with(composite, object))
+    }
+
+    fn turned(&self) -> (Self, PyShape) {
+        let object = self.object.clone().map(|object| Object { reversed: !object.reversed, ..object });
+        Self::with(self.composite.clone().reversed(), object)
+    }
+}

@@ -1,0 +1,239 @@
+//! Derivatives of equilibria and of transitions.
+
+use crate::array::{Column, Floats, Get, structured};
+use crate::composite::contours;
+use crate::event::PyEvent;
+use crate::rod::PyRod;
+use crate::state::PyState;
+use crate::{errors, running, shape};
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use vibrissa::contact::{ContactError, Derivatives, Quantity, TransitionDerivatives};
+use vibrissa::rod::{ContactRate, Rod};
+use vibrissa::{Composite, Pose};
+
+const RATE: &[Column<ContactRate>] = &[
+    Column { name: "x", get: Get::Float(|rate| rate.x) },
+    Column { name: "y", get: Get::Float(|rate| rate.y) },
+    Column { name: "alpha", get: Get::Float(|rate| rate.alpha) },
+    Column { name: "phi", get: Get::Float(|rate| rate.phi) },
+    Column { name: "s", get: Get::Float(|rate| rate.s) },
+    Column { name: "force", get: Get::Float(|rate| rate.force) },
+];
+
+/// Exact derivatives of one equilibrium, by the implicit function theorem.
+///
+/// The contacts stay as they are: at a transition these are the derivatives on the side of the state.
+///
+/// Parameters
+/// ----------
+/// rod : Rod
+///     The rod.
+/// objects : Composite, Shape, object with ``frame``, or sequence of these
+///     What the rod touches.
+/// state : State
+///     An equilibrium of this rod on these objects.
+///
+/// Raises
+/// ------
+/// ValueError
+///     The state is none of this rod on these objects, or is at a fold, where derivatives are infinite.
+#[pyclass(frozen, name = "Derivatives", module = "vibrissa")]
+pub struct PyDerivatives {
+    rod: Rod,
+    objects: Vec<Composite>,
+    state: PyState,
+    condition: f64,
+}
+
+impl PyDerivatives {
+    /// Computes something of the derivatives, which borrow from objects and state.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&Derivatives<'_>) -> Result<T, ContactError> + Send,
+    ) -> PyResult<T> {
+        let Self { rod, objects, state, .. } = self;
+        running::run(py, || ask(&Derivatives::new(rod, &objects[..], &state.state)?))?.map_err(errors::value)
+    }
+}
+
+/// The quantity of that name.
+fn named<'a>(quantity: &str, object: usize, piece: usize, parameter: Option<&'a str>) -> PyResult<Quantity<'a>> {
+    Ok(match (quantity, parameter) {
+        ("clamp_x", None) => Quantity::ClampX,
+        ("clamp_y", None) => Quantity::ClampY,
+        ("clamp_angle", None) => Quantity::ClampAngle,
+        ("stiffness", None) => Quantity::Stiffness,
+        ("length", None) => Quantity::Length,
+        ("object_x", None) => Quantity::ObjectX(object),
+        ("object_y", None) => Quantity::ObjectY(object),
+        ("object_angle", None) => Quantity::ObjectAngle(object),
+        ("object_scale", None) => Quantity::ObjectScale(object),
+        ("shape", Some(parameter)) => Quantity::Shape { object, piece, parameter },
+        ("shape", None) => return Err(errors::value("quantity is \"shape\", expected a parameter beside it")),
+        _ => {
+            return Err(errors::value(format!(
+                "quantity is {quantity:?}, expected \"clamp_x\", \"clamp_y\", \"clamp_angle\", \"stiffness\", \"length\", \
+                 \"object_x\", \"object_y\", \"object_angle\", \"object_scale\", or \"shape\" with a parameter"
+            )));
+        }
+    })
+}
+
+#[pymethods]
+impl PyDerivatives {
+    #[new]
+    fn new(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, state: &PyState) -> PyResult<Self> {
+        let objects = contours(&shape::objects(objects)?);
+        let made = Self { rod: rod.rod, objects, state: state.clone(), condition: f64::NAN };
+        let condition = made.ask(py, |derivatives| Ok(derivatives.condition()))?;
+        Ok(Self { condition, ..made })
+    }
+
+    /// Condition number of the equations; it grows towards a fold.
+    #[getter]
+    fn condition(&self) -> f64 {
+        self.condition
+    }
+
+    /// The stiffness of the clamp.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Of shape (3, 3): rows f0x, f0y (N), m0z (N m), columns x0, y0 (m), phi0 (rad). It is symmetric.
+    fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let matrix = self.ask(py, |derivatives| derivatives.stiffness())?;
+        let rows: Vec<Vec<f64>> = matrix.iter().map(|row| row.to_vec()).collect();
+        PyArray2::from_vec2(py, &rows).map_err(errors::value)
+    }
+
+    /// The change of reactions and contacts per unit of one quantity.
+    ///
+    /// Parameters
+    /// ----------
+    /// quantity : str
+    ///     ``"clamp_x"``, ``"clamp_y"`` (m), ``"clamp_angle"`` (rad), ``"stiffness"`` (N m^2), ``"length"`` (m), ``"object_x"``,
+    ///     ``"object_y"`` (m), ``"object_angle"`` (rad, about the origin), ``"object_scale"`` (a factor of its coordinates), or
+    ///     ``"shape"``: a parameter of a shape.
+    /// object, piece : int, optional
+    ///     Number of the object and of its piece, from 0.
+    /// parameter : str, optional
+    ///     The parameter of the shape, such as ``"coefficient"`` of a parabola.
+    ///
+    /// Returns
+    /// -------
+    /// reactions : numpy.ndarray
+    ///     Changes of f0x, f0y (N) and m0z (N m) per unit.
+    /// contacts : numpy.ndarray
+    ///     Structured, one row for each contact: changes of x, y (m), alpha, phi (rad), s (m) and force (N) per unit.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     There is no such quantity, object, piece or parameter.
+    #[pyo3(signature = (quantity, *, object=0, piece=0, parameter=None))]
+    fn by<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+        object: usize,
+        piece: usize,
+        parameter: Option<&str>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyAny>)> {
+        let quantity = named(quantity, object, piece, parameter)?;
+        let response = self.ask(py, |derivatives| derivatives.by(quantity))?;
+        let reactions = response.reactions;
+        let reactions = PyArray1::from_slice(py, &[reactions.f0x, reactions.f0y, reactions.m0z]);
+        Ok((reactions, structured(py, RATE, response.contacts.iter())?))
+    }
+}
+
+/// Exact derivatives of the pose at which a transition happens, by the implicit function theorem.
+///
+/// Parameters
+/// ----------
+/// rod : Rod
+///     The rod.
+/// objects : Composite, Shape, object with ``frame``, or sequence of these
+///     What the rod touches.
+/// event : Event
+///     A transition of a sweep of this rod past these objects; a fold that ends in a snap is one too.
+/// rate : array_like
+///     How the clamp moves there: the derivatives of x (m), y (m) and phi (rad) by the parameter of its path, as
+///     :meth:`Path.rate` gives them.
+///
+/// Raises
+/// ------
+/// ValueError
+///     The event is none of this rod on these objects, or no one equation defines its pose.
+#[pyclass(frozen, name = "TransitionDerivatives", module = "vibrissa")]
+pub struct PyTransitionDerivatives {
+    rod: Rod,
+    objects: Vec<Composite>,
+    event: PyEvent,
+    rate: Pose,
+}
+
+impl PyTransitionDerivatives {
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&TransitionDerivatives<'_>) -> Result<T, ContactError> + Send,
+    ) -> PyResult<T> {
+        let Self { rod, objects, event, rate } = self;
+        let found = running::run(py, || ask(&TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?))?;
+        found.map_err(errors::value)
+    }
+}
+
+#[pymethods]
+impl PyTransitionDerivatives {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        rod: &PyRod,
+        objects: &Bound<'_, PyAny>,
+        event: &PyEvent,
+        rate: Floats<'_>,
+    ) -> PyResult<Self> {
+        let objects = contours(&shape::objects(objects)?);
+        let rate: Vec<f64> = rate.view().iter().copied().collect();
+        let &[x, y, phi] = &rate[..] else {
+            return Err(errors::value(format!("rate has {} numbers, expected three: x, y, phi", rate.len())));
+        };
+        let made = Self { rod: rod.rod, objects, event: event.clone(), rate: Pose { x, y, phi } };
+        made.ask(py, |_| Ok(()))?;
+        Ok(made)
+    }
+
+    /// The change of the path's parameter at the transition per unit of one quantity.
+    ///
+    /// Parameters
+    /// ----------
+    /// quantity, object, piece, parameter
+    ///     As for :meth:`Derivatives.by`.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     m (or rad, where the clamp only turns) per unit. The path stays as it is, or is moved as a whole by a quantity of the clamp.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     There is no such quantity, object, piece or parameter.
+    #[pyo3(signature = (quantity, *, object=0, piece=0, parameter=None))]
+    fn by(
+        &self,
+        py: Python<'_>,
+        quantity: &str,
+        object: usize,
+        piece: usize,
+        parameter: Option<&str>,
+    ) -> PyResult<f64> {
+        let quantity = named(quantity, object, piece, parameter)?;
+        self.ask(py, |derivatives| derivatives.by(quantity))
+    }
+}

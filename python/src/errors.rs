@@ -1,0 +1,28 @@
+//! The library's errors as exceptions with the same texts.
+
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use std::fmt::Display;
+use vibrissa::contact::Stop;
+use vibrissa_cli::SceneError;
+
+/// An argument that the library refuses: `ValueError`.
+pub fn value(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// A file that is wrong: `OSError` where it cannot be read, otherwise `ValueError`.
+pub fn file(error: SceneError) -> PyErr {
+    match error {
+        SceneError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
+        error => value(error),
+    }
+}
+
+/// `vibrissa.SweepStopped`, with the scan up to there (none for a move of a follower).
+pub fn stopped(py: Python<'_>, stop: &Stop, scan: Option<Py<PyAny>>) -> PyErr {
+    let pose = (stop.pose.x, stop.pose.y, stop.pose.phi);
+    let arguments = (stop.to_string(), stop.reason.to_string(), pose, stop.tau, scan);
+    let made = py.import("vibrissa._errors").and_then(|module| module.getattr("SweepStopped")?.call1(arguments));
+    made.map_or_else(|error| error, PyErr::from_value)
+}

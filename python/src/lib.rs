@@ -1,0 +1,72 @@
+//! The extension module of the Python package `vibrissa`: the library's types as classes of Python.
+//!
+//! What a class computes, the library computes; here arguments are taken in and results handed out. Tables for pandas and
+//! Arrow, and figures, are Python's (`vibrissa/*.py`).
+//!
+//! The interpreter is free for other threads while the library works ([`running::run`]); only shapes that are written in Python
+//! take it back.
+
+mod array;
+mod composite;
+mod derivatives;
+mod equilibrium;
+mod errors;
+mod event;
+mod follower;
+mod live;
+mod own_function;
+mod own_path;
+mod own_shape;
+mod path;
+mod pose;
+mod reading;
+mod reconstruct;
+mod recording;
+mod rod;
+mod running;
+mod samples;
+mod scan;
+mod scene;
+mod shape;
+mod shapes;
+mod simulate;
+mod single;
+mod state;
+mod study;
+mod sweep;
+mod written;
+
+use pyo3::prelude::*;
+
+/// The compiled part of `vibrissa`.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("UNITS", array::units(module.py())?)?;
+    module.add_class::<rod::PyRod>()?;
+    module.add_class::<shape::PyShape>()?;
+    shapes::add(module)?;
+    module.add_class::<composite::PyComposite>()?;
+    path::add(module)?;
+    module.add_class::<state::PyContact>()?;
+    module.add_class::<state::PyState>()?;
+    module.add_class::<event::PyEvent>()?;
+    module.add_class::<scan::PyScan>()?;
+    module.add_class::<scene::PyScene>()?;
+    module.add_class::<study::PyStudy>()?;
+    module.add_function(wrap_pyfunction!(study::_study_row, module)?)?;
+    module.add_class::<equilibrium::PyEquilibrium>()?;
+    module.add_class::<follower::PyFollower>()?;
+    module.add_class::<derivatives::PyDerivatives>()?;
+    module.add_class::<derivatives::PyTransitionDerivatives>()?;
+    module.add_class::<recording::PyRecording>()?;
+    module.add_class::<reconstruct::PyReconstruction>()?;
+    module.add_class::<live::PyLive>()?;
+    module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(reconstruct::reconstruct, module)?)?;
+    module.add_function(wrap_pyfunction!(single::single, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(own_shape::check_contract, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,321 @@
+//! From the reactions to the object.
+
+use crate::array::{Column, Get, structured};
+use crate::reading::{Answer, numbers_and_reasons};
+use crate::recording::PyRecording;
+use crate::rod::PyRod;
+use crate::samples::{SAMPLE, Samples};
+use crate::simulate::model;
+use crate::{errors, running};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyTuple;
+use std::path::PathBuf;
+use vibrissa::reconstruct::kink::{Kink, KinkKind};
+use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Reading, Source, SourceEstimate, TraceRow};
+use vibrissa::{Label, Rod, Settings};
+use vibrissa_cli::{Reconstructed, Recording};
+
+const TRACE: &[Column<TraceRow>] = &[
+    Column { name: "stretch", get: Get::Int(|row| row.stretch as i64) },
+    Column { name: "kind", get: Get::Text(|row| row.kind.to_string().into()) },
+    Column { name: "x", get: Get::Float(|row| row.x) },
+    Column { name: "y", get: Get::Float(|row| row.y) },
+    Column { name: "alpha", get: Get::Float(|row| row.alpha) },
+    Column { name: "sigma", get: Get::Float(|row| row.sigma) },
+    Column { name: "sigma_systematic", get: Get::Float(|row| row.sigma_systematic) },
+];
+
+const KINK: &[Column<Kink>] = &[
+    Column { name: "next", get: Get::Int(|kink| kink.next as i64) },
+    Column {
+        name: "kind",
+        get: Get::Text(|kink| if kink.kind == KinkKind::Jump { "jump".into() } else { "kink".into() }),
+    },
+    Column { name: "sigma", get: Get::Float(|kink| kink.sigma_tau) },
+    Column { name: "score", get: Get::Float(|kink| kink.score) },
+];
+
+const ESTIMATE: &[Column<SourceEstimate>] = &[
+    Column { name: "source", get: Get::Text(|estimate| name(estimate.source).into()) },
+    Column { name: "unit", get: Get::Text(|estimate| estimate.source.name().1.into()) },
+    Column { name: "known", get: Get::Float(|estimate| estimate.known) },
+    Column { name: "given", get: Get::Float(|estimate| estimate.given) },
+    Column { name: "budget", get: Get::Float(|estimate| estimate.budget) },
+    Column { name: "value", get: Get::Float(|estimate| estimate.value) },
+    Column { name: "sigma", get: Get::Float(|estimate| estimate.sigma) },
+    Column { name: "taken", get: Get::Float(|estimate| estimate.taken) },
+    Column { name: "raised", get: Get::Flag(|estimate| estimate.raised) },
+];
+
+/// The name of a source in files.
+fn name(source: Source) -> String {
+    let name = serde_json::to_value(source).ok();
+    name.and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_else(|| source.to_string())
+}
+
+/// A reconstruction: a phase and contact points for each sample, and the contour.
+#[pyclass(frozen, name = "Reconstruction", module = "vibrissa")]
+pub struct PyReconstruction {
+    found: Reconstructed,
+    settings: Settings,
+    readings: PyOnceLock<Py<PyAny>>,
+    reasons: PyOnceLock<Py<PyAny>>,
+}
+
+#[pymethods]
+impl PyReconstruction {
+    /// The rod that was assumed.
+    #[getter]
+    fn rod(&self) -> PyResult<PyRod> {
+        let rod = &self.found.rod;
+        PyRod::new(rod.length(), Some(rod.bending_stiffness()), None, None, None)
+    }
+
+    /// The samples, as the fields of ``Recording.samples``.
+    #[getter]
+    fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        structured(py, SAMPLE, self.found.samples.iter())
+    }
+
+    /// The answers as a structured array, one row for each sample.
+    ///
+    /// Fields: pose ``x0``, ``y0`` (m), ``phi0`` (rad); ``label``: ``free``, ``A``, ``B``, ``BA`` or ``BB``, with its ``probability``
+    /// and its ``basis``: what decided; the contact, or the first of several: ``x``, ``y``, ``s`` (m), ``alpha`` (rad), ``force`` (N),
+    /// standard deviations ``sigma_x``, ``sigma_y`` (m), and ``systematic_x``, ``systematic_y`` (m): the part of them that all samples
+    /// share; ``second_...``: the second of several. NaN and empty texts where there is none; :attr:`reasons` tells why.
+    #[getter]
+    fn readings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let make = || {
+            let rows = py.detach(|| self.answers());
+            structured(py, numbers_and_reasons().0, rows.iter()).map(Bound::unbind)
+        };
+        Ok(self.readings.get_or_try_init(py, make)?.bind(py).clone())
+    }
+
+    /// Why there is no contact point, as a structured array, one row for each sample.
+    ///
+    /// Fields: ``reason`` and, of the second of several contacts, ``second_reason``; empty where there is a point. These texts take
+    /// much more room than all numbers, so they are made when they are first asked for.
+    #[getter]
+    fn reasons<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let make = || {
+            let rows = py.detach(|| self.answers());
+            structured(py, numbers_and_reasons().1, rows.iter()).map(Bound::unbind)
+        };
+        Ok(self.reasons.get_or_try_init(py, make)?.bind(py).clone())
+    }
+
+    /// The contour as a structured array.
+    ///
+    /// Fields: ``stretch``: number of the stretch, between which nothing is known; ``kind``: ``single``, ``first`` or ``second`` of
+    /// two contacts; ``x``, ``y`` (m); ``alpha``: tangent angle (rad); ``sigma``: standard deviation across the contour (m);
+    /// ``sigma_systematic``: the part of it that all samples share (m).
+    #[getter]
+    fn contour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let rows: Vec<TraceRow> = self.found.contour.rows().collect();
+        structured(py, TRACE, rows.iter())
+    }
+
+    /// Neighbouring samples with one label: first sample, last sample + 1, label.
+    #[getter]
+    fn runs(&self) -> Vec<(usize, usize, String)> {
+        let runs = &self.found.found.runs;
+        let ends = runs.iter().skip(1).map(|run| run.0).chain([self.found.samples.len()]);
+        runs.iter().zip(ends).map(|(&(first, label), end)| (first, end, label.to_string())).collect()
+    }
+
+    /// Kinks and jumps of the reactions as a structured array.
+    ///
+    /// Fields: ``next``: the first sample after it; ``kind``: ``kink`` (the slopes change) or ``jump`` (the values change); ``sigma``:
+    /// standard deviation of its place (m); ``score``: sum over the channels of (change / standard deviation)^2.
+    #[getter]
+    fn kinks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        structured(py, KINK, self.found.found.kinks.iter())
+    }
+
+    /// Errors that all samples share, as a structured array; empty where none were estimated.
+    ///
+    /// Fields, in the ``unit`` of each ``source`` (SI, relative where empty): what was ``known`` before, standard deviations ``given``
+    /// and ``budget`` as used, the estimate ``value`` with its ``sigma``, what was ``taken`` off, whether the budget was ``raised``.
+    #[getter]
+    fn calibration<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let sources = self.found.found.calibration().map_or(&[][..], |calibration| &calibration.sources);
+        structured(py, ESTIMATE, sources.iter())
+    }
+
+    /// Standard deviations of a sample of f0x, f0y (N) and m0z (N m) that were found or given.
+    #[getter]
+    fn noise(&self) -> (f64, f64, f64) {
+        let [f0x, f0y, m0z] = self.found.found.noise;
+        (f0x.sigma, f0y.sigma, m0z.sigma)
+    }
+
+    /// Whether recording, units and rod fit together.
+    #[getter]
+    fn fits(&self) -> bool {
+        self.found.check.fits()
+    }
+
+    /// What the check by the physics found, in words.
+    #[getter]
+    fn findings(&self) -> Vec<String> {
+        self.found.check.findings.iter().map(Finding::to_string).collect()
+    }
+
+    /// What explains a recording that does not fit.
+    ///
+    /// Returns
+    /// -------
+    /// list of tuple
+    ///     Explanations in words with their likelihoods, which add up to 1, the likeliest first; empty where everything fits.
+    fn explain(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
+        let Reconstructed { rod, samples, check, .. } = &self.found;
+        if check.fits() {
+            return Ok(Vec::new());
+        }
+        let tried =
+            running::run(py, || vibrissa::reconstruct::explanations(rod, samples, &self.settings, &check.findings))?;
+        Ok(tried.into_iter().map(|(what, share)| (what.to_string(), share)).collect())
+    }
+
+    /// The answers, or the contour, as a pandas data frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : {"readings", "contour"}, optional
+    ///     Which.
+    ///
+    /// Returns
+    /// -------
+    /// pandas.DataFrame
+    ///     With the units of its columns in ``attrs["units"]``.
+    #[pyo3(signature = (table="readings"))]
+    fn to_pandas<'py>(&self, py: Python<'py>, table: &str) -> PyResult<Bound<'py, PyAny>> {
+        py.import("vibrissa._tables")?.call_method1("to_pandas", self.rows(py, table)?)
+    }
+
+    /// The answers, or the contour, as an Arrow table.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : {"readings", "contour"}, optional
+    ///     Which.
+    ///
+    /// Returns
+    /// -------
+    /// pyarrow.Table
+    ///     With the unit of each column in the metadata of its field.
+    #[pyo3(signature = (table="readings"))]
+    fn to_arrow<'py>(&self, py: Python<'py>, table: &str) -> PyResult<Bound<'py, PyAny>> {
+        py.import("vibrissa._tables")?.call_method1("to_arrow", self.rows(py, table)?)
+    }
+
+    fn __len__(&self) -> usize {
+        self.found.samples.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let labels: Vec<_> = self.found.found.runs.iter().map(|run| run.1.to_string()).collect();
+        format!("<vibrissa.Reconstruction of {} samples, phases {}>", self.found.samples.len(), labels.join(" "))
+    }
+}
+
+impl PyReconstruction {
+    fn answers(&self) -> Vec<Answer> {
+        let (samples, found) = (&self.found.samples, &self.found.found);
+        let mut last: Option<(&Evidence, Label, Basis)> = None;
+        let mut basis = |number: usize, label: Label| {
+            let evidence = found.evidence(number)?;
+            // neighbouring samples have the same place, whose evidence says the same
+            let known = last.filter(|(of, to, _)| std::ptr::eq(*of, evidence) && *to == label);
+            let basis = known.map_or_else(|| evidence.basis(label), |known| known.2);
+            last = Some((evidence, label, basis));
+            Some(basis)
+        };
+        let answer = |(number, reading): (usize, &Reading)| Answer {
+            pose: samples[number].pose,
+            reading: Some(*reading),
+            basis: basis(number, reading.label),
+        };
+        found.readings.iter().enumerate().map(answer).collect()
+    }
+
+    /// The arrays that a table is made of.
+    fn rows<'py>(&self, py: Python<'py>, table: &str) -> PyResult<Bound<'py, PyTuple>> {
+        match table {
+            "readings" => (self.readings(py)?, self.reasons(py)?).into_pyobject(py),
+            "contour" => (self.contour(py)?,).into_pyobject(py),
+            _ => Err(errors::value(format!("table is {table:?}, expected \"readings\" or \"contour\""))),
+        }
+    }
+}
+
+/// Samples as a recording that no file has.
+fn recording(samples: Samples) -> Recording {
+    Recording {
+        file: PathBuf::from("samples"),
+        rows: samples.0.into_iter().map(Ok).collect(),
+        ignored: Vec::new(),
+        late: Vec::new(),
+        cut: false,
+        incomplete: None,
+        notes: Vec::new(),
+    }
+}
+
+/// Reconstruct phases, contact points and the contour from a recording, as the command ``vibrissa reconstruct`` does.
+///
+/// Parameters
+/// ----------
+/// rod : Rod
+///     The rod.
+/// samples : Recording or table
+///     A recording; or a table with the columns ``x0``, ``y0`` (m), ``phi0`` (rad), ``f0x``, ``f0y`` (N), ``m0z`` (N m), perhaps ``t``
+///     (s) and ``sigma_f0x``, ``sigma_f0y``, ``sigma_m0z``: a structured array (``Scan.states``), a data frame, a mapping; or an array
+///     of shape (n, 6).
+/// noise : mapping, str or os.PathLike, optional
+///     The noise of the sensor as for :func:`simulate`; without it the noise is estimated from the samples.
+/// false_alarms : float, optional
+///     Upper bound of the expected number of false alarms of the search for kinks, per scan; 0.1 by default.
+/// largest_sigma : float, optional
+///     Largest standard deviation of a contact point across the contour, in lengths of the rod; 0.02 by default.
+/// as_is : bool, optional
+///     Take samples and rod for exact. Otherwise errors that all samples share (bias, gain, angles and so on, as large as in an
+///     ordinary laboratory) are estimated and taken off.
+///
+/// Returns
+/// -------
+/// Reconstruction
+///
+/// Raises
+/// ------
+/// ValueError
+///     Too few samples can be used, or an argument is not possible.
+#[pyfunction]
+#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false))]
+pub fn reconstruct(
+    py: Python<'_>,
+    rod: &PyRod,
+    samples: &Bound<'_, PyAny>,
+    noise: Option<&Bound<'_, PyAny>>,
+    false_alarms: Option<f64>,
+    largest_sigma: Option<f64>,
+    as_is: bool,
+) -> PyResult<PyReconstruction> {
+    let default = Settings::default();
+    let settings = Settings {
+        noise: noise.map(model).transpose()?.map(|model| model.channels()),
+        false_alarms: false_alarms.unwrap_or(default.false_alarms),
+        largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
+        budget: as_is.then_some(Budget::NONE),
+        known: default.known,
+    };
+    let recording = match samples.downcast::<PyRecording>() {
+        Ok(recording) => recording.get().recording.clone(),
+        Err(_) => recording(samples.extract()?),
+    };
+    let rod: Rod = rod.rod;
+    let found = running::run(py, || Reconstructed::new(recording, rod, &settings))?.map_err(errors::value)?;
+    Ok(PyReconstruction { found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
+}

@@ -1,0 +1,396 @@
+//! Scenes from and to TOML.
+
+use crate::composite::PyComposite;
+use crate::errors;
+use crate::path::{Leg, PyPath};
+use crate::rod::PyRod;
+use crate::scan::PyScan;
+use crate::shape::objects;
+use crate::sweep::{Steps, run};
+use crate::written::{Object, degrees, point};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use toml::{Table, Value};
+use vibrissa::contact::Chain;
+use vibrissa::contour::Motion;
+use vibrissa::{ClampPath, Pose};
+use vibrissa_cli::{LegPath, Scene};
+
+/// A rod, objects and the path of the clamp.
+///
+/// Parameters
+/// ----------
+/// rod : Rod
+///     The rod.
+/// objects : Composite, Shape, object with ``frame``, or sequence of these
+///     What the rod touches.
+/// path : Path
+///     The way of the clamp.
+/// step : float or sequence of float
+///     Distance of reported states: m, or rad where the clamp only turns; one for all legs, or one for each.
+/// name : str, optional
+///     What to call it.
+///
+/// Examples
+/// --------
+/// >>> import vibrissa
+/// >>> scene = vibrissa.Scene.read("scenes/O1_q40.toml")  # doctest: +SKIP
+/// >>> scan = scene.sweep()  # doctest: +SKIP
+#[pyclass(frozen, name = "Scene", module = "vibrissa")]
+pub struct PyScene {
+    pub rod: Py<PyRod>,
+    pub objects: Vec<Py<PyComposite>>,
+    pub path: Py<PyPath>,
+    steps: Vec<f64>,
+    name: String,
+    warnings: Vec<String>,
+}
+
+impl PyScene {
+    fn of(py: Python<'_>, scene: Scene, text: &str, directory: &Path) -> PyResult<Self> {
+        let tables: Table = text.parse().map_err(errors::value)?;
+        let Scene { name, rod: scene_rod, objects, path, step, legs, warnings, .. } = scene;
+        let mut written = written_objects(&tables, directory).into_iter();
+        let with = |composite| Py::new(py, PyComposite::with(composite, written.next()));
+        let objects = objects.into_iter().map(with).collect::<PyResult<_>>()?;
+        let of_rod = |field: &str| number(tables.get("rod")?.as_table()?, field);
+        let [stiffness, diameter, modulus, stress] =
+            ["bending_stiffness", "diameter", "youngs_modulus", "yield_stress"].map(of_rod);
+        let rod = PyRod::new(scene_rod.length(), stiffness, diameter, modulus, stress)?;
+        let mut steps = vec![step];
+        steps.extend(legs.iter().map(|leg| leg.step));
+        Ok(Self { rod: Py::new(py, rod)?, objects, path: path_of(py, path, &legs, &tables)?, steps, name, warnings })
+    }
+
+    fn directory(file: &Path) -> PathBuf {
+        let absolute = std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf());
+        absolute.parent().map_or_else(PathBuf::new, Path::to_path_buf)
+    }
+
+    fn table(&self) -> PyResult<Table> {
+        let mut list = Vec::new();
+        for (number, object) in self.objects.iter().enumerate() {
+            let PyComposite { composite, object } = object.get();
+            let none = || {
+                errors::value(format!(
+                    "object {number} has a piece that scene files have no name for, such as a Bezier, a Graph or a shape of your own, \
+                     expected Parabola, Line, CircularArc, EllipticArc, Spline or polygons"
+                ))
+            };
+            list.push(Value::Table(object.as_ref().ok_or_else(none)?.table(composite.is_cavity())));
+        }
+        Ok(Table::from_iter([
+            ("rod".to_owned(), Value::Table(rod_table(self.rod.get()))),
+            ("object".to_owned(), Value::Array(list)),
+            ("sweep".to_owned(), Value::Table(self.sweep_table()?)),
+        ]))
+    }
+
+    fn sweep_table(&self) -> PyResult<Table> {
+        let legs = self.path.get().legs.as_deref().unwrap_or_default();
+        let Some((&Leg::Straight { from, to, turns_only: first_turns }, others)) = legs.split_first() else {
+            return Err(errors::value(
+                "the path has no form in scene files, expected a straight first leg, then straight legs or legs about a pivot",
+            ));
+        };
+        let mut sweep = Table::new();
+        let mut put = |name: &str, value| sweep.insert(name.to_owned(), value);
+        put("from", point([from.x, from.y]));
+        put("to", point([to.x, to.y]));
+        put("angle", Value::Float(degrees(from.phi)));
+        if to.phi != from.phi {
+            put("angle_to", Value::Float(degrees(to.phi)));
+        }
+        let step = |number: usize, turns_only: bool| {
+            let step = self.steps.get(number).or(self.steps.last()).copied().unwrap_or(f64::NAN);
+            if turns_only { ("step_angle", Value::Float(degrees(step))) } else { ("step", Value::Float(step)) }
+        };
+        let (name, value) = step(0, first_turns);
+        put(name, value);
+        let others: Vec<Value> = others
+            .iter()
+            .enumerate()
+            .map(|(number, leg)| {
+                let mut table = leg_table(leg);
+                let (name, value) = step(number + 1, turns_only(leg));
+                table.insert(name.to_owned(), value);
+                Value::Table(table)
+            })
+            .collect();
+        if !others.is_empty() {
+            put("leg", Value::Array(others));
+        }
+        Ok(sweep)
+    }
+}
+
+fn turns_only(leg: &Leg) -> bool {
+    match leg {
+        Leg::Straight { turns_only, .. } | Leg::Pivot { turns_only, .. } => *turns_only,
+    }
+}
+
+fn leg_table(leg: &Leg) -> Table {
+    match leg {
+        Leg::Straight { to: Pose { x, y, phi }, .. } => {
+            Table::from_iter([("to".to_owned(), point([*x, *y])), ("angle_to".to_owned(), Value::Float(degrees(*phi)))])
+        }
+        Leg::Pivot { pivot, turn, .. } => {
+            Table::from_iter([("pivot".to_owned(), point(*pivot)), ("turn".to_owned(), Value::Float(degrees(*turn)))])
+        }
+    }
+}
+
+fn rod_table(rod: &PyRod) -> Table {
+    let (length, stress) = (rod.rod.length(), rod.rod.yield_stress());
+    let mut table = Table::from_iter([("length".to_owned(), Value::Float(length))]);
+    match rod.wire {
+        Some((diameter, modulus)) => {
+            table.insert("diameter".to_owned(), Value::Float(diameter));
+            table.insert("youngs_modulus".to_owned(), Value::Float(modulus));
+        }
+        None => {
+            table.insert("bending_stiffness".to_owned(), Value::Float(rod.rod.bending_stiffness()));
+        }
+    }
+    if let Some(stress) = stress {
+        table.insert("yield_stress".to_owned(), Value::Float(stress));
+    }
+    table
+}
+
+/// The path of a scene that has been read, with its legs as they are written.
+fn path_of(py: Python<'_>, first: ClampPath, legs: &[vibrissa_cli::Leg], tables: &Table) -> PyResult<Py<PyPath>> {
+    let sweep = tables.get("sweep").and_then(Value::as_table).cloned().unwrap_or_default();
+    let straight = |path: &ClampPath, table: &Table| {
+        let end = path.at(path.length());
+        let [x, y] = two(table, "to").unwrap_or([end.x, end.y]);
+        let phi = number(table, "angle_to").map_or(end.phi, f64::to_radians);
+        Leg::straight(path, Pose { x, y, phi })
+    };
+    let mut written = vec![Some(straight(&first, &sweep))];
+    if legs.is_empty() {
+        return Py::new(py, PyPath::new(first, written.into_iter().collect()));
+    }
+    let listed = sweep.get("leg").and_then(Value::as_array).into_iter().flatten();
+    let leg = |(leg, table): (&vibrissa_cli::Leg, &Table)| match leg.path {
+        LegPath::Straight(path) => Some(straight(&path, table)),
+        LegPath::Pivot(path) => {
+            let (pivot, turn) = (two(table, "pivot")?, number(table, "turn")?.to_radians());
+            Some(Leg::Pivot { pivot, turn, turns_only: path.turns_only() })
+        }
+    };
+    written.extend(legs.iter().zip(listed.filter_map(Value::as_table)).map(leg));
+    let first: Arc<dyn vibrissa::contact::Path> = Arc::new(first);
+    let paths = std::iter::once(first).chain(legs.iter().map(|leg| leg.path.path())).collect();
+    Py::new(py, PyPath::new(Chain::new(paths).map_err(errors::value)?, written.into_iter().collect()))
+}
+
+/// The fields `[contour]` and `[[object]]` as they are written, with absolute files.
+fn written_objects(tables: &Table, directory: &Path) -> Vec<Object> {
+    let listed = tables.get("object").and_then(Value::as_array).into_iter().flatten();
+    let all = tables.get("contour").into_iter().chain(listed).filter_map(Value::as_table);
+    all.map(|table| {
+        let flag = |name: &str| table.get(name).and_then(Value::as_bool).unwrap_or(false);
+        let motion = Motion {
+            rotation: number(table, "angle").map_or(0.0, f64::to_radians),
+            translation: two(table, "position").unwrap_or_default(),
+            scale: number(table, "scale").unwrap_or(1.0),
+            mirror: flag("mirror"),
+        };
+        let mut made_of: Table = table
+            .iter()
+            .filter(|(name, _)| ["piece", "file"].contains(&name.as_str()))
+            .map(|(k, v)| (k.clone(), v.clone()))
+            .collect();
+        absolute(&mut made_of, directory);
+        Object { made_of, motion, reversed: flag("reversed") }
+    })
+    .collect()
+}
+
+fn absolute(table: &mut Table, directory: &Path) {
+    for (name, value) in table.iter_mut() {
+        match value {
+            Value::String(file) if name == "file" => *file = directory.join(&*file).to_string_lossy().into_owned(),
+            Value::Array(values) => {
+                values.iter_mut().filter_map(Value::as_table_mut).for_each(|table| absolute(table, directory));
+            }
+            _ => {}
+        }
+    }
+}
+
+fn float(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|number| number as f64))
+}
+
+fn number(table: &Table, name: &str) -> Option<f64> {
+    table.get(name).and_then(float)
+}
+
+fn two(table: &Table, name: &str) -> Option<[f64; 2]> {
+    let numbers = table.get(name)?.as_array()?;
+    Some([float(numbers.first()?)?, float(numbers.get(1)?)?])
+}
+
+#[pymethods]
+impl PyScene {
+    #[new]
+    #[pyo3(
+        signature = (rod, objects, path, step, *, name="scene".to_owned()),
+        text_signature = "(rod, objects, path, step, *, name='scene')"
+    )]
+    fn new(rod: Py<PyRod>, objects: &Bound<'_, PyAny>, path: Py<PyPath>, step: Steps, name: String) -> PyResult<Self> {
+        let objects = self::objects(objects)?.into_iter().map(Bound::unbind).collect();
+        let legs = path.get().count();
+        let steps = match step {
+            Steps::One(step) => vec![step; legs],
+            Steps::Each(steps) if steps.len() == legs => steps,
+            Steps::Each(steps) => {
+                let found = steps.len();
+                return Err(errors::value(format!(
+                    "step has {found} numbers, expected one, or {legs}: one for each leg"
+                )));
+            }
+        };
+        Ok(Self { rod, objects, path, steps, name, warnings: Vec::new() })
+    }
+
+    /// A scene from a TOML file.
+    ///
+    /// Parameters
+    /// ----------
+    /// file : str or os.PathLike
+    ///     The file, as ``docs/scene-files.md`` describes it.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///
+    /// Raises
+    /// ------
+    /// OSError
+    ///     The file cannot be read.
+    /// ValueError
+    ///     It is no scene; the text tells line, column and field.
+    #[staticmethod]
+    fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
+        let scene = Scene::read(&file).map_err(errors::file)?;
+        Self::of(py, scene, &std::fs::read_to_string(&file)?, &Self::directory(&file))
+    }
+
+    /// A scene from TOML.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     The text, as in a scene file.
+    /// file : str or os.PathLike, optional
+    ///     What to call it in messages. It is not opened; files that the text names are looked for in its directory.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     It is no scene; the text tells line, column and field.
+    #[staticmethod]
+    #[pyo3(signature = (text, file=PathBuf::from("scene.toml")), text_signature = "(text, file='scene.toml')")]
+    fn parse(py: Python<'_>, text: &str, file: PathBuf) -> PyResult<Self> {
+        let scene = Scene::parse(&file, text).map_err(errors::file)?;
+        Self::of(py, scene, text, &Self::directory(&file))
+    }
+
+    /// The scene as TOML, as the command reads it.
+    ///
+    /// Files that it names are written with absolute paths. Angles are written in degrees; nearly all come back to the last bit,
+    /// the others to one unit in the last place.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     A shape or the path has no form in scene files.
+    fn to_toml(&self) -> PyResult<String> {
+        toml::to_string(&self.table()?).map_err(errors::value)
+    }
+
+    /// The rod.
+    #[getter]
+    fn rod(&self, py: Python<'_>) -> Py<PyRod> {
+        self.rod.clone_ref(py)
+    }
+
+    /// The objects.
+    #[getter]
+    fn objects(&self, py: Python<'_>) -> Vec<Py<PyComposite>> {
+        self.objects.iter().map(|object| object.clone_ref(py)).collect()
+    }
+
+    /// The path of the clamp.
+    #[getter]
+    fn path(&self, py: Python<'_>) -> Py<PyPath> {
+        self.path.clone_ref(py)
+    }
+
+    /// Distances of reported states, one for each leg: m, or rad where the clamp only turns.
+    #[getter]
+    fn steps(&self) -> Vec<f64> {
+        self.steps.clone()
+    }
+
+    /// What it is called: the name of its file.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What may be a mistake in its file.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.warnings.clone()
+    }
+
+    /// Sweep the scene, see :func:`vibrissa.sweep`.
+    ///
+    /// Parameters
+    /// ----------
+    /// most_steps : int, optional
+    ///     Steps along branches of equilibria after which the sweep stops; by default 2 million.
+    ///
+    /// Returns
+    /// -------
+    /// Scan
+    ///
+    /// Raises
+    /// ------
+    /// SweepStopped
+    ///     The sweep could not go on; its ``scan`` has all before that.
+    #[pyo3(signature = (*, most_steps=None))]
+    fn sweep<'py>(&self, py: Python<'py>, most_steps: Option<u64>) -> PyResult<Bound<'py, PyScan>> {
+        let objects: Vec<_> = self.objects.iter().map(|object| object.bind(py).clone()).collect();
+        let steps = match self.steps[..] {
+            [step] => Steps::One(step),
+            _ => Steps::Each(self.steps.clone()),
+        };
+        run(self.rod.bind(py), &objects, self.path.bind(py), &steps, None, most_steps)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<vibrissa.Scene {:?} of {} objects>", self.name, self.objects.len())
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let parse = py.get_type::<Self>().getattr("parse")?;
+        Ok((parse, (self.to_toml()?, format!("{}.toml", self.name)).into_pyobject(py)?))
+    }
+}

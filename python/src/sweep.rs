@@ -1,0 +1,159 @@
+//! The sweep.
+
+use crate::composite::{PyComposite, contours};
+use crate::errors;
+use crate::path::PyPath;
+use crate::rod::PyRod;
+use crate::running::{self, Watch};
+use crate::scan::PyScan;
+use crate::shape::objects;
+use crate::state::PyState;
+use pyo3::prelude::*;
+use vibrissa::contact::{ContactError, Item, Outcome};
+use vibrissa::{Composite, Rod, State, Sweep};
+
+/// Largest number of states of a sweep, which are all kept: some 6 GB.
+const MOST_STATES: f64 = 2e7;
+
+/// Distance of reported states: one for all legs of the path, or one for each.
+#[derive(FromPyObject)]
+pub enum Steps {
+    One(f64),
+    Each(Vec<f64>),
+}
+
+/// What a sweep is asked to do, without the interpreter.
+struct Task<'a> {
+    rod: &'a Rod,
+    objects: &'a [Composite],
+    path: &'a PyPath,
+    steps: &'a Steps,
+    start: Option<&'a State>,
+    most_steps: Option<u64>,
+}
+
+impl Task<'_> {
+    fn run(&self) -> Result<Outcome, ContactError> {
+        let Self { rod, objects, path, start, .. } = *self;
+        let sweep = match (self.steps, start) {
+            (Steps::One(step), None) => Sweep::new(rod, objects, path.shared(), *step)?,
+            (Steps::One(step), Some(state)) => Sweep::from_state(rod, objects, state, path.shared(), *step)?,
+            (Steps::Each(steps), _) => Sweep::with_steps(rod, objects, path.shared(), steps)?,
+        };
+        let sweep = match self.most_steps {
+            Some(most) => sweep.with_most_steps(most),
+            None => sweep,
+        };
+        let (mut outcome, mut watch) = (Outcome::default(), Watch::new());
+        for item in sweep {
+            match item {
+                Ok(Item::State(state)) => outcome.states.push(state),
+                Ok(Item::Event(event)) => outcome.events.push(event),
+                Err(stop) => outcome.stop = Some(stop),
+            }
+            if watch.should_end() {
+                break;
+            }
+        }
+        Ok(outcome)
+    }
+}
+
+/// Sweep a rod along a path past objects.
+///
+/// The clamp goes along the path. States are reported at 0, step, 2 step, ... of each leg, and all transitions between phases are
+/// located. Ctrl-C ends a sweep with ``KeyboardInterrupt``.
+///
+/// Parameters
+/// ----------
+/// rod : Rod
+///     The rod.
+/// objects : Composite, Shape, object with ``frame``, or sequence of these
+///     What the rod touches. A shape is an object of its own.
+/// path : Path
+///     The way of the clamp.
+/// step : float or sequence of float
+///     Distance of reported states: m, or rad where the clamp only turns; one for all legs, or one for each.
+/// start : State, optional
+///     The equilibrium at the first pose, from which the sweep goes on. Without it, a start in contact has the shape that a
+///     sweep from further back would have brought.
+/// most_steps : int, optional
+///     Steps along branches of equilibria after which the sweep stops; by default 2 million.
+///
+/// Returns
+/// -------
+/// Scan
+///     States and transitions.
+///
+/// Raises
+/// ------
+/// ValueError
+///     An argument is not possible.
+/// SweepStopped
+///     The sweep could not go on; its ``scan`` has all before that.
+///
+/// Examples
+/// --------
+/// >>> import math, vibrissa
+/// >>> rod = vibrissa.Rod(0.1, diameter=0.5e-3, youngs_modulus=206e9)
+/// >>> object = vibrissa.Composite([vibrissa.Parabola((0.0, 0.0), 50.0), vibrissa.Parabola((0.03, 0.0), 50.0)])
+/// >>> path = vibrissa.ClampPath((0.08, -0.04, math.pi / 2), (-0.09, -0.04, math.pi / 2))
+/// >>> scan = vibrissa.sweep(rod, object, path, step=1e-3)
+/// >>> scan.phases
+/// ['free', 'A', 'B', 'BB', 'BA', 'B', 'A', 'free']
+#[pyfunction]
+#[pyo3(signature = (rod, objects, path, step, *, start=None, most_steps=None))]
+pub fn sweep<'py>(
+    rod: &Bound<'py, PyRod>,
+    objects: &Bound<'py, PyAny>,
+    path: &Bound<'py, PyPath>,
+    step: Steps,
+    start: Option<&Bound<'py, PyState>>,
+    most_steps: Option<u64>,
+) -> PyResult<Bound<'py, PyScan>> {
+    let objects = self::objects(objects)?;
+    run(rod, &objects, path, &step, start, most_steps)
+}
+
+/// The sweep of objects that are made already.
+pub fn run<'py>(
+    rod: &Bound<'py, PyRod>,
+    objects: &[Bound<'py, PyComposite>],
+    path: &Bound<'py, PyPath>,
+    steps: &Steps,
+    start: Option<&Bound<'py, PyState>>,
+    most_steps: Option<u64>,
+) -> PyResult<Bound<'py, PyScan>> {
+    if matches!((steps, start), (Steps::Each(_), Some(_))) {
+        return Err(errors::value("step has a number for each leg, expected one number beside start"));
+    }
+    let py = rod.py();
+    let contours = contours(objects);
+    let (wire, way, start) = (&rod.get().rod, path.get(), start.map(|start| &start.get().state));
+    if let Steps::Each(steps) = steps
+        && steps.len() != way.count()
+    {
+        let (found, legs) = (steps.len(), way.count());
+        return Err(errors::value(format!("step has {found} numbers, expected one, or {legs}: one for each leg")));
+    }
+    let shortest = match steps {
+        Steps::One(step) => *step,
+        Steps::Each(steps) => steps.iter().copied().fold(f64::INFINITY, f64::min),
+    };
+    let states = way.path.length() / shortest;
+    if shortest > 0.0 && states > MOST_STATES {
+        return Err(errors::value(format!(
+            "step is {shortest:?}, which asks for {states:.1e} states, expected at most {MOST_STATES:.0e}"
+        )));
+    }
+    let task = Task { rod: wire, objects: &contours, path: way, steps, start, most_steps };
+    let outcome = running::run(py, || task.run())?.map_err(errors::value)?;
+    let objects = objects.iter().map(|object| object.clone().unbind()).collect();
+    let given = (rod.clone().unbind(), objects, path.clone().unbind());
+    let stop = outcome.stop.clone();
+    let scan = Bound::new(py, PyScan::new(given, outcome))?;
+    match stop {
+        Some(stop) => Err(errors::stopped(py, &stop, Some(scan.into_any().unbind()))),
+        None => Ok(scan),
+    }
+}

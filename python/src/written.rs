@@ -1,0 +1,65 @@
+//! Scene files as they are written: angles in degrees, tables of TOML.
+
+use toml::{Table, Value};
+use vibrissa::contour::Motion;
+use vibrissa::contour::description::Shape;
+
+/// An angle in degrees whose conversion to radians, as the reader of scene files does it, gives `radians`: the shortest number if
+/// there is one, else the nearest. A few angles have none, and come back with another last bit.
+pub fn degrees(radians: f64) -> f64 {
+    let exact = radians.to_degrees();
+    let short = (exact * 1e9).round() / 1e9;
+    let near =
+        [short, exact, exact.next_up(), exact.next_down(), exact.next_up().next_up(), exact.next_down().next_down()];
+    near.into_iter().find(|degrees| degrees.to_radians() == radians).unwrap_or(exact)
+}
+
+/// A shape of the library's description as a table.
+pub fn piece(shape: &Shape) -> Option<Table> {
+    Table::try_from(shape).ok()
+}
+
+/// Two coordinates.
+pub fn point([x, y]: [f64; 2]) -> Value {
+    Value::Array(vec![Value::Float(x), Value::Float(y)])
+}
+
+/// An object of a scene as its table: what it is made of, and where it stands.
+#[derive(Clone)]
+pub struct Object {
+    /// `piece`, or `file`.
+    pub made_of: Table,
+    pub motion: Motion,
+    pub reversed: bool,
+}
+
+impl Object {
+    /// An object of pieces.
+    pub fn of_pieces(pieces: Vec<Table>) -> Self {
+        let pieces = pieces.into_iter().map(Value::Table).collect();
+        let made_of = Table::from_iter([("piece".to_owned(), Value::Array(pieces))]);
+        Self { made_of, motion: Motion::IDENTITY, reversed: false }
+    }
+
+    /// The table `[[object]]`.
+    pub fn table(&self, is_cavity: bool) -> Table {
+        let Motion { rotation, translation, scale, mirror } = self.motion;
+        let mut table = self.made_of.clone();
+        let mut put = |name: &str, value: Value| table.insert(name.to_owned(), value);
+        if translation != [0.0, 0.0] {
+            put("position", point(translation));
+        }
+        if rotation != 0.0 {
+            put("angle", Value::Float(degrees(rotation)));
+        }
+        if scale != 1.0 {
+            put("scale", Value::Float(scale));
+        }
+        for (name, flag) in [("mirror", mirror), ("reversed", self.reversed), ("hollow", is_cavity)] {
+            if flag {
+                put(name, Value::Boolean(true));
+            }
+        }
+        table
+    }
+}

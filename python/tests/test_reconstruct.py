@@ -1,0 +1,150 @@
+"""Recordings, simulated and read, and what they tell."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import SCENES
+
+import vibrissa
+
+NOISE = {"ar1": {"force": 2.5e-3, "m0z": 6e-5, "correlation": 0.45}}
+NOISE_FILE = "ar1 = { force = 2.5e-3, m0z = 6e-5, correlation = 0.45 }\n"
+
+
+@pytest.fixture
+def scene() -> vibrissa.Scene:
+    return vibrissa.Scene.read(SCENES / "O1_q40.toml")
+
+
+def test_a_clean_scan_gives_its_contacts_back(scene: vibrissa.Scene) -> None:
+    scan = vibrissa.sweep(scene.rod, scene.objects, scene.path, 5e-5)
+    found = vibrissa.reconstruct(scene.rod, scan.states, as_is=True)
+    assert [label for _, _, label in found.runs] == ["free", "A", "B", "BB", "BA", "B", "A", "free"]
+    readings = found.readings
+    single = np.isin(readings["label"], ["A", "B"]) & ~np.isnan(readings["x"])
+    truth = np.array([contacts["x"][0] if len(contacts) else np.nan for contacts in scan.contacts])
+    assert single.sum() > 1000
+    np.testing.assert_allclose(readings["x"][single], truth[single], atol=1e-7)
+    both = readings["label"] == "BA"
+    second = np.array([contacts["x"][-1] if len(contacts) else np.nan for contacts in scan.contacts])
+    assert np.nanmax(np.abs(readings["second_x"] - second)[both]) < 1e-6
+    gaps = scene.objects[0].gap(found.contour["x"], found.contour["y"])
+    assert len(gaps) > 100 and np.abs(gaps).max() < 1e-6
+    assert found.fits and found.explain() == []
+    # an array of six columns and a data frame say the same
+    columns = ["x0", "y0", "phi0", "f0x", "f0y", "m0z"]
+    rows = np.column_stack([scan.states[name] for name in columns])
+    for samples in [rows, scan.to_pandas(), {name: scan.states[name].tolist() for name in columns}]:
+        again = vibrissa.reconstruct(scene.rod, samples, as_is=True)
+        np.testing.assert_array_equal(again.readings["x"], readings["x"])
+
+
+def test_simulated_and_reconstructed_as_by_the_command(
+    scene: vibrissa.Scene, command: list[str], tmp_path: Path
+) -> None:
+    (tmp_path / "noise.toml").write_text(NOISE_FILE)
+    file = tmp_path / "recording.csv"
+    options = ["--noise", str(tmp_path / "noise.toml"), "--rate", "500", "--speed", "0.01", "--seed", "3"]
+    subprocess.run(
+        [*command, "simulate", str(SCENES / "O1_q40.toml"), *options, "--out", str(file)], check=True, capture_output=True
+    )
+    samples = vibrissa.simulate(scene, rate=500.0, speed=0.01, noise=NOISE, seed=3)
+    rows = list(csv.DictReader(file.open()))
+    assert len(rows) == len(samples)
+    for name in ["t", "x0", "f0x", "f0y", "m0z"]:
+        assert [float(row[name]) for row in rows] == samples[name].tolist()
+    with_file = vibrissa.simulate(scene, rate=500.0, speed=0.01, noise=tmp_path / "noise.toml", seed=3)
+    np.testing.assert_array_equal(with_file["m0z"], samples["m0z"])
+
+    recording = vibrissa.Recording.read(file, scene.rod)
+    np.testing.assert_array_equal(recording.samples["f0x"], samples["f0x"])
+    found = vibrissa.reconstruct(scene.rod, recording)
+    out = tmp_path / "out"
+    done = subprocess.run(
+        [*command, "reconstruct", str(file), "--rod", str(SCENES / "O1_q40.toml"), "--out", str(out)],
+        capture_output=True,
+    )
+    assert done.returncode in (0, 2), done.stderr
+    points = [json.loads(line) for line in (out / "points.jsonl").read_text().splitlines()]
+    assert len(points) == len(found)
+    for reading, why, point in zip(found.readings, found.reasons, points):
+        assert reading["label"] == point["label"] and reading["basis"] == point["basis"]
+        assert why["reason"] == (point["reason"] or "")
+        for name in ["x", "y", "s", "alpha", "force", "sigma_x", "systematic_y", "probability"]:
+            assert (np.isnan(reading[name]) and point[name] is None) or reading[name] == point[name]
+        if point["second"] is not None and point["second"]["x"] is not None:
+            assert reading["second_x"] == point["second"]["x"]
+    contour = list(csv.DictReader((out / "contour.csv").open()))
+    assert [float(row["sigma"]) for row in contour] == found.contour["sigma"].tolist()
+    report = json.loads((out / "report.json").read_text())
+    assert [one["value"] for one in report["calibration"]["sources"]] == found.calibration["value"].tolist()
+    assert found.to_pandas("contour").attrs["units"]["sigma"] == "m"
+    table = found.to_arrow()
+    assert table["label"].to_pylist() == found.readings["label"].tolist()
+    assert table["reason"].to_pylist() == found.reasons["reason"].tolist()
+
+
+def test_a_wrong_rod_is_told(scene: vibrissa.Scene) -> None:
+    scan = vibrissa.sweep(scene.rod, scene.objects, scene.path, 1e-4)
+    states = scan.to_pandas()
+    states["m0z"] = -states["m0z"]
+    found = vibrissa.reconstruct(scene.rod, states)
+    assert not found.fits and found.findings
+    explained = found.explain()
+    assert sum(share for _, share in explained) == pytest.approx(1.0)
+
+
+def test_live_answers_come_once_and_in_order(scene: vibrissa.Scene) -> None:
+    samples = vibrissa.simulate(scene, rate=2000.0, speed=0.01, noise=NOISE)
+    live = vibrissa.Live(scene.rod, samples[:500], as_is=True)
+    answers = [live.push(samples[i : i + 100]) for i in range(0, len(samples), 100)] + [live.finish()]
+    poses = np.concatenate([part["x0"] for part in answers])
+    np.testing.assert_array_equal(poses, samples["x0"])
+    labels = np.concatenate([part["label"].astype("U4") for part in answers])
+    scan = vibrissa.sweep(scene.rod, scene.objects, scene.path, 0.01 / 2000.0)
+    truth = {float(x): phase for x, phase in zip(scan.states["x0"], scan.states["phase"])}
+    right = np.mean([label == truth[float(x)] for x, label in zip(poses, labels)])
+    assert right > 0.95
+    assert len(answers[0]) == 0 and live.delay > 100
+    with pytest.raises(ValueError, match="99 usable samples of 99, expected at least 100"):
+        vibrissa.Live(scene.rod, samples[:99])
+
+
+def test_wrong_samples_are_named(scene: vibrissa.Scene, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="the samples have no column f0x"):
+        vibrissa.reconstruct(scene.rod, {"x0": [0.0], "y0": [0.0], "phi0": [0.0]})
+    with pytest.raises(ValueError, match=r"the samples have shape \[3, 5\], expected \[n, 6\]"):
+        vibrissa.reconstruct(scene.rod, np.zeros((3, 5)))
+    with pytest.raises(ValueError, match="0 usable samples of 0"):
+        vibrissa.reconstruct(scene.rod, np.zeros((0, 6)))
+    with pytest.raises(ValueError, match="false_alarms is -1, expected a positive, finite number"):
+        vibrissa.reconstruct(scene.rod, scene.sweep().states, false_alarms=-1.0)
+    with pytest.raises(ValueError, match="unknown field `withe`"):
+        vibrissa.simulate(scene, rate=100.0, speed=0.01, noise={"withe": {}})
+    with pytest.raises(ValueError, match="rate is 0, expected a positive, finite number"):
+        vibrissa.simulate(scene, rate=0.0, speed=0.01)
+    with pytest.raises(OSError, match="cannot read the recording"):
+        vibrissa.Recording.read(tmp_path / "nowhere.csv", scene.rod)
+    file = tmp_path / "few.csv"
+    file.write_text("x0,y0,phi0,f0x,f0y\n0,0,0,0,0\n")
+    with pytest.raises(ValueError, match="no column m0z"):
+        vibrissa.Recording.read(file, scene.rod)
+
+
+def test_single_points_are_exact_where_there_is_one_contact() -> None:
+    scene = vibrissa.Scene.read(SCENES / "O1_q40.toml")
+    scan = scene.sweep()
+    points = vibrissa.single(scan.rod, scan.states)
+    one = np.isin(scan.states["phase"], ["A", "B"])
+    gap = scan.objects[0].gap
+    assert points["fits"][one].all()
+    assert np.abs(gap(points["x"][one], points["y"][one])).max() < 1e-13
+    two = scan.states["phase"] == "BB"
+    assert np.nanmax(np.abs(gap(points["x"][two], points["y"][two]))) > 1e-3
+    assert not points["fits"][scan.states["phase"] == "free"].any()

@@ -1,0 +1,121 @@
+"""A flexible rod that is swept past objects, and the objects from the reactions at its clamp.
+
+All quantities have SI units, angles are in rad and count counter-clockwise from x. A contour runs with the solid on its left.
+
+Objects
+    :class:`Rod`; the shapes :class:`Line`, :class:`Parabola`, :class:`CircularArc`, :class:`EllipticArc`, :class:`Bezier`,
+    :class:`Spline`, :class:`Polygon`, :class:`Svg`, :class:`Graph`, :class:`Curve`, or any object with ``frame(t)``
+    (:func:`check_contract`); :class:`Composite`.
+Paths of the clamp
+    :class:`ClampPath`, :class:`ClampArc`, :class:`ClampSpline`, :class:`ClampFunction`, :class:`Chain`.
+Sweeps
+    :func:`sweep` gives a :class:`Scan` of states and events; :class:`Scene` is a file with all of it. :class:`Follower` is moved
+    step by step, :func:`equilibrium` is one pose with given contacts, :class:`Derivatives` are those of a state,
+    :class:`TransitionDerivatives` those of an event.
+Studies
+    :func:`study` sweeps many scenes on the workers of any executor and writes one row for each; :func:`grid` makes the scenes,
+    :class:`Study` is a file of them, :func:`read_study` reads the rows.
+From reactions to the object
+    :func:`reconstruct` gives a :class:`Reconstruction`, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
+    noise, :class:`Live` answers while samples come.
+
+``UNITS`` has the units of the fields of all arrays.
+"""
+
+from __future__ import annotations
+
+from ._core import (
+    UNITS,
+    Bezier,
+    Chain,
+    CircularArc,
+    ClampArc,
+    ClampFunction,
+    ClampPath,
+    ClampSpline,
+    Composite,
+    Contact,
+    Curve,
+    Derivatives,
+    EllipticArc,
+    Equilibrium,
+    Event,
+    Follower,
+    Graph,
+    Line,
+    Live,
+    Parabola,
+    Path,
+    Polygon,
+    Reconstruction,
+    Recording,
+    Rod,
+    Scan,
+    Scene,
+    Shape,
+    Spline,
+    State,
+    Study,
+    Svg,
+    TransitionDerivatives,
+    __version__,
+    check_contract,
+    equilibrium,
+    reconstruct,
+    simulate,
+    single,
+    sweep,
+)
+from ._errors import SweepStopped
+from ._ragged import Ragged
+from ._study import StudyBroken, grid, study
+from ._study_files import read_study
+
+__all__ = [
+    "UNITS",
+    "Bezier",
+    "Chain",
+    "CircularArc",
+    "ClampArc",
+    "ClampFunction",
+    "ClampPath",
+    "ClampSpline",
+    "Composite",
+    "Contact",
+    "Curve",
+    "Derivatives",
+    "EllipticArc",
+    "Equilibrium",
+    "Event",
+    "Follower",
+    "Graph",
+    "Line",
+    "Live",
+    "Parabola",
+    "Path",
+    "Polygon",
+    "Ragged",
+    "Reconstruction",
+    "Recording",
+    "Rod",
+    "Scan",
+    "Scene",
+    "Shape",
+    "Spline",
+    "State",
+    "Study",
+    "StudyBroken",
+    "Svg",
+    "SweepStopped",
+    "TransitionDerivatives",
+    "__version__",
+    "check_contract",
+    "equilibrium",
+    "grid",
+    "read_study",
+    "reconstruct",
+    "simulate",
+    "single",
+    "study",
+    "sweep",
+]
