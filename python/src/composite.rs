@@ -1,10 +1,10 @@
 //! Objects: contours of pieces.
 
+use crate::made::{Made, Reduced, made};
 use crate::shape::{PyShape, motion, shape};
 use crate::written::Object;
 use crate::{errors, running};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 use vibrissa::Composite;
 use vibrissa::contour::description::Pieces;
 
@@ -47,8 +47,9 @@ pub struct PyComposite {
 }
 
 impl PyComposite {
-    /// The composite of shapes.
-    pub fn of(py: Python<'_>, shapes: &[Bound<'_, PyShape>]) -> PyResult<(Self, PyShape)> {
+    /// The composite of shapes or objects of Python that have a frame.
+    pub fn of(py: Python<'_>, pieces: &[Bound<'_, PyAny>]) -> PyResult<Self> {
+        let shapes: Vec<_> = pieces.iter().map(shape).collect::<PyResult<_>>()?;
         let pieces: Pieces = shapes.iter().flat_map(|shape| shape.get().pieces()).collect();
         let composite = running::run(py, || {
             let composite = Composite::joined(pieces)?;
@@ -59,12 +60,18 @@ impl PyComposite {
         })?;
         let written: Option<Vec<_>> = shapes.iter().map(|shape| shape.get().written.clone()).collect();
         let object = written.map(|pieces| Object::of_pieces(pieces.concat()));
-        Ok(Self::with(composite.map_err(errors::value)?, object))
+        Ok(Self { composite: composite.map_err(errors::value)?, object })
     }
 
-    /// A composite with its table in a scene file.
-    pub fn with(composite: Composite, object: Option<Object>) -> (Self, PyShape) {
-        let shape = PyShape::single(composite.clone(), None);
+    /// With how it was made, as the class of Python.
+    pub fn made_by(self, made: Made) -> (Self, PyShape) {
+        let shape = PyShape::single(self.composite.clone(), None, Some(made));
+        (self, shape)
+    }
+
+    /// One that was read, which its table makes.
+    pub fn read(composite: Composite, object: Option<Object>) -> (Self, PyShape) {
+        let shape = PyShape::single(composite.clone(), None, None);
         (Self { composite, object }, shape)
     }
 }
@@ -79,12 +86,12 @@ fn crossed(crossing: &vibrissa::contour::SelfCrossing) -> vibrissa::contour::Con
     vibrissa::contour::ContourError::Crosses { what: "piece", first: first + 1, second: second + 1, x, y }
 }
 
-/// One shape or several.
-fn shapes<'py>(pieces: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyShape>>> {
+/// The pieces, of which one may stand for itself.
+fn listed<'py>(pieces: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
     if pieces.is_instance_of::<PyShape>() || pieces.hasattr("frame")? {
-        return Ok(vec![shape(pieces)?]);
+        return Ok(vec![pieces.clone()]);
     }
-    pieces.try_iter()?.map(|piece| shape(&piece?)).collect()
+    pieces.try_iter()?.collect()
 }
 
 #[pymethods]
@@ -102,9 +109,12 @@ impl PyComposite {
         mirror: bool,
         reversed: bool,
     ) -> PyResult<(Self, PyShape)> {
-        let (made, _) = Self::of(pieces.py(), &shapes(pieces)?)?;
-        let (moved, shape) = made.moved_by(motion(position, angle, scale, mirror))?;
-        Ok(if reversed { moved.turned() } else { (moved, shape) })
+        let (py, pieces) = (pieces.py(), listed(pieces)?);
+        let made = made!(py, "Composite", pieces, position, angle, scale, mirror, reversed);
+        let joined = Self::of(py, &pieces)?;
+        let moved = joined.moved_by(motion(position, angle, scale, mirror))?;
+        let whole = if reversed { moved.turned() } else { moved };
+        Ok(whole.made_by(made))
     }
 
     /// Number of pieces.
@@ -157,14 +167,14 @@ impl PyComposite {
         text_signature = "($self, position=(0.0, 0.0), angle=0.0, scale=1.0, mirror=False)"
     )]
     fn moved(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         position: [f64; 2],
         angle: f64,
         scale: f64,
         mirror: bool,
     ) -> PyResult<Py<PyComposite>> {
-        Py::new(py, self.moved_by(motion(position, angle, scale, mirror))?)
+        let made = Made::method(slf, "moved", (position, angle, scale, mirror))?;
+        Py::new(slf.py(), slf.get().moved_by(motion(position, angle, scale, mirror))?.made_by(made))
     }
 
     /// The object with solid and outside exchanged.
@@ -172,8 +182,9 @@ impl PyComposite {
     /// Returns
     /// -------
     /// Composite
-    fn reversed(&self, py: Python<'_>) -> PyResult<Py<PyComposite>> {
-        Py::new(py, self.turned())
+    fn reversed(slf: &Bound<'_, Self>) -> PyResult<Py<PyComposite>> {
+        let made = Made::method(slf, "reversed", ())?;
+        Py::new(slf.py(), slf.get().turned().made_by(made))
     }
 
     fn __repr__(&self) -> String {
@@ -185,15 +196,15 @@ impl PyComposite {
         format!("<vibrissa.Composite of {} pieces, {kind}>", self.pieces())
     }
 
-    /// For `pickle` and `copy`: a function and its arguments, the table of a scene file.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let none = || {
-            errors::value(
-                "the object has a piece that scene files have no name for, such as a Bezier, a Graph or a shape of your own, \
-                 expected Parabola, Line, CircularArc, EllipticArc, Spline or polygons",
-            )
-        };
-        let table = self.object.as_ref().ok_or_else(none)?.table(self.composite.is_cavity());
+    /// For `pickle` and `copy`: a function and its arguments, of an object that was read the table of a scene file.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let py = slf.py();
+        if let Some(made) = &slf.as_super().get().made {
+            return Ok(made.reduced(py));
+        }
+        let Self { composite, object } = slf.get();
+        let none = || errors::value("the object was read from a file that has no table for it");
+        let table = object.as_ref().ok_or_else(none)?.table(composite.is_cavity());
         let objects = toml::Value::Array(vec![toml::Value::Table(table)]);
         let text = toml::to_string(&toml::Table::from_iter([("object".to_owned(), objects)])).map_err(errors::value)?;
         Ok((py.import("vibrissa._pickled")?.getattr("composite")?, (text,).into_pyobject(py)?))
@@ -201,14 +212,14 @@ impl PyComposite {
 }
 
 impl PyComposite {
-    fn moved_by(&self, motion: vibrissa::contour::Motion) -> PyResult<(Self, PyShape)> {
+    fn moved_by(&self, motion: vibrissa::contour::Motion) -> PyResult<Self> {
         let composite = self.composite.clone().moved(motion).map_err(errors::value)?;
         let object = self.object.clone().map(|object| Object { motion: object.motion.then(motion), ..object });
-        Ok(Self::with(composite, object))
+        Ok(Self { composite, object })
     }
 
-    fn turned(&self) -> (Self, PyShape) {
+    fn turned(&self) -> Self {
         let object = self.object.clone().map(|object| Object { reversed: !object.reversed, ..object });
-        Self::with(self.composite.clone().reversed(), object)
+        Self { composite: self.composite.clone().reversed(), object }
     }
 }

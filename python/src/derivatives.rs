@@ -3,14 +3,15 @@
 use crate::array::{Column, Floats, Get, structured};
 use crate::composite::contours;
 use crate::event::PyEvent;
-use crate::rod::PyRod;
+use crate::rod::{PyRod, for_rod};
 use crate::state::PyState;
 use crate::{errors, running, shape};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Derivatives, Quantity, TransitionDerivatives};
-use vibrissa::rod::{ContactRate, Rod};
+use vibrissa::rod::ContactRate;
 use vibrissa::{Composite, Pose};
+use vibrissa_cli::AnyRod;
 
 const RATE: &[Column<ContactRate>] = &[
     Column { name: "x", get: Get::Float(|rate| rate.x) },
@@ -40,7 +41,7 @@ const RATE: &[Column<ContactRate>] = &[
 ///     The state is none of this rod on these objects, or is at a fold, where derivatives are infinite.
 #[pyclass(frozen, name = "Derivatives", module = "vibrissa")]
 pub struct PyDerivatives {
-    rod: Rod,
+    rod: AnyRod,
     objects: Vec<Composite>,
     state: PyState,
     condition: f64,
@@ -54,7 +55,8 @@ impl PyDerivatives {
         ask: impl FnOnce(&Derivatives<'_>) -> Result<T, ContactError> + Send,
     ) -> PyResult<T> {
         let Self { rod, objects, state, .. } = self;
-        running::run(py, || ask(&Derivatives::new(rod, &objects[..], &state.state)?))?.map_err(errors::value)
+        let found = || for_rod!(rod, rod => ask(&Derivatives::new(rod, &objects[..], &state.state)?));
+        running::run(py, found)?.map_err(errors::value)
     }
 }
 
@@ -86,7 +88,7 @@ impl PyDerivatives {
     #[new]
     fn new(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, state: &PyState) -> PyResult<Self> {
         let objects = contours(&shape::objects(objects)?);
-        let made = Self { rod: rod.rod, objects, state: state.clone(), condition: f64::NAN };
+        let made = Self { rod: rod.rod.clone(), objects, state: state.clone(), condition: f64::NAN };
         let condition = made.ask(py, |derivatives| Ok(derivatives.condition()))?;
         Ok(Self { condition, ..made })
     }
@@ -170,7 +172,7 @@ impl PyDerivatives {
 ///     The event is none of this rod on these objects, or no one equation defines its pose.
 #[pyclass(frozen, name = "TransitionDerivatives", module = "vibrissa")]
 pub struct PyTransitionDerivatives {
-    rod: Rod,
+    rod: AnyRod,
     objects: Vec<Composite>,
     event: PyEvent,
     rate: Pose,
@@ -183,8 +185,8 @@ impl PyTransitionDerivatives {
         ask: impl FnOnce(&TransitionDerivatives<'_>) -> Result<T, ContactError> + Send,
     ) -> PyResult<T> {
         let Self { rod, objects, event, rate } = self;
-        let found = running::run(py, || ask(&TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?))?;
-        found.map_err(errors::value)
+        let found = || for_rod!(rod, rod => ask(&TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?));
+        running::run(py, found)?.map_err(errors::value)
     }
 }
 
@@ -203,7 +205,7 @@ impl PyTransitionDerivatives {
         let &[x, y, phi] = &rate[..] else {
             return Err(errors::value(format!("rate has {} numbers, expected three: x, y, phi", rate.len())));
         };
-        let made = Self { rod: rod.rod, objects, event: event.clone(), rate: Pose { x, y, phi } };
+        let made = Self { rod: rod.rod.clone(), objects, event: event.clone(), rate: Pose { x, y, phi } };
         made.ask(py, |_| Ok(()))?;
         Ok(made)
     }

@@ -1,6 +1,8 @@
 //! Transitions between phases.
 
 use crate::array::{Column, Get};
+use crate::errors;
+use crate::made::Reduced;
 use crate::pose::tuple;
 use crate::state::PyState;
 use pyo3::prelude::*;
@@ -58,6 +60,18 @@ impl PyEvent {
     #[getter]
     fn after(&self) -> PyState {
         PyState { state: self.event.after.clone() }
+    }
+
+    /// An event from what pickling keeps of it.
+    #[staticmethod]
+    fn _from_json(text: &str) -> PyResult<Self> {
+        Ok(Self { event: serde_json::from_str(text).map_err(errors::value)? })
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let text = serde_json::to_string(&self.event).map_err(errors::value)?;
+        Ok((py.get_type::<Self>().getattr("_from_json")?, (text,).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> String {

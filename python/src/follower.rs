@@ -3,13 +3,14 @@
 use crate::composite::contours;
 use crate::event::PyEvent;
 use crate::pose::PyPose;
-use crate::rod::PyRod;
+use crate::rod::{PyRod, for_rod};
 use crate::state::PyState;
 use crate::{errors, running, shape};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use vibrissa::contact::Item;
-use vibrissa::{Composite, Follower};
+use vibrissa::contact::{Item, Stop};
+use vibrissa::rod::VaryingRod;
+use vibrissa::{Composite, Follower, Pose, Rod, State};
 
 /// A rod in equilibrium whose clamp is moved from pose to pose, for controllers.
 ///
@@ -42,8 +43,43 @@ use vibrissa::{Composite, Follower};
 #[pyclass(frozen, name = "Follower", module = "vibrissa")]
 pub struct PyFollower {
     /// It borrows from `objects`, hence stands before them: fields are dropped in order.
-    follower: Mutex<Follower<'static>>,
+    follower: Mutex<AnyFollower>,
     objects: Arc<[Composite]>,
+}
+
+/// A follower with a rod of either kind.
+#[derive(Clone)]
+enum AnyFollower {
+    Uniform(Follower<'static, Rod>),
+    Varying(Follower<'static, VaryingRod>),
+}
+
+impl From<Follower<'static, Rod>> for AnyFollower {
+    fn from(follower: Follower<'static, Rod>) -> Self {
+        Self::Uniform(follower)
+    }
+}
+
+impl From<Follower<'static, VaryingRod>> for AnyFollower {
+    fn from(follower: Follower<'static, VaryingRod>) -> Self {
+        Self::Varying(follower)
+    }
+}
+
+impl AnyFollower {
+    fn state(&self) -> &State {
+        match self {
+            Self::Uniform(follower) => follower.state(),
+            Self::Varying(follower) => follower.state(),
+        }
+    }
+
+    fn to(&mut self, pose: Pose) -> Result<Vec<Item>, Stop> {
+        match self {
+            Self::Uniform(follower) => follower.to(pose),
+            Self::Varying(follower) => follower.to(pose),
+        }
+    }
 }
 
 /// The objects for a follower that is dropped before they are.
@@ -55,7 +91,7 @@ fn borrowed(objects: &Arc<[Composite]>) -> &'static [Composite] {
 
 impl PyFollower {
     /// To be called without the interpreter: whoever has the lock may be waiting for it, in a shape of Python.
-    fn locked(&self) -> MutexGuard<'_, Follower<'static>> {
+    fn locked(&self) -> MutexGuard<'_, AnyFollower> {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -65,7 +101,8 @@ impl PyFollower {
     #[new]
     fn new(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, pose: PyPose) -> PyResult<Self> {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
-        let made = running::run(py, || Follower::new(&rod.rod, borrowed(&objects), pose.0))?;
+        let make = || for_rod!(&rod.rod, rod => Follower::new(rod, borrowed(&objects), pose.0).map(AnyFollower::from));
+        let made = running::run(py, make)?;
         Ok(Self { follower: Mutex::new(made.map_err(|stop| errors::stopped(py, &stop, None))?), objects })
     }
 
@@ -91,7 +128,10 @@ impl PyFollower {
     #[staticmethod]
     fn from_state(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, state: &PyState) -> PyResult<Self> {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
-        let made = running::run(py, || Follower::from_state(&rod.rod, borrowed(&objects), &state.state))?;
+        let state = &state.state;
+        let make =
+            || for_rod!(&rod.rod, rod => Follower::from_state(rod, borrowed(&objects), state).map(AnyFollower::from));
+        let made = running::run(py, make)?;
         Ok(Self { follower: Mutex::new(made.map_err(errors::value)?), objects })
     }
 

@@ -14,6 +14,7 @@ mod errors;
 mod event;
 mod follower;
 mod live;
+mod made;
 mod own_function;
 mod own_path;
 mod own_shape;
@@ -44,6 +45,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("UNITS", array::units(module.py())?)?;
     module.add_class::<rod::PyRod>()?;
+    module.add_class::<rod::PySection>()?;
     module.add_class::<shape::PyShape>()?;
     shapes::add(module)?;
     module.add_class::<composite::PyComposite>()?;

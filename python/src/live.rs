@@ -60,7 +60,7 @@ impl PyLive {
     #[new]
     #[pyo3(signature = (rod, free, *, half_window=None, as_is=false))]
     fn new(py: Python<'_>, rod: &PyRod, free: Samples, half_window: Option<f64>, as_is: bool) -> PyResult<Self> {
-        let rod = &rod.rod;
+        let rod = rod.uniform()?;
         let budget = if as_is { Budget::NONE } else { Budget::laboratory(rod) };
         let made = running::run(py, || {
             let found = LiveSettings::of_free_rod(rod, &free.0, Reactions::default())?;

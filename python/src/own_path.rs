@@ -1,6 +1,7 @@
 //! Paths written in Python: functions that give pose and rate.
 
 use crate::errors;
+use crate::made::made;
 use crate::own_function::OwnFunction;
 use crate::path::PyPath;
 use pyo3::prelude::*;
@@ -62,12 +63,13 @@ pub struct PyClampFunction;
 impl PyClampFunction {
     #[new]
     #[pyo3(signature = (function, length=1.0))]
-    fn new(function: Bound<'_, PyAny>, length: f64) -> PyResult<(Self, PyPath)> {
+    fn new(py: Python<'_>, function: Bound<'_, PyAny>, length: f64) -> PyResult<(Self, PyPath)> {
         if !(length > 0.0 && length.is_finite()) {
             return Err(errors::value(format!("length is {length:?}, expected a finite number greater than 0")));
         }
         let range = Range { from: 0.0, to: length };
+        let made = made!(py, "ClampFunction", function, length);
         let function = OwnFunction::new(function, range, "the function", "(6, n)")?;
-        Ok((Self, PyPath::new(OwnPath { function, length }, None)))
+        Ok((Self, PyPath::new(OwnPath { function, length }, None, Some(made))))
     }
 }

@@ -1,6 +1,7 @@
 //! The way of the clamp.
 
 use crate::array::Floats;
+use crate::made::{Made, Reduced, made};
 use crate::own_path::PyClampFunction;
 use crate::pose::{PyPose, tuple};
 use crate::{errors, running};
@@ -42,11 +43,12 @@ pub struct PyPath {
     pub path: Arc<dyn Path>,
     /// None where scene files have no such path.
     pub legs: Option<Vec<Leg>>,
+    made: Option<Made>,
 }
 
 impl PyPath {
-    pub fn new(path: impl Path + 'static, legs: Option<Vec<Leg>>) -> Self {
-        Self { path: Arc::new(path), legs }
+    pub fn new(path: impl Path + 'static, legs: Option<Vec<Leg>>, made: Option<Made>) -> Self {
+        Self { path: Arc::new(path), legs, made }
     }
 
     pub fn shared(&self) -> Shared {
@@ -151,6 +153,20 @@ impl PyPath {
         let name = slf.get_type().name()?.to_string();
         Ok(format!("<vibrissa.{name} from {:?} to {:?}>", path.start(), path.end()))
     }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        if let Some(made) = &self.made {
+            return Ok(made.reduced(py));
+        }
+        // of a scene: start and end of a straight leg, or pivot and angle
+        let leg = |leg: &Leg| match *leg {
+            Leg::Straight { from, to, .. } => (tuple(from), tuple(to)).into_pyobject(py),
+            Leg::Pivot { pivot, turn, .. } => (pivot, turn).into_pyobject(py),
+        };
+        let legs: Vec<_> = self.legs.iter().flatten().map(leg).collect::<PyResult<_>>()?;
+        Ok((py.import("vibrissa._pickled")?.getattr("path")?, (legs,).into_pyobject(py)?))
+    }
 }
 
 /// A straight path, on which the clamp turns in proportion to the way.
@@ -172,9 +188,12 @@ pub struct PyClampPath;
 #[pymethods]
 impl PyClampPath {
     #[new]
-    fn new(start: PyPose, end: PyPose) -> PyResult<(Self, PyPath)> {
+    fn new(py: Python<'_>, start: PyPose, end: PyPose) -> PyResult<(Self, PyPath)> {
         let path = ClampPath::new(start.0, end.0).map_err(errors::value)?;
-        Ok((Self, PyPath::new(path, Some(vec![Leg::straight(&path, end.0)]))))
+        let legs = vec![Leg::straight(&path, end.0)];
+        let (start, end) = (tuple(start.0), tuple(end.0));
+        let made = made!(py, "ClampPath", start, end);
+        Ok((Self, PyPath::new(path, Some(legs), Some(made))))
     }
 }
 
@@ -204,14 +223,22 @@ pub struct PyClampArc;
 impl PyClampArc {
     #[new]
     #[pyo3(signature = (start, center, turn, phi_end=None))]
-    fn new(start: PyPose, center: [f64; 2], turn: f64, phi_end: Option<f64>) -> PyResult<(Self, PyPath)> {
+    fn new(
+        py: Python<'_>,
+        start: PyPose,
+        center: [f64; 2],
+        turn: f64,
+        phi_end: Option<f64>,
+    ) -> PyResult<(Self, PyPath)> {
         let path = match phi_end {
             Some(phi) => ClampArc::new(start.0, center, turn, phi),
             None => ClampArc::about(start.0, center, turn),
         };
         let path = path.map_err(errors::value)?;
         let leg = Leg::Pivot { pivot: center, turn, turns_only: path.turns_only() };
-        Ok((Self, PyPath::new(path, phi_end.is_none().then(|| vec![leg]))))
+        let start = tuple(start.0);
+        let made = made!(py, "ClampArc", start, center, turn, phi_end);
+        Ok((Self, PyPath::new(path, phi_end.is_none().then(|| vec![leg]), Some(made))))
     }
 }
 
@@ -235,9 +262,11 @@ pub struct PyClampSpline;
 #[pymethods]
 impl PyClampSpline {
     #[new]
-    fn new(poses: Vec<PyPose>) -> PyResult<(Self, PyPath)> {
+    fn new(py: Python<'_>, poses: Vec<PyPose>) -> PyResult<(Self, PyPath)> {
         let poses: Vec<Pose> = poses.into_iter().map(|pose| pose.0).collect();
-        Ok((Self, PyPath::new(ClampSpline::through(&poses).map_err(errors::value)?, None)))
+        let path = ClampSpline::through(&poses).map_err(errors::value)?;
+        let poses: Vec<_> = poses.into_iter().map(tuple).collect();
+        Ok((Self, PyPath::new(path, None, Some(made!(py, "ClampSpline", poses)))))
     }
 }
 
@@ -260,10 +289,11 @@ pub struct PyChain;
 #[pymethods]
 impl PyChain {
     #[new]
-    fn new(legs: Vec<Bound<'_, PyPath>>) -> PyResult<(Self, PyPath)> {
+    fn new(py: Python<'_>, legs: Vec<Bound<'_, PyPath>>) -> PyResult<(Self, PyPath)> {
         let path = Chain::new(legs.iter().map(|leg| leg.get().path.clone()).collect()).map_err(errors::value)?;
         let written: Option<Vec<_>> = legs.iter().map(|leg| leg.get().legs.clone()).collect();
-        Ok((Self, PyPath::new(path, written.map(|legs| legs.concat()))))
+        let made = made!(py, "Chain", legs);
+        Ok((Self, PyPath::new(path, written.map(|legs| legs.concat()), Some(made))))
     }
 
     /// Straight legs from pose to pose.
@@ -285,8 +315,10 @@ impl PyChain {
     fn polyline(py: Python<'_>, poses: Vec<PyPose>) -> PyResult<Py<Self>> {
         let poses: Vec<Pose> = poses.into_iter().map(|pose| pose.0).collect();
         let path = Chain::polyline(&poses).map_err(errors::value)?;
+        let given: Vec<_> = poses.iter().copied().map(tuple).collect();
+        let made = Made::method(&py.get_type::<Self>(), "polyline", (given,))?;
         let leg = |pair: &[Pose]| ClampPath::new(pair[0], pair[1]).map(|path| Leg::straight(&path, pair[1]));
         let legs = poses.windows(2).map(leg).collect::<Result<_, _>>().map_err(errors::value)?;
-        Py::new(py, (Self, PyPath::new(path, Some(legs))))
+        Py::new(py, (Self, PyPath::new(path, Some(legs), Some(made))))
     }
 }

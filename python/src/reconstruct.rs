@@ -13,7 +13,7 @@ use pyo3::types::PyTuple;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
 use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Reading, Source, SourceEstimate, TraceRow};
-use vibrissa::{Label, Rod, Settings};
+use vibrissa::{Label, Settings};
 use vibrissa_cli::{Reconstructed, Recording};
 
 const TRACE: &[Column<TraceRow>] = &[
@@ -67,9 +67,8 @@ pub struct PyReconstruction {
 impl PyReconstruction {
     /// The rod that was assumed.
     #[getter]
-    fn rod(&self) -> PyResult<PyRod> {
-        let rod = &self.found.rod;
-        PyRod::new(rod.length(), Some(rod.bending_stiffness()), None, None, None)
+    fn rod(&self) -> PyRod {
+        PyRod::of_rod(self.found.rod)
     }
 
     /// The samples, as the fields of ``Recording.samples``.
@@ -315,7 +314,7 @@ pub fn reconstruct(
         Ok(recording) => recording.get().recording.clone(),
         Err(_) => recording(samples.extract()?),
     };
-    let rod: Rod = rod.rod;
+    let rod = *rod.uniform()?;
     let found = running::run(py, || Reconstructed::new(recording, rod, &settings))?.map_err(errors::value)?;
     Ok(PyReconstruction { found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
 }

@@ -1,13 +1,92 @@
 //! The rod.
 
+use crate::array::Floats;
 use crate::errors;
+use crate::made::{Made, Reduced};
+use crate::written::{number, point, points};
+use numpy::ndarray::Ix2;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::IntoPyDict;
+use toml::{Table, Value};
 use vibrissa::Rod;
+use vibrissa::rod::{NaturalCurvature, RodSection, VaryingRod};
+use vibrissa_cli::AnyRod;
 
-/// A straight, uniform, inextensible, linear elastic rod.
-///
-/// Give ``bending_stiffness``, or ``diameter`` and ``youngs_modulus`` of a round wire.
+/// Something that is computed for a rod of either kind.
+macro_rules! for_rod {
+    ($any:expr, $rod:ident => $computed:expr) => {
+        match $any {
+            vibrissa_cli::AnyRod::Uniform($rod) => $computed,
+            vibrissa_cli::AnyRod::Varying($rod) => $computed,
+        }
+    };
+}
+pub(crate) use for_rod;
+
+/// The curvature at rest: a number (1/m), or points of arc length (m) and curvature (1/m).
+#[derive(Clone, PartialEq, IntoPyObject)]
+pub enum Curvature {
+    Constant(f64),
+    Points(Vec<[f64; 2]>),
+}
+
+impl<'py> FromPyObject<'py> for Curvature {
+    fn extract_bound(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Ok(curvature) = object.extract() {
+            return Ok(Self::Constant(curvature));
+        }
+        let wrong = |found: &[usize]| {
+            errors::value(format!(
+                "natural_curvature has the shape {found:?}, expected a number (1/m), or points of shape (n, 2): m, 1/m"
+            ))
+        };
+        let numbers: Floats<'_> = object.extract()?;
+        let numbers = numbers.view();
+        let points = numbers.view().into_dimensionality::<Ix2>().map_err(|_| wrong(numbers.shape()))?;
+        if points.ncols() != 2 {
+            return Err(wrong(numbers.shape()));
+        }
+        Ok(Self::Points(points.rows().into_iter().map(|row| [row[0], row[1]]).collect()))
+    }
+}
+
+impl Curvature {
+    fn value(&self) -> Value {
+        match self {
+            Self::Constant(curvature) => Value::Float(*curvature),
+            Self::Points(points) => Value::Array(points.iter().copied().map(point).collect()),
+        }
+    }
+
+    /// Of a scene file.
+    fn of(table: &Table) -> Option<Self> {
+        let field = "natural_curvature";
+        number(table, field).map(Self::Constant).or_else(|| points(table, field).map(Self::Points))
+    }
+}
+
+/// How stiff a rod or section is, as it is written: the stiffness, or diameter and Young's modulus.
+type Stiffness = [Option<f64>; 3];
+
+const STIFFNESS: [&str; 3] = ["bending_stiffness", "diameter", "youngs_modulus"];
+
+/// The stiffness of a rod or section as a rod of that length.
+fn stiff(length: f64, written: Stiffness) -> PyResult<Rod> {
+    let rod = match written {
+        [Some(stiffness), None, None] => Rod::new(length, stiffness),
+        [None, Some(diameter), Some(modulus)] => Rod::from_diameter(length, diameter, modulus),
+        _ => return Err(errors::value("expected bending_stiffness, or diameter and youngs_modulus")),
+    };
+    rod.map_err(errors::value)
+}
+
+fn put(table: &mut Table, names: &[&str], values: &[Option<f64>]) {
+    let given =
+        names.iter().zip(values).filter_map(|(name, value)| Some(((*name).to_owned(), Value::Float((*value)?))));
+    table.extend(given);
+}
+
+/// A part of a rod, of constant bending stiffness and natural curvature.
 ///
 /// Parameters
 /// ----------
@@ -19,8 +98,8 @@ use vibrissa::Rod;
 ///     Diameter of a round wire in m; E I = E pi d^4 / 64.
 /// youngs_modulus : float, optional
 ///     Young's modulus in Pa.
-/// yield_stress : float, optional
-///     Yield stress in Pa. It is kept for scene files; the rod stays elastic.
+/// natural_curvature : float, optional
+///     Curvature at rest in 1/m, positive to the left.
 ///
 /// Raises
 /// ------
@@ -30,85 +109,379 @@ use vibrissa::Rod;
 /// Examples
 /// --------
 /// >>> import vibrissa
+/// >>> shaft, tip = vibrissa.Section(0.06, 6e-4), vibrissa.Section(0.04, 1e-4, natural_curvature=5.0)
+/// >>> vibrissa.Rod(0.1, sections=[shaft, tip]).bending_stiffness
+/// 0.0006
+#[pyclass(frozen, eq, get_all, name = "Section", module = "vibrissa")]
+#[derive(Clone, PartialEq)]
+pub struct PySection {
+    /// Length in m.
+    length: f64,
+    /// Bending stiffness E I in N m^2.
+    bending_stiffness: f64,
+    /// Diameter of the wire in m; None where it is not known.
+    diameter: Option<f64>,
+    /// Young's modulus in Pa; None where it is not known.
+    youngs_modulus: Option<f64>,
+    /// Curvature at rest in 1/m.
+    natural_curvature: f64,
+}
+
+impl PySection {
+    fn stiffness(&self) -> Stiffness {
+        [self.diameter.is_none().then_some(self.bending_stiffness), self.diameter, self.youngs_modulus]
+    }
+
+    fn section(&self) -> RodSection {
+        let Self { length, bending_stiffness, natural_curvature, .. } = *self;
+        RodSection { length, bending_stiffness, natural_curvature }
+    }
+
+    fn table(&self) -> Table {
+        let mut table = Table::from_iter([("length".to_owned(), Value::Float(self.length))]);
+        put(&mut table, &STIFFNESS, &self.stiffness());
+        if self.natural_curvature != 0.0 {
+            put(&mut table, &["natural_curvature"], &[Some(self.natural_curvature)]);
+        }
+        table
+    }
+
+    /// Of a scene file.
+    fn of(table: &Table) -> PyResult<Self> {
+        let [stiffness, diameter, modulus] = STIFFNESS.map(|field| number(table, field));
+        let length = number(table, "length").unwrap_or(f64::NAN);
+        Self::new(length, stiffness, diameter, modulus, number(table, "natural_curvature").unwrap_or(0.0))
+    }
+}
+
+#[pymethods]
+impl PySection {
+    #[new]
+    #[pyo3(signature = (length, bending_stiffness=None, *, diameter=None, youngs_modulus=None, natural_curvature=0.0))]
+    fn new(
+        length: f64,
+        bending_stiffness: Option<f64>,
+        diameter: Option<f64>,
+        youngs_modulus: Option<f64>,
+        natural_curvature: f64,
+    ) -> PyResult<Self> {
+        let rod = stiff(length, [bending_stiffness, diameter, youngs_modulus])?;
+        let bending_stiffness = rod.bending_stiffness();
+        let made = Self { length, bending_stiffness, diameter, youngs_modulus, natural_curvature };
+        Rod::sections(length, &[made.section()]).map_err(errors::value)?;
+        Ok(made)
+    }
+
+    fn __repr__(&self) -> String {
+        let mut text = shown("Section", self.length, self.stiffness());
+        if self.natural_curvature != 0.0 {
+            text += &format!(", natural_curvature={:?}", self.natural_curvature);
+        }
+        text + ")"
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let mut arguments: Vec<_> = STIFFNESS.into_iter().zip(self.stiffness()).collect();
+        arguments.extend([("length", Some(self.length)), ("natural_curvature", Some(self.natural_curvature))]);
+        Ok(Made::class(py, "Section", &arguments.into_py_dict(py)?)?.reduced(py))
+    }
+}
+
+/// The beginning of a text that makes a rod or section.
+fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
+    let named = |(name, value): (&str, Option<f64>)| value.map(|value| format!(", {name}={value:?}"));
+    let wire: String = STIFFNESS.into_iter().zip(stiffness).skip(1).filter_map(named).collect();
+    let stiffness = stiffness[0].map_or_else(String::new, |stiffness| format!(", {stiffness:?}"));
+    format!("{what}({length:?}{stiffness}{wire}")
+}
+
+/// An inextensible, unshearable, linear elastic rod.
+///
+/// A uniform one has ``bending_stiffness``, or ``diameter`` and ``youngs_modulus`` of a round wire. With ``tip_diameter`` the wire
+/// tapers; ``sections`` are parts of constant stiffness; ``natural_curvature`` bends it at rest.
+///
+/// Parameters
+/// ----------
+/// length : float
+///     Length in m.
+/// bending_stiffness : float, optional
+///     Bending stiffness E I in N m^2.
+/// diameter : float, optional
+///     Diameter of a round wire in m, at the clamp; E I = E pi d^4 / 64.
+/// youngs_modulus : float, optional
+///     Young's modulus in Pa.
+/// tip_diameter : float, optional
+///     Diameter at the tip in m; the diameter changes linearly along the rod.
+/// natural_curvature : float or array_like, optional
+///     Curvature at rest in 1/m, positive to the left; or points of shape (n, 2): arc length from the clamp (m) and curvature (1/m),
+///     with straight lines between them.
+/// sections : sequence of Section, optional
+///     Parts from the clamp to the tip, in place of stiffness or diameters. Their lengths add up to ``length``.
+/// yield_stress : float, optional
+///     Yield stress of a uniform rod in Pa. It is kept for scene files; the rod stays elastic.
+///
+/// Raises
+/// ------
+/// ValueError
+///     A value is not positive and finite, the arguments do not go together, or the rod crosses itself at rest.
+///
+/// Notes
+/// -----
+/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives`` and studies take any rod. ``simulate``, ``Recording``,
+/// ``reconstruct``, ``single`` and ``Live`` take uniform rods that are straight at rest.
+///
+/// Examples
+/// --------
+/// >>> import vibrissa
 /// >>> rod = vibrissa.Rod(0.1, diameter=0.5e-3, youngs_modulus=206e9)
 /// >>> round(rod.bending_stiffness, 6)
 /// 0.000632
+/// >>> whisker = vibrissa.Rod(0.04, diameter=1e-4, tip_diameter=1e-5, youngs_modulus=3e9, natural_curvature=20.0)
+/// >>> whisker.is_uniform
+/// False
 #[pyclass(frozen, eq, name = "Rod", module = "vibrissa")]
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone)]
 pub struct PyRod {
-    pub rod: Rod,
-    pub wire: Option<(f64, f64)>,
+    pub rod: AnyRod,
+    length: f64,
+    stiffness: Stiffness,
+    tip_diameter: Option<f64>,
+    natural_curvature: Option<Curvature>,
+    sections: Vec<PySection>,
+    yield_stress: Option<f64>,
+}
+
+impl PartialEq for PyRod {
+    fn eq(&self, other: &Self) -> bool {
+        let numbers = |rod: &Self| (rod.length, rod.stiffness, rod.tip_diameter, rod.yield_stress);
+        numbers(self) == numbers(other)
+            && self.natural_curvature == other.natural_curvature
+            && self.sections == other.sections
+    }
+}
+
+impl PyRod {
+    /// A uniform rod.
+    pub fn of_rod(rod: Rod) -> Self {
+        Self {
+            length: rod.length(),
+            stiffness: [Some(rod.bending_stiffness()), None, None],
+            tip_diameter: None,
+            natural_curvature: None,
+            sections: Vec::new(),
+            yield_stress: rod.yield_stress(),
+            rod: AnyRod::Uniform(rod),
+        }
+    }
+
+    /// The rod of a table `[rod]`.
+    pub fn of_table(table: &Table) -> PyResult<Self> {
+        let field = |name: &str| number(table, name);
+        let [stiffness, diameter, modulus] = STIFFNESS.map(field);
+        let tables = table.get("section").and_then(Value::as_array).into_iter().flatten();
+        let sections: Vec<_> = tables.filter_map(Value::as_table).map(PySection::of).collect::<PyResult<_>>()?;
+        let sections = (!sections.is_empty()).then_some(sections);
+        let (length, curvature) = (field("length").unwrap_or(f64::NAN), Curvature::of(table));
+        let (tip, stress) = (field("tip_diameter"), field("yield_stress"));
+        Self::new(length, stiffness, diameter, modulus, tip, curvature, sections, stress)
+    }
+
+    /// The table `[rod]`.
+    pub fn table(&self) -> Table {
+        let mut table = Table::from_iter([("length".to_owned(), Value::Float(self.length))]);
+        put(&mut table, &STIFFNESS, &self.stiffness);
+        put(&mut table, &["tip_diameter", "yield_stress"], &[self.tip_diameter, self.yield_stress]);
+        if let Some(curvature) = &self.natural_curvature {
+            table.insert("natural_curvature".to_owned(), curvature.value());
+        }
+        if !self.sections.is_empty() {
+            let sections = self.sections.iter().map(|section| Value::Table(section.table())).collect();
+            table.insert("section".to_owned(), Value::Array(sections));
+        }
+        table
+    }
+
+    /// The rod for what takes only a uniform one that is straight at rest.
+    pub fn uniform(&self) -> PyResult<&Rod> {
+        match &self.rod {
+            AnyRod::Uniform(rod) => Ok(rod),
+            AnyRod::Varying(_) => Err(errors::value(format!(
+                "rod is {}, not uniform or not straight at rest, expected a uniform, straight one: only from its reactions contacts \
+                 are found",
+                self.__repr__()
+            ))),
+        }
+    }
+
+    fn varying(&self) -> PyResult<Option<VaryingRod>> {
+        let Self { length, stiffness, tip_diameter, ref natural_curvature, ref sections, .. } = *self;
+        let [_, diameter, modulus] = stiffness;
+        if !sections.is_empty() {
+            if stiffness.iter().chain([&tip_diameter]).any(Option::is_some) {
+                return Err(errors::value(
+                    "stiffness or diameter is given beside sections, expected it in the sections alone",
+                ));
+            }
+            if natural_curvature.is_some() && sections.iter().any(|section| section.natural_curvature != 0.0) {
+                return Err(errors::value(
+                    "natural_curvature is given beside that of a section, expected one of the two",
+                ));
+            }
+            let sections: Vec<_> = sections.iter().map(PySection::section).collect();
+            return Rod::sections(length, &sections).map(Some).map_err(errors::value);
+        }
+        let rod = stiff(length, stiffness)?;
+        match (tip_diameter, diameter.zip(modulus)) {
+            (Some(tip), Some((diameter, modulus))) => {
+                Rod::tapered(length, diameter, tip, modulus).map(Some).map_err(errors::value)
+            }
+            (Some(_), None) => Err(errors::value(
+                "tip_diameter is given beside bending_stiffness, expected diameter and youngs_modulus of a wire that tapers",
+            )),
+            (None, _) if natural_curvature.is_some() => {
+                rod.with_natural_curvature(0.0).map(Some).map_err(errors::value)
+            }
+            (None, _) => Ok(None),
+        }
+    }
 }
 
 #[pymethods]
 impl PyRod {
     #[new]
-    #[pyo3(signature = (length, bending_stiffness=None, *, diameter=None, youngs_modulus=None, yield_stress=None))]
+    #[pyo3(signature = (
+        length, bending_stiffness=None, *, diameter=None, youngs_modulus=None, tip_diameter=None, natural_curvature=None,
+        sections=None, yield_stress=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "the fields of a rod in a scene file")]
     pub fn new(
         length: f64,
         bending_stiffness: Option<f64>,
         diameter: Option<f64>,
         youngs_modulus: Option<f64>,
+        tip_diameter: Option<f64>,
+        natural_curvature: Option<Curvature>,
+        sections: Option<Vec<PySection>>,
         yield_stress: Option<f64>,
     ) -> PyResult<Self> {
-        let wire = diameter.zip(youngs_modulus);
-        let rod = match (bending_stiffness, wire, diameter.is_some() || youngs_modulus.is_some()) {
-            (Some(stiffness), None, false) => Rod::new(length, stiffness),
-            (None, Some((diameter, modulus)), _) => Rod::from_diameter(length, diameter, modulus),
-            _ => return Err(errors::value("expected bending_stiffness, or diameter and youngs_modulus")),
+        let sections = sections.unwrap_or_default();
+        let stiffness = [bending_stiffness, diameter, youngs_modulus];
+        let none = Rod::new(1.0, 1.0).map_err(errors::value)?;
+        let rod = AnyRod::Uniform(none);
+        let mut made = Self { rod, length, stiffness, tip_diameter, natural_curvature, sections, yield_stress };
+        made.rod = match (made.varying()?, yield_stress) {
+            (None, None) => AnyRod::Uniform(stiff(length, stiffness)?),
+            (None, Some(stress)) => {
+                AnyRod::Uniform(stiff(length, stiffness)?.with_yield_stress(stress).map_err(errors::value)?)
+            }
+            (Some(_), Some(_)) => {
+                return Err(errors::value(
+                    "yield_stress is given for a rod that is not uniform or not straight at rest, expected it with a uniform rod alone",
+                ));
+            }
+            (Some(rod), None) => match &made.natural_curvature {
+                None => AnyRod::Varying(rod),
+                Some(Curvature::Constant(curvature)) => {
+                    AnyRod::Varying(rod.with_natural_curvature(*curvature).map_err(errors::value)?)
+                }
+                Some(Curvature::Points(points)) => {
+                    let curvature = NaturalCurvature::points(points).map_err(errors::value)?;
+                    AnyRod::Varying(rod.with_natural_curvature(curvature).map_err(errors::value)?)
+                }
+            },
         };
-        let rod = match yield_stress {
-            Some(stress) => rod.and_then(|rod| rod.with_yield_stress(stress)),
-            None => rod,
-        };
-        Ok(Self { rod: rod.map_err(errors::value)?, wire })
+        Ok(made)
     }
 
     /// Length in m.
     #[getter]
     fn length(&self) -> f64 {
-        self.rod.length()
+        self.length
     }
 
-    /// Bending stiffness E I in N m^2.
+    /// Bending stiffness E I in N m^2, at the clamp.
     #[getter]
-    fn bending_stiffness(&self) -> f64 {
-        self.rod.bending_stiffness()
+    fn bending_stiffness(&self) -> PyResult<f64> {
+        match self.sections.first() {
+            Some(section) => Ok(section.bending_stiffness),
+            None => Ok(stiff(self.length, self.stiffness)?.bending_stiffness()),
+        }
     }
 
-    /// Diameter of the wire in m; None where it is not known.
+    /// Diameter of the wire in m, at the clamp; None where it is not known.
     #[getter]
     fn diameter(&self) -> Option<f64> {
-        self.wire.map(|wire| wire.0)
+        self.stiffness[1]
     }
 
     /// Young's modulus in Pa; None where it is not known.
     #[getter]
     fn youngs_modulus(&self) -> Option<f64> {
-        self.wire.map(|wire| wire.1)
+        self.stiffness[2]
+    }
+
+    /// Diameter at the tip in m; None where the rod does not taper.
+    #[getter]
+    fn tip_diameter(&self) -> Option<f64> {
+        self.tip_diameter
+    }
+
+    /// Curvature at rest: 1/m, or points of arc length (m) and curvature (1/m); None where it is not given.
+    #[getter]
+    fn natural_curvature(&self) -> Option<Curvature> {
+        self.natural_curvature.clone()
+    }
+
+    /// The sections from the clamp to the tip; empty where it has none.
+    #[getter]
+    fn sections(&self) -> Vec<PySection> {
+        self.sections.clone()
     }
 
     /// Yield stress in Pa; None where it is not known.
     #[getter]
     fn yield_stress(&self) -> Option<f64> {
-        self.rod.yield_stress()
+        self.yield_stress
+    }
+
+    /// Whether the rod is uniform and straight at rest.
+    #[getter]
+    fn is_uniform(&self) -> bool {
+        matches!(self.rod, AnyRod::Uniform(_))
     }
 
     fn __repr__(&self) -> String {
-        let stress = self.yield_stress().map_or_else(String::new, |stress| format!(", yield_stress={stress:?}"));
-        let length = self.length();
-        match self.wire {
-            Some((diameter, modulus)) => {
-                format!("Rod({length:?}, diameter={diameter:?}, youngs_modulus={modulus:?}{stress})")
-            }
-            None => format!("Rod({length:?}, {:?}{stress})", self.bending_stiffness()),
+        let mut text = shown("Rod", self.length, self.stiffness);
+        if let Some(tip) = self.tip_diameter {
+            text += &format!(", tip_diameter={tip:?}");
         }
+        match &self.natural_curvature {
+            None => {}
+            Some(Curvature::Constant(curvature)) => text += &format!(", natural_curvature={curvature:?}"),
+            Some(Curvature::Points(points)) => text += &format!(", natural_curvature={points:?}"),
+        }
+        if !self.sections.is_empty() {
+            let sections: Vec<_> = self.sections.iter().map(PySection::__repr__).collect();
+            text += &format!(", sections=[{}]", sections.join(", "));
+        }
+        if let Some(stress) = self.yield_stress {
+            text += &format!(", yield_stress={stress:?}");
+        }
+        text + ")"
     }
 
     /// For `pickle` and `copy`: a function and its arguments.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let stiffness = self.wire.is_none().then(|| self.bending_stiffness());
-        let arguments = (self.length(), stiffness, self.diameter(), self.youngs_modulus(), self.yield_stress());
-        Ok((py.import("vibrissa._pickled")?.getattr("rod")?, arguments.into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let mut numbers: Vec<_> = STIFFNESS.into_iter().zip(self.stiffness).collect();
+        numbers.extend([
+            ("length", Some(self.length)),
+            ("tip_diameter", self.tip_diameter),
+            ("yield_stress", self.yield_stress),
+        ]);
+        let arguments = numbers.into_py_dict(py)?;
+        arguments.set_item("natural_curvature", self.natural_curvature.clone())?;
+        arguments.set_item("sections", (!self.sections.is_empty()).then(|| self.sections.clone()))?;
+        Ok(Made::class(py, "Rod", &arguments)?.reduced(py))
     }
 }

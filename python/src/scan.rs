@@ -4,6 +4,7 @@ use crate::array::{ragged, structured};
 use crate::composite::PyComposite;
 use crate::errors;
 use crate::event::{EVENT, PyEvent};
+use crate::made::Reduced;
 use crate::path::PyPath;
 use crate::rod::PyRod;
 use crate::state::{CONTACT, PyState, STATE, points};
@@ -197,6 +198,19 @@ impl PyScan {
     fn to_arrow<'py>(slf: &Bound<'py, Self>, table: &str) -> PyResult<Bound<'py, PyAny>> {
         which(table)?;
         slf.py().import("vibrissa._tables")?.call_method1("scan_to_arrow", (slf, table))
+    }
+
+    /// A scan from what pickling keeps of it.
+    #[staticmethod]
+    fn _from_json(rod: Py<PyRod>, objects: Vec<Py<PyComposite>>, path: Py<PyPath>, text: &str) -> PyResult<Self> {
+        Ok(Self::new((rod, objects, path), serde_json::from_str(text).map_err(errors::value)?))
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let text = serde_json::to_string(&self.outcome).map_err(errors::value)?;
+        let arguments = (self.rod(py), self.objects(py), self.path(py), text);
+        Ok((py.get_type::<Self>().getattr("_from_json")?, arguments.into_pyobject(py)?))
     }
 
     fn __len__(&self) -> usize {

@@ -2,21 +2,22 @@
 
 use crate::composite::PyComposite;
 use crate::errors;
+use crate::made::{Reduced, made};
 use crate::path::{Leg, PyPath};
 use crate::rod::PyRod;
 use crate::scan::PyScan;
 use crate::shape::objects;
 use crate::sweep::{Steps, run};
-use crate::written::{Object, degrees, point};
+use crate::written::{Object, degrees, number, point, two};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::PyList;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::{Table, Value};
 use vibrissa::contact::Chain;
 use vibrissa::contour::Motion;
 use vibrissa::{ClampPath, Pose};
-use vibrissa_cli::{LegPath, Scene};
+use vibrissa_cli::{AnyScene, LegPath, Scene};
 
 /// A rod, objects and the path of the clamp.
 ///
@@ -49,16 +50,20 @@ pub struct PyScene {
 }
 
 impl PyScene {
-    fn of(py: Python<'_>, scene: Scene, text: &str, directory: &Path) -> PyResult<Self> {
+    fn of(py: Python<'_>, scene: AnyScene, text: &str, directory: &Path) -> PyResult<Self> {
+        match scene {
+            AnyScene::Uniform(scene) => Self::of_scene(py, scene, text, directory),
+            AnyScene::Varying(scene) => Self::of_scene(py, scene, text, directory),
+        }
+    }
+
+    fn of_scene<R>(py: Python<'_>, scene: Scene<R>, text: &str, directory: &Path) -> PyResult<Self> {
         let tables: Table = text.parse().map_err(errors::value)?;
-        let Scene { name, rod: scene_rod, objects, path, step, legs, warnings, .. } = scene;
+        let Scene { name, objects, path, step, legs, warnings, .. } = scene;
         let mut written = written_objects(&tables, directory).into_iter();
-        let with = |composite| Py::new(py, PyComposite::with(composite, written.next()));
+        let with = |composite| Py::new(py, PyComposite::read(composite, written.next()));
         let objects = objects.into_iter().map(with).collect::<PyResult<_>>()?;
-        let of_rod = |field: &str| number(tables.get("rod")?.as_table()?, field);
-        let [stiffness, diameter, modulus, stress] =
-            ["bending_stiffness", "diameter", "youngs_modulus", "yield_stress"].map(of_rod);
-        let rod = PyRod::new(scene_rod.length(), stiffness, diameter, modulus, stress)?;
+        let rod = PyRod::of_table(tables.get("rod").and_then(Value::as_table).unwrap_or(&Table::new()))?;
         let mut steps = vec![step];
         steps.extend(legs.iter().map(|leg| leg.step));
         Ok(Self { rod: Py::new(py, rod)?, objects, path: path_of(py, path, &legs, &tables)?, steps, name, warnings })
@@ -82,7 +87,7 @@ impl PyScene {
             list.push(Value::Table(object.as_ref().ok_or_else(none)?.table(composite.is_cavity())));
         }
         Ok(Table::from_iter([
-            ("rod".to_owned(), Value::Table(rod_table(self.rod.get()))),
+            ("rod".to_owned(), Value::Table(self.rod.get().table())),
             ("object".to_owned(), Value::Array(list)),
             ("sweep".to_owned(), Value::Table(self.sweep_table()?)),
         ]))
@@ -143,24 +148,6 @@ fn leg_table(leg: &Leg) -> Table {
     }
 }
 
-fn rod_table(rod: &PyRod) -> Table {
-    let (length, stress) = (rod.rod.length(), rod.rod.yield_stress());
-    let mut table = Table::from_iter([("length".to_owned(), Value::Float(length))]);
-    match rod.wire {
-        Some((diameter, modulus)) => {
-            table.insert("diameter".to_owned(), Value::Float(diameter));
-            table.insert("youngs_modulus".to_owned(), Value::Float(modulus));
-        }
-        None => {
-            table.insert("bending_stiffness".to_owned(), Value::Float(rod.rod.bending_stiffness()));
-        }
-    }
-    if let Some(stress) = stress {
-        table.insert("yield_stress".to_owned(), Value::Float(stress));
-    }
-    table
-}
-
 /// The path of a scene that has been read, with its legs as they are written.
 fn path_of(py: Python<'_>, first: ClampPath, legs: &[vibrissa_cli::Leg], tables: &Table) -> PyResult<Py<PyPath>> {
     let sweep = tables.get("sweep").and_then(Value::as_table).cloned().unwrap_or_default();
@@ -172,7 +159,7 @@ fn path_of(py: Python<'_>, first: ClampPath, legs: &[vibrissa_cli::Leg], tables:
     };
     let mut written = vec![Some(straight(&first, &sweep))];
     if legs.is_empty() {
-        return Py::new(py, PyPath::new(first, written.into_iter().collect()));
+        return Py::new(py, PyPath::new(first, written.into_iter().collect(), None));
     }
     let listed = sweep.get("leg").and_then(Value::as_array).into_iter().flatten();
     let leg = |(leg, table): (&vibrissa_cli::Leg, &Table)| match leg.path {
@@ -185,7 +172,7 @@ fn path_of(py: Python<'_>, first: ClampPath, legs: &[vibrissa_cli::Leg], tables:
     written.extend(legs.iter().zip(listed.filter_map(Value::as_table)).map(leg));
     let first: Arc<dyn vibrissa::contact::Path> = Arc::new(first);
     let paths = std::iter::once(first).chain(legs.iter().map(|leg| leg.path.path())).collect();
-    Py::new(py, PyPath::new(Chain::new(paths).map_err(errors::value)?, written.into_iter().collect()))
+    Py::new(py, PyPath::new(Chain::new(paths).map_err(errors::value)?, written.into_iter().collect(), None))
 }
 
 /// The fields `[contour]` and `[[object]]` as they are written, with absolute files.
@@ -221,19 +208,6 @@ fn absolute(table: &mut Table, directory: &Path) {
             _ => {}
         }
     }
-}
-
-fn float(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|number| number as f64))
-}
-
-fn number(table: &Table, name: &str) -> Option<f64> {
-    table.get(name).and_then(float)
-}
-
-fn two(table: &Table, name: &str) -> Option<[f64; 2]> {
-    let numbers = table.get(name)?.as_array()?;
-    Some([float(numbers.first()?)?, float(numbers.get(1)?)?])
 }
 
 #[pymethods]
@@ -278,7 +252,7 @@ impl PyScene {
     ///     It is no scene; the text tells line, column and field.
     #[staticmethod]
     fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
-        let scene = Scene::read(&file).map_err(errors::file)?;
+        let scene = AnyScene::read(&file).map_err(errors::file)?;
         Self::of(py, scene, &std::fs::read_to_string(&file)?, &Self::directory(&file))
     }
 
@@ -302,7 +276,7 @@ impl PyScene {
     #[staticmethod]
     #[pyo3(signature = (text, file=PathBuf::from("scene.toml")), text_signature = "(text, file='scene.toml')")]
     fn parse(py: Python<'_>, text: &str, file: PathBuf) -> PyResult<Self> {
-        let scene = Scene::parse(&file, text).map_err(errors::file)?;
+        let scene = AnyScene::parse(&file, text).map_err(errors::file)?;
         Self::of(py, scene, text, &Self::directory(&file))
     }
 
@@ -389,8 +363,9 @@ impl PyScene {
     }
 
     /// For `pickle` and `copy`: a function and its arguments.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let parse = py.get_type::<Self>().getattr("parse")?;
-        Ok((parse, (self.to_toml()?, format!("{}.toml", self.name)).into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let (rod, objects, path) = (self.rod.bind(py), self.objects(py), self.path.bind(py));
+        let (objects, step, name) = (PyList::new(py, objects)?, &self.steps, &self.name);
+        Ok(made!(py, "Scene", rod, objects, path, step, name).reduced(py))
     }
 }

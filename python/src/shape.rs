@@ -2,6 +2,7 @@
 
 use crate::array::{Column, Floats, Get, structured};
 use crate::composite::PyComposite;
+use crate::made::{Made, Reduced, made};
 use crate::own_shape;
 use crate::{errors, running};
 use numpy::ndarray::{ArrayD, ArrayViewD, IxDyn};
@@ -26,6 +27,8 @@ pub struct PyShape {
     whole: Box<dyn Contour>,
     /// The pieces as tables of a scene file; none where they have no name there.
     pub written: Option<Vec<Table>>,
+    /// How it was made; none of an object that was read.
+    pub made: Option<Made>,
 }
 
 impl PyShape {
@@ -33,6 +36,7 @@ impl PyShape {
     pub fn new(
         make: impl Fn() -> Pieces + Send + Sync + 'static,
         written: Option<Vec<Table>>,
+        made: Made,
     ) -> Result<Self, ContourError> {
         let mut pieces = make();
         let whole = match (pieces.pop(), pieces.is_empty()) {
@@ -42,14 +46,14 @@ impl PyShape {
                 Box::new(Composite::new(pieces)?)
             }
         };
-        Ok(Self { make: Arc::new(make), whole, written })
+        Ok(Self { make: Arc::new(make), whole, written, made: Some(made) })
     }
 
     /// A shape of one piece.
-    pub fn single(shape: impl Contour + Clone + 'static, written: Option<Table>) -> Self {
+    pub fn single(shape: impl Contour + Clone + 'static, written: Option<Table>, made: Option<Made>) -> Self {
         let whole: Box<dyn Contour> = Box::new(shape.clone());
         let make = move || vec![Box::new(shape.clone()) as Box<dyn Contour>];
-        Self { make: Arc::new(make), whole, written: written.map(|table| vec![table]) }
+        Self { make: Arc::new(make), whole, written: written.map(|table| vec![table]), made }
     }
 
     pub fn pieces(&self) -> Pieces {
@@ -68,7 +72,7 @@ pub fn shape<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyShape>> {
     }
     if object.hasattr("frame")? {
         let own = own_shape::OwnShape::new(object)?;
-        return Bound::new(object.py(), PyShape::single(own, None));
+        return Bound::new(object.py(), PyShape::single(own, None, None));
     }
     let found = object.get_type().name()?;
     Err(pyo3::exceptions::PyTypeError::new_err(format!(
@@ -87,7 +91,11 @@ pub fn objects<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyComp
 fn object<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyComposite>> {
     match given.downcast::<PyComposite>() {
         Ok(composite) => Ok(composite.clone()),
-        Err(_) => Bound::new(given.py(), PyComposite::of(given.py(), &[shape(given)?])?),
+        Err(_) => {
+            let (py, pieces) = (given.py(), vec![given.clone()]);
+            let made = made!(py, "Composite", pieces);
+            Bound::new(py, PyComposite::of(py, &pieces)?.made_by(made))
+        }
     }
 }
 
@@ -218,10 +226,12 @@ impl PyShape {
         signature = (position=[0.0, 0.0], angle=0.0, scale=1.0, mirror=false),
         text_signature = "($self, position=(0.0, 0.0), angle=0.0, scale=1.0, mirror=False)"
     )]
-    fn moved(&self, position: [f64; 2], angle: f64, scale: f64, mirror: bool) -> PyResult<Self> {
+    fn moved(slf: &Bound<'_, Self>, position: [f64; 2], angle: f64, scale: f64, mirror: bool) -> PyResult<Self> {
+        let made = Made::method(slf, "moved", (position, angle, scale, mirror))?;
+        let shape = slf.get();
         let motion = motion(position, angle, scale, mirror);
-        Moved::new(self.pieces().remove(0), motion).map_err(errors::value)?;
-        let make = self.make.clone();
+        Moved::new(shape.pieces().remove(0), motion).map_err(errors::value)?;
+        let make = shape.make.clone();
         // the motion has been tried
         let moved = move || -> Pieces {
             make()
@@ -229,7 +239,7 @@ impl PyShape {
                 .filter_map(|piece| Some(Box::new(Moved::new(piece, motion).ok()?) as Box<dyn Contour>))
                 .collect()
         };
-        Self::new(moved, None).map_err(errors::value)
+        Self::new(moved, None, made).map_err(errors::value)
     }
 
     /// The shape travelled the other way, which exchanges solid and outside.
@@ -237,12 +247,13 @@ impl PyShape {
     /// Returns
     /// -------
     /// Shape
-    fn reversed(&self) -> PyResult<Self> {
-        let make = self.make.clone();
+    fn reversed(slf: &Bound<'_, Self>) -> PyResult<Self> {
+        let made = Made::method(slf, "reversed", ())?;
+        let make = slf.get().make.clone();
         let reversed = move || -> Pieces {
             make().into_iter().rev().map(|piece| Box::new(Reversed::new(piece)) as Box<dyn Contour>).collect()
         };
-        Self::new(reversed, None).map_err(errors::value)
+        Self::new(reversed, None, made).map_err(errors::value)
     }
 
     /// A part of a shape of one piece.
@@ -260,25 +271,32 @@ impl PyShape {
     /// ------
     /// ValueError
     ///     The part is empty or leaves the range, or the shape has several pieces.
-    fn trimmed(&self, start: f64, end: f64) -> PyResult<Self> {
-        let mut pieces = self.pieces();
+    fn trimmed(slf: &Bound<'_, Self>, start: f64, end: f64) -> PyResult<Self> {
+        let made = Made::method(slf, "trimmed", (start, end))?;
+        let mut pieces = slf.get().pieces();
         let range = Range { from: start, to: end };
         match (pieces.pop(), pieces.is_empty()) {
             (Some(piece), true) => Trimmed::new(piece, range).map_err(errors::value)?,
             _ => return Err(errors::value("the shape has several pieces, expected one piece to trim")),
         };
-        let make = self.make.clone();
+        let make = slf.get().make.clone();
         let trimmed = move || -> Pieces {
             make()
                 .into_iter()
                 .filter_map(|piece| Some(Box::new(Trimmed::new(piece, range).ok()?) as Box<dyn Contour>))
                 .collect()
         };
-        Self::new(trimmed, None).map_err(errors::value)
+        Self::new(trimmed, None, made).map_err(errors::value)
     }
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
         let (from, to) = slf.get().range();
         Ok(format!("<vibrissa.{} from t = {from:?} to {to:?}>", slf.get_type().name()?))
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let none = || errors::value("the shape cannot be pickled, expected an object of its own: vibrissa.Composite");
+        self.made.as_ref().map(|made| made.reduced(py)).ok_or_else(none)
     }
 }

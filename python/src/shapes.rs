@@ -1,6 +1,7 @@
 //! The shapes of the library by name.
 
 use crate::errors;
+use crate::made::{Made, made};
 use crate::own_function::OwnFunction;
 use crate::running;
 use crate::shape::PyShape;
@@ -26,12 +27,16 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyCurve>()
 }
 
-fn single(shape: Result<impl Contour + Clone + 'static, ContourError>, written: Option<&Shape>) -> PyResult<PyShape> {
-    Ok(PyShape::single(shape.map_err(errors::value)?, written.and_then(piece)))
+fn single(
+    shape: Result<impl Contour + Clone + 'static, ContourError>,
+    written: Option<&Shape>,
+    made: Made,
+) -> PyResult<PyShape> {
+    Ok(PyShape::single(shape.map_err(errors::value)?, written.and_then(piece), Some(made)))
 }
 
 /// Shapes that the library makes from their description.
-fn described(shape: Shape) -> PyResult<PyShape> {
+fn described(shape: Shape, made: Made) -> PyResult<PyShape> {
     let named = |error: vibrissa::contour::description::ShapeError| match error.field {
         Some(field) => errors::value(format!("{field}: {error}")),
         None => errors::value(error),
@@ -39,7 +44,7 @@ fn described(shape: Shape) -> PyResult<PyShape> {
     shape.pieces(Path::new("")).map_err(named)?;
     let written = piece(&shape).map(|table| vec![table]);
     // the description has been tried
-    PyShape::new(move || shape.pieces(Path::new("")).unwrap_or_default(), written).map_err(errors::value)
+    PyShape::new(move || shape.pieces(Path::new("")).unwrap_or_default(), written, made).map_err(errors::value)
 }
 
 /// A straight line; the solid is on its left.
@@ -59,9 +64,10 @@ pub struct PyLine;
 #[pymethods]
 impl PyLine {
     #[new]
-    fn new(start: [f64; 2], end: [f64; 2]) -> PyResult<(Self, PyShape)> {
+    fn new(py: Python<'_>, start: [f64; 2], end: [f64; 2]) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "Line", start, end);
         let written = Shape::Line(LineFields { from: start, to: end });
-        Ok((Self, single(Line::new(start, end), Some(&written))?))
+        Ok((Self, single(Line::new(start, end), Some(&written), made)?))
     }
 }
 
@@ -93,7 +99,14 @@ pub struct PyParabola;
 impl PyParabola {
     #[new]
     #[pyo3(signature = (vertex, coefficient, *, x_from=None, x_to=None))]
-    fn new(vertex: [f64; 2], coefficient: f64, x_from: Option<f64>, x_to: Option<f64>) -> PyResult<(Self, PyShape)> {
+    fn new(
+        py: Python<'_>,
+        vertex: [f64; 2],
+        coefficient: f64,
+        x_from: Option<f64>,
+        x_to: Option<f64>,
+    ) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "Parabola", vertex, coefficient, x_from, x_to);
         let written = Shape::Parabola(ParabolaFields { vertex, coefficient, from_x: x_from, to_x: x_to });
         let whole = Parabola::new(vertex, coefficient);
         let shape = match (x_from, x_to) {
@@ -102,7 +115,7 @@ impl PyParabola {
                 whole.and_then(|whole| whole.between(from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY)))
             }
         };
-        Ok((Self, single(shape, Some(&written))?))
+        Ok((Self, single(shape, Some(&written), made)?))
     }
 }
 
@@ -127,10 +140,11 @@ pub struct PyCircularArc;
 #[pymethods]
 impl PyCircularArc {
     #[new]
-    fn new(center: [f64; 2], radius: f64, angle_from: f64, angle_to: f64) -> PyResult<(Self, PyShape)> {
+    fn new(py: Python<'_>, center: [f64; 2], radius: f64, angle_from: f64, angle_to: f64) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "CircularArc", center, radius, angle_from, angle_to);
         let (from_angle, to_angle) = (degrees(angle_from), degrees(angle_to));
         let written = Shape::Arc(ArcFields { center, radius, from_angle, to_angle });
-        Ok((Self, single(CircularArc::new(center, radius, angle_from, angle_to), Some(&written))?))
+        Ok((Self, single(CircularArc::new(center, radius, angle_from, angle_to), Some(&written), made)?))
     }
 }
 
@@ -159,15 +173,17 @@ impl PyEllipticArc {
     #[new]
     #[pyo3(signature = (center, radii, angle_from, angle_to, *, rotation=0.0))]
     fn new(
+        py: Python<'_>,
         center: [f64; 2],
         radii: [f64; 2],
         angle_from: f64,
         angle_to: f64,
         rotation: f64,
     ) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "EllipticArc", center, radii, angle_from, angle_to, rotation);
         let [turned, from_angle, to_angle] = [rotation, angle_from, angle_to].map(degrees);
         let written = Shape::Ellipse(EllipseFields { center, radii, rotation: turned, from_angle, to_angle });
-        Ok((Self, single(EllipticArc::new(center, radii, rotation, angle_from, angle_to), Some(&written))?))
+        Ok((Self, single(EllipticArc::new(center, radii, rotation, angle_from, angle_to), Some(&written), made)?))
     }
 }
 
@@ -188,7 +204,8 @@ pub struct PyBezier;
 #[pymethods]
 impl PyBezier {
     #[new]
-    fn new(control: Vec<[f64; 2]>) -> PyResult<(Self, PyShape)> {
+    fn new(py: Python<'_>, control: Vec<[f64; 2]>) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "Bezier", control);
         let shape = match control[..] {
             [a, b, c, d] => Bezier::new([a, b, c, d]),
             [a, b, c] => Bezier::quadratic([a, b, c]),
@@ -197,7 +214,7 @@ impl PyBezier {
                 return Err(errors::value(format!("control has {found} points, expected four or three")));
             }
         };
-        Ok((Self, single(shape, None)?))
+        Ok((Self, single(shape, None, made)?))
     }
 }
 
@@ -226,12 +243,14 @@ impl PySpline {
     #[new]
     #[pyo3(signature = (points, *, end="natural", angle_from=None, angle_to=None, smoothing=None))]
     fn new(
+        py: Python<'_>,
         points: Vec<[f64; 2]>,
         end: &str,
         angle_from: Option<f64>,
         angle_to: Option<f64>,
         smoothing: Option<f64>,
     ) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "Spline", points, end, angle_from, angle_to, smoothing);
         let (field, kind) = match end {
             "natural" => (SplineEndField::Natural, SplineEnd::Natural),
             "clamped" => (SplineEndField::Clamped, SplineEnd::Clamped { from: angle_from, to: angle_to }),
@@ -258,7 +277,7 @@ impl PySpline {
         };
         let (from_angle, to_angle) = (angle_from.map(degrees), angle_to.map(degrees));
         let fields = SplineFields { points: Some(points), file: None, end: field, from_angle, to_angle, smoothing };
-        Ok((Self, single(shape, Some(&Shape::Spline(fields)))?))
+        Ok((Self, single(shape, Some(&Shape::Spline(fields)), made)?))
     }
 }
 
@@ -282,8 +301,9 @@ pub struct PyPolygon;
 impl PyPolygon {
     #[new]
     #[pyo3(signature = (points, *, closed=true))]
-    fn new(points: Vec<[f64; 2]>, closed: bool) -> PyResult<(Self, PyShape)> {
-        Ok((Self, described(Shape::Polygon(PolygonFields { points: Some(points), file: None, closed }))?))
+    fn new(py: Python<'_>, points: Vec<[f64; 2]>, closed: bool) -> PyResult<(Self, PyShape)> {
+        let made = made!(py, "Polygon", points, closed);
+        Ok((Self, described(Shape::Polygon(PolygonFields { points: Some(points), file: None, closed }), made)?))
     }
 }
 
@@ -311,9 +331,16 @@ pub struct PySvg;
 impl PySvg {
     #[new]
     #[pyo3(signature = (path=None, *, scale, file=None, id=None))]
-    fn new(path: Option<String>, scale: f64, file: Option<PathBuf>, id: Option<String>) -> PyResult<(Self, PyShape)> {
+    fn new(
+        py: Python<'_>,
+        path: Option<String>,
+        scale: f64,
+        file: Option<PathBuf>,
+        id: Option<String>,
+    ) -> PyResult<(Self, PyShape)> {
         let file = file.map(|file| std::path::absolute(&file).unwrap_or(file));
-        Ok((Self, described(Shape::Svg(SvgFields { file, path, id, scale }))?))
+        let made = made!(py, "Svg", path, scale, file, id);
+        Ok((Self, described(Shape::Svg(SvgFields { file, path, id, scale }), made)?))
     }
 }
 
@@ -345,9 +372,10 @@ impl PyGraph {
     #[new]
     fn new(function: Bound<'_, PyAny>, x_from: f64, x_to: f64) -> PyResult<(Self, PyShape)> {
         let (py, range) = (function.py(), Range { from: x_from, to: x_to });
+        let made = made!(py, "Graph", function, x_from, x_to);
         let own = OwnFunction::<3>::new(function, range, "the function", "(3, n)")?;
         let graph = running::run(py, || Graph::with_derivatives(range, move |x| own.at(x)))?;
-        Ok((Self, single(graph, None)?))
+        Ok((Self, single(graph, None, made)?))
     }
 }
 
@@ -372,12 +400,13 @@ impl PyCurve {
     #[new]
     fn new(function: Bound<'_, PyAny>, t_from: f64, t_to: f64) -> PyResult<(Self, PyShape)> {
         let (py, range) = (function.py(), Range { from: t_from, to: t_to });
+        let made = made!(py, "Curve", function, t_from, t_to);
         let own = OwnFunction::<6>::new(function, range, "the function", "(3, 2, n)")?;
         let derivatives = move |t| {
             let [x, y, dx, dy, ddx, ddy] = own.at(t);
             [[x, y], [dx, dy], [ddx, ddy]]
         };
         let curve = running::run(py, || Curve::with_derivatives(range, derivatives))?;
-        Ok((Self, single(curve, None)?))
+        Ok((Self, single(curve, None, made)?))
     }
 }

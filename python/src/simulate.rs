@@ -111,7 +111,7 @@ pub fn simulate<'py>(
     let path = path.ok_or_else(|| errors::value("the path is not straight, expected a ClampPath"))?;
     let noise = noise.map(model).transpose()?.unwrap_or_default();
     let objects: Vec<_> = scene.objects.iter().map(|object| object.bind(py).clone()).collect();
-    let (objects, step, rod) = (contours(&objects), speed / rate, scene.rod.get().rod);
+    let (objects, step, rod) = (contours(&objects), speed / rate, *scene.rod.get().uniform()?);
     let made = running::run(py, || {
         let sweep = Sweep::new(&rod, &objects[..], path, step).map_err(errors::value)?;
         let sensor = noise.generator(seed).map_err(errors::value)?;

@@ -64,9 +64,9 @@ const POINT: &[Column<Point>] = &[
 /// True
 #[pyfunction]
 pub fn single<'py>(py: Python<'py>, rod: &PyRod, samples: Samples) -> PyResult<Bound<'py, PyAny>> {
+    let rod = rod.uniform()?;
     let points = running::run(py, || {
-        let point = |sample: &vibrissa::Sample| match invert(&rod.rod, sample.pose, sample.reactions, &Matrix3::zeros())
-        {
+        let point = |sample: &vibrissa::Sample| match invert(rod, sample.pose, sample.reactions, &Matrix3::zeros()) {
             Ok(touch) => Point { touch: Some(touch), fits: true },
             Err(none) => Point { touch: none.touch(), fits: false },
         };

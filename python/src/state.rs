@@ -2,14 +2,15 @@
 
 use crate::array::{Column, Get};
 use crate::errors;
+use crate::made::{Reduced, made};
 use crate::pose::tuple;
-use crate::rod::PyRod;
+use crate::rod::{PyRod, for_rod};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use vibrissa::State;
 use vibrissa::contact::{Contact, ContactKind};
-use vibrissa::{Rod, State};
+use vibrissa_cli::AnyRod;
 
 /// Columns of a state: those of the command's `states.csv`, and how the solve went.
 pub const STATE: &[Column<State>] = &[
@@ -50,18 +51,20 @@ pub const CONTACT: &[Column<Contact>] = &[
 const MOST_POINTS: usize = 10_000_000;
 
 /// The points of the rod in a state: x, y (m) and the angle (rad), `n` of them.
-pub fn points<'py>(py: Python<'py>, state: &State, rod: &Rod, n: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+pub fn points<'py>(py: Python<'py>, state: &State, rod: &AnyRod, n: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
     if n < 2 {
         return Err(errors::value(format!("n is {n}, expected at least 2 points")));
     }
     if n > MOST_POINTS {
         return Err(errors::value(format!("n is {n}, expected at most {MOST_POINTS} points")));
     }
-    let elastica = state.elastica(rod).map_err(errors::value)?;
     let mut points = Array2::zeros((n, 3));
-    for (mut row, section) in points.rows_mut().into_iter().zip(elastica.sample(n)) {
-        (row[0], row[1], row[2]) = (section.x, section.y, section.phi);
-    }
+    for_rod!(rod, rod => {
+        let elastica = state.elastica(rod).map_err(errors::value)?;
+        for (mut row, section) in points.rows_mut().into_iter().zip(elastica.sample(n)) {
+            (row[0], row[1], row[2]) = (section.x, section.y, section.phi);
+        }
+    });
     Ok(points.into_pyarray(py))
 }
 
@@ -148,6 +151,12 @@ impl PyContact {
     fn __repr__(&self) -> String {
         let Self { kind, s, x, y, alpha, force, object, piece } = self;
         format!("Contact({kind:?}, {s:?}, {x:?}, {y:?}, {alpha:?}, {force:?}, {object}, {piece})")
+    }
+
+    /// For `pickle` and `copy`: a function and its arguments.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let Self { kind, s, x, y, alpha, force, object, piece } = self;
+        Ok(made!(py, "Contact", kind, s, x, y, alpha, force, object, piece).reduced(py))
     }
 }
 
@@ -284,7 +293,7 @@ impl PyState {
     }
 
     /// For `pickle` and `copy`: a function and its arguments.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let from_json = py.get_type::<Self>().getattr("from_json")?;
         Ok((from_json, (self.to_json()?,).into_pyobject(py)?))
     }

@@ -3,14 +3,15 @@
 use crate::composite::{PyComposite, contours};
 use crate::errors;
 use crate::path::PyPath;
-use crate::rod::PyRod;
+use crate::rod::{PyRod, for_rod};
 use crate::running::{self, Watch};
 use crate::scan::PyScan;
 use crate::shape::objects;
 use crate::state::PyState;
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Item, Outcome};
-use vibrissa::{Composite, Rod, State, Sweep};
+use vibrissa::rod::PhysicalRod;
+use vibrissa::{Composite, State, Sweep};
 
 /// Largest number of states of a sweep, which are all kept: some 6 GB.
 const MOST_STATES: f64 = 2e7;
@@ -23,8 +24,8 @@ pub enum Steps {
 }
 
 /// What a sweep is asked to do, without the interpreter.
-struct Task<'a> {
-    rod: &'a Rod,
+struct Task<'a, R> {
+    rod: &'a R,
     objects: &'a [Composite],
     path: &'a PyPath,
     steps: &'a Steps,
@@ -32,7 +33,7 @@ struct Task<'a> {
     most_steps: Option<u64>,
 }
 
-impl Task<'_> {
+impl<R: PhysicalRod> Task<'_, R> {
     fn run(&self) -> Result<Outcome, ContactError> {
         let Self { rod, objects, path, start, .. } = *self;
         let sweep = match (self.steps, start) {
@@ -129,7 +130,7 @@ pub fn run<'py>(
     }
     let py = rod.py();
     let contours = contours(objects);
-    let (wire, way, start) = (&rod.get().rod, path.get(), start.map(|start| &start.get().state));
+    let (way, start) = (path.get(), start.map(|start| &start.get().state));
     if let Steps::Each(steps) = steps
         && steps.len() != way.count()
     {
@@ -146,8 +147,9 @@ pub fn run<'py>(
             "step is {shortest:?}, which asks for {states:.1e} states, expected at most {MOST_STATES:.0e}"
         )));
     }
-    let task = Task { rod: wire, objects: &contours, path: way, steps, start, most_steps };
-    let outcome = running::run(py, || task.run())?.map_err(errors::value)?;
+    let any = &rod.get().rod;
+    let run = || for_rod!(any, rod => Task { rod, objects: &contours, path: way, steps, start, most_steps }.run());
+    let outcome = running::run(py, run)?.map_err(errors::value)?;
     let objects = objects.iter().map(|object| object.clone().unbind()).collect();
     let given = (rod.clone().unbind(), objects, path.clone().unbind());
     let stop = outcome.stop.clone();

@@ -24,6 +24,30 @@ pub fn point([x, y]: [f64; 2]) -> Value {
     Value::Array(vec![Value::Float(x), Value::Float(y)])
 }
 
+/// The number of that name.
+pub fn number(table: &Table, name: &str) -> Option<f64> {
+    table.get(name).and_then(float)
+}
+
+/// The two coordinates of that name.
+pub fn two(table: &Table, name: &str) -> Option<[f64; 2]> {
+    pair(table.get(name)?)
+}
+
+/// The list of two numbers each of that name.
+pub fn points(table: &Table, name: &str) -> Option<Vec<[f64; 2]>> {
+    table.get(name)?.as_array()?.iter().map(pair).collect()
+}
+
+fn pair(value: &Value) -> Option<[f64; 2]> {
+    let numbers = value.as_array()?;
+    Some([float(numbers.first()?)?, float(numbers.get(1)?)?])
+}
+
+fn float(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|number| number as f64))
+}
+
 /// An object of a scene as its table: what it is made of, and where it stands.
 #[derive(Clone)]
 pub struct Object {

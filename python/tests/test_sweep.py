@@ -26,7 +26,7 @@ def same(value: float, number: float | None) -> bool:
     return math.isnan(value) or math.isinf(value) if number is None else value == number
 
 
-@pytest.mark.parametrize("name", ["O1_q40", "O3_q60", "comb", "square_tilted", "whisking"])
+@pytest.mark.parametrize("name", ["O1_q40", "O3_q60", "comb", "square_tilted", "whisking", "whisker"])
 def test_numbers_are_those_of_the_command(name: str, command: list[str], tmp_path: Path) -> None:
     scene = vibrissa.Scene.read(SCENES / f"{name}.toml")
     scan = scene.sweep()

@@ -3,9 +3,9 @@
 All quantities have SI units, angles are in rad and count counter-clockwise from x. A contour runs with the solid on its left.
 
 Objects
-    :class:`Rod`; the shapes :class:`Line`, :class:`Parabola`, :class:`CircularArc`, :class:`EllipticArc`, :class:`Bezier`,
-    :class:`Spline`, :class:`Polygon`, :class:`Svg`, :class:`Graph`, :class:`Curve`, or any object with ``frame(t)``
-    (:func:`check_contract`); :class:`Composite`.
+    :class:`Rod`, uniform, tapered, of :class:`Section` parts, or bent at rest; the shapes :class:`Line`, :class:`Parabola`,
+    :class:`CircularArc`, :class:`EllipticArc`, :class:`Bezier`, :class:`Spline`, :class:`Polygon`, :class:`Svg`, :class:`Graph`,
+    :class:`Curve`, or any object with ``frame(t)`` (:func:`check_contract`); :class:`Composite`.
 Paths of the clamp
     :class:`ClampPath`, :class:`ClampArc`, :class:`ClampSpline`, :class:`ClampFunction`, :class:`Chain`.
 Sweeps
@@ -52,6 +52,7 @@ from ._core import (
     Rod,
     Scan,
     Scene,
+    Section,
     Shape,
     Spline,
     State,
@@ -100,6 +101,7 @@ __all__ = [
     "Rod",
     "Scan",
     "Scene",
+    "Section",
     "Shape",
     "Spline",
     "State",

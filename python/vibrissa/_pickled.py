@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from ._core import Composite, Rod, Scene
+from typing import Any
+
+from . import _core
+from ._core import Chain, ClampArc, ClampPath, Composite, Path, Scene
 
 
-def rod(
-    length: float,
-    bending_stiffness: float | None,
-    diameter: float | None,
-    youngs_modulus: float | None,
-    yield_stress: float | None,
-) -> Rod:
-    """The rod of these numbers."""
-    return Rod(
-        length,
-        bending_stiffness,
-        diameter=diameter,
-        youngs_modulus=youngs_modulus,
-        yield_stress=yield_stress,
-    )
+def made(name: str, arguments: dict[str, Any]) -> Any:
+    """An object of the class of that name."""
+    return getattr(_core, name)(**arguments)
+
+
+def called(thing: Any, method: str, arguments: tuple[Any, ...]) -> Any:
+    """What a method of an object gives."""
+    return getattr(thing, method)(*arguments)
+
+
+def path(legs: list[Any]) -> Path:
+    """The path of a scene: legs from pose to pose, or with pivot and angle."""
+    made: list[Path] = []
+    for first, second in legs:
+        if isinstance(second, float):
+            made.append(ClampArc(made[-1].end, first, second))
+        else:
+            made.append(ClampPath(first, second))
+    return made[0] if len(made) == 1 else Chain(made)
 
 
 # What a scene has beside its objects.

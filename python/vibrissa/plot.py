@@ -264,12 +264,19 @@ def phase_criterion(states: _Rows, rod: Rod) -> npt.NDArray[np.float64]:
     states : numpy.ndarray
         With the fields ``phi0``, ``f0x``, ``f0y`` and ``m0z``.
     rod : Rod
-        The rod.
+        The rod, uniform and straight at rest: other rods have no such criterion.
 
     Returns
     -------
     numpy.ndarray
+
+    Raises
+    ------
+    ValueError
+        The rod is another one.
     """
+    if not rod.is_uniform:
+        raise ValueError(f"rod is {rod}, expected a uniform, straight one: for others the phase criterion does not hold")
     along = states["f0y"] * np.sin(states["phi0"]) + states["f0x"] * np.cos(states["phi0"])
     found: npt.NDArray[np.float64] = states["m0z"] ** 2 - 2.0 * rod.bending_stiffness * along
     return found

@@ -1,7 +1,8 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, SweepTable};
-use super::rod_table::{self, AnyRod};
+use super::kind::AnyRod;
+use super::rod_table;
 use super::{AnyScene, Scene, files, leg, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;

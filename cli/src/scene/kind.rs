@@ -26,6 +26,25 @@ impl SceneRod for VaryingRod {
     }
 }
 
+/// A rod of either kind.
+#[derive(Clone, Debug)]
+pub enum AnyRod {
+    /// Uniform, and straight at rest.
+    Uniform(Rod),
+    /// Its stiffness varies, or it is bent at rest.
+    Varying(VaryingRod),
+}
+
+impl AnyRod {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Uniform(rod) => rod.length(),
+            Self::Varying(rod) => rod.length(),
+        }
+    }
+}
+
 /// A scene with any rod.
 #[derive(Debug)]
 pub enum AnyScene {

@@ -17,7 +17,7 @@ mod rod_table;
 mod shape;
 
 pub(crate) use check::MOST_STATES;
-pub use kind::{AnyScene, SceneRod};
+pub use kind::{AnyRod, AnyScene, SceneRod};
 pub(crate) use known_rod::written;
 pub use known_rod::{KnownRod, read_known_rod};
 pub use leg::{Leg, LegPath};

@@ -1,6 +1,7 @@
 //! The table `[rod]` as a rod.
 
 use super::document::{RodTable, SectionTable};
+use super::kind::AnyRod;
 use crate::toml_file::Fault;
 use std::ops::Range;
 use toml::{Spanned, Value};
@@ -10,23 +11,6 @@ use vibrissa::rod::{NaturalCurvature, RodError, RodSection, VaryingRod};
 /// What is said where another rod is given than a uniform, straight one.
 pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour` and `study` take, \
      expected length with diameter and youngs_modulus, or with bending_stiffness";
-
-/// The rod of a table.
-pub(super) enum AnyRod {
-    /// Uniform, and straight at rest.
-    Uniform(Rod),
-    Varying(VaryingRod),
-}
-
-impl AnyRod {
-    /// Length, m.
-    pub fn length(&self) -> f64 {
-        match self {
-            Self::Uniform(rod) => rod.length(),
-            Self::Varying(rod) => rod.length(),
-        }
-    }
-}
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);

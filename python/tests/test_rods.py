@@ -1,0 +1,139 @@
+"""Rods that taper, consist of sections, or are bent at rest."""
+
+from __future__ import annotations
+
+import copy
+import math
+import pickle
+
+import numpy as np
+import pytest
+from conftest import SCENES
+
+import vibrissa
+
+TAPERED = vibrissa.Rod(0.1, diameter=1e-3, tip_diameter=2e-4, youngs_modulus=3e9)
+BENT = vibrissa.Rod(0.1, 2e-3, natural_curvature=4.0)
+MEASURED = vibrissa.Rod(
+    0.1,
+    diameter=1e-3,
+    tip_diameter=2e-4,
+    youngs_modulus=3e9,
+    natural_curvature=np.array([[0.0, 1.0], [0.05, 2.0], [0.1, 6.0]]),
+)
+SECTIONS = vibrissa.Rod(
+    0.1,
+    sections=[vibrissa.Section(0.06, 2e-3), vibrissa.Section(0.04, diameter=5e-4, youngs_modulus=3e9, natural_curvature=3.0)],
+)
+DISC = vibrissa.CircularArc((0.0, 0.06), 0.02, -math.pi, math.pi)
+PATH = vibrissa.ClampPath((0.06, 0.0, math.pi / 2), (-0.02, 0.0, math.pi / 2))
+
+
+@pytest.mark.parametrize("rod", [TAPERED, BENT, MEASURED, SECTIONS], ids=["tapered", "bent", "measured", "sections"])
+class TestAnyRod:
+    def test_is_the_same_after_pickling_and_from_its_text(self, rod: vibrissa.Rod) -> None:
+        names = {"Rod": vibrissa.Rod, "Section": vibrissa.Section}
+        assert pickle.loads(pickle.dumps(rod)) == rod == copy.deepcopy(rod) == eval(repr(rod), names)
+        assert not rod.is_uniform and rod != vibrissa.Rod(0.1, rod.bending_stiffness)
+
+    def test_is_swept_as_in_a_scene_file(self, rod: vibrissa.Rod) -> None:
+        scene = vibrissa.Scene(rod, DISC, PATH, 1e-3)
+        again = vibrissa.Scene.parse(scene.to_toml())
+        assert again.rod == rod
+        scan, other = scene.sweep(), again.sweep()
+        for field in ("phase", "f0x", "f0y", "m0z", "min_gap", "energy"):
+            np.testing.assert_array_equal(scan.states[field], other.states[field])
+        assert "B" in scan.phases and scan.states["stable"].all()
+
+    def test_shape_and_derivatives(self, rod: vibrissa.Rod) -> None:
+        scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
+        number = next(i for i, phase in enumerate(scan.states["phase"]) if phase == "B")
+        state = scan.state(number)
+        points = scan.shape(number, 1001)
+        np.testing.assert_array_equal(points, state.shape(rod, 1001))
+        # the tangent of the shape is its slope, and its contact lies on the disc
+        ways = np.diff(points[:, :2], axis=0)
+        np.testing.assert_allclose(np.arctan2(ways[:, 1], ways[:, 0]), 0.5 * (points[1:, 2] + points[:-1, 2]), atol=1e-5)
+        (contact,) = state.contacts
+        assert math.hypot(contact.x, contact.y - 0.06) == pytest.approx(0.02, abs=1e-12)
+        # the exact stiffness against differences of states
+        follower = vibrissa.Follower.from_state(rod, DISC, state)
+        x, y, phi = state.pose
+        h = 1e-6
+        reactions = []
+        for way in (h, -h):
+            moved = follower.clone()
+            moved.to((x + way, y, phi))
+            reactions.append(np.array(moved.state.reactions))
+        stiffness = vibrissa.Derivatives(rod, DISC, state).stiffness()
+        np.testing.assert_allclose((reactions[0] - reactions[1]) / (2.0 * h), stiffness[:, 0], rtol=1e-4, atol=1e-6)
+
+    def test_equilibria_are_those_of_the_sweep(self, rod: vibrissa.Rod) -> None:
+        scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
+        state = next(state for state in map(scan.state, range(len(scan))) if state.phase == "B")
+        found = vibrissa.equilibrium(rod, DISC, state.pose, state.contacts)
+        assert found.solved and found.problem is None
+        np.testing.assert_allclose(found.state.reactions, state.reactions, rtol=1e-9)
+
+    def test_contacts_are_not_found_from_its_reactions(self, rod: vibrissa.Rod) -> None:
+        scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
+        for refused in (
+            lambda: vibrissa.single(rod, scan.states),
+            lambda: vibrissa.reconstruct(rod, scan.states),
+            lambda: vibrissa.simulate(vibrissa.Scene(rod, DISC, PATH, 1e-3), rate=100.0, speed=0.01),
+            lambda: vibrissa.Live(rod, scan.states),
+        ):
+            with pytest.raises(ValueError, match="rod is Rod.*expected a uniform, straight one"):
+                refused()
+
+
+def test_sections_of_one_kind_are_a_uniform_rod() -> None:
+    parts = vibrissa.Rod(0.1, sections=[vibrissa.Section(0.03, 2e-3), vibrissa.Section(0.07, 2e-3)])
+    one, other = (vibrissa.sweep(rod, DISC, PATH, 1e-3) for rod in (vibrissa.Rod(0.1, 2e-3), parts))
+    for field in ("f0x", "f0y", "m0z"):
+        np.testing.assert_allclose(one.states[field], other.states[field], rtol=1e-9, atol=1e-12)
+
+
+def test_what_a_rod_has() -> None:
+    assert TAPERED.tip_diameter == 2e-4 and TAPERED.diameter == 1e-3 and TAPERED.sections == []
+    assert TAPERED.bending_stiffness == pytest.approx(3e9 * math.pi * 1e-12 / 64.0, rel=1e-15)
+    assert BENT.natural_curvature == 4.0 and MEASURED.natural_curvature == [[0.0, 1.0], [0.05, 2.0], [0.1, 6.0]]
+    first, second = SECTIONS.sections
+    assert SECTIONS.bending_stiffness == first.bending_stiffness == 2e-3
+    assert (second.diameter, second.youngs_modulus, second.natural_curvature) == (5e-4, 3e9, 3.0)
+    assert vibrissa.Scene.read(SCENES / "whisker.toml").rod.natural_curvature == [[0.0, 8.0], [0.0408, 24.0]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({}, "expected bending_stiffness, or diameter and youngs_modulus"),
+        ({"bending_stiffness": 1.0, "tip_diameter": 1e-4}, "tip_diameter is given beside bending_stiffness"),
+        ({"diameter": 1e-3, "youngs_modulus": 1e9, "tip_diameter": 0.0}, "tip_diameter is 0, expected a positive"),
+        ({"diameter": 1e-3, "youngs_modulus": 1e9, "tip_diameter": 1e-6}, "tip_diameter"),
+        ({"diameter": 0.0, "youngs_modulus": 1e9, "tip_diameter": 1e-6}, "diameter is 0, expected a positive"),
+        ({"bending_stiffness": 1.0, "natural_curvature": math.nan}, "natural_curvature is NaN"),
+        ({"bending_stiffness": 1.0, "natural_curvature": [1.0, 2.0]}, r"shape \[2\], expected a number"),
+        ({"bending_stiffness": 1.0, "natural_curvature": [[0.0, 1.0], [0.0, 2.0]]}, "border at arc length 0"),
+        ({"bending_stiffness": 1.0, "natural_curvature": 100.0}, "crosses itself"),
+        ({"bending_stiffness": 1.0, "natural_curvature": 1.0, "yield_stress": 1e9}, "yield_stress is given for a rod"),
+        ({"sections": [vibrissa.Section(0.05, 1.0)]}, "add up to 0.05, expected 0.1"),
+        ({"bending_stiffness": 1.0, "sections": [vibrissa.Section(0.1, 1.0)]}, "given beside sections"),
+        ({"natural_curvature": 1.0, "sections": [vibrissa.Section(0.1, 1.0, natural_curvature=2.0)]}, "one of the two"),
+    ],
+)
+def test_what_is_no_rod(arguments: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        vibrissa.Rod(0.1, **arguments)  # type: ignore[arg-type]
+
+
+def test_what_is_no_section() -> None:
+    for arguments, message in [
+        ((0.0, 1.0), "length is 0"),
+        ((0.1, -1.0), "bending_stiffness is -1"),
+        ((0.1,), "expected bending_stiffness, or diameter and youngs_modulus"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            vibrissa.Section(*arguments)
+    with pytest.raises(ValueError, match="natural_curvature"):
+        vibrissa.Section(0.1, 1.0, natural_curvature=math.inf)
