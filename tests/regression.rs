@@ -236,3 +236,27 @@ fn a_rod_that_lies_on_the_wall_of_a_notch_stands_up_or_lets_go() {
         assert!((before.f0x - after.f0x).abs() < 1e-9 && (before.m0z - after.m0z).abs() < 1e-9, "{half}");
     }
 }
+
+/// Pressed by its tip on one parabola, the rod lies on another one with two contacts that run together. The force of the one vanishes
+/// only where both are closer than their equations can be solved.
+#[test]
+fn two_contacts_on_one_piece_run_together() {
+    for (distance, vertex, step) in [
+        (0.6111111111111112, [0.55, 0.0], 0.01),
+        (0.6111111111111112, [0.55, 0.0], 1e-4),
+        (0.40370370370370373, [0.65, -0.2], 0.01),
+        (0.41111111111111115, [0.65, -0.2], 0.01),
+        (0.5074074074074074, [0.6, -0.1], 0.01),
+    ] {
+        let object = [([0.0, 0.0], 5.0), (vertex, 2.5)];
+        let y = vertex[1] - distance;
+        let outcome = sweep(&object, Pose { x: 1.5, y, phi: UP }, Pose { x: -1.4, y, phi: UP }, step);
+        assert_eq!(outcome.stop, None, "{distance} {:?}", kinds(&outcome));
+        let joined = outcome.events.iter().find(|event| event.from().to_string() == "BBA").unwrap();
+        let (before, after) = (&joined.before, &joined.after);
+        assert_eq!((joined.kind, joined.to().to_string()), (EventKind::Release, "BA".to_owned()), "{distance}");
+        assert!((after.pose.x - before.pose.x).abs() < 3.1e-5 && before.contacts[1].s - before.contacts[0].s < 4e-3);
+        assert!((after.reactions.f0y / before.reactions.f0y - 1.0).abs() < 1e-3, "{before:?} {after:?}");
+        assert!(outcome.states.iter().all(|s| s.certificate.stable && s.certificate.min_gap.lower > -1e-11));
+    }
+}

@@ -7,7 +7,7 @@ use crate::continuation::certify::Quality;
 use crate::continuation::fold::locate_fold;
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::joint::{self, Passed};
-use crate::continuation::transition::{Break, NoTransition, Transition, breaks, gathered};
+use crate::continuation::transition::{Break, NoTransition, Transition, breaks, gathered, on};
 use crate::error::{Obstacle, StopReason};
 use crate::event::EventKind;
 use crate::gap::passing::Passing;
@@ -31,6 +31,10 @@ const FREE_STEP: f64 = 2e-3;
 pub(crate) const FIRST_STEP: f64 = 0.02;
 /// Shortest step (arclength). Where it fails too, the sweep stops with `StepTooSmall`.
 const SHORTEST_STEP: f64 = 1e-9;
+/// Distance (L) of two contacts on one piece from which on they are tried as one, and ways along the path (L) that this may take. The
+/// distance falls with the root of the way that is left, and the equations of both lose digits with its third power.
+const CLOSE: f64 = 4e-3;
+const JOINED: [f64; 7] = [0.0, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5];
 /// Distance (L) of the tip from two objects at which it counts as caught between them.
 const BETWEEN: f64 = 1e-6;
 /// Least cosine of the angle between the tangents at both ends of a step: 26 degrees. Sharper turns may be another branch.
@@ -274,7 +278,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
                 self.end(from, &next).map_err(Refused::Ended)
             };
         }
-        if let Some(transition) = self.runs_together(&next, &tangent) {
+        if let Some(transition) = self.runs_together(&next, &tangent).or_else(|| self.joined(&next, &tangent)) {
             return Ok(self.changed(transition));
         }
         if report.iterations <= 2 {
@@ -319,6 +323,28 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         let mut clean = seen.scan.is_outside();
         breaks(&self.corrector.setup.world, &seen.configuration, &seen.scan.crossings, |_| clean = false);
         clean.then_some(seen)
+    }
+
+    /// Two contacts on one convex piece that run together, as one: where they are so close that the rod lies on the one alone as soon as
+    /// the clamp has gone a little further. The force of the other vanishes on that way.
+    fn joined(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
+        let j = (1..next.count()).find(|&j| {
+            let [before, rate] = [j - 1, j].map(|j| tangent.rate_of(Unknown::ArcLength(j)));
+            let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j);
+            same && next.s(j) - next.s(j - 1) < CLOSE && rate < before
+        })?;
+        let (weak, strong) = if next.force(j) < next.force(j - 1) { (j, j - 1) } else { (j - 1, j) };
+        let mut one = next.clone();
+        one.set(Unknown::Force(strong), next.force(j) + next.force(j - 1));
+        one.remove(weak);
+        JOINED.into_iter().find_map(|way| {
+            let after = on(&mut self.corrector, one.clone(), Unknown::Path, next.tau() + way).ok()?;
+            // proven as a state is, since the next one must be
+            let scan = self.scan(&after);
+            let mut holds = scan.is_outside() && self.is_stable(&after, &scan);
+            breaks(&self.corrector.setup.world, &after, &scan.crossings, |_| holds = false);
+            holds.then(|| Transition { kind: EventKind::Release, before: next.clone(), after, along: 0.0 })
+        })
     }
 
     /// The last two contacts run together, if they are about to.
