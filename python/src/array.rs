@@ -1,6 +1,8 @@
 //! Arrays of NumPy: floats from anything, and structured arrays, whose rows have named fields.
 
+use numpy::ndarray::Ix2;
 use numpy::{PyArray1, PyReadonlyArrayDyn};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::borrow::Cow;
@@ -10,11 +12,64 @@ pub struct Floats<'py>(PyReadonlyArrayDyn<'py, f64>);
 
 impl<'py> FromPyObject<'py> for Floats<'py> {
     fn extract_bound(object: &Bound<'py, PyAny>) -> PyResult<Self> {
-        // a field of a structured array may be neither aligned nor in one piece
         let numpy = object.py().import("numpy")?;
-        let floats = numpy.call_method1("require", (object, "float64", ["C", "A"]))?;
-        Ok(Self(floats.extract()?))
+        let wrong = |found: &str| PyTypeError::new_err(format!("expected numbers, found {found}"));
+        let failed = |error: PyErr| PyTypeError::new_err(format!("expected numbers; {}", error.value(object.py())));
+        let given = numpy.call_method1("asanyarray", (object,)).map_err(failed)?;
+        // what NumPy would turn into a number in silence
+        let dtype = given.getattr("dtype")?;
+        let kind: char = dtype.getattr("kind")?.extract()?;
+        let has_none = || given.call_method0("ravel")?.call_method0("tolist")?.contains(object.py().None());
+        if !"fiubO".contains(kind) || kind == 'O' && has_none()? {
+            return Err(wrong(&format!("{} of type {dtype}", object.str()?)));
+        }
+        let masked = numpy.getattr("ma")?.call_method1("is_masked", (&given,))?;
+        if masked.is_truthy()? {
+            return Err(wrong("masked ones"));
+        }
+        // a field of a structured array may be neither aligned nor in one piece
+        let floats = numpy.call_method1("require", (given, "float64", ["C", "A"]));
+        Ok(Self(floats.map_err(failed)?.extract()?))
     }
+}
+
+/// Two coordinates, for `from_py_with`.
+pub fn two(object: &Bound<'_, PyAny>) -> PyResult<[f64; 2]> {
+    let floats: Floats<'_> = object.extract()?;
+    let numbers: Vec<f64> = floats.view().iter().copied().collect();
+    let wrong = || PyTypeError::new_err(format!("expected two numbers, found {}", numbers.len()));
+    numbers[..].try_into().map_err(|_| wrong())
+}
+
+/// Points of two coordinates, for `from_py_with`.
+pub fn twos(object: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 2]>> {
+    let floats: Floats<'_> = object.extract()?;
+    let view = floats.view();
+    let wrong = || {
+        PyTypeError::new_err(format!(
+            "expected points of two coordinates, of shape (n, 2), found the shape {:?}",
+            view.shape()
+        ))
+    };
+    let points = view.view().into_dimensionality::<Ix2>().map_err(|_| wrong())?;
+    if points.ncols() != 2 {
+        return Err(wrong());
+    }
+    Ok(points.rows().into_iter().map(|row| [row[0], row[1]]).collect())
+}
+
+/// A whole number that is not negative, for `from_py_with`.
+pub fn whole<T: TryFrom<u64>>(object: &Bound<'_, PyAny>) -> PyResult<T> {
+    let number = object.extract::<u64>().ok().and_then(|number| number.try_into().ok());
+    number.ok_or_else(|| {
+        let found = object.repr().map_or_else(|_| "something else".to_owned(), |text| text.to_string());
+        PyTypeError::new_err(format!("expected a whole number from 0 to {}, found {found}", u64::MAX))
+    })
+}
+
+/// The same, or none.
+pub fn whole_or_none(object: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
+    if object.is_none() { Ok(None) } else { whole(object).map(Some) }
 }
 
 impl Floats<'_> {

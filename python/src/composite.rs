@@ -1,5 +1,6 @@
 //! Objects: contours of pieces.
 
+use crate::array::two;
 use crate::made::{Made, Reduced, made};
 use crate::shape::{PyShape, motion, shape};
 use crate::written::Object;
@@ -103,7 +104,7 @@ impl PyComposite {
     )]
     fn new(
         pieces: &Bound<'_, PyAny>,
-        position: [f64; 2],
+        #[pyo3(from_py_with = two)] position: [f64; 2],
         angle: f64,
         scale: f64,
         mirror: bool,
@@ -168,7 +169,7 @@ impl PyComposite {
     )]
     fn moved(
         slf: &Bound<'_, Self>,
-        position: [f64; 2],
+        #[pyo3(from_py_with = two)] position: [f64; 2],
         angle: f64,
         scale: f64,
         mirror: bool,

@@ -1,6 +1,6 @@
 //! Derivatives of equilibria and of transitions.
 
-use crate::array::{Column, Floats, Get, structured};
+use crate::array::{Column, Floats, Get, structured, whole};
 use crate::composite::contours;
 use crate::event::PyEvent;
 use crate::rod::{PyRod, for_rod};
@@ -140,8 +140,8 @@ impl PyDerivatives {
         &self,
         py: Python<'py>,
         quantity: &str,
-        object: usize,
-        piece: usize,
+        #[pyo3(from_py_with = whole)] object: usize,
+        #[pyo3(from_py_with = whole)] piece: usize,
         parameter: Option<&str>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyAny>)> {
         let quantity = named(quantity, object, piece, parameter)?;
@@ -231,8 +231,8 @@ impl PyTransitionDerivatives {
         &self,
         py: Python<'_>,
         quantity: &str,
-        object: usize,
-        piece: usize,
+        #[pyo3(from_py_with = whole)] object: usize,
+        #[pyo3(from_py_with = whole)] piece: usize,
         parameter: Option<&str>,
     ) -> PyResult<f64> {
         let quantity = named(quantity, object, piece, parameter)?;

@@ -4,6 +4,7 @@ use crate::array::Floats;
 use crate::errors;
 use crate::running::{has_raised, raise};
 use numpy::PyArray1;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -40,7 +41,15 @@ impl<const N: usize> OwnFunction<N> {
     fn ask(&self, py: Python<'_>, t: &[f64]) -> PyResult<Vec<[f64; N]>> {
         let found = self.function.bind(py).call1((PyArray1::from_slice(py, t),))?;
         let (n, Self { name, returns, .. }) = (t.len(), self);
-        let array: Floats<'_> = found.extract()?;
+        let named = |error: PyErr| PyTypeError::new_err(format!("{name}: {}", error.value(py)));
+        // seven digits are too few for derivatives and contacts
+        let bytes =
+            found.getattr_opt("dtype")?.map(|dtype| dtype.getattr("itemsize")?.extract::<usize>()).transpose()?;
+        if bytes.is_some_and(|bytes| bytes < size_of::<f64>()) {
+            let dtype = found.getattr("dtype")?;
+            return Err(PyTypeError::new_err(format!("{name} returns numbers of type {dtype}, expected float64")));
+        }
+        let array: Floats<'_> = found.extract().map_err(named)?;
         let array = array.view();
         let shape = array.shape();
         let (rows, last) = shape.split_at(shape.len().saturating_sub(1));

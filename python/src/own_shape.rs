@@ -1,7 +1,9 @@
 //! Shapes written in Python: objects with a method `frame`.
 
+use crate::array::two;
 use crate::own_function::OwnFunction;
 use crate::{errors, running};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use std::fmt;
 use std::sync::Arc;
@@ -19,7 +21,9 @@ impl OwnShape {
     pub fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
         let range = match object.getattr_opt("range")? {
             Some(range) => {
-                let (from, to) = range.extract()?;
+                let named =
+                    |error: PyErr| PyTypeError::new_err(format!("range of the shape: {}", error.value(object.py())));
+                let [from, to] = two(&range).map_err(named)?;
                 Range { from, to }
             }
             None => Range::UNIT,

@@ -1,6 +1,6 @@
 //! The way of the clamp.
 
-use crate::array::Floats;
+use crate::array::{Floats, two};
 use crate::made::{Made, Reduced, made};
 use crate::own_path::PyClampFunction;
 use crate::pose::{PyPose, tuple};
@@ -226,7 +226,7 @@ impl PyClampArc {
     fn new(
         py: Python<'_>,
         start: PyPose,
-        center: [f64; 2],
+        #[pyo3(from_py_with = two)] center: [f64; 2],
         turn: f64,
         phi_end: Option<f64>,
     ) -> PyResult<(Self, PyPath)> {

@@ -1,7 +1,7 @@
 //! Poses of the clamp: three numbers.
 
 use crate::array::Floats;
-use crate::errors;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use vibrissa::Pose;
 
@@ -14,7 +14,8 @@ impl<'py> FromPyObject<'py> for PyPose {
         let numbers: Vec<f64> = floats.view().iter().copied().collect();
         let [x, y, phi] = numbers[..] else {
             let found = numbers.len();
-            return Err(errors::value(format!("a pose has {found} numbers, expected three: x (m), y (m), phi (rad)")));
+            let expected = "expected a pose of three numbers: x (m), y (m), phi (rad)";
+            return Err(PyTypeError::new_err(format!("{expected}, found {found}")));
         };
         Ok(Self(Pose { x, y, phi }))
     }

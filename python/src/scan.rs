@@ -1,6 +1,6 @@
 //! A sweep's results.
 
-use crate::array::{ragged, structured};
+use crate::array::{ragged, structured, whole};
 use crate::composite::PyComposite;
 use crate::errors;
 use crate::event::{EVENT, PyEvent};
@@ -161,7 +161,12 @@ impl PyScan {
     /// numpy.ndarray
     ///     Of shape (n, 3): x (m), y (m), slope angle phi (rad).
     #[pyo3(signature = (i, n=101))]
-    fn shape<'py>(&self, py: Python<'py>, i: isize, n: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn shape<'py>(
+        &self,
+        py: Python<'py>,
+        i: isize,
+        #[pyo3(from_py_with = whole)] n: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let i = self.at(i, self.outcome.states.len(), "state")?;
         points(py, &self.outcome.states[i], &self.rod.get().rod, n)
     }

@@ -1,5 +1,6 @@
 //! Scenes from and to TOML.
 
+use crate::array::whole_or_none;
 use crate::composite::PyComposite;
 use crate::errors;
 use crate::made::{Reduced, made};
@@ -349,7 +350,11 @@ impl PyScene {
     /// SweepStopped
     ///     The sweep could not go on; its ``scan`` has all before that.
     #[pyo3(signature = (*, most_steps=None))]
-    fn sweep<'py>(&self, py: Python<'py>, most_steps: Option<u64>) -> PyResult<Bound<'py, PyScan>> {
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = whole_or_none)] most_steps: Option<u64>,
+    ) -> PyResult<Bound<'py, PyScan>> {
         let objects: Vec<_> = self.objects.iter().map(|object| object.bind(py).clone()).collect();
         let steps = match self.steps[..] {
             [step] => Steps::One(step),

@@ -1,6 +1,6 @@
 //! Shapes: what all of them can do.
 
-use crate::array::{Column, Floats, Get, structured};
+use crate::array::{Column, Floats, Get, structured, two};
 use crate::composite::PyComposite;
 use crate::made::{Made, Reduced, made};
 use crate::own_shape;
@@ -226,7 +226,13 @@ impl PyShape {
         signature = (position=[0.0, 0.0], angle=0.0, scale=1.0, mirror=false),
         text_signature = "($self, position=(0.0, 0.0), angle=0.0, scale=1.0, mirror=False)"
     )]
-    fn moved(slf: &Bound<'_, Self>, position: [f64; 2], angle: f64, scale: f64, mirror: bool) -> PyResult<Self> {
+    fn moved(
+        slf: &Bound<'_, Self>,
+        #[pyo3(from_py_with = two)] position: [f64; 2],
+        angle: f64,
+        scale: f64,
+        mirror: bool,
+    ) -> PyResult<Self> {
         let made = Made::method(slf, "moved", (position, angle, scale, mirror))?;
         let shape = slf.get();
         let motion = motion(position, angle, scale, mirror);

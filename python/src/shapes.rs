@@ -1,5 +1,6 @@
 //! The shapes of the library by name.
 
+use crate::array::{two, twos};
 use crate::errors;
 use crate::made::{Made, made};
 use crate::own_function::OwnFunction;
@@ -64,7 +65,11 @@ pub struct PyLine;
 #[pymethods]
 impl PyLine {
     #[new]
-    fn new(py: Python<'_>, start: [f64; 2], end: [f64; 2]) -> PyResult<(Self, PyShape)> {
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = two)] start: [f64; 2],
+        #[pyo3(from_py_with = two)] end: [f64; 2],
+    ) -> PyResult<(Self, PyShape)> {
         let made = made!(py, "Line", start, end);
         let written = Shape::Line(LineFields { from: start, to: end });
         Ok((Self, single(Line::new(start, end), Some(&written), made)?))
@@ -101,7 +106,7 @@ impl PyParabola {
     #[pyo3(signature = (vertex, coefficient, *, x_from=None, x_to=None))]
     fn new(
         py: Python<'_>,
-        vertex: [f64; 2],
+        #[pyo3(from_py_with = two)] vertex: [f64; 2],
         coefficient: f64,
         x_from: Option<f64>,
         x_to: Option<f64>,
@@ -140,7 +145,13 @@ pub struct PyCircularArc;
 #[pymethods]
 impl PyCircularArc {
     #[new]
-    fn new(py: Python<'_>, center: [f64; 2], radius: f64, angle_from: f64, angle_to: f64) -> PyResult<(Self, PyShape)> {
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = two)] center: [f64; 2],
+        radius: f64,
+        angle_from: f64,
+        angle_to: f64,
+    ) -> PyResult<(Self, PyShape)> {
         let made = made!(py, "CircularArc", center, radius, angle_from, angle_to);
         let (from_angle, to_angle) = (degrees(angle_from), degrees(angle_to));
         let written = Shape::Arc(ArcFields { center, radius, from_angle, to_angle });
@@ -174,8 +185,8 @@ impl PyEllipticArc {
     #[pyo3(signature = (center, radii, angle_from, angle_to, *, rotation=0.0))]
     fn new(
         py: Python<'_>,
-        center: [f64; 2],
-        radii: [f64; 2],
+        #[pyo3(from_py_with = two)] center: [f64; 2],
+        #[pyo3(from_py_with = two)] radii: [f64; 2],
         angle_from: f64,
         angle_to: f64,
         rotation: f64,
@@ -204,7 +215,7 @@ pub struct PyBezier;
 #[pymethods]
 impl PyBezier {
     #[new]
-    fn new(py: Python<'_>, control: Vec<[f64; 2]>) -> PyResult<(Self, PyShape)> {
+    fn new(py: Python<'_>, #[pyo3(from_py_with = twos)] control: Vec<[f64; 2]>) -> PyResult<(Self, PyShape)> {
         let made = made!(py, "Bezier", control);
         let shape = match control[..] {
             [a, b, c, d] => Bezier::new([a, b, c, d]),
@@ -244,7 +255,7 @@ impl PySpline {
     #[pyo3(signature = (points, *, end="natural", angle_from=None, angle_to=None, smoothing=None))]
     fn new(
         py: Python<'_>,
-        points: Vec<[f64; 2]>,
+        #[pyo3(from_py_with = twos)] points: Vec<[f64; 2]>,
         end: &str,
         angle_from: Option<f64>,
         angle_to: Option<f64>,
@@ -301,7 +312,11 @@ pub struct PyPolygon;
 impl PyPolygon {
     #[new]
     #[pyo3(signature = (points, *, closed=true))]
-    fn new(py: Python<'_>, points: Vec<[f64; 2]>, closed: bool) -> PyResult<(Self, PyShape)> {
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = twos)] points: Vec<[f64; 2]>,
+        closed: bool,
+    ) -> PyResult<(Self, PyShape)> {
         let made = made!(py, "Polygon", points, closed);
         Ok((Self, described(Shape::Polygon(PolygonFields { points: Some(points), file: None, closed }), made)?))
     }

@@ -1,6 +1,6 @@
 //! Simulated recordings.
 
-use crate::array::structured;
+use crate::array::{structured, whole};
 use crate::composite::contours;
 use crate::running::Watch;
 use crate::samples::SAMPLE;
@@ -100,7 +100,7 @@ pub fn simulate<'py>(
     rate: f64,
     speed: f64,
     noise: Option<&Bound<'py, PyAny>>,
-    seed: u64,
+    #[pyo3(from_py_with = whole)] seed: u64,
 ) -> PyResult<Bound<'py, PyAny>> {
     for (what, value) in [("rate", rate), ("speed", speed)] {
         if !(value.is_finite() && value > 0.0) {

@@ -1,6 +1,6 @@
 //! Equilibria, one by one and as rows of an array.
 
-use crate::array::{Column, Get};
+use crate::array::{Column, Get, whole};
 use crate::errors;
 use crate::made::{Reduced, made};
 use crate::pose::tuple;
@@ -141,8 +141,8 @@ impl PyContact {
         y: f64,
         alpha: f64,
         force: f64,
-        object: usize,
-        piece: usize,
+        #[pyo3(from_py_with = whole)] object: usize,
+        #[pyo3(from_py_with = whole)] piece: usize,
     ) -> PyResult<Self> {
         self::kind(&kind)?;
         Ok(Self { kind, s, x, y, alpha, force, object, piece })
@@ -262,7 +262,12 @@ impl PyState {
     /// numpy.ndarray
     ///     Of shape (n, 3): x (m), y (m), slope angle phi (rad).
     #[pyo3(signature = (rod, n=101))]
-    fn shape<'py>(&self, py: Python<'py>, rod: &PyRod, n: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn shape<'py>(
+        &self,
+        py: Python<'py>,
+        rod: &PyRod,
+        #[pyo3(from_py_with = whole)] n: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         points(py, &self.state, &rod.rod, n)
     }
 

@@ -1,5 +1,6 @@
 //! Studies: the scenes of a file, and the row of one scene.
 
+use crate::array::whole;
 use crate::{errors, running};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -70,7 +71,11 @@ impl PyStudy {
     /// -------
     /// dict
     ///     The values by the names of the parameters.
-    fn values<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyDict>> {
+    fn values<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = whole)] number: usize,
+    ) -> PyResult<Bound<'py, PyDict>> {
         self.check(number)?;
         self.names(py).into_iter().zip(self.study.values(number)).into_py_dict(py)
     }
@@ -90,12 +95,15 @@ impl PyStudy {
     /// ------
     /// ValueError
     ///     There is no such scene.
-    fn text(&self, number: usize) -> PyResult<String> {
+    fn text(&self, #[pyo3(from_py_with = whole)] number: usize) -> PyResult<String> {
         self.study.text(number).map_err(errors::value)
     }
 
     /// What a worker needs for a scene: its text, or why there is none.
-    fn _text_or_reason(&self, number: usize) -> PyResult<(Option<String>, Option<String>)> {
+    fn _text_or_reason(
+        &self,
+        #[pyo3(from_py_with = whole)] number: usize,
+    ) -> PyResult<(Option<String>, Option<String>)> {
         match self.study.text(number) {
             Ok(text) => Ok((Some(text), None)),
             Err(StudyError::Field { reason, .. }) => Ok((None, Some(reason))),

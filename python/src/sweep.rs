@@ -1,5 +1,6 @@
 //! The sweep.
 
+use crate::array::whole_or_none;
 use crate::composite::{PyComposite, contours};
 use crate::errors;
 use crate::path::PyPath;
@@ -110,7 +111,7 @@ pub fn sweep<'py>(
     path: &Bound<'py, PyPath>,
     step: Steps,
     start: Option<&Bound<'py, PyState>>,
-    most_steps: Option<u64>,
+    #[pyo3(from_py_with = whole_or_none)] most_steps: Option<u64>,
 ) -> PyResult<Bound<'py, PyScan>> {
     let objects = self::objects(objects)?;
     run(rod, &objects, path, &step, start, most_steps)

@@ -116,6 +116,7 @@ def test_what_a_rod_has() -> None:
         ({"bending_stiffness": 1.0, "natural_curvature": [1.0, 2.0]}, r"shape \[2\], expected a number"),
         ({"bending_stiffness": 1.0, "natural_curvature": [[0.0, 1.0], [0.0, 2.0]]}, "border at arc length 0"),
         ({"bending_stiffness": 1.0, "natural_curvature": 100.0}, "crosses itself"),
+        ({"bending_stiffness": 1.0, "natural_curvature": 1e300}, "turns the rod by .* rad at rest, expected at most 100 rad"),
         ({"bending_stiffness": 1.0, "natural_curvature": 1.0, "yield_stress": 1e9}, "yield_stress is given for a rod"),
         ({"sections": [vibrissa.Section(0.05, 1.0)]}, "add up to 0.05, expected 0.1"),
         ({"bending_stiffness": 1.0, "sections": [vibrissa.Section(0.1, 1.0)]}, "given beside sections"),

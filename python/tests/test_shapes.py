@@ -144,3 +144,54 @@ def test_a_drawing_is_read_from_its_file(tmp_path: Path) -> None:
     file.write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H10V10H0Z"/></svg>')
     square = vibrissa.Composite(vibrissa.Svg(scale=1e-3, file=file))
     assert square.is_closed and square.pieces == 4
+
+
+@pytest.mark.parametrize(
+    ("number", "found"),
+    [
+        (None, "None"),
+        ("1.0", "1.0"),
+        (1j, "complex"),
+        (np.datetime64("2020"), "datetime64"),
+        ([0.1, None], "None"),
+        (np.ma.masked_array([0.1, 0.2], [False, True]), "masked"),
+    ],
+)
+def test_what_numpy_would_take_for_a_number_is_refused(number: object, found: str) -> None:
+    with pytest.raises(TypeError, match=f"argument 'x': expected numbers, found .*{found}"):
+        vibrissa.Parabola((0.0, 0.0), 50.0).gap(number, 0.0)  # type: ignore[arg-type]
+
+
+def test_arguments_of_the_wrong_size_are_named() -> None:
+    parabola = vibrissa.Parabola((0.0, 0.0), 50.0)
+    with pytest.raises(TypeError, match="argument 'vertex': expected two numbers, found 3"):
+        vibrissa.Parabola((0.0, 0.0, 0.0), 50.0)
+    with pytest.raises(TypeError, match=r"argument 'points': expected points of two coordinates.*found the shape \[3\]"):
+        vibrissa.Polygon([0.0, 1.0, 2.0])  # type: ignore[list-item]
+    with pytest.raises(TypeError, match="argument 'position': expected two numbers, found 0"):
+        parabola.moved(())
+    with pytest.raises(TypeError, match="argument 'most_steps': expected a whole number from 0 to .*, found -1"):
+        vibrissa.sweep(
+            vibrissa.Rod(1.0, 1.0), parabola, vibrissa.ClampPath((0.0, -1.0, 0.0), (0.1, -1.0, 0.0)), 0.1, most_steps=-1
+        )
+
+
+def test_what_a_frame_returns_is_checked() -> None:
+    class Single(Hump):
+        def frame(self, t: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+            return super().frame(t).astype(np.float32)
+
+    class Nothing(Hump):
+        def frame(self, t: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+            return None  # type: ignore[return-value]
+
+    class Range(Hump):
+        range = (0.0, 1.0, 2.0)  # type: ignore[assignment]
+
+    for shape, message in [
+        (Single(), r"frame\(t\) returns numbers of type float32, expected float64"),
+        (Nothing(), r"frame\(t\): expected numbers, found None"),
+        (Range(), "range of the shape: expected two numbers, found 3"),
+    ]:
+        with pytest.raises(TypeError, match=message):
+            vibrissa.Composite(shape)

@@ -146,7 +146,7 @@ def test_wrong_arguments_are_named(rod: vibrissa.Rod, parabolas: vibrissa.Compos
         vibrissa.Rod(1.0)
     with pytest.raises(ValueError, match="to.x is NaN, expected a finite number"):
         vibrissa.ClampPath((0.0, 0.0, 0.0), (math.nan, 0.0, 0.0))
-    with pytest.raises(ValueError, match="a pose has 2 numbers, expected three"):
+    with pytest.raises(TypeError, match="argument 'start': expected a pose of three numbers.*found 2"):
         vibrissa.ClampPath((0.0, 0.0), (1.0, 0.0, 0.0))
     with pytest.raises(TypeError, match="the shape is of type int"):
         vibrissa.sweep(rod, [3], path, 1e-3)  # type: ignore[list-item]

@@ -124,6 +124,14 @@ pub enum RodError {
         /// Where it comes back.
         other: f64,
     },
+    /// A rod is coiled up at rest.
+    #[error("the natural curvature turns the rod by {turn} rad at rest, expected at most {most} rad")]
+    Coiled {
+        /// Difference of its largest and its smallest slope angle at rest, rad.
+        turn: f64,
+        /// The limit.
+        most: f64,
+    },
     /// An integrator of differential equations gave up.
     #[cfg(feature = "std")]
     #[error("the integration stopped at arc length {s}: {reason}")]

@@ -19,6 +19,8 @@ pub use natural_curvature::NaturalCurvature;
 const ROUNDING: f64 = 1e-13;
 /// Chords of the shape at rest that are compared with each other.
 const CHORDS: usize = 400;
+/// Largest angle (rad) by which a rod turns at rest: a chord turns by a quarter of a radian at most, on average.
+const MOST_TURN: f64 = 100.0;
 /// Largest ratio of the diameters of a cone. The stiffness then varies by a factor of 1e8, and its rounding by 100.
 const MOST_TAPERED: f64 = 100.0;
 
@@ -180,7 +182,8 @@ impl VaryingRod {
     ///
     /// # Errors
     /// [`RodError::NotFinite`] for a number and [`RodError::NaturalCurvature`] for a function that is not finite,
-    /// [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest.
+    /// [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest, [`RodError::Coiled`]
+    /// where it turns by more than 100 rad.
     pub fn with_natural_curvature(self, curvature: impl Into<NaturalCurvature>) -> Result<Self, RodError> {
         let length = self.length();
         let curvature = curvature.into().0.over(length);
@@ -215,9 +218,14 @@ fn open(rod: Model) -> Result<Model, RodError> {
         points.push([cut.x, cut.y]);
         (least, most) = (least.min(cut.phi), most.max(cut.phi));
     }
+    let turn = if cut.phi.is_finite() { most - least } else { f64::INFINITY };
     // a curve that turns by less than half a turn has no loop
-    if most - least < std::f64::consts::PI {
+    if turn < std::f64::consts::PI {
         return Ok(rod);
+    }
+    // chords show nothing of tighter coils
+    if !(turn <= MOST_TURN) {
+        return Err(RodError::Coiled { turn, most: MOST_TURN });
     }
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     for i in 0..CHORDS {

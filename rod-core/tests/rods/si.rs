@@ -58,6 +58,11 @@ fn without_a_load_a_rod_has_its_natural_curvature() {
     let loops = [uniform.with_natural_curvature(100.0), cone().with_natural_curvature(70.0)];
     assert!(cone().with_natural_curvature(|s: f64| 90.0 + 100.0 * s).is_ok());
     assert!(loops.into_iter().all(|rod| matches!(rod, Err(RodError::CrossesItself { .. }))));
+    // coils that the chords of the check do not show
+    for curvature in [2e3, -1e9, 1e300] {
+        let coils = [uniform.with_natural_curvature(curvature), cone().with_natural_curvature(curvature)];
+        assert!(coils.into_iter().all(|rod| matches!(rod, Err(RodError::Coiled { .. }))), "{curvature}");
+    }
     // kappa = pi s / L^2: the Fresnel integrals, C(1) and S(1) (Abramowitz and Stegun, table 7.7)
     let clothoid = |s: f64| PI * s / (LENGTH * LENGTH);
     let two = RodSection { length: 0.5 * LENGTH, bending_stiffness: 1e-3, natural_curvature: 7.0 };
