@@ -242,3 +242,37 @@ def test_what_is_wrong_is_said(tmp_path: Path, rod: vibrissa.Rod, path: vibrissa
     (tmp_path / "foreign" / "letter.txt").touch()
     with pytest.raises(ValueError, match="which has other files, expected an empty or new directory"):
         vibrissa.study(scenes(), out=tmp_path / "foreign")
+
+
+def test_damaged_files_are_named(tmp_path: Path) -> None:
+    def run() -> Any:
+        return vibrissa.study(vibrissa.grid(_scene, distance=[0.03, 0.05, 0.07]), out=tmp_path / "out", chunk=1)
+
+    whole = run()
+    part = tmp_path / "out/part-00000001.parquet"
+    kept = part.read_bytes()
+    for damage in (b"", kept[: len(kept) // 2], b"none"):
+        part.write_bytes(damage)
+        for refused in (run, lambda: vibrissa.read_study(tmp_path / "out")):
+            with pytest.raises(ValueError, match="part-00000001.parquet is damaged.*delete it"):
+                refused()
+    part.unlink()
+    with pytest.raises(ValueError, match="have 2 rows, expected scenes 0 to 2 in order, each once"):
+        vibrissa.read_study(tmp_path / "out")
+    assert run().equals(whole)
+    # what is no part is left alone
+    (tmp_path / "out/part-00000001-copy.parquet").write_bytes(kept)
+    assert vibrissa.read_study(tmp_path / "out").equals(whole)
+    (tmp_path / "out/study.json").write_text("{")
+    with pytest.raises(ValueError, match="study.json is damaged"):
+        run()
+
+
+def test_parameters_are_numbers(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="scene 0 has 'wide' for the parameter 'distance', expected a number"):
+        vibrissa.study([({"distance": "wide"}, _scene(0.05))], out=tmp_path / "out")  # type: ignore[dict-item]
+
+
+def _scene(distance: float) -> vibrissa.Scene:
+    path = vibrissa.ClampPath((0.08, -distance, math.pi / 2), (-0.08, -distance, math.pi / 2))
+    return vibrissa.Scene(vibrissa.Rod(0.1, 2e-3), vibrissa.Parabola((0.0, 0.0), 50.0), path, 2e-3)

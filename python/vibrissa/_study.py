@@ -129,7 +129,14 @@ def _of_scenes(scenes: Iterable[Any], names: list[str]) -> Iterator[Task]:
             text = scene.to_toml()
         except ValueError as error:
             raise ValueError(f"scene {number}: {error}") from error
-        yield Task(tuple(float(value) for value in values.values()), text, None, "scene.toml")
+        yield Task(tuple(_number(number, *one) for one in values.items()), text, None, "scene.toml")
+
+
+def _number(scene: int, name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"scene {scene} has {value!r} for the parameter {name!r}, expected a number") from None
 
 
 def _chunks(tasks: Iterator[Task], size: int) -> Iterator[list[Task]]:

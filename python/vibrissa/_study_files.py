@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -80,11 +81,32 @@ def begin(directory: Path, record: dict[str, Any], chunk: int) -> dict[str, Any]
         if directory.exists() and any(directory.iterdir()):
             raise ValueError(f"out is {directory}, which has other files, expected an empty or new directory")
         return {**record, "chunk": chunk, "scenes": None}
-    found: dict[str, Any] = json.loads(file.read_text())
+    found = _recorded(directory)
     for name, value in record.items():
         if found.get(name) != value:
             raise ValueError(f"out is {directory}, whose {name} is {found.get(name)!r}, expected {value!r}: another study")
     return found
+
+
+def _recorded(directory: Path) -> dict[str, Any]:
+    file = directory / _STUDY
+    try:
+        record: dict[str, Any] = json.loads(file.read_text())
+    except ValueError as error:
+        raise ValueError(f"{file} is damaged ({error}), expected the record of a study; use a new directory") from error
+    return record
+
+
+def _parts(directory: Path) -> list[Path]:
+    return sorted(file for file in directory.iterdir() if re.fullmatch(r"part-\d{8,}\.parquet", file.name))
+
+
+def _read(read: Callable[[Path], Any], file: Path) -> Any:
+    """What a reader of Parquet makes of a file."""
+    try:
+        return read(file)
+    except (arrow().ArrowInvalid, OSError) as error:
+        raise ValueError(f"{file} is damaged ({error}); delete it, and make the same call of study again") from error
 
 
 def is_written(directory: Path, part: Part) -> bool:
@@ -95,7 +117,7 @@ def is_written(directory: Path, part: Part) -> bool:
     arrow()
     import pyarrow.parquet as pq
 
-    if pq.read_schema(file).metadata.get(_DIGEST) != part.digest.encode():
+    if (_read(pq.read_schema, file).metadata or {}).get(_DIGEST) != part.digest.encode():
         raise ValueError(f"out is {directory}, whose {part.file} has other scenes, expected those of this study")
     return True
 
@@ -133,7 +155,7 @@ def write(directory: Path, record: dict[str, Any], part: Part, rows: Sequence[tu
 
 def finish(directory: Path, record: dict[str, Any], scenes: int) -> None:
     """Note that all scenes are there."""
-    later = sorted(directory.glob("part-*.parquet"))[-1]
+    later = _parts(directory)[-1]
     if int(later.stem.removeprefix("part-")) >= scenes or record["scenes"] not in (None, scenes):
         raise ValueError(f"out is {directory}, which has rows of more than {scenes} scenes, expected those of this study")
     if record["scenes"] is None:
@@ -160,10 +182,10 @@ def read_study(directory: str | os.PathLike[str], *, incomplete: bool = False) -
     FileNotFoundError
         The directory has no study.
     ValueError
-        The run is not complete.
+        The run is not complete, or files were damaged or lost since.
     """
     place = Path(directory)
-    record: dict[str, Any] = json.loads((place / _STUDY).read_text())
+    record = _recorded(place)
     if "parameters" not in record:
         return _of_command(place, record, incomplete)
     if record["scenes"] is None and not incomplete:
@@ -171,8 +193,15 @@ def read_study(directory: str | os.PathLike[str], *, incomplete: bool = False) -
     import pyarrow.parquet as pq
 
     form = schema(record, {})
-    parts = [pq.read_table(file).cast(form) for file in sorted(place.glob("part-*.parquet"))]
-    return arrow().concat_tables(parts) if parts else form.empty_table()
+    parts = [_read(pq.ParquetFile, file).read().cast(form) for file in _parts(place)]
+    table = arrow().concat_tables(parts) if parts else form.empty_table()
+    scenes = table["scene"].to_pylist()
+    if record["scenes"] is not None and scenes != list(range(record["scenes"])):
+        raise ValueError(
+            f"directory is {place}, whose files have {len(scenes)} rows, expected scenes 0 to {record['scenes'] - 1} in order, each once;"
+            " make the same call of study again for those that are missing"
+        )
+    return table
 
 
 def _of_command(place: Path, record: dict[str, Any], incomplete: bool) -> Any:
