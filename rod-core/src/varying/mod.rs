@@ -224,7 +224,7 @@ fn open(rod: Model) -> Result<Model, RodError> {
         return Ok(rod);
     }
     // chords show nothing of tighter coils
-    if !(turn <= MOST_TURN) {
+    if turn > MOST_TURN {
         return Err(RodError::Coiled { turn, most: MOST_TURN });
     }
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
