@@ -7,11 +7,12 @@ use crate::common::exact::Exact;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
-use vibrissa::contact::{Contact, ContactKind, EventKind};
+use vibrissa::contact::{Contact, ContactKind, EventKind, Outcome};
 use vibrissa::rod::{
-    Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Section, Support, Supports, Uniform, advance, solve,
+    Hold, MultiPoint, NewtonOptions, NewtonWorkspace, PhysicalRod, RodModel, RodSection, Section, Support, Supports,
+    Uniform, VaryingRod, advance, solve,
 };
-use vibrissa::{CircularArc, Composite, Contour, Line, Parabola, Pose, Rod, State, equilibrium};
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, Line, Parabola, Pose, Rod, State, Sweep, equilibrium};
 
 /// The largest error that passes, in units of condition * epsilon.
 const MOST: f64 = 10.0;
@@ -247,53 +248,85 @@ fn clamp(problem: &Problem) -> Pose {
     Pose { x, y, phi }
 }
 
+/// The rod of a problem that has one.
+fn rod(problem: &Problem) -> VaryingRod {
+    let rod = &problem.value["rod"];
+    let parts = list(&rod["sections"]);
+    if !parts.is_empty() {
+        let mut from = 0.0;
+        let sections = parts.iter().map(|part| {
+            let [to, bending_stiffness, natural_curvature] =
+                ["to", "stiffness", "curvature"].map(|key| number(&part[key]));
+            let length = to - from;
+            from = to;
+            RodSection { length, bending_stiffness, natural_curvature }
+        });
+        return Rod::sections(1.0, &sections.collect::<Vec<_>>()).unwrap();
+    }
+    // of stiffness 1 at the clamp, where the diameter is 1
+    let cone = Rod::tapered(1.0, 1.0, 1.0 - number(&rod["taper"]), 64.0 / PI).unwrap();
+    let [constant, slope] = point(&rod["curvature"]);
+    if [constant, slope] == [0.0; 2] {
+        return cone;
+    }
+    cone.with_natural_curvature(move |s: f64| constant + slope * s).unwrap()
+}
+
+/// What is different in the solution of the boundary-value problem.
+fn of_the_equations(problem: &Problem, rod: impl RodModel) -> Vec<(String, f64)> {
+    let held = Held::new(problem);
+    let contacts = list(&problem.value["contacts"]);
+    let mut u = Vec::new();
+    for (j, contact) in contacts.iter().enumerate() {
+        let (shape, hold) = held.0[j];
+        let t = shape.parameter(contact);
+        let at = shape.support(t);
+        let force = exact(&contact["force"]).high;
+        let third = exact(&contact[if hold == Hold::Tip { "phi" } else { "s" }]).high;
+        u.push(t + PERTURBATION / (at.speed + at.turning.abs()));
+        u.push(force + PERTURBATION * (1.0 + force));
+        u.push(third - PERTURBATION);
+    }
+    let system = MultiPoint { rod, clamp: clamp(problem), supports: &held };
+    let report = solve(&system, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
+    assert!(report.status.is_solved(), "{}: {report:?}", problem.name);
+    let mut errors = Vec::new();
+    let [mut f0x, mut f0y] = [0.0; 2];
+    for (j, contact) in contacts.iter().enumerate() {
+        let at = held.support(j, u[3 * j]);
+        let (force, third) = (u[3 * j + 1], u[3 * j + 2]);
+        let (s, phi) = match held.hold(j) {
+            Hold::Tip => (1.0, third),
+            Hold::Tangent { offset } => (third, at.alpha + offset),
+        };
+        f0x -= force * at.alpha.sin();
+        f0y += force * at.alpha.cos();
+        let ours = [("x", at.x), ("y", at.y), ("alpha", at.alpha), ("force", force), ("s", s), ("phi", phi)];
+        errors.extend(ours.map(|(key, v)| (format!("{key} {j}"), exact(&contact[key]).error(v))));
+    }
+    let ours = [("f0x", f0x), ("f0y", f0y), ("m0z", -system.clamp_moment(&u))];
+    errors.extend(ours.map(|(key, v)| (key.to_owned(), exact(&problem.value["reactions"][key]).error(v))));
+    errors
+}
+
 #[test]
 fn contacts_by_the_boundary_value_problem() {
     let mut table = Table::new("solve");
     for problem in problems("contacts") {
-        let held = Held::new(&problem);
-        let contacts = list(&problem.value["contacts"]);
-        let mut u = Vec::new();
-        for (j, contact) in contacts.iter().enumerate() {
-            let (shape, hold) = held.0[j];
-            let t = shape.parameter(contact);
-            let at = shape.support(t);
-            let force = exact(&contact["force"]).high;
-            let third = exact(&contact[if hold == Hold::Tip { "phi" } else { "s" }]).high;
-            u.push(t + PERTURBATION / (at.speed + at.turning.abs()));
-            u.push(force + PERTURBATION * (1.0 + force));
-            u.push(third - PERTURBATION);
-        }
-        let system = MultiPoint { rod: Uniform, clamp: clamp(&problem), supports: &held };
-        let report = solve(&system, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new());
-        assert!(report.status.is_solved(), "{}: {report:?}", problem.name);
-        let mut errors = Vec::new();
-        let [mut f0x, mut f0y] = [0.0; 2];
-        for (j, contact) in contacts.iter().enumerate() {
-            let at = held.support(j, u[3 * j]);
-            let (force, third) = (u[3 * j + 1], u[3 * j + 2]);
-            let (s, phi) = match held.hold(j) {
-                Hold::Tip => (1.0, third),
-                Hold::Tangent { offset } => (third, at.alpha + offset),
-            };
-            f0x -= force * at.alpha.sin();
-            f0y += force * at.alpha.cos();
-            let ours = [("x", at.x), ("y", at.y), ("alpha", at.alpha), ("force", force), ("s", s), ("phi", phi)];
-            errors.extend(ours.map(|(key, v)| (format!("{key} {j}"), exact(&contact[key]).error(v))));
-        }
-        let ours = [("f0x", f0x), ("f0y", f0y), ("m0z", -system.clamp_curvature(&u))];
-        errors.extend(ours.map(|(key, v)| (key.to_owned(), exact(&problem.value["reactions"][key]).error(v))));
-        table.add(&problem, errors);
+        table.add(&problem, of_the_equations(&problem, Uniform));
     }
-    assert!(table.rows.len() >= 20);
+    for problem in problems("rod-contacts") {
+        table.add(&problem, of_the_equations(&problem, rod(&problem)));
+    }
+    assert!(table.rows.len() >= 28);
     table.judge();
 }
 
-/// What is different in a state of a rod of length and stiffness 1.
-fn differences(problem: &Problem, state: &State) -> Vec<(String, f64)> {
+/// What is different in a state of a rod of length 1, and stiffness 1 at the clamp.
+fn differences(problem: &Problem, rod: &impl PhysicalRod, state: &State) -> Vec<(String, f64)> {
     let contacts = list(&problem.value["contacts"]);
     assert_eq!(state.contacts.len(), contacts.len(), "{}", problem.name);
-    let shape = state.elastica(&Rod::new(1.0, 1.0).unwrap()).unwrap();
+    let shape = state.elastica(rod).unwrap();
     let mut errors = Vec::new();
     for (j, (ours, contact)) in state.contacts.iter().zip(contacts).enumerate() {
         // a closed contour may count its angle from another turn
@@ -357,50 +390,93 @@ fn objects(problem: &Problem) -> Vec<Composite> {
     shapes.iter().zip(contacts).map(object).collect()
 }
 
+/// What is different in the equilibrium on contours.
+fn of_the_contours(problem: &Problem, rod: &impl PhysicalRod) -> Vec<(String, f64)> {
+    let shapes = shapes(problem);
+    let guess = list(&problem.value["contacts"]).iter().map(|contact| {
+        let number = |key: &str| exact(&contact[key]).high;
+        let support = contact["support"].as_u64().unwrap_or(0) as usize;
+        let (object, piece) = if matches!(shapes[0], Shape::Parabola { .. }) { (0, support) } else { (support, 0) };
+        let (kind, piece) = match (contact["hold"].as_str().unwrap(), shapes[support]) {
+            ("notch", _) => (ContactKind::Notch, 0),
+            ("tip", _) => (ContactKind::Tip, piece),
+            // the edge before the first point of a triangle
+            (_, Shape::Vertex { .. }) => (ContactKind::Corner, 2),
+            _ => (ContactKind::Tangent, piece),
+        };
+        let force = number("force");
+        let shape = shapes[support];
+        let t = shape.parameter(contact);
+        let at = shape.support(t);
+        let at = shape.support(t + PERTURBATION / (at.speed + at.turning.abs()));
+        Contact {
+            object,
+            piece,
+            kind,
+            s: number("s") - PERTURBATION,
+            x: at.x,
+            y: at.y,
+            alpha: number("alpha"),
+            force: force + PERTURBATION * (1.0 + force),
+        }
+    });
+    let found = equilibrium(rod, &objects(problem), clamp(problem), &guess.collect::<Vec<_>>()).unwrap();
+    let certificate = &found.state.certificate;
+    assert!(found.report.status.is_solved(), "{}: {:?}", problem.name, found.report);
+    assert!(
+        certificate.min_gap.lower > -2e-11 && certificate.min_force.is_some_and(|force| force > 0.0),
+        "{}: {certificate:?}",
+        problem.name
+    );
+    assert_eq!(certificate.stable, !UNSTABLE.contains(&problem.name.as_str()), "{}", problem.name);
+    differences(problem, rod, &found.state)
+}
+
 #[test]
 fn contacts_on_contours() {
-    let rod = Rod::new(1.0, 1.0).unwrap();
     let mut table = Table::new("equilibrium");
     for problem in problems("contacts") {
-        let shapes = shapes(&problem);
-        let guess = list(&problem.value["contacts"]).iter().map(|contact| {
-            let number = |key: &str| exact(&contact[key]).high;
-            let support = contact["support"].as_u64().unwrap_or(0) as usize;
-            let (object, piece) = if matches!(shapes[0], Shape::Parabola { .. }) { (0, support) } else { (support, 0) };
-            let (kind, piece) = match (contact["hold"].as_str().unwrap(), shapes[support]) {
-                ("notch", _) => (ContactKind::Notch, 0),
-                ("tip", _) => (ContactKind::Tip, piece),
-                // the edge before the first point of a triangle
-                (_, Shape::Vertex { .. }) => (ContactKind::Corner, 2),
-                _ => (ContactKind::Tangent, piece),
-            };
-            let force = number("force");
-            let shape = shapes[support];
-            let t = shape.parameter(contact);
-            let at = shape.support(t);
-            let at = shape.support(t + PERTURBATION / (at.speed + at.turning.abs()));
-            Contact {
-                object,
-                piece,
-                kind,
-                s: number("s") - PERTURBATION,
-                x: at.x,
-                y: at.y,
-                alpha: number("alpha"),
-                force: force + PERTURBATION * (1.0 + force),
-            }
-        });
-        let found = equilibrium(&rod, &objects(&problem), clamp(&problem), &guess.collect::<Vec<_>>()).unwrap();
-        let certificate = &found.state.certificate;
-        assert!(found.report.status.is_solved(), "{}: {:?}", problem.name, found.report);
-        assert!(
-            certificate.min_gap.lower > -2e-11 && certificate.min_force.is_some_and(|force| force > 0.0),
-            "{}: {certificate:?}",
-            problem.name
-        );
-        assert_eq!(certificate.stable, !UNSTABLE.contains(&problem.name.as_str()), "{}", problem.name);
-        table.add(&problem, differences(&problem, &found.state));
+        table.add(&problem, of_the_contours(&problem, &Rod::new(1.0, 1.0).unwrap()));
     }
+    for problem in problems("rod-contacts") {
+        table.add(&problem, of_the_contours(&problem, &rod(&problem)));
+    }
+    table.judge();
+}
+
+/// What is different at the transition that is meant.
+fn of_the_scan(problem: &Problem, rod: &impl PhysicalRod, outcome: &Outcome) -> Vec<(String, f64)> {
+    let value = &problem.value;
+    let phase = |key: &str| value["transition"][key].as_str().unwrap();
+    let (from, to) = (phase("from"), phase("to"));
+    let tau = exact(&value["tau"]);
+    // the pose is clamp + tau motion
+    assert_eq!((number(&value["clamp"]["x"]), number(&value["motion"]["x"])), (0.0, -1.0));
+    let event = outcome
+        .events
+        .iter()
+        .find(|e| e.from().to_string() == from && e.to().to_string() == to && (e.pose().x + tau.high).abs() < 1e-6)
+        .unwrap_or_else(|| panic!("{}: no such event", problem.name));
+    let snaps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff);
+    assert_eq!(snaps, value["transition"]["condition"] == "fold");
+    let with_all =
+        [&event.before, &event.after].into_iter().find(|s| s.contacts.len() == list(&value["contacts"]).len());
+    let mut errors = differences(problem, rod, with_all.unwrap());
+    errors.push(("tau".to_owned(), tau.error(-event.pose().x)));
+    errors
+}
+
+#[test]
+fn transitions_of_scans_with_other_rods() {
+    let mut table = Table::new("sweep");
+    for problem in problems("rod-transition") {
+        let [x, y] = [1.0, number(&problem.value["clamp"]["y"])];
+        let path = ClampPath::new(Pose { x, y, phi: FRAC_PI_2 }, Pose { x: -x, y, phi: FRAC_PI_2 }).unwrap();
+        let (rod, objects) = (rod(&problem), objects(&problem));
+        let outcome = Sweep::new(&rod, &objects, path, 0.01).unwrap().run();
+        table.add(&problem, of_the_scan(&problem, &rod, &outcome));
+    }
+    assert_eq!(table.rows.len(), 4);
     table.judge();
 }
 
@@ -419,23 +495,7 @@ fn transitions_of_the_scans_of_the_paper() {
             .collect();
         let scene = Scene::paper(heights[0], heights[1], -number(&value["clamp"]["y"]));
         let outcome = scene.run_through();
-        let phase = |key: &str| value["transition"][key].as_str().unwrap();
-        let (from, to) = (phase("from"), phase("to"));
-        let tau = exact(&value["tau"]);
-        // the pose is clamp + tau motion
-        assert_eq!((number(&value["clamp"]["x"]), number(&value["motion"]["x"])), (0.0, -1.0));
-        let event = outcome
-            .events
-            .iter()
-            .find(|e| e.from().to_string() == from && e.to().to_string() == to && (e.pose().x + tau.high).abs() < 1e-6)
-            .unwrap_or_else(|| panic!("{}: no such event", problem.name));
-        let snaps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff);
-        assert_eq!(snaps, value["transition"]["condition"] == "fold");
-        let with_all =
-            [&event.before, &event.after].into_iter().find(|s| s.contacts.len() == list(&value["contacts"]).len());
-        let mut errors = differences(&problem, with_all.unwrap());
-        errors.push(("tau".to_owned(), tau.error(-event.pose().x)));
-        table.add(&problem, errors);
+        table.add(&problem, of_the_scan(&problem, &Rod::new(1.0, 1.0).unwrap(), &outcome));
     }
     assert!(table.rows.len() >= 10);
     table.judge();

@@ -8,11 +8,10 @@ of the contact forces. A fold is where det J = 0.
 
 from mpmath import det, matrix, mp, mpf
 
-import jacobi
 from newton import slope, solve
 from problem import Found, reactions_of
 
-NAME = "shooting from the last contact by Jacobi elliptic functions"
+NAME = "shooting from the last contact by {}"
 
 
 class Backward:
@@ -43,11 +42,11 @@ class Backward:
             s, phi = (p.length, third) if contact.at_tip else (third, alpha + contact.turns * mp.pi)
             contacts.append((x, y, alpha, force, s, phi))
         residual = []
-        a = b = kappa = mpf(0)
+        a = b = m = mpf(0)
         for j, (x, y, alpha, force, s, phi) in reversed(list(enumerate(contacts))):
             a, b = a + force * mp.cos(alpha), b + force * mp.sin(alpha)
             xb, yb, _, _, sb, phib = contacts[j - 1] if j else (*pose[:2], None, None, mpf(0), pose[2])
-            *end, kappa = jacobi.advance([x, y, phi, kappa], a, b, sb - s)
+            *end, m = p.rod.by_other([x, y, phi, m], a, b, s, sb)
             residual += [v - w for v, w in zip(end, (xb, yb, phib))]
         return residual, Found(contacts, reactions_of(pose, [c[:4] for c in contacts]), tau)
 

@@ -57,7 +57,7 @@ def of_contacts(inputs, starts, way):
 
     Of a fold the coefficients of the Jacobian count as inputs too: that it is singular is one of the equations.
     """
-    asked = exact({key: inputs[key] for key in ("clamp", "motion", "supports") if key in inputs})
+    asked = exact({key: inputs[key] for key in ("clamp", "motion", "supports", "rod") if key in inputs})
     rest = {key: v for key, v in inputs.items() if key not in asked}
     u, values = way.u, way.march(way.u)[1].values()
     both = lambda way, u: way.system(u) + way.march(u)[1].values()

@@ -8,7 +8,6 @@ move in a direction v with the clamp at rest, J v = 0 with |v| = 1, all solved f
 
 from mpmath import lu_solve, matrix, mp, mpf, norm
 
-import taylor
 from newton import jacobian, slope, solve
 from problem import Found, reactions_of
 
@@ -43,7 +42,7 @@ class Forward:
             else:
                 t, force = next(rest), next(rest)
                 to = p.length if contact.at_tip else next(rest)
-            state = taylor.advance(state, a, b, to - s)
+            state = p.rod.by_taylor(state, a, b, s, to)
             s = to
             x, y, alpha = p.at(j, t)
             phi = state[2] if contact.at_tip else alpha + contact.turns * mp.pi

@@ -58,7 +58,7 @@ def contacts(inputs, starts):
     tau = {} if found[0].tau is None else {"tau": written(found[0].tau)}
     results = {**tau, "contacts": held, "reactions": dict(zip(REACTIONS, map(written, found[0].reactions)))}
     how = condition.of_contacts(inputs, starts, back)
-    return (forward.NAME, backward.NAME), [f.values() for f in found], how, results
+    return (forward.NAME, backward.NAME.format(problem.rod.OTHER)), [f.values() for f in found], how, results
 
 
 def solved(name, about, kind, inputs, starts):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from mpmath import mp, mpf
 
+import rods
 import supports
 
 POSE = ("x", "y", "phi")
@@ -32,6 +33,7 @@ class Problem:
     def __init__(self, inputs, starts, length=mpf(1)):
         inputs = supports.exact(inputs)
         self.length = length
+        self.rod = rods.of(inputs.get("rod"))
         self.clamp = [inputs["clamp"][key] for key in POSE]
         self.motion = [inputs["motion"][key] for key in POSE] if "motion" in inputs else None
         self.transition = inputs.get("transition")

@@ -47,12 +47,25 @@ def segment(name, about, start, force, length=1.0):
     return name, about, "segment", inputs, None
 
 
-def contacts(name, about, pose, supports, held):
+def cone(taper, curvature=(0, 0)):
+    """The natural curvature: its constant and its slope."""
+    return {"taper": float(taper), "curvature": [float(c) for c in curvature]}
+
+
+def sections(*parts):
+    """Parts: arc length of the end, stiffness, natural curvature."""
+    return {"sections": [dict(zip(("to", "stiffness", "curvature"), map(float, part))) for part in parts]}
+
+
+def contacts(name, about, pose, supports, held, rod=None):
     inputs = {"clamp": clamp(*pose), "supports": supports, "contacts": [contact for contact, _ in held]}
-    return name, about, "contacts", inputs, {"contacts": [start for _, start in held]}
+    kind = "contacts"
+    if rod is not None:
+        kind, inputs = "rod-contacts", {"rod": rod, **inputs}
+    return name, about, kind, inputs, {"contacts": [start for _, start in held]}
 
 
-def transition(name, about, phases, pose, motion, tau, condition, supports, held, contact=None):
+def transition(name, about, phases, pose, motion, tau, condition, supports, held, contact=None, rod=None):
     of = {} if contact is None else {"contact": contact}
     inputs = {
         "clamp": clamp(*pose),
@@ -61,7 +74,10 @@ def transition(name, about, phases, pose, motion, tau, condition, supports, held
         "supports": supports,
         "contacts": [contact for contact, _ in held],
     }
-    return name, about, "transition", inputs, {"tau": tau, "contacts": [start for _, start in held]}
+    kind = "transition"
+    if rod is not None:
+        kind, inputs = "rod-transition", {"rod": rod, **inputs}
+    return name, about, kind, inputs, {"tau": tau, "contacts": [start for _, start in held]}
 
 
 # Objects of Merker et al. (2020), in lengths of the rod.
@@ -244,4 +260,66 @@ TRANSITIONS = [
     ),
 ]
 
-ALL = SEGMENTS + CONTACTS + TRANSITIONS
+CONE, CURVED = cone(0.8), sections((1, 1, 0.5))
+HALVES = sections((0.5, 1, 0), (1, 0.25, 0))
+WHISKER = cone(0.9, (0.3, 0.6))
+
+# Rods that taper, have sections, or are bent at rest.
+RODS = [
+    contacts(
+        "cone-a-parabola", "A cone, tip 1/5 as thick, in phase A on object O1, q = 0.4.", (0.6, -0.4, UP), O1,
+        [tip(1, (0.6458, 0.0281, 1.4095))], CONE,
+    ),
+    contacts(
+        "cone-b-parabola", "A cone, tip 1/5 as thick, in phase B on object O1, q = 0.4.", (0.1, -0.4, UP), O1,
+        [tangent(1, (0.35718, 3.9295, 0.518))], CONE,
+    ),
+    contacts(
+        "cone-bb-two-parabolas", "A cone, tip 1/5 as thick, in phase BB on object O1, q = 0.4.", (-0.25, -0.4, UP), O1,
+        [tangent(0, (0.02514, 3.018, 0.5306)), tangent(1, (0.27965, 0.8123, 0.7877))], CONE,
+    ),
+    transition(
+        "cone-o1-q40-b-to-bb", "A cone, tip 1/5 as thick, O1, q = 0.4: it touches the left parabola.", ("B", "BB"),
+        Q4, LEFT, 0.11875, "touch", O1, [tangent(0, (0.0511, 0, 0.468)), tangent(1, (0.267, 3.52, 0.68))], 0, CONE,
+    ),
+    contacts(
+        "curved-ba-parabola", "A rod with the curvature 0.5 at rest in phase BA, both contacts on one parabola of O1, q = 0.4.",
+        (0.35, -0.4, UP), O1, [tangent(1, (0.56426, 0.9167, 0.7842)), tip(1, (0.63278, 0.994, 1.2938))], CURVED,
+    ),
+    transition(
+        "curved-o1-q40-ba-to-b", "A rod with the curvature 0.5 at rest, O1, q = 0.4: the tip is released.", ("BA", "B"),
+        Q4, LEFT, -0.28861, "force", O1, [tangent(1, (0.5165, 3.38, 0.68)), tip(1, (0.627, 0, 1.3))], 1, CURVED,
+    ),
+    contacts(
+        "halves-bb-two-parabolas", "A rod whose outer half has 1/4 of the stiffness, in phase BB on object O1, q = 0.4.",
+        (-0.35, -0.4, UP), O1, [tangent(0, (0.01833, 4.3831, 0.5862)), tangent(1, (0.29023, 1.8764, 0.8591))], HALVES,
+    ),
+    transition(
+        "halves-o1-q40-a-to-b", "A rod whose outer half has 1/4 of the stiffness, O1, q = 0.4: the tip becomes tangent.", ("A", "B"),
+        Q4, LEFT, -0.49447, "arc-length", O1, [tangent(1, (0.642, 0.327, 1.0))], 0, HALVES,
+    ),
+    transition(
+        "halves-o1-q40-snap",
+        "A rod whose outer half has 1/4 of the stiffness, O1, q = 0.4: phase B ends in a fold, the rod snaps to phase B on the same "
+        "parabola.", ("B", "B"),
+        Q4, LEFT, 0.567237, "fold", O1, [tangent(0, (-0.06, 5.4, 0.861))], None, HALVES,
+    ),
+    contacts(
+        "whisker-b-disc",
+        "A cone, tip 1/10 as thick, whose curvature at rest grows from 0.3 to 0.9, in phase B on a disc.",
+        (0, 0, 0), [circle(0.5, 0.0, 0.05)], [tangent(0, (-0.1, 0.5, 0.5))], WHISKER,
+    ),
+    contacts(
+        "whisker-a-line",
+        "A cone, tip 1/10 as thick, whose curvature at rest grows from 0.3 to 0.9, in phase A on a wall.", (0, 0, 0),
+        [line(0, 0.15, 0.0)], [tip(0, (0.97, 0.02, 0.4))], WHISKER,
+    ),
+    contacts(
+        "whisker-ba-discs",
+        "A cone, tip 1/10 as thick, whose curvature at rest grows from 0.3 to 0.9, in phase BA on two discs.", (0, 0, 0),
+        [circle(0.5, 0.0, 0.05), circle(1.045, 0.0, 0.1)],
+        [tangent(0, (-0.16257, 1.2975, 0.49518)), tip(1, (-0.52466, 0.019588, -0.11721))], WHISKER,
+    ),
+]
+
+ALL = SEGMENTS + CONTACTS + TRANSITIONS + RODS
