@@ -37,7 +37,7 @@ np.savetxt(file, table, delimiter=",", header=",".join(columns), comments="", fm
 recording = vibrissa.Recording.read(file, scene.rod)
 found = vibrissa.reconstruct(scene.rod, recording)
 print(found)
-print("recording, units and rod fit:", found.fits, *found.findings, sep="; ")
+print("recording, units and rod fit:", found.fits, *found.findings)
 
 # %% [markdown]
 # Each sample has a phase, and a contact point with standard deviations.

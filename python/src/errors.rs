@@ -1,8 +1,9 @@
 //! The library's errors as exceptions with the same texts.
 
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt::Display;
+use std::io;
 use vibrissa::contact::Stop;
 use vibrissa_cli::SceneError;
 
@@ -14,8 +15,16 @@ pub fn value(error: impl Display) -> PyErr {
 /// A file that is wrong: `OSError` where it cannot be read, otherwise `ValueError`.
 pub fn file(error: SceneError) -> PyErr {
     match error {
-        SceneError::Unreadable { .. } => PyOSError::new_err(error.to_string()),
+        SceneError::Unreadable { ref source, .. } => unreadable(source, &error),
         error => value(error),
+    }
+}
+
+/// A file that cannot be read: `FileNotFoundError` where it is not there, otherwise `OSError`.
+pub fn unreadable(source: &io::Error, error: &impl Display) -> PyErr {
+    match source.kind() {
+        io::ErrorKind::NotFound => PyFileNotFoundError::new_err(error.to_string()),
+        _ => PyOSError::new_err(error.to_string()),
     }
 }
 

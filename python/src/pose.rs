@@ -1,9 +1,14 @@
 //! Poses of the clamp: three numbers.
 
 use crate::array::Floats;
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
+use std::f64::consts::TAU;
+use std::ffi::CString;
 use vibrissa::Pose;
+
+/// Angle (rad) beyond which one is warned: two turns. Half a turn is 180 degrees.
+const LARGEST: f64 = 2.0 * TAU;
 
 /// A pose from anything with three numbers: x (m), y (m), phi (rad).
 pub struct PyPose(pub Pose);
@@ -17,6 +22,11 @@ impl<'py> FromPyObject<'py> for PyPose {
             let expected = "expected a pose of three numbers: x (m), y (m), phi (rad)";
             return Err(PyTypeError::new_err(format!("{expected}, found {found}")));
         };
+        if phi.is_finite() && phi.abs() > LARGEST {
+            let text = format!("phi is {phi:?} rad, more than two turns; angles are in rad, not in degrees");
+            let text = CString::new(text).unwrap_or_default();
+            PyErr::warn(object.py(), &object.py().get_type::<PyUserWarning>(), &text, 1)?;
+        }
         Ok(Self(Pose { x, y, phi }))
     }
 }

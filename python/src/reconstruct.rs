@@ -7,9 +7,11 @@ use crate::rod::PyRod;
 use crate::samples::{SAMPLE, Samples};
 use crate::simulate::model;
 use crate::{errors, running};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
+use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
 use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Reading, Source, SourceEstimate, TraceRow};
@@ -316,5 +318,11 @@ pub fn reconstruct(
     };
     let rod = *rod.uniform()?;
     let found = running::run(py, || Reconstructed::new(recording, rod, &settings))?.map_err(errors::value)?;
+    if !found.check.fits() {
+        let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();
+        let text = format!("recording, units and rod do not fit: {}", findings.join("; "));
+        let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
     Ok(PyReconstruction { found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
 }

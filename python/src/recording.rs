@@ -6,7 +6,6 @@ use crate::path::PyPath;
 use crate::rod::PyRod;
 use crate::running;
 use crate::samples::SAMPLE;
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Known};
@@ -65,7 +64,7 @@ impl PyRecording {
         let (budget, known, read) = (Budget::laboratory(&rod), Known::NOTHING, ReadOptions::default());
         let scan = LiveScan { rod, budget, known, setup, stage, path, read, inputs: Vec::new() };
         let recording = running::run(py, || Recording::any(&file, &scan))?.map_err(|error| match error {
-            Error::Recording(RecordingError::Unreadable { .. }) => PyOSError::new_err(error.to_string()),
+            Error::Recording(RecordingError::Unreadable { ref source, .. }) => errors::unreadable(source, &error),
             error => errors::value(error),
         })?;
         Ok(Self { recording })

@@ -75,6 +75,11 @@ fn stiff(length: f64, written: Stiffness) -> PyResult<Rod> {
     let rod = match written {
         [Some(stiffness), None, None] => Rod::new(length, stiffness),
         [None, Some(diameter), Some(modulus)] => Rod::from_diameter(length, diameter, modulus),
+        [Some(_), ..] => {
+            let message =
+                "bending_stiffness is given beside diameter or youngs_modulus, expected either it or those two";
+            return Err(errors::value(message));
+        }
         _ => return Err(errors::value("expected bending_stiffness, or diameter and youngs_modulus")),
     };
     rod.map_err(errors::value)

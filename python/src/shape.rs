@@ -76,7 +76,7 @@ pub fn shape<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyShape>> {
     }
     let found = object.get_type().name()?;
     Err(pyo3::exceptions::PyTypeError::new_err(format!(
-        "the shape is of type {found}, expected a vibrissa.Shape or an object with a method frame(t)"
+        "the shape is of type {found}, expected a vibrissa.Shape or an object with a method frame(t); points make a Polygon or a Spline"
     )))
 }
 

@@ -9,6 +9,7 @@ use crate::running::{self, Watch};
 use crate::scan::PyScan;
 use crate::shape::objects;
 use crate::state::PyState;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Item, Outcome};
 use vibrissa::rod::PhysicalRod;
@@ -18,10 +19,22 @@ use vibrissa::{Composite, State, Sweep};
 const MOST_STATES: f64 = 2e7;
 
 /// Distance of reported states: one for all legs of the path, or one for each.
-#[derive(FromPyObject)]
 pub enum Steps {
     One(f64),
     Each(Vec<f64>),
+}
+
+impl<'py> FromPyObject<'py> for Steps {
+    fn extract_bound(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Ok(step) = object.extract() {
+            return Ok(Self::One(step));
+        }
+        let wrong = |_| {
+            let found = object.repr().map_or_else(|_| "something else".to_owned(), |text| text.to_string());
+            PyTypeError::new_err(format!("expected a number in m (or rad), or one for each leg, found {found}"))
+        };
+        object.extract().map(Self::Each).map_err(wrong)
+    }
 }
 
 /// What a sweep is asked to do, without the interpreter.

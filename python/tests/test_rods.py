@@ -108,6 +108,7 @@ def test_what_a_rod_has() -> None:
     ("arguments", "message"),
     [
         ({}, "expected bending_stiffness, or diameter and youngs_modulus"),
+        ({"bending_stiffness": 1.0, "diameter": 1e-3, "youngs_modulus": 1e9}, "given beside diameter or youngs_modulus"),
         ({"bending_stiffness": 1.0, "tip_diameter": 1e-4}, "tip_diameter is given beside bending_stiffness"),
         ({"diameter": 1e-3, "youngs_modulus": 1e9, "tip_diameter": 0.0}, "tip_diameter is 0, expected a positive"),
         ({"diameter": 1e-3, "youngs_modulus": 1e9, "tip_diameter": 1e-6}, "tip_diameter"),

@@ -269,6 +269,8 @@ def test_damaged_files_are_named(tmp_path: Path) -> None:
 
 
 def test_parameters_are_numbers(tmp_path: Path) -> None:
+    with pytest.raises(TypeError, match="expected a Scene, or a dict of parameters and then a Scene"):
+        vibrissa.study([(_scene(0.05), {"distance": 0.05})], out=tmp_path / "out")  # type: ignore[list-item]
     with pytest.raises(ValueError, match="scene 0 has 'wide' for the parameter 'distance', expected a number"):
         vibrissa.study([({"distance": "wide"}, _scene(0.05))], out=tmp_path / "out")  # type: ignore[dict-item]
 

@@ -148,7 +148,13 @@ def test_wrong_arguments_are_named(rod: vibrissa.Rod, parabolas: vibrissa.Compos
         vibrissa.ClampPath((0.0, 0.0, 0.0), (math.nan, 0.0, 0.0))
     with pytest.raises(TypeError, match="argument 'start': expected a pose of three numbers.*found 2"):
         vibrissa.ClampPath((0.0, 0.0), (1.0, 0.0, 0.0))
-    with pytest.raises(TypeError, match="the shape is of type int"):
+    with pytest.raises(TypeError, match="argument 'step': expected a number in m .*, found '1mm'"):
+        vibrissa.sweep(rod, parabolas, path, "1mm")  # type: ignore[arg-type]
+    with pytest.warns(UserWarning, match="phi is 90.0 rad, more than two turns; angles are in rad"):
+        vibrissa.ClampPath((0.08, -0.04, 90.0), (-0.08, -0.04, 90.0))
+    with pytest.raises(FileNotFoundError, match="cannot read the scene"):
+        vibrissa.Scene.read("none.toml")
+    with pytest.raises(TypeError, match="the shape is of type int.*points make a Polygon or a Spline"):
         vibrissa.sweep(rod, [3], path, 1e-3)  # type: ignore[list-item]
 
 

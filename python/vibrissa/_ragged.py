@@ -62,9 +62,9 @@ class Ragged:
         -------
         pyarrow.LargeListArray
         """
-        import pyarrow as pa
+        from ._tables import arrow_columns, optional
 
-        from ._tables import arrow_columns
+        pa = optional("pyarrow")
 
         columns = arrow_columns(self.values)
         structs = pa.StructArray.from_arrays(list(columns.values()), names=list(columns))

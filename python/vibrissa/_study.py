@@ -106,7 +106,7 @@ def _tasks(scenes: _Source) -> tuple[Iterator[Task], list[str], int | None]:
     first = next(given, None)
     if first is None:
         raise ValueError("scenes is empty, expected one scene at least")
-    names = list(first[0]) if isinstance(first, tuple) else []
+    names = list(first[0]) if isinstance(first, tuple) and isinstance(first[0], Mapping) else []
     count = len(scenes) if isinstance(scenes, (list, tuple)) else None
     return _of_scenes(itertools.chain([first], given), names), names, count
 
@@ -121,8 +121,8 @@ def _of_study(study: Study) -> Iterator[Task]:
 def _of_scenes(scenes: Iterable[Any], names: list[str]) -> Iterator[Task]:
     for number, given in enumerate(scenes):
         values, scene = given if isinstance(given, tuple) and len(given) == 2 else ({}, given)
-        if not isinstance(scene, Scene):
-            raise TypeError(f"scene {number} is {scene!r}, expected a Scene, or parameters and a Scene")
+        if not isinstance(scene, Scene) or not isinstance(values, Mapping):
+            raise TypeError(f"scene {number} is {given!r}, expected a Scene, or a dict of parameters and then a Scene")
         if list(values) != names:
             raise ValueError(f"scene {number} has the parameters {list(values)}, expected those of the first: {names}")
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,15 @@ def columns(*parts: Rows) -> dict[str, npt.NDArray[Any]]:
     return {name: np.ascontiguousarray(rows[name]) for rows in parts for name in rows.dtype.names or ()}
 
 
+def optional(package: str) -> Any:
+    """A package that not everybody has installed."""
+    try:
+        return importlib.import_module(package)
+    except ImportError as error:
+        name = package.split(".")[0]
+        raise ImportError(f"this needs {name}: pip install {name}") from error
+
+
 def units(names: list[str]) -> dict[str, str]:
     """The units of those columns that have one."""
     return {name: UNITS[name] for name in names if name in UNITS}
@@ -27,7 +37,7 @@ def units(names: list[str]) -> dict[str, str]:
 
 def pandas_table(found: dict[str, npt.NDArray[Any]]) -> Any:
     """The columns as a data frame, with their units in its ``attrs``."""
-    import pandas as pd
+    pd = optional("pandas")
 
     frame = pd.DataFrame(found)
     frame.attrs["units"] = units(list(found))
@@ -36,7 +46,7 @@ def pandas_table(found: dict[str, npt.NDArray[Any]]) -> Any:
 
 def arrow_columns(*parts: Rows) -> dict[str, Any]:
     """The fields of structured arrays with the same rows as arrays of Arrow."""
-    import pyarrow as pa
+    pa = optional("pyarrow")
 
     def array(values: npt.NDArray[Any]) -> Any:
         return pa.array(values.tolist(), pa.string()) if values.dtype.kind == "U" else pa.array(values)
@@ -46,7 +56,7 @@ def arrow_columns(*parts: Rows) -> dict[str, Any]:
 
 def arrow_table(found: dict[str, Any]) -> Any:
     """Arrays of Arrow as a table, with the unit of each in the metadata of its field."""
-    import pyarrow as pa
+    pa = optional("pyarrow")
 
     def field(name: str, values: Any) -> Any:
         return pa.field(name, values.type, metadata={"unit": UNITS[name]} if name in UNITS else None)
@@ -81,7 +91,7 @@ def scan_to_pandas(scan: Scan, table: str) -> Any:
 
 def scan_to_arrow(scan: Scan, table: str) -> Any:
     """``Scan.to_arrow``."""
-    import pyarrow as pa
+    pa = optional("pyarrow")
 
     found = arrow_columns(_rows(scan, table))
     if table == "contacts":

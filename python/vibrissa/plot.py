@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._core import Composite, Reconstruction, Rod, Scan, single
+from ._tables import optional
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -62,10 +63,14 @@ def phase_color(phase: str) -> str:
     return _FREE if phase == "free" else _COLORS[min(len(phase), 3), phase.endswith("A")]
 
 
+def _pyplot() -> Any:
+    return optional("matplotlib.pyplot")
+
+
 def _axes(ax: Axes | None) -> Axes:
     if ax is not None:
         return ax
-    import matplotlib.pyplot as plt
+    plt = _pyplot()
 
     made: Axes = plt.figure(layout="constrained").add_subplot()
     return made
@@ -159,8 +164,9 @@ def shapes(scan: Scan, ax: Axes | None = None, *, most: int = 60) -> Axes:
         shape = scan.shape(i, 200)
         seen.append(shape)
         ax.plot(1e3 * shape[:, 0], 1e3 * shape[:, 1], color=phase_color(scan.states["phase"][i]), linewidth=0.7)
-    for k in range(len(scan.events)):
-        shape = scan.event(k).before.shape(scan.rod, 200)
+    # a contact that passes to another piece of the same object changes no phase
+    for k in np.flatnonzero(scan.events["kind"] != "piece"):
+        shape = scan.event(int(k)).before.shape(scan.rod, 200)
         seen.append(shape)
         ax.plot(1e3 * shape[:, 0], 1e3 * shape[:, 1], color=_TRANSITION, linewidth=1.2)
     if seen:
@@ -189,7 +195,7 @@ def reactions(scan: Scan, axes: npt.NDArray[Any] | list[Axes] | None = None) -> 
     list of matplotlib.axes.Axes
     """
     if axes is None:
-        import matplotlib.pyplot as plt
+        plt = _pyplot()
 
         axes = plt.subplots(3, 1, sharex=True, layout="constrained", figsize=(6.0, 6.0))[1]
     axes = list(axes)
@@ -284,7 +290,7 @@ def phase_criterion(states: _Rows, rod: Rod) -> npt.NDArray[np.float64]:
 
 def _beside_each_other() -> list[Axes]:
     """Axes for shapes on the left, and three for the reactions on the right."""
-    import matplotlib.pyplot as plt
+    plt = _pyplot()
 
     figure = plt.figure(figsize=(10.0, 5.5), layout="constrained")
     grid = figure.add_gridspec(3, 2, width_ratios=[1.3, 1.0])
@@ -355,6 +361,8 @@ def contour(
         low = rows["x"].min() - margin, rows["y"].min() - margin
         high = rows["x"].max() + margin, rows["y"].max() + margin
         object_outline(ax, objects, (low[0], high[0], low[1], high[1]), linestyles="dashed", linewidths=1.0)
+    if not len(rows):
+        ax.text(0.5, 0.5, "no contact points", transform=ax.transAxes, ha="center", va="center")
     if named:
         ax.legend(frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(named), borderaxespad=0.2)
     ax.set_aspect("equal")
