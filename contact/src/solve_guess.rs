@@ -69,7 +69,7 @@ fn is_plausible(world: &World<'_>, (configuration, report): &Root) -> bool {
 fn starts<R: PhysicalRod>(setup: &Setup<'_, R>, supposed: &[Supposed]) -> [Configuration; 3] {
     let clamp = setup.path.at(0.0);
     let arcs = held(supposed, &by_chords(clamp, supposed, 2.0));
-    let by_forces = held(supposed, &by_forces(setup.rod.model(), clamp, supposed));
+    let by_forces = held(supposed, &by_forces(setup.rod.model(), &setup.clamp(0.0), supposed));
     let chords = held(&along_chords(clamp, supposed), &by_chords(clamp, supposed, 1.0));
     let off = |configuration: &Configuration| {
         let (supports, u) = (configuration.supports(&setup.world), configuration.of_contacts());

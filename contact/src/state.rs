@@ -100,16 +100,16 @@ pub struct Certificate {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
-    /// The clamp.
+    /// The support of the clamp. On a clamp that gives way the base of the rod is elsewhere: [`PhysicalRod::base`].
     pub pose: Pose,
     /// Contacts from the clamp to the tip.
     pub contacts: Vec<Contact>,
     /// The leg of the path, from 0 ([`Chain`](crate::Chain)).
     #[cfg_attr(feature = "serde", serde(default))]
     pub leg: usize,
-    /// What the clamp feels.
+    /// What the clamp feels: forces on the rod at its base, and the moment about the base.
     pub reactions: Reactions,
-    /// Bending energy, J.
+    /// Bending energy, and that of a clamp that gives way, J.
     pub energy: f64,
     /// Largest bending stress, Pa; none where the rod's diameter is not known.
     pub max_stress: Option<f64>,
@@ -130,6 +130,7 @@ impl State {
     /// [`RodError`] where the state's numbers are not those of a rod as long as `rod`.
     pub fn elastica<R: PhysicalRod>(&self, rod: &R) -> Result<Elastica<R::Model>, RodError> {
         let loads: Vec<_> = self.contacts.iter().map(|c| Load { s: c.s, force: c.force, alpha: c.alpha }).collect();
-        Elastica::of_rod(rod.model().clone(), rod.units(), self.pose, self.reactions.m0z, &loads)
+        let base = rod.base(self.pose, &self.reactions);
+        Elastica::of_rod(rod.model().clone(), rod.units(), base, self.reactions.m0z, &loads)
     }
 }

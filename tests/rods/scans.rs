@@ -1,9 +1,9 @@
-//! Scans of object O1 with a cone, a rod bent at rest and one of two sections, against another solver whose states were integrated
+//! Scans of object O1 with a cone, a rod bent at rest, one of two sections and one on a spring, against another solver whose states were integrated
 //! again by DOP853: `tests/data/reference/rods`.
 
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
-use vibrissa::rod::{Pose, RodSection, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Mounted, PhysicalRod, Pose, RodSection, VaryingRod};
 use vibrissa::{ClampPath, Composite, Parabola, Rod, State, Sweep};
 
 fn file(name: &str) -> Value {
@@ -32,7 +32,7 @@ pub fn bent() -> VaryingRod {
     Rod::new(1.0, 1.0).unwrap().with_natural_curvature(0.5).unwrap()
 }
 
-fn compare(name: &str, rod: &VaryingRod) {
+fn compare(name: &str, rod: &impl PhysicalRod) {
     let file = file(name);
     let number = |value: &Value, field: &str| value[field].as_f64().unwrap();
     let at = |x| Pose { x, y: -0.4, phi: FRAC_PI_2 };
@@ -68,6 +68,11 @@ fn compare(name: &str, rod: &VaryingRod) {
     assert!(compared > 15, "{name}: {compared}");
 }
 
+/// A spring of 20 E I / L against turning.
+pub fn on_a_spring() -> Mounted<Rod> {
+    Mounted::new(Rod::new(1.0, 1.0).unwrap(), ElasticClamp::springs(None, None, Some(20.0)).unwrap())
+}
+
 #[test]
 fn a_cone() {
     compare("cone_0.8.json", &cone(0.8));
@@ -81,4 +86,9 @@ fn a_rod_bent_at_rest() {
 #[test]
 fn two_sections_of_different_stiffness() {
     compare("two_sections.json", &two_sections());
+}
+
+#[test]
+fn a_clamp_on_a_spring() {
+    compare("elastic_clamp_20.json", &on_a_spring());
 }

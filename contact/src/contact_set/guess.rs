@@ -6,7 +6,7 @@ use crate::scene::rod::{Walk, at_clamp};
 use crate::scene::world::{Foot, World};
 use crate::state::{Contact, ContactKind};
 use rod_contours::StretchKind;
-use rod_core::{Hold, Pose, RodModel, Units};
+use rod_core::{Clamp, Hold, Pose, Reactions, RodModel, Units};
 use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
@@ -22,6 +22,9 @@ pub(crate) struct Supposed {
 
 /// Share of its cone by which the force of a state may point out of it.
 const ROUNDING: f64 = 1e-6;
+
+/// Rounds in which the base of a clamp on springs and the moment about it are found. Two suffice where turns and shifts are not coupled.
+const GIVING_WAY: usize = 8;
 
 type Slopes = SmallVec<[f64; 8]>;
 
@@ -54,16 +57,28 @@ pub(crate) fn along_chords(clamp: Pose, supposed: &[Supposed]) -> SmallVec<[Supp
 }
 
 /// The rod's slope angles at the contacts by the shape that the forces would give it.
-pub(crate) fn by_forces(rod: &impl RodModel, clamp: Pose, supposed: &[Supposed]) -> Slopes {
+pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Supposed]) -> Slopes {
+    let (mut base, mut felt) = (clamp.pose(), felt(clamp.pose(), supposed));
+    if clamp.law().is_some() {
+        for _ in 0..GIVING_WAY {
+            base = clamp.base(&felt);
+            felt = self::felt(base, supposed);
+        }
+    }
+    let mut rod = Walk::new(rod, at_clamp(base, felt.m0z), (felt.f0y, -felt.f0x));
+    supposed.iter().map(|Supposed { foot, s, force, .. }| rod.to(*s, *force, foot.alpha)).collect()
+}
+
+/// The reactions of the clamp to the forces, with its moment about the base.
+fn felt(base: Pose, supposed: &[Supposed]) -> Reactions {
     let [mut a, mut b, mut m0z] = [0.0; 3];
     for Supposed { foot, force, .. } in supposed {
         let (sin, cos) = foot.alpha.sin_cos();
         a += force * cos;
         b += force * sin;
-        m0z += force * ((foot.x - clamp.x) * cos + (foot.y - clamp.y) * sin);
+        m0z += force * ((foot.x - base.x) * cos + (foot.y - base.y) * sin);
     }
-    let mut rod = Walk::new(rod, at_clamp(clamp, m0z), (a, b));
-    supposed.iter().map(|Supposed { foot, s, force, .. }| rod.to(*s, *force, foot.alpha)).collect()
+    Reactions { f0x: -b, f0y: a, m0z }
 }
 
 /// The contacts of a guess with a rod that has such slope angles there.

@@ -4,7 +4,7 @@ use crate::contact_set::Configuration;
 use crate::gap::scan::Scan;
 use crate::scene::setup::Setup;
 use crate::state::{Certificate, Contact, GapBounds, State};
-use rod_core::{Elastica, PhysicalRod, Pose, SolveReport, Supports, Units};
+use rod_core::{Clamp, Elastica, PhysicalRod, Pose, Reactions, RodModel, SolveReport, Supports, Units};
 
 /// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
@@ -38,7 +38,8 @@ pub(crate) fn state<R: PhysicalRod>(
     let Units { length, force, .. } = rod.units();
     let n = configuration.count();
     let supports = configuration.supports(world);
-    let clamp = setup.path.at(configuration.tau());
+    let clamp = setup.clamp(configuration.tau());
+    let Pose { x, y, phi } = clamp.pose();
     // what was scanned is this configuration
     let shape = Elastica::of_segments(rod.model().clone(), rod.units(), scan.segments().to_vec());
     let mut contacts = Vec::with_capacity(n);
@@ -66,21 +67,29 @@ pub(crate) fn state<R: PhysicalRod>(
         iterations: quality.iterations,
     };
     State {
-        pose: Pose { x: clamp.x * length, y: clamp.y * length, phi: clamp.phi },
+        pose: Pose { x: x * length, y: y * length, phi },
         contacts,
         leg: 0,
         reactions: shape.reactions(),
-        energy: shape.bending_energy(),
+        energy: stored(rod, &clamp, &shape),
         max_stress: rod.bending_stress(shape.largest_curvature()),
         certificate,
     }
 }
 
-/// Bending energy (J) of the rod in `configuration`.
+/// Energy (J) of the rod in `configuration` and of its clamp.
 pub(crate) fn energy<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> f64 {
     let supports = configuration.supports(&setup.world);
     let problem = setup.problem(&supports, configuration.tau());
-    problem.elastica(configuration.of_contacts(), setup.rod.units()).bending_energy()
+    stored(&setup.rod, &problem.clamp, &problem.elastica(configuration.of_contacts(), setup.rod.units()))
+}
+
+/// Energy (J) of a rod of this shape and of its clamp.
+fn stored<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: &Elastica<M>) -> f64 {
+    let Units { force, moment, energy, .. } = rod.units();
+    let Reactions { f0x, f0y, m0z } = shape.reactions();
+    let of_clamp = clamp.energy(&Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment });
+    shape.bending_energy() + of_clamp * energy
 }
 
 /// An arc length beyond the tip by rounding is at the tip. One that is further beyond stays, and shows that the contact set is

@@ -24,8 +24,7 @@ pub(crate) fn recall<R: PhysicalRod>(
     let setup = &corrector.setup;
     let all = supposed(&setup.world, setup.rod.units(), contacts)?;
     // the forces give the rod's angle at each contact, and so its whole turns and the side on which it lies
-    let clamp = setup.path.at(0.0);
-    let recalled = held(&all, &by_forces(setup.rod.model(), clamp, &all));
+    let recalled = held(&all, &by_forces(setup.rod.model(), &setup.clamp(0.0), &all));
     let residual = residual(corrector, &recalled);
     if residual <= SOLVED {
         return Ok(recalled);

@@ -16,7 +16,7 @@ const LARGEST_RESIDUAL: f64 = 1e-8;
 pub(crate) struct Restored {
     pub configuration: Configuration,
     pub linear: Linearisation,
-    /// The clamp, dimensionless.
+    /// The support of the clamp, dimensionless.
     pub clamp: Pose,
 }
 
@@ -27,7 +27,7 @@ impl Restored {
         let clamp = Pose { x: state.pose.x / length, y: state.pose.y / length, phi: state.pose.phi };
         let linear = {
             let supports = configuration.supports(world);
-            let problem = MultiPoint { rod: rod.model(), clamp, supports: &supports };
+            let problem = MultiPoint { rod: rod.model(), clamp: rod.clamp(clamp), supports: &supports };
             problem.linearise(configuration.of_contacts())
         };
         let residual = linear.residual();
@@ -41,11 +41,11 @@ impl Restored {
 /// The contact set of a state with its unknowns.
 fn configuration<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> Result<Configuration, ContactError> {
     let units = rod.units();
-    let Pose { x, y, phi } = state.pose;
     let Reactions { f0x, f0y, m0z } = state.reactions;
-    // the rod from the clamp on, for its slope angles at the contacts
-    let clamp = at_clamp(Pose { x: x / units.length, y: y / units.length, phi }, m0z / units.moment);
-    let mut rod = Walk::new(rod.model(), clamp, (f0y / units.force, -f0x / units.force));
+    // the rod from its base on, for its slope angles at the contacts
+    let Pose { x, y, phi } = rod.base(state.pose, &state.reactions);
+    let base = at_clamp(Pose { x: x / units.length, y: y / units.length, phi }, m0z / units.moment);
+    let mut rod = Walk::new(rod.model(), base, (f0y / units.force, -f0x / units.force));
     let mut configuration = Configuration::free(0.0);
     for (j, contact) in state.contacts.iter().enumerate() {
         let kind = match contact.kind {

@@ -3,5 +3,6 @@
 pub(crate) mod corner;
 pub(crate) mod rod;
 pub(crate) mod setup;
+pub(crate) mod springs;
 pub(crate) mod way;
 pub(crate) mod world;

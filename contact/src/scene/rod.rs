@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 /// A part of the rod between two contacts, along which the force is constant.
 pub(crate) type Segment = rod_core::Segment<Cut>;
 
-/// The rod at its clamp, which feels the moment `m0z`.
+/// The rod at its base, where the clamp feels the moment `m0z`.
 pub(crate) fn at_clamp(Pose { x, y, phi }: Pose, m0z: f64) -> Cut {
     Cut { x, y, phi, moment: -m0z }
 }

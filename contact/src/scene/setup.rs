@@ -25,9 +25,15 @@ impl<'a, R: PhysicalRod> Setup<'a, R> {
         Self { rod: rod.clone(), world: World::new(objects, rod.units().length), path }
     }
 
-    /// The rod held by `supports`, with its clamp at `tau` of the path.
-    pub fn problem<'s, S: Supports>(&'s self, supports: &'s S, tau: f64) -> MultiPoint<'s, S, &'s R::Model> {
-        MultiPoint { rod: self.rod.model(), clamp: self.path.at(tau), supports }
+    /// The rod held by `supports`, with the support of its clamp at `tau` of the path.
+    pub fn problem<'s, S: Supports>(&'s self, supports: &'s S, tau: f64) -> MultiPoint<'s, S, &'s R::Model, R::Clamp> {
+        MultiPoint { rod: self.rod.model(), clamp: self.clamp(tau), supports }
+    }
+
+    /// The clamp of the rod, whose support is at `tau` of the path.
+    #[inline(always)]
+    pub fn clamp(&self, tau: f64) -> R::Clamp {
+        self.rod.clamp(self.path.at(tau))
     }
 
     /// The same rod and objects on another way of the clamp, dimensionless.

@@ -11,15 +11,16 @@
 //! It is the least value as long as the form is positive for variations that vanish at both ends, which it is where P l^2 < pi^2 EI:
 //! q is at most P, and the least eigenvalue of -(EI eta')' at least EI (pi / l)^2 with the least EI. Behind the
 //! last contact the least value is zero. So Q > 0 for all variations if, and only if, the sum of these forms and of the contacts' own ones is positive definite in the shifts u_j along
-//! the contour and the turns eta_j: two unknowns a contact.
+//! the contour and the turns eta_j: two unknowns a contact. A clamp on springs adds the ways p of its base, with their own p^2 / softness.
 
 use super::Form;
 use crate::contact_set::Configuration;
 use crate::gap::shape::Shape;
 use crate::scene::rod::holds_between_ends;
 use crate::scene::setup::Setup;
-use rod_core::{CutSensitivities, PhysicalRod, RodModel, Supports};
-use smallvec::SmallVec;
+use crate::scene::springs::{Spring, springs};
+use rod_core::{Clamp, CutSensitivities, PhysicalRod, RodModel, Supports};
+use smallvec::{SmallVec, smallvec};
 
 /// Least pivot, over the diagonal entry that it came from, that proves a sign. The entries are exact to about 1e-13 of the largest
 /// one, which on a nearly straight segment is larger than the pivots by as much as [`STIFFEST`]. Closer to a fold the modes decide.
@@ -37,37 +38,36 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
     let rod = setup.rod.model();
     let n = configuration.count();
     let supports = configuration.supports(&setup.world);
-    let size = 2 * n;
+    let springs = springs(setup.clamp(configuration.tau()).law());
+    let base = springs.len();
+    let size = base + 2 * n;
     let mut matrix: SmallVec<[f64; 64]> = SmallVec::from_elem(0.0, size * size);
-    // (cos, sin) of the contour at the contact before; the clamp does not move
-    let mut before: Option<(f64, f64)> = None;
+    for (k, spring) in springs.iter().enumerate() {
+        matrix[k * size + k] = 1.0 / spring.softness;
+    }
+    // what moves the start of the segment: the base by its springs, then the contact before by its shift and its turn
+    let mut before: SmallVec<[Ends; 5]> = springs.iter().map(|Spring { way: [x, y, phi], .. }| [*phi, 0.0, -x, -y]).collect();
     for j in 0..n {
         let support = supports.support(j, configuration.t(j));
         let Form::Moves([uu, uv, vv]) = super::form(rod, configuration, shape, j, &support) else { return false };
         let (sin, cos) = support.alpha.sin_cos();
         let Some(stiffness) = stiffness(rod, shape, j) else { return false };
-        // the unknowns that move this segment: u and eta of the contact before, of this contact
-        let mut moves: [Ends; 4] = [[0.0; 4]; 4];
-        if let Some((cos, sin)) = before {
-            moves[0] = [0.0, 0.0, -cos, -sin];
-            moves[1] = [1.0, 0.0, 0.0, 0.0];
-        }
-        moves[2] = [0.0, 0.0, cos, sin];
-        moves[3] = [0.0, 1.0, 0.0, 0.0];
-        let skipped = if before.is_some() { 0 } else { 2 };
-        for row in skipped..4 {
-            let forces: Ends = std::array::from_fn(|i| dot(&stiffness[i], &moves[row]));
-            for column in skipped..=row {
-                matrix[(2 * j + row - 2) * size + (2 * j + column - 2)] += dot(&forces, &moves[column]);
+        let mut moves = before;
+        moves.extend([[0.0, 0.0, cos, sin], [0.0, 1.0, 0.0, 0.0]]);
+        let (u, eta) = (base + 2 * j, base + 2 * j + 1);
+        let first = eta + 1 - moves.len();
+        for (row, own) in moves.iter().enumerate() {
+            let forces: Ends = std::array::from_fn(|i| dot(&stiffness[i], own));
+            for (column, other) in moves[..=row].iter().enumerate() {
+                matrix[(first + row) * size + first + column] += dot(&forces, other);
             }
         }
-        let (u, eta) = (2 * j, 2 * j + 1);
         matrix[u * size + u] += uu;
         matrix[eta * size + u] += uv;
         matrix[eta * size + eta] += vv;
-        before = Some((cos, sin));
+        before = smallvec![[0.0, 0.0, -cos, -sin], [1.0, 0.0, 0.0, 0.0]];
     }
-    has_pivots(&mut matrix, size)
+    has_pivots(&mut matrix, base, size)
 }
 
 /// The form of segment `j` of its ends; none where the segment is long enough to buckle between them.
@@ -109,13 +109,15 @@ fn dot(u: &Ends, v: &Ends) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2] + u[3] * v[3]
 }
 
-/// Whether the factors L D L^T of a symmetric matrix, of which the lower half counts, show that it is positive definite.
-fn has_pivots(matrix: &mut [f64], size: usize) -> bool {
+/// Whether the factors L D L^T of a symmetric matrix, of which the lower half counts, show that it is positive definite. Its first
+/// `base` rows are those of the clamp, the others two a contact.
+fn has_pivots(matrix: &mut [f64], base: usize, size: usize) -> bool {
     for k in 0..size {
         // row k of L and D, from the rows above
         let own = matrix[k * size + k];
-        // the matrix is a band: a contact knows the one before it
-        let first = (k / 2 * 2).saturating_sub(2);
+        // the matrix is a band: a contact knows the one before it, the first one the clamp
+        let contact = k.saturating_sub(base) / 2;
+        let first = if contact == 0 { 0 } else { base + 2 * contact - 2 };
         for i in first..k {
             let known: f64 =
                 (first..i).map(|m| matrix[k * size + m] * matrix[i * size + m] * matrix[m * size + m]).sum();

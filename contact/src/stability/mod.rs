@@ -1,17 +1,18 @@
 //! Whether an equilibrium is stable: the second variation of the bending energy under the contacts.
 //!
-//! For a variation eta of the slope angle (eta(0) = 0) that keeps every contact closed to first order,
+//! For a variation eta of the slope angle that keeps every contact closed to first order, and of the base along its springs (eta(0) = 0
+//! and no other way on a rigid clamp),
 //!
 //! ```text
-//! Q = int_0^1 EI eta'^2 - (A sin phi - B cos phi) eta^2 ds  -  sum_j f_j g_j
+//! Q = int_0^1 EI eta'^2 - (A sin phi - B cos phi) eta^2 ds  -  sum_j f_j g_j  +  sum_k p_k^2 / softness_k
 //! ```
 //!
 //! where (A, B) is the force on the segment and g_j the second-order change of gap j: k u^2 at the tip, and
 //! (2 w eta u - w kappa' u^2 - v eta^2) / (w - v kappa') where the rod is tangential, with u the shift of the rod's point
 //! along the contour, kappa' the rod's curvature in the contour's sense, k = w / v the contour's curvature (dr/dt = v,
 //! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
-//! -|eta|^(3/2), so that eta is held. The equilibrium is stable if Q > 0 for all such eta. eta is expanded in the first
-//! modes of a free cantilever, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
+//! -|eta|^(3/2), so that eta is held. p_k is the way of the base along its spring k. The equilibrium is stable if Q > 0 for all such
+//! eta and p. eta is expanded in the first modes of a free cantilever and the turn of the base, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
 //! Cholesky factor. Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
 //! not, the modes decide.
 
@@ -21,8 +22,9 @@ use crate::contact_set::Configuration;
 use crate::gap::shape::{Node, Shape};
 use crate::scene::rod::{Segment, curvature_behind};
 use crate::scene::setup::Setup;
+use crate::scene::springs::{Spring, springs};
 use nalgebra::{DMatrix, SMatrix};
-use rod_core::{Cut, Hold, PhysicalRod, RodModel, Support, Supports};
+use rod_core::{Clamp, Cut, Hold, PhysicalRod, RodModel, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -81,11 +83,15 @@ impl Judge {
         let n = configuration.count();
         let Self { integrals, quadratic: q, along, across, eta } = self;
         let shape = &shape.refined(rod);
-        let size = MODES + 2 * n;
+        let springs = springs(setup.clamp(configuration.tau()).law());
+        let modes = MODES + 2 * n;
         let end = configuration.s(n - 1);
-        let turns = Turns::new(rod, end);
-        q.reset(size, |m| 0.5 / turns.softness * ((m as f64 + 0.5) * PI).powi(2));
-        integrals.reset(size);
+        let turns = Turns::new(rod, end, !springs.is_empty());
+        q.reset(modes + springs.len(), |m| match m.checked_sub(modes) {
+            None => 0.5 / turns.softness * ((m as f64 + 0.5) * PI).powi(2),
+            Some(k) => 1.0 / springs[k].softness,
+        });
+        integrals.reset(modes);
         let supports = configuration.supports(world);
         for j in 0..n {
             let Segment { a, b, .. } = shape.segments[j];
@@ -95,18 +101,21 @@ impl Judge {
             }
             let support = supports.support(j, configuration.t(j));
             integrals.shifts(support.alpha.sin_cos(), along, across);
+            push_shifts(&springs, shape, &support, along, across);
             let form = match form(rod, configuration, shape, j, &support) {
                 Form::Moves(form) => form,
                 Form::Held => [PENALTY, 0.0, 0.0],
                 Form::Flat => [0.0, 0.0, PENALTY],
                 Form::Slips => return false,
             };
-            modes_at(turns.phase(rod, configuration.s(j)), size, eta);
+            modes_at(turns.phase(rod, configuration.s(j)), modes, eta);
+            eta.extend(springs.iter().map(|spring| spring.way[2]));
             q.add(form, along, eta);
             let square: f64 = across.iter().map(|way| way * way).sum();
             q.add([PENALTY / square.clamp(LEAST_WAY, 1.0), 0.0, 0.0], across, eta);
         }
-        q.add_load(&integrals.moments);
+        q.add_load(modes, &integrals.moments);
+        q.add_load_of_base(modes, &springs, &integrals);
         q.is_positive()
     }
 }
@@ -122,8 +131,9 @@ struct Turns {
 }
 
 impl Turns {
-    fn new(rod: &impl RodModel, end: f64) -> Self {
-        if rod.is_uniform() {
+    /// Up to the last contact, at `end`; `at_nodes`: with the phase of each node, not by recurrences.
+    fn new(rod: &impl RodModel, end: f64, at_nodes: bool) -> Self {
+        if rod.is_uniform() && !at_nodes {
             return Self { softness: end, scale: Some(PI / end) };
         }
         Self { softness: softness(rod, end), scale: None }
@@ -138,6 +148,17 @@ impl Turns {
 fn softness(rod: &impl RodModel, s: f64) -> f64 {
     let turned = |moment: f64| rod.carry(0.0, &Cut { x: 0.0, y: 0.0, phi: 0.0, moment }, 0.0, 0.0, s).phi;
     turned(1.0) - turned(0.0)
+}
+
+/// Appends how far the springs of the base move the rod at a contact, along the contour and across it.
+fn push_shifts(springs: &[Spring], shape: &Shape, support: &Support, along: &mut Vec<f64>, across: &mut Vec<f64>) {
+    let (sin, cos) = support.alpha.sin_cos();
+    let start = &shape.segments[0].start;
+    for Spring { way: [x, y, phi], .. } in springs {
+        let (x, y) = (x - phi * (support.y - start.y), y + phi * (support.x - start.x));
+        along.push(cos * x + sin * y);
+        across.push(cos * y - sin * x);
+    }
 }
 
 /// The second-order change of a contact's gap, times its force: the form of the shift u along the contour and the turn eta.
@@ -206,11 +227,26 @@ impl Quadratic {
 
     /// Adds the load on the modes by its cosine moments: sin((m + 1/2) x) sin((n + 1/2) x) is half of
     /// cos((m - n) x) - cos((m + n + 1) x).
-    fn add_load(&mut self, moments: &[Lanes]) {
+    fn add_load(&mut self, modes: usize, moments: &[Lanes]) {
         let moments: SmallVec<[f64; 64]> = moments.iter().map(|lanes| lanes.iter().sum()).collect();
-        for (i, row) in self.rows() {
-            for (j, (entry, after)) in row.iter_mut().zip(&moments[i + 1..]).enumerate() {
+        for (i, row) in self.rows().take(modes) {
+            for (j, (entry, after)) in row[..modes].iter_mut().zip(&moments[i + 1..]).enumerate() {
                 *entry += moments[i.abs_diff(j)] - after;
+            }
+        }
+    }
+
+    /// Adds the load on the turn of the base, which is one of the whole rod.
+    fn add_load_of_base(&mut self, modes: usize, springs: &[Spring], integrals: &Integrals) {
+        let size = self.size;
+        for (k, spring) in springs.iter().enumerate() {
+            let (row, turn) = (modes + k, spring.way[2]);
+            for (m, load) in integrals.turned.iter().enumerate() {
+                self.entries[row * size + m] += turn * load;
+                self.entries[m * size + row] += turn * load;
+            }
+            for (l, other) in springs.iter().enumerate() {
+                self.entries[row * size + modes + l] += turn * other.way[2] * integrals.load;
             }
         }
     }
@@ -248,6 +284,9 @@ struct Integrals {
     shifts: Vec<[Lanes; 2]>,
     /// int -(A sin phi - B cos phi) cos(m x) ds / 2.
     moments: Vec<Lanes>,
+    /// The same with eta_m, and with 1, in place of cos(m x) / 2: of [`add_at`](Self::add_at) alone.
+    turned: Vec<f64>,
+    load: f64,
 }
 
 impl Integrals {
@@ -257,6 +296,9 @@ impl Integrals {
         self.shifts.resize(size, [zero; 2]);
         self.moments.clear();
         self.moments.resize(2 * size, zero);
+        self.turned.clear();
+        self.turned.resize(size, 0.0);
+        self.load = 0.0;
     }
 
     /// Goes on along the `nodes` of a segment under the force (A, B), with any x of the arc length.
@@ -279,10 +321,14 @@ impl Integrals {
                 by_x[0] -= weight * at.sin * mode;
                 by_y[0] += weight * at.cos * mode;
             }
-            let load = 0.5 * weight * (b * at.cos - a * at.sin);
+            let load = weight * (b * at.cos - a * at.sin);
             for (m, moment) in self.moments.iter_mut().enumerate() {
-                moment[0] += load * (m as f64 * x).cos();
+                moment[0] += 0.5 * load * (m as f64 * x).cos();
             }
+            for (turned, mode) in self.turned.iter_mut().zip(&modes) {
+                *turned += load * mode;
+            }
+            self.load += load;
         }
     }
 

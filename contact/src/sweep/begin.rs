@@ -122,7 +122,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The free rod let go in the first pose.
     fn let_go(&mut self, bend: f64) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let mut chain = Chain::at_rest(corrector.setup.rod.model(), corrector.setup.path.at(0.0), bend);
+        let mut chain = Chain::at_rest(corrector.setup.rod.model(), &corrector.setup.clamp(0.0), bend);
         rest(&mut chain, corrector, scanner, 0.0, |_| true).map(|seen| seen.configuration)
     }
 }

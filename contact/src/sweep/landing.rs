@@ -145,8 +145,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// can be.
     fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Landed {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let clamp = corrector.setup.path.at(tau + kick);
-        let mut chain = Chain::of(&corrector.setup, last, clamp);
+        let mut chain = Chain::of(&corrector.setup, last, tau + kick);
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(BEND);
         let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_| true);

@@ -1,7 +1,7 @@
 //! The dimensionless clamps that give way.
 
-use super::{Clamp, ClampLaw, stored};
-use crate::pose::{Pose, Reactions};
+use super::{Clamp, ClampLaw};
+use crate::pose::Pose;
 
 /// A clamp on springs, dimensionless: (x(0), y(0), phi(0)) = pose - compliance (f0x, f0y, m0z).
 ///
@@ -36,19 +36,14 @@ pub struct Elastic {
     pub compliance: [[f64; 3]; 3],
 }
 
-impl Elastic {
-    /// The energy that the springs store under these reactions, E I / L: half of reactions times displacement.
-    pub fn energy(&self, reactions: &Reactions) -> f64 {
-        stored(&self.compliance, reactions)
-    }
-}
-
 impl Clamp for Elastic {
     fn pose(&self) -> Pose {
         self.pose
     }
+    #[inline(always)]
     fn law(&self) -> Option<ClampLaw> {
-        Some(ClampLaw { compliance: self.compliance, torque: None })
+        let is_rigid = self.compliance == [[0.0; 3]; 3];
+        (!is_rigid).then_some(ClampLaw { compliance: self.compliance, torque: None })
     }
 }
 

@@ -4,9 +4,11 @@
 //! parameter of [`MultiPoint`](crate::MultiPoint): the rigid one, a [`Pose`], costs nothing.
 
 mod elastic;
+mod mounted;
 mod springs;
 
 pub use elastic::{Elastic, Pivot};
+pub use mounted::Mounted;
 pub use springs::ElasticClamp;
 
 use crate::pose::{Pose, Reactions};
@@ -25,6 +27,25 @@ pub trait Clamp {
     #[inline(always)]
     fn law(&self) -> Option<ClampLaw> {
         None
+    }
+
+    /// Where the base of the rod is under these reactions. Its slope angle is NaN on a pivot: the reactions do not determine it.
+    #[inline(always)]
+    fn base(&self, reactions: &Reactions) -> Pose {
+        let Pose { x, y, phi } = self.pose();
+        match self.law() {
+            None => Pose { x, y, phi },
+            Some(ClampLaw { compliance, torque }) => {
+                let [by_x, by_y, by_phi] = product(&compliance, reactions);
+                Pose { x: x - by_x, y: y - by_y, phi: if torque.is_some() { f64::NAN } else { phi - by_phi } }
+            }
+        }
+    }
+
+    /// The energy that the clamp stores under these reactions, E I / L: half of reactions times displacement.
+    #[inline(always)]
+    fn energy(&self, reactions: &Reactions) -> f64 {
+        self.law().map_or(0.0, |law| stored(&law.compliance, reactions))
     }
 }
 

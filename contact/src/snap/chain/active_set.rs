@@ -1,7 +1,7 @@
 //! The forces of the chain's programme by a dual active-set method, which needs no good guess.
 
 use super::pressed::LEAST_PIVOT;
-use super::programme::{Programme, dot};
+use super::programme::Programme;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Gap below which a wall is violated, L. The rounding of a gap is below 1e-12; the chain looks at ten thousand times as much.
@@ -20,7 +20,7 @@ pub(super) fn active_set(programme: &Programme) -> Option<Vec<f64>> {
     loop {
         let bent = programme.bent(&forces);
         let open = (0..m).filter(|j| !held.contains(j));
-        let gaps = open.map(|j| (j, programme.gaps[j] + dot(&programme.rows[j], &bent)));
+        let gaps = open.map(|j| (j, programme.gaps[j] + programme.closed(j, &bent)));
         let Some((deepest, mut gap)) =
             gaps.filter(|(_, gap)| *gap < VIOLATED).min_by(|(_, left), (_, right)| left.total_cmp(right))
         else {

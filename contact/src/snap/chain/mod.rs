@@ -1,6 +1,6 @@
 //! Where a rod comes to rest: overdamped descent of the bending energy under unilateral contact.
 //!
-//! The rod is a chain of rigid links with a spring in each joint (inextensible by construction). Each step is implicit: it
+//! The rod is a chain of rigid links with a spring in each joint (inextensible by construction), its base on the springs of the clamp. Each step is implicit: it
 //! minimises the energy after the step plus the distance gone, in the metric of the springs (a rod with internal,
 //! Kelvin-Voigt damping), under the linearised gaps of all nodes and of corners to links, which is a small quadratic
 //! programme. The result is good to the square of a link's length: enough to see which contacts there are.
@@ -15,11 +15,12 @@ mod solution;
 use crate::contact_set::Configuration;
 use crate::scene::rod;
 use crate::scene::setup::Setup;
+use crate::scene::springs::{Spring, Springs, springs};
 use crate::scene::world::World;
 use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
 use programme::Programme;
-use rod_core::{PhysicalRod, Pose, RodModel};
+use rod_core::{Clamp, PhysicalRod, Pose, RodModel};
 use smallvec::{SmallVec, smallvec};
 use solution::solve;
 
@@ -54,14 +55,21 @@ const YIELDING: f64 = 1e-5;
 /// Turn (rad) of a joint of a straight chain by rounding.
 const STRAIGHT: f64 = 1e-9;
 
-/// Ends of the links, the clamp first.
+/// One number a spring of the base.
+type Base = [f64; 3];
+
+/// Ends of the links, the base first.
 type Nodes = [[f64; 2]; LINKS + 1];
 
 /// A chain of links in the contour's world.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
+    /// The support of the clamp.
     pub clamp: Pose,
-    /// Turning angle of each joint; the first is between clamp and first link.
+    /// The springs between it and the base, and how far each has given way.
+    springs: Springs,
+    given: Base,
+    /// Turning angle of each joint; the first is between base and first link.
     joints: [f64; LINKS],
     /// The same at rest, and by how much each joint turns by a unit of moment.
     rest: [f64; LINKS],
@@ -70,7 +78,7 @@ pub(crate) struct Chain {
 
 impl Chain {
     /// A chain at rest, but for a slight bend (radians over its length): without one, a straight chain could not buckle.
-    pub fn at_rest(rod: &impl RodModel, clamp: Pose, bend: f64) -> Self {
+    pub fn at_rest(rod: &impl RodModel, clamp: &impl Clamp, bend: f64) -> Self {
         // a full link between two links, half a link between clamp and first one
         let share = |i: usize| if i == 0 { (0.25 * LINK, 0.5 * LINK) } else { (i as f64 * LINK, LINK) };
         let rest = std::array::from_fn(|i| {
@@ -81,20 +89,36 @@ impl Chain {
             let (s, length) = share(i);
             length * (rod.curvature_at(s, 1.0) - rod.natural_curvature(s))
         });
-        Self { clamp, joints: rest.map(|joint| joint + bend * LINK), rest, softness }
+        let joints = rest.map(|joint| joint + bend * LINK);
+        Self { clamp: clamp.pose(), springs: springs(clamp.law()), given: [0.0; 3], joints, rest, softness }
     }
 
-    /// The shape of the rod in `configuration`, on another clamp.
-    pub fn of<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, clamp: Pose) -> Self {
+    /// The shape of the rod in `configuration`, its clamp at another `tau`.
+    pub fn of<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, tau: f64) -> Self {
         let segments = configuration.segments(setup);
-        let mut before = setup.path.at(configuration.tau()).phi;
+        let (base, support) = (&segments[0].start, setup.path.at(configuration.tau()));
+        let mut chain = Self::at_rest(setup.rod.model(), &setup.clamp(tau), 0.0);
+        let displacement = [base.x - support.x, base.y - support.y, base.phi - support.phi];
+        for (given, spring) in chain.given.iter_mut().zip(&chain.springs) {
+            *given = spring.along(displacement);
+        }
+        let mut before = base.phi;
         let joints = std::array::from_fn(|i| {
             let here = rod::along(setup.rod.model(), &segments, (i as f64 + 0.5) * LINK).phi;
             let joint = here - before;
             before = here;
             joint
         });
-        Self { joints, ..Self::at_rest(setup.rod.model(), clamp, 0.0) }
+        Self { joints, ..chain }
+    }
+
+    /// Where the base is.
+    fn base(&self) -> Pose {
+        let Pose { mut x, mut y, mut phi } = self.clamp;
+        for (Spring { way, .. }, given) in self.springs.iter().zip(self.given) {
+            (x, y, phi) = (x + given * way[0], y + given * way[1], phi + given * way[2]);
+        }
+        Pose { x, y, phi }
     }
 
     /// Bends a straight chain (radians over its length): else it could not buckle.
@@ -104,10 +128,10 @@ impl Chain {
         }
     }
 
-    /// Ends of the links, the clamp first, and the angle of each link.
+    /// Ends of the links, the base first, and the angle of each link.
     fn nodes(&self) -> (Nodes, [f64; LINKS]) {
-        let (mut nodes, mut angles) = ([[self.clamp.x, self.clamp.y]; LINKS + 1], [0.0; LINKS]);
-        let mut phi = self.clamp.phi;
+        let Pose { x, y, mut phi } = self.base();
+        let (mut nodes, mut angles) = ([[x, y]; LINKS + 1], [0.0; LINKS]);
         for i in 0..LINKS {
             phi += self.joints[i];
             angles[i] = phi;
@@ -139,9 +163,8 @@ impl Chain {
                 }
             };
             let mut moved = self.clone();
-            for (joint, change) in moved.joints.iter_mut().zip(&change) {
-                *joint += change;
-            }
+            moved.joints.iter_mut().zip(change.joints).for_each(|(joint, change)| *joint += change);
+            moved.given.iter_mut().zip(change.base).for_each(|(given, change)| *given += change);
             let (after, _) = moved.nodes();
             let way = nodes.iter().zip(&after).map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1])).fold(0.0, f64::max);
             if way <= 0.75 * reach || time_step < 1e-4 {

@@ -1,6 +1,6 @@
 //! The forces of the chain's programme from a supposed contact set.
 
-use super::programme::{Programme, dot};
+use super::programme::Programme;
 use nalgebra::{DMatrix, DVector};
 
 /// Limit of rounds of block pivoting, which may cycle.
@@ -20,7 +20,7 @@ pub(super) fn pressed(programme: &Programme) -> Option<Vec<f64>> {
     let mut held: Vec<usize> = Vec::new();
     for _ in 0..MOST_ROUNDS {
         let bent = programme.bent(&forces);
-        let gap = |j: usize| programme.gaps[j] + dot(&programme.rows[j], &bent) + programme.yielding * forces[j];
+        let gap = |j: usize| programme.gaps[j] + programme.closed(j, &bent) + programme.yielding * forces[j];
         let holds = |j: usize| if forces[j] == 0.0 { gap(j) < -CLOSED } else { forces[j] > 0.0 };
         let next: Vec<usize> = (0..m).filter(|j| holds(*j)).collect();
         if next == held {

@@ -2,23 +2,24 @@
 
 use super::active_set::active_set;
 use super::pressed::pressed;
-use super::programme::{Joints, Programme};
+use super::programme::{Change, Programme};
 
-/// Change d of the joints and the force at each near node. None where the walls leave no room, or where the `work` that is left (in
+/// Change d of the chain and the force at each near node. None where the walls leave no room, or where the `work` that is left (in
 /// units of the cube of the number of near nodes) does not suffice.
-pub(super) fn solve(programme: &Programme, work: &mut f64) -> Option<(Joints, Vec<f64>)> {
+pub(super) fn solve(programme: &Programme, work: &mut f64) -> Option<(Change, Vec<f64>)> {
     let forces = pressed(programme).or_else(|| {
         *work -= (programme.rows.len() as f64).powi(3);
         (*work >= 0.0).then(|| active_set(programme)).flatten()
     })?;
-    let bent = programme.bent(&forces);
-    Some((std::array::from_fn(|i| programme.free[i] - bent[i]), forces))
+    let (free, bent) = (&programme.free, programme.bent(&forces));
+    let joints = std::array::from_fn(|i| free.joints[i] - bent.joints[i]);
+    let base = std::array::from_fn(|k| free.base[k] - bent.base[k]);
+    Some((Change { joints, base }, forces))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::near::Near;
-    use super::super::programme::dot;
     use super::super::{Chain, LINKS};
     use super::*;
     use proptest::collection::vec;
@@ -28,7 +29,7 @@ mod tests {
 
     /// A straight chain above a wavy floor that has come up to it in places.
     fn floored(seed: u32) -> Programme {
-        let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
+        let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
         let (nodes, _) = chain.nodes();
         let waves = 2.0 + f64::from(seed) * 0.7;
         let near: Vec<Near> = (1..=LINKS)
@@ -46,8 +47,8 @@ mod tests {
     fn solves(programme: &Programme, forces: &[f64]) -> bool {
         let bent = programme.bent(forces);
         let slack = 1e-10 + 1e-15 * forces.iter().copied().fold(0.0, f64::max);
-        programme.rows.iter().zip(&programme.gaps).zip(forces).all(|((row, gap), force)| {
-            let gap = gap + dot(row, &bent) + programme.yielding * force;
+        programme.gaps.iter().zip(forces).enumerate().all(|(i, (gap, force))| {
+            let gap = gap + programme.closed(i, &bent) + programme.yielding * force;
             gap > -slack && *force >= 0.0 && (*force == 0.0 || gap < slack)
         })
     }
@@ -82,7 +83,7 @@ mod tests {
             both_sides in any::<bool>(),
             yields in any::<bool>(),
         ) {
-            let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, bend);
+            let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, bend);
             let (nodes, _) = chain.nodes();
             let wall = |(k, (i, gap, turned)): (usize, (usize, f64, f64))| {
                 let [x, y] = nodes[i];
@@ -100,16 +101,16 @@ mod tests {
 
     #[test]
     fn nothing_near_gives_way_freely() {
-        let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
+        let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
         let (nodes, _) = chain.nodes();
         let (change, forces) = solve(&Programme::new(&chain, &nodes, &[], 1.0, 0.03), &mut { f64::INFINITY }).unwrap();
         assert!(forces.is_empty());
-        assert!(change.iter().zip(&chain.joints).all(|(change, joint)| (change + 0.5 * joint).abs() < 1e-15));
+        assert!(change.joints.iter().zip(&chain.joints).all(|(change, joint)| (change + 0.5 * joint).abs() < 1e-15));
     }
 
     #[test]
     fn walls_without_room_give_way_only_where_they_may() {
-        let chain = Chain::at_rest(&Uniform, Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
+        let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
         let (nodes, _) = chain.nodes();
         let [x, y] = nodes[LINKS];
         let wall = |alpha| Near { s: LINKS as f64, x, y, stretch: 0, gap: -0.01, alpha };
