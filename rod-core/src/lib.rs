@@ -100,7 +100,7 @@ pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepO
 #[cfg(feature = "ode")]
 pub use ode::{Method, Ode};
 #[cfg(feature = "std")]
-pub use physical::PhysicalRod;
+pub use physical::{PhysicalRod, RodParameter};
 pub use pose::{Pose, Reactions};
 #[cfg(feature = "std")]
 pub use propagator::{Cut, Propagator};

@@ -3,6 +3,8 @@
 //! F(u, p) = 0 gives du/dp = -(dF/du)^-1 dF/dp. The Jacobian dF/du and the sensitivities of the segments are computed once, at the
 //! solution itself: that of the last Newton step belongs to the point before it, and is as inexact as that step is long.
 
+mod bend;
+
 use crate::clamp::{Clamp, ClampLaw, product};
 use crate::linear::{invert, multiply};
 use crate::model::{CutSensitivities, RodModel};

@@ -115,7 +115,7 @@ pub(crate) struct Node {
 }
 
 impl Node {
-    fn cut(&self) -> Cut {
+    pub(crate) fn cut(&self) -> Cut {
         Cut { x: self.at.x, y: self.at.y, phi: self.phi, moment: self.moment }
     }
 }

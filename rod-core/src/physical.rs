@@ -48,9 +48,41 @@ pub trait PhysicalRod: Clone {
         Pose { x: x * length, y: y * length, phi }
     }
 
+    /// The change of the curvature (1/L) at arc length `s` (L) under the bending moment `moment` (E I / L) per unit of a parameter of the rod
+    /// (in SI); none where the rod has no such parameter. The units, those of the length and of the stiffness at the clamp, stay as they
+    /// are.
+    fn curvature_rate(&self, _parameter: RodParameter, _s: f64, _moment: f64) -> Option<f64> {
+        None
+    }
+
     /// Bending stress (Pa) where the curvature is `kappa` (1/m); none where the thickness is not known.
     fn bending_stress(&self, _kappa: f64) -> Option<f64> {
         None
+    }
+}
+
+/// A parameter of a rod by which to differentiate. Sections are counted from 0, from the clamp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum RodParameter {
+    /// The taper of a cone: 1 - diameter at the tip / diameter at the clamp, with the diameter at the clamp as it is.
+    Taper,
+    /// The bending stiffness of a section, N m^2.
+    SectionStiffness(usize),
+    /// The natural curvature of a section, 1/m.
+    SectionCurvature(usize),
+    /// The natural curvature of the whole rod, 1/m: what is added to it all along.
+    NaturalCurvature,
+}
+
+impl std::fmt::Display for RodParameter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Taper => f.write_str("taper"),
+            Self::SectionStiffness(section) => write!(f, "bending stiffness of section {section}"),
+            Self::SectionCurvature(section) => write!(f, "natural curvature of section {section}"),
+            Self::NaturalCurvature => f.write_str("natural curvature"),
+        }
     }
 }
 
@@ -73,6 +105,10 @@ impl PhysicalRod for Rod {
         Self::units(self)
     }
 
+    fn curvature_rate(&self, parameter: RodParameter, _s: f64, _moment: f64) -> Option<f64> {
+        (parameter == RodParameter::NaturalCurvature).then(|| self.length())
+    }
+
     fn bending_stress(&self, kappa: f64) -> Option<f64> {
         Self::bending_stress(self, kappa)
     }
@@ -92,5 +128,9 @@ impl PhysicalRod for VaryingRod {
 
     fn units(&self) -> Units {
         Self::units(self)
+    }
+
+    fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
+        Self::curvature_rate(self, parameter, s, moment)
     }
 }

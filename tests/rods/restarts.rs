@@ -3,7 +3,7 @@
 use super::scans::{bent, cone, o1, two_sections};
 use std::f64::consts::FRAC_PI_2;
 use vibrissa::contact::{Derivatives, Quantity};
-use vibrissa::rod::{Pose, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Mounted, PhysicalRod, Pose, VaryingRod};
 use vibrissa::{ClampPath, Follower, State, Sweep, equilibrium};
 
 fn at(x: f64) -> Pose {
@@ -11,14 +11,24 @@ fn at(x: f64) -> Pose {
 }
 
 /// The states in contact of a scan of O1, not at an event.
-fn held(rod: &VaryingRod) -> Vec<State> {
+fn held(rod: &impl PhysicalRod) -> Vec<State> {
     let path = ClampPath::new(at(1.0), at(-1.0)).unwrap();
     let outcome = Sweep::new(rod, &o1(), path, 0.047).unwrap().run();
     outcome.states.into_iter().filter(|state| !state.contacts.is_empty()).collect()
 }
 
-fn rods() -> [(&'static str, VaryingRod); 3] {
-    [("cone", cone(0.8)), ("bent", bent()), ("sections", two_sections())]
+/// Three on rigid clamps, two on springs.
+fn rods() -> [(&'static str, Mounted<VaryingRod>); 5] {
+    let rigid = |rod| Mounted::new(rod, ElasticClamp::default());
+    let beam = ElasticClamp::stiffness([[300.0, 0.0, 0.0], [0.0, 200.0, -30.0], [0.0, -30.0, 9.0]]).unwrap();
+    let soft = ElasticClamp::springs(Some(40.0), None, Some(8.0)).unwrap();
+    [
+        ("cone", rigid(cone(0.8))),
+        ("bent", rigid(bent())),
+        ("sections", rigid(two_sections())),
+        ("cone on a beam", Mounted::new(cone(0.5), beam)),
+        ("bent on springs", Mounted::new(bent(), soft)),
+    ]
 }
 
 fn distance(one: &State, other: &State) -> f64 {

@@ -92,3 +92,13 @@ fn two_sections_of_different_stiffness() {
 fn a_clamp_on_a_spring() {
     compare("elastic_clamp_20.json", &on_a_spring());
 }
+
+/// Of a clamp whose springs are rigid nothing is left, to the last bit.
+#[test]
+fn a_rigid_clamp_is_none() {
+    let at = |x| Pose { x, y: -0.4, phi: FRAC_PI_2 };
+    let (object, path) = (o1(), ClampPath::new(at(1.0), at(-1.0)).unwrap());
+    let alone = Sweep::new(&cone(0.5), &object, path, 0.05).unwrap().run();
+    let mounted = Mounted::new(cone(0.5), ElasticClamp::default());
+    assert_eq!(Sweep::new(&mounted, &object, path, 0.05).unwrap().run(), alone);
+}

@@ -1,5 +1,6 @@
 //! Derivatives of an equilibrium, and of the pose of a transition, by everything that they depend on.
 
+mod given;
 mod motion;
 mod quantity;
 mod restored;
@@ -14,11 +15,19 @@ use crate::state::State;
 use motion::motion;
 use restored::Restored;
 use rod_contours::Composite;
-use rod_core::{ContactRate, PhysicalRod, Pose, Reactions, Response, Units};
+use rod_core::{ContactRate, PhysicalRod, Pose, Reactions, Response, RodParameter, Units};
 
 /// Condition number above which derivatives have less than two digits. At a fold, which a sweep locates to 1e-13 of arclength, it is
 /// 1e10 or more; 1e-14 L before one it is about 1e7.
 const MOST_CONDITION: f64 = 1e7;
+
+/// How the curvature of a rod changes with a parameter.
+fn curvature_rate<R: PhysicalRod>(rod: &R, parameter: RodParameter) -> Result<impl Fn(f64, f64) -> f64, ContactError> {
+    if rod.curvature_rate(parameter, 0.5, 0.0).is_none() {
+        return Err(ContactError::NoQuantity { what: parameter.to_string() });
+    }
+    Ok(move |s, moment| rod.curvature_rate(parameter, s, moment).unwrap_or(f64::NAN))
+}
 
 /// The derivatives of one equilibrium: what its reactions, contact points, arc lengths and forces change by.
 ///
@@ -105,19 +114,50 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// [`ContactError::NoQuantity`] where there is no such object, piece, or parameter of its shape.
     pub fn by(&self, quantity: Quantity<'_>) -> Result<Response, ContactError> {
-        let Restored { configuration, linear, clamp } = &*self.restored;
+        let linear = &self.restored.linear;
+        let motion = motion(&self.world, &self.restored, &self.units, quantity)?;
+        let rates = linear.response(motion.clamp, &motion.supports);
+        let mut rates = self.in_units(rates.ok_or(ContactError::Fold { condition: linear.condition() })?);
+        self.add_change_of_units(quantity, &mut rates);
+        Ok(rates)
+    }
+
+    /// The change of everything per unit of a parameter of the rod, SI units. `rod` is the rod of the state.
+    ///
+    /// It takes an integral along the rod, by Gauss points that are halved until they agree to 1e-14.
+    ///
+    /// ```
+    /// use rod_contact::{ClampPath, Derivatives, Sweep};
+    /// use rod_contours::{CircularArc, Composite};
+    /// use rod_core::{Pose, Rod, RodParameter};
+    /// let rod = Rod::tapered(0.1, 1e-3, 4e-4, 3e9)?;
+    /// let peg = Composite::single(CircularArc::new([0.0, 0.08], 0.005, 0.0, std::f64::consts::TAU)?)?;
+    /// let clamp = |x| Pose { x, y: 0.0, phi: std::f64::consts::FRAC_PI_2 };
+    /// let states = Sweep::new(&rod, &peg, ClampPath::new(clamp(0.02), clamp(-0.02))?, 0.01)?.run().states;
+    /// let last = &states[4];
+    /// // a rod with more taper is softer: it presses less
+    /// let tapers = Derivatives::new(&rod, &peg, last)?.by_rod(&rod, RodParameter::Taper)?;
+    /// assert!(tapers.contacts[0].force < 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::NoQuantity`] where the rod has no such parameter, [`ContactError::NotEquilibrium`] for another rod.
+    pub fn by_rod<R: PhysicalRod>(&self, rod: &R, parameter: RodParameter) -> Result<Response, ContactError> {
+        let rate = curvature_rate(rod, parameter)?;
+        let rates = self.restored.linear.response_to_bend(rod.model(), rate);
+        Ok(self.in_units(rates.ok_or(ContactError::NotEquilibrium { reason: "it is of another rod" })?))
+    }
+
+    /// Dimensionless rates per SI unit of a quantity, in SI.
+    fn in_units(&self, mut rates: Response) -> Response {
         let units = self.units;
-        let motion = motion(&self.world, configuration, (*clamp, units.length), quantity)?;
-        let mut rates = linear
-            .response(motion.clamp, &motion.supports)
-            .ok_or(ContactError::Fold { condition: linear.condition() })?;
         let Reactions { f0x, f0y, m0z } = &mut rates.reactions;
         (*f0x, *f0y, *m0z) = (*f0x * units.force, *f0y * units.force, *m0z * units.moment);
         for ContactRate { x, y, s, force, .. } in &mut rates.contacts {
             (*x, *y, *s, *force) = (*x * units.length, *y * units.length, *s * units.length, *force * units.force);
         }
-        self.add_change_of_units(quantity, &mut rates);
-        Ok(rates)
+        rates
     }
 
     /// Adds what comes from the units of length, force (E I / L^2) and moment (E I / L) alone.

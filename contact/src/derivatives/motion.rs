@@ -1,10 +1,10 @@
 //! How the clamp and the contours at the contacts move with a quantity, dimensionless, per SI unit of the quantity.
 
-use crate::contact_set::Configuration;
 use crate::derivatives::quantity::Quantity;
+use crate::derivatives::restored::Restored;
 use crate::error::ContactError;
 use crate::scene::world::World;
-use rod_core::{Pose, SupportRate};
+use rod_core::{Pose, SupportRate, Units};
 use smallvec::SmallVec;
 
 /// The motion of clamp and contours, these at fixed parameters.
@@ -16,15 +16,15 @@ pub(crate) struct Motion {
 
 const STILL: Pose = Pose { x: 0.0, y: 0.0, phi: 0.0 };
 
-/// The motion by `quantity` of a rod of `length` (m), whose clamp is at `clamp`. By the length of the rod everything else moves to
-/// where it is in lengths of the rod.
+/// The motion by `quantity` of a rod with these `units`. By the length of the rod everything else moves to where it is in lengths of the
+/// rod. A clamp that gives way by more is one whose support moves.
 pub(crate) fn motion(
     world: &World<'_>,
-    configuration: &Configuration,
-    (clamp, length): (Pose, f64),
+    Restored { configuration, clamp, given, .. }: &Restored,
+    units: &Units,
     quantity: Quantity<'_>,
 ) -> Result<Motion, ContactError> {
-    let per_length = 1.0 / length;
+    let per_length = 1.0 / units.length;
     let clamp = match quantity {
         Quantity::ClampX => Pose { x: per_length, ..STILL },
         Quantity::ClampY => Pose { y: per_length, ..STILL },
@@ -32,6 +32,8 @@ pub(crate) fn motion(
         Quantity::Length => Pose { x: -clamp.x * per_length, y: -clamp.y * per_length, phi: 0.0 },
         _ => STILL,
     };
+    let [x, y, phi] = given.as_ref().map_or([0.0; 3], |given| given.rates(units, quantity));
+    let clamp = Pose { x: clamp.x - x, y: clamp.y - y, phi: clamp.phi - phi };
     let missing = || ContactError::NoQuantity { what: quantity.to_string() };
     if let Quantity::ObjectX(object)
     | Quantity::ObjectY(object)

@@ -19,6 +19,12 @@ pub enum Quantity<'a> {
     Stiffness,
     /// Length of the rod, m, at the same bending stiffness. A taper, sections and the shape at rest are stretched with it.
     Length,
+    /// Stiffness of the clamp along x, N/m, as of a spring beside those that are there; the derivative is 0 where it is rigid.
+    ClampStiffnessX,
+    /// Stiffness of the clamp along y, N/m.
+    ClampStiffnessY,
+    /// Stiffness of the clamp against turning, N m/rad.
+    ClampStiffnessPhi,
     /// Position of an object along x, m.
     ObjectX(usize),
     /// Position of an object along y, m.
@@ -47,6 +53,9 @@ impl fmt::Display for Quantity<'_> {
             Self::ClampAngle => f.write_str("angle of the clamp"),
             Self::Stiffness => f.write_str("bending stiffness"),
             Self::Length => f.write_str("length of the rod"),
+            Self::ClampStiffnessX => f.write_str("stiffness of the clamp along x"),
+            Self::ClampStiffnessY => f.write_str("stiffness of the clamp along y"),
+            Self::ClampStiffnessPhi => f.write_str("stiffness of the clamp against turning"),
             Self::ObjectX(object) => write!(f, "x of object {object}"),
             Self::ObjectY(object) => write!(f, "y of object {object}"),
             Self::ObjectAngle(object) => write!(f, "angle of object {object}"),

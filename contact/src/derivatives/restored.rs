@@ -1,12 +1,13 @@
 //! A state as the boundary-value problem that it solves.
 
 use crate::contact_set::{Configuration, Held, lying};
+use crate::derivatives::given::Given;
 use crate::error::ContactError;
 use crate::scene::rod::{Walk, at_clamp};
 use crate::scene::world::World;
 use crate::state::{ContactKind, State};
 use rod_contours::StretchKind;
-use rod_core::{Hold, Linearisation, MultiPoint, PhysicalRod, Pose, Reactions};
+use rod_core::{Clamp, Hold, Linearisation, MultiPoint, PhysicalRod, Pose, Reactions, Units};
 
 /// Largest residual (L, rad) of a state that counts as an equilibrium. States of a sweep are within 1e-9.
 const LARGEST_RESIDUAL: f64 = 1e-8;
@@ -18,6 +19,8 @@ pub(crate) struct Restored {
     pub linear: Linearisation,
     /// The support of the clamp, dimensionless.
     pub clamp: Pose,
+    /// How far it has given way, if it does.
+    pub given: Option<Given>,
 }
 
 impl Restored {
@@ -34,7 +37,11 @@ impl Restored {
         if residual.is_nan() || residual > LARGEST_RESIDUAL {
             return Err(ContactError::NotEquilibrium { reason: "it does not solve their equations" });
         }
-        Ok(Self { configuration, linear, clamp })
+        let Units { force, moment, .. } = rod.units();
+        let Reactions { f0x, f0y, m0z } = state.reactions;
+        let reactions = Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment };
+        let given = rod.clamp(clamp).law().map(|law| Given::new(law, reactions));
+        Ok(Self { configuration, linear, clamp, given })
     }
 }
 

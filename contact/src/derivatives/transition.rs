@@ -2,15 +2,15 @@
 //! the one that defines the transition.
 
 use crate::contact_set::{Configuration, Unknown};
-use crate::derivatives::MOST_CONDITION;
 use crate::derivatives::motion::{Motion, border_rate, motion};
 use crate::derivatives::quantity::Quantity;
 use crate::derivatives::restored::Restored;
+use crate::derivatives::{MOST_CONDITION, curvature_rate};
 use crate::error::ContactError;
 use crate::event::{Event, EventKind};
 use crate::scene::world::World;
 use rod_contours::Composite;
-use rod_core::{PathRow, PhysicalRod, Pose};
+use rod_core::{PathRow, PhysicalRod, Pose, RodParameter, Units};
 
 /// Largest force (E I / L^2), parameter or angle by which the defining unknown of a located transition is off its value.
 const LOCATED: f64 = 1e-8;
@@ -55,8 +55,7 @@ enum Value {
 /// ```
 #[derive(Clone, Debug)]
 pub struct TransitionDerivatives<'a> {
-    /// Length of the rod, m.
-    length: f64,
+    units: Units,
     world: World<'a>,
     restored: Restored,
     value: Value,
@@ -100,7 +99,7 @@ impl<'a> TransitionDerivatives<'a> {
         };
         let (restored, value, row) =
             defined.ok_or_else(|| ContactError::NoCondition { event: event.kind.to_string() })?;
-        Ok(Self { length, world, restored, value, row })
+        Ok(Self { units: rod.units(), world, restored, value, row })
     }
 
     /// The change of the path parameter at the transition (m, or rad where the clamp only turns) per unit of one quantity. The path
@@ -110,8 +109,8 @@ impl<'a> TransitionDerivatives<'a> {
     /// [`ContactError::NoQuantity`] where there is no such object, piece, or parameter of its shape, or where that does not tell
     /// how the end of a piece moves at which the transition is.
     pub fn by(&self, quantity: Quantity<'_>) -> Result<f64, ContactError> {
-        let Restored { configuration, linear, clamp } = &self.restored;
-        let Motion { clamp, supports } = motion(&self.world, configuration, (*clamp, self.length), quantity)?;
+        let linear = &self.restored.linear;
+        let Motion { clamp, supports } = motion(&self.world, &self.restored, &self.units, quantity)?;
         let missing = || ContactError::NoQuantity { what: quantity.to_string() };
         let rates = linear.residual_rates(clamp, &supports).ok_or_else(missing)?;
         let value = match self.value {
@@ -119,8 +118,20 @@ impl<'a> TransitionDerivatives<'a> {
             Value::Border { stretch, upper } => border_rate(&self.world, stretch, upper, quantity)?,
             Value::Wall { wall, upper } => self.world_angle_rate(wall, upper, quantity)?,
         };
-        let PathRow { by_residual, by_value, .. } = &self.row;
-        Ok(by_value * value - by_residual.iter().zip(&rates).map(|(row, rate)| row * rate).sum::<f64>())
+        Ok(self.row.by_value * value - self.by_residual(&rates))
+    }
+
+    /// The same by a parameter of the rod. `rod` is the rod of the event.
+    ///
+    /// # Errors
+    /// [`ContactError::NoQuantity`] where the rod has no such parameter, [`ContactError::NotEquilibrium`] for another rod.
+    pub fn by_rod<R: PhysicalRod>(&self, rod: &R, parameter: RodParameter) -> Result<f64, ContactError> {
+        let rates = self.restored.linear.bend_rates(rod.model(), curvature_rate(rod, parameter)?);
+        Ok(-self.by_residual(&rates.ok_or(ContactError::NotEquilibrium { reason: "it is of another rod" })?))
+    }
+
+    fn by_residual(&self, rates: &[f64]) -> f64 {
+        self.row.by_residual.iter().zip(rates).map(|(row, rate)| row * rate).sum()
     }
 
     /// The change of the tangent angle of a wall where it ends.

@@ -46,7 +46,8 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
         matrix[k * size + k] = 1.0 / spring.softness;
     }
     // what moves the start of the segment: the base by its springs, then the contact before by its shift and its turn
-    let mut before: SmallVec<[Ends; 5]> = springs.iter().map(|Spring { way: [x, y, phi], .. }| [*phi, 0.0, -x, -y]).collect();
+    let mut before: SmallVec<[Ends; 5]> =
+        springs.iter().map(|Spring { way: [x, y, phi], .. }| [*phi, 0.0, -x, -y]).collect();
     for j in 0..n {
         let support = supports.support(j, configuration.t(j));
         let Form::Moves([uu, uv, vv]) = super::form(rod, configuration, shape, j, &support) else { return false };

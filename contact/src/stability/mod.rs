@@ -424,16 +424,24 @@ mod tests {
     use crate::contact_set::Held;
     use crate::path::ClampPath;
     use rod_contours::{Composite, Parabola};
-    use rod_core::{Pose, Rod};
+    use rod_core::{ElasticClamp, Mounted, Pose, Rod};
 
     /// A straight rod standing under a ceiling y = 1 + c x^2, pressed with force f: the tip slides, the clamp holds.
     fn stands(c: f64, f: f64) -> bool {
+        held(&Rod::new(1.0, 1.0).unwrap(), c, f)
+    }
+
+    /// Another rod that stands so, by all that judges it.
+    fn held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
         let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap()).unwrap();
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
-        let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), contour.as_ref(), path);
+        let setup = Setup::new(rod, contour.as_ref(), path);
         let mut column = Configuration::free(0.0);
         column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
-        Judge::default().is_stable(&setup, &column, &Shape::of(&setup, &column))
+        let shape = Shape::of(&setup, &column);
+        let by_modes = Judge::default().is_positive_by_modes(&setup, &column, &shape);
+        assert!(by_modes || !condensed::is_positive(&setup, &column, &shape));
+        Judge::default().is_stable(&setup, &column, &shape)
     }
 
     #[test]
@@ -460,5 +468,38 @@ mod tests {
             assert!(if k > 0.0 { f < PI * PI / 4.0 } else { f > PI * PI / 4.0 });
             assert!(stands(0.5 * k, 0.995 * f) && !stands(0.5 * k, 1.005 * f), "{k}: {f}");
         }
+    }
+
+    #[test]
+    fn a_base_that_turns_buckles_the_column_earlier() {
+        // eta'' + p^2 eta = 0, eta'(0) = k eta(0), eta'(1) = 0: p tan p = k
+        for k in [0.5, 4.0, 100.0] {
+            let (mut low, mut high): (f64, f64) = (0.0, 0.5 * PI);
+            for _ in 0..100 {
+                let p = 0.5 * (low + high);
+                if p * p.tan() < k { low = p } else { high = p }
+            }
+            let critical = low * low;
+            // it is free to shift under a flat ceiling, spring or not; along its axis nothing turns
+            for shifts in [None, Some(30.0)] {
+                let clamp = ElasticClamp::springs(shifts, shifts, Some(k)).unwrap();
+                // the path is that of the support, and the force of the ceiling pushes the base down
+                let rod = Mounted::new(Rod::new(1.0, 1.0).unwrap(), clamp);
+                let [less, more] = [0.998 * critical, 1.002 * critical].map(|f| held(&rod, 0.0, f));
+                assert!(less && !more, "{k} {shifts:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_hollow_ceiling_holds_a_base_that_shifts() {
+        // A rod that cannot bend on a base that shifts, under a hollow of curvature -c: the ceiling pushes it back with f c u, the
+        // spring with k u; under a hill of curvature c it gives way at f c = k.
+        let (stiff, k, c) = (1e6, 2.0, 0.4);
+        let clamp = ElasticClamp::springs(Some(k), None, None).unwrap();
+        let rod = Mounted::new(Rod::new(1.0, stiff).unwrap(), clamp);
+        let in_units = |f: f64| f / stiff;
+        assert!(held(&rod, 0.5 * c, in_units(0.99 * k / c)) != held(&rod, 0.5 * c, in_units(1.01 * k / c)));
+        assert!(held(&rod, -0.5 * c, in_units(10.0 * k / c)));
     }
 }

@@ -1,7 +1,7 @@
 //! A rod on a clamp that gives way.
 
 use super::{Elastic, ElasticClamp};
-use crate::physical::PhysicalRod;
+use crate::physical::{PhysicalRod, RodParameter};
 use crate::pose::Pose;
 use crate::units::Units;
 
@@ -61,6 +61,10 @@ impl<R: PhysicalRod<Clamp = Pose>> PhysicalRod for Mounted<R> {
     #[inline(always)]
     fn clamp(&self, pose: Pose) -> Elastic {
         Elastic { pose, ..self.elastic }
+    }
+
+    fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
+        self.rod.curvature_rate(parameter, s, moment)
     }
 
     fn bending_stress(&self, kappa: f64) -> Option<f64> {

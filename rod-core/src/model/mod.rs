@@ -18,6 +18,7 @@ pub(crate) use sections::check_sections;
 pub use sections::{RodSection, Sections};
 pub use sensitivities::CutSensitivities;
 pub use smooth::Smooth;
+pub(crate) use smooth::gauss::{AT, WEIGHT};
 pub use uniform::Uniform;
 
 use crate::error::RodError;

@@ -5,6 +5,7 @@ mod stiffness;
 
 use crate::error::{RodError, finite};
 use crate::model::{Cone, CutSensitivities, RodModel, RodSection, check_sections};
+use crate::physical::RodParameter;
 use crate::propagator::Cut;
 use crate::rod::{Rod, positive};
 use crate::segment::Segment;
@@ -197,6 +198,16 @@ impl VaryingRod {
     /// Length, m.
     pub fn length(&self) -> f64 {
         self.at_clamp.length()
+    }
+
+    /// The change of the curvature (1/L) at arc length `s` (L) under `moment` (E I / L) per SI unit of a parameter.
+    pub(crate) fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
+        let unit = match parameter {
+            RodParameter::SectionStiffness(_) => self.at_clamp.bending_stiffness(),
+            RodParameter::SectionCurvature(_) | RodParameter::NaturalCurvature => 1.0 / self.length(),
+            _ => 1.0,
+        };
+        self.stiffness.curvature_rate(parameter, s, moment).map(|rate| rate / unit)
     }
 
     /// What the dimensionless units of this rod are in SI: those of its length and its stiffness at the clamp.

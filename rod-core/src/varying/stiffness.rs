@@ -3,6 +3,7 @@
 use super::natural_curvature::{Curvature, Function};
 use crate::error::RodError;
 use crate::model::{Bent, Cone, Profile, RodModel, RodSection, Sections, Smooth};
+use crate::physical::RodParameter;
 use std::sync::Arc;
 
 /// A rod of any model, dimensionless.
@@ -45,6 +46,30 @@ impl Stiffness {
                 Arc::new(Smooth::with_borders(Bent::new(move |s: f64| function(s), natural), &borders)?)
             }
         })
+    }
+}
+
+impl Stiffness {
+    /// The change of the curvature at arc length `s` under `moment` per unit of a parameter, dimensionless; none where there is no such
+    /// parameter.
+    pub fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
+        match (self, parameter) {
+            (_, RodParameter::NaturalCurvature) => Some(1.0),
+            (Self::Cone(Cone { taper }), RodParameter::Taper) => Some(4.0 * s * moment * (1.0 - taper * s).powi(-5)),
+            (Self::Sections(sections), RodParameter::SectionStiffness(i) | RodParameter::SectionCurvature(i)) => {
+                let stiffness = sections.get(i)?.bending_stiffness;
+                let from: f64 = sections[..i].iter().map(|section| section.length).sum();
+                // the first and the last one have no end
+                let is_here = (i == 0 || s >= from) && (i + 1 == sections.len() || s < from + sections[i].length);
+                let by_stiffness = matches!(parameter, RodParameter::SectionStiffness(_));
+                Some(match (is_here, by_stiffness) {
+                    (false, _) => 0.0,
+                    (true, true) => -moment / (stiffness * stiffness),
+                    (true, false) => 1.0,
+                })
+            }
+            _ => None,
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 pub(super) const NODES: usize = 8;
 
 /// Where the nodes are, in parts of the element.
-pub(super) const AT: [f64; NODES] = [
+pub(crate) const AT: [f64; NODES] = [
     0.019_855_071_751_231_884,
     0.101_666_761_293_186_64,
     0.237_233_795_041_835_5,
@@ -17,7 +17,7 @@ pub(super) const AT: [f64; NODES] = [
 ];
 
 /// Weights of the integral over the element.
-pub(super) const WEIGHT: [f64; NODES] = [
+pub(crate) const WEIGHT: [f64; NODES] = [
     0.050_614_268_145_188_13,
     0.111_190_517_226_687_24,
     0.156_853_322_938_943_63,

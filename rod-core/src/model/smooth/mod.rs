@@ -1,7 +1,7 @@
 //! Rods whose stiffness and natural curvature vary along them, by collocation.
 
 mod element;
-mod gauss;
+pub(crate) mod gauss;
 mod maximum;
 mod mesh;
 
