@@ -133,7 +133,7 @@ fn read_setup(file: &Path) -> Result<Setup, SceneError> {
 fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     match read_any(file)? {
         AnyScene::Uniform(scene) => sweep_scene(scene, out),
-        AnyScene::Varying(scene) => sweep_scene(scene, out),
+        AnyScene::Mounted(scene) => sweep_scene(scene, out),
     }
 }
 
@@ -167,7 +167,7 @@ fn contour(
     signals::end();
     match read_any(file)? {
         AnyScene::Uniform(scene) => contour_of(scene, out, tolerance, object),
-        AnyScene::Varying(scene) => contour_of(scene, out, tolerance, object),
+        AnyScene::Mounted(scene) => contour_of(scene, out, tolerance, object),
     }
 }
 

@@ -18,7 +18,7 @@ fn every_scene_can_be_read_and_drawn() {
     for file in files {
         let profiles = match AnyScene::read(&file).unwrap_or_else(|error| panic!("{error}")) {
             AnyScene::Uniform(scene) => scene.profiles(None, None),
-            AnyScene::Varying(scene) => scene.profiles(None, None),
+            AnyScene::Mounted(scene) => scene.profiles(None, None),
         };
         assert!(!profiles.unwrap().is_empty(), "{}", file.display());
     }

@@ -1,4 +1,4 @@
-//! Scenes whose rod is not uniform or not straight at rest.
+//! Scenes whose rod is not uniform or not straight at rest, or whose clamp gives way.
 
 use crate::common::{SCENE, edited, refused_beside, vibrissa};
 use vibrissa_cli::{AnyScene, Scan};
@@ -45,6 +45,17 @@ fn each_mistake_has_its_place() {
         (format!("{WIRE}natural_curvature = nan\n"), ["rod.natural_curvature: ", "NaN"]),
         (format!("{WIRE}natural_curvature = 100.0\n"), ["rod.natural_curvature: ", "crosses itself at rest"]),
         (format!("{WIRE}tip_diameter = 1e-4\nyield_stress = 1e9\n"), ["rod.yield_stress: ", "uniform rod alone"]),
+        (
+            format!("{WIRE}[clamp]\nstiffness_phi = 0\n"),
+            ["scene.toml:6:17: clamp.stiffness_phi: ", "is 0.0, expected a positive"],
+        ),
+        (format!("{WIRE}[clamp]\nstiffness_x = -4.0\n"), ["clamp.stiffness_x: ", "-4.0, expected a positive number"]),
+        (format!("{WIRE}[clamp]\nstiffness_y = nan\n"), ["clamp.stiffness_y: ", "NaN"]),
+        (format!("{WIRE}[clamp]\nstiffness = 3\n"), ["clamp.stiffness: ", "expected one of `stiffness_x`"]),
+        (
+            format!("{WIRE}yield_stress = 1e9\n[clamp]\nstiffness_x = 3\n"),
+            ["rod.yield_stress: ", "expected it with a rigid clamp alone"],
+        ),
         (TWO.replace("0.04", "0.05"), ["scene.toml:2:10: rod.length: ", "add up to 0.11, expected 0.1"]),
         (TWO.replace("6e-4", "0"), ["rod.section[1].bending_stiffness: ", "bending_stiffness is 0"]),
         (TWO.replace("length = 0.04", "length = -0.04"), ["rod.section[2].length: ", "-0.04"]),
@@ -70,8 +81,10 @@ fn a_rod_of_each_kind_is_swept() {
         format!("{WIRE}natural_curvature = 5\n"),
         format!("{WIRE}tip_diameter = 0.2e-3\nnatural_curvature = [[0.0, 0.0], [0.05, 3.0], [0.1, 8.0]]\n"),
         TWO.into(),
+        format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"),
+        format!("{TWO}[clamp]\nstiffness_x = 500\nstiffness_y = 300\nstiffness_phi = 0.2\n"),
     ] {
-        let AnyScene::Varying(scene) = AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap() else {
+        let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap() else {
             panic!("uniform: {rod}")
         };
         let scan = Scan::run(scene).unwrap();
@@ -91,7 +104,7 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
     let section = with_rod(&format!("length = 0.1\n[[rod.section]]\nlength = 0.1\n{modulus}"));
     let events = |text: &str| match AnyScene::parse("scene.toml".as_ref(), text).unwrap() {
         AnyScene::Uniform(scene) => Scan::run(scene).unwrap().outcome.events,
-        AnyScene::Varying(scene) => Scan::run(scene).unwrap().outcome.events,
+        AnyScene::Mounted(scene) => Scan::run(scene).unwrap().outcome.events,
     };
     let (wire, section) = (events(&wire), events(&section));
     assert_eq!(wire.len(), section.len());
@@ -101,9 +114,31 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
     }
 }
 
+/// A table without springs is no clamp that gives way, and the command gives the base where the springs let it go.
+#[test]
+fn a_clamp_gives_way_by_its_springs() {
+    let of = |clamp: &str| AnyScene::parse("scene.toml".as_ref(), &with_rod(&format!("{WIRE}{clamp}"))).unwrap();
+    assert!(matches!(of("[clamp]\n"), AnyScene::Uniform(_)));
+    assert!(matches!(of("[clamp]\nstiffness_x = inf\n"), AnyScene::Uniform(_)));
+    let AnyScene::Mounted(scene) = of("[clamp]\nstiffness_phi = 0.2\n") else { panic!("rigid") };
+    let scan = Scan::run(scene).unwrap();
+    for state in scan.outcome.states.iter().filter(|state| !state.contacts.is_empty()) {
+        let base = state.elastica(&scan.scene.rod).unwrap().at(0.0);
+        assert!((base.phi - state.pose.phi + state.reactions.m0z / 0.2).abs() < 1e-12);
+        assert_eq!((base.x, base.y), (state.pose.x, state.pose.y));
+    }
+}
+
 #[test]
 fn other_commands_refuse_it() {
-    let scene = with_rod(TWO);
+    let soft = with_rod(&format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"));
+    let scenes = [(with_rod(TWO), "not uniform or not straight at rest"), (soft, "clamp: a clamp that gives way")];
+    for (scene, why) in scenes {
+        refuse(&scene, why);
+    }
+}
+
+fn refuse(scene: &str, why: &str) {
     assert!(scene != SCENE);
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("scene.toml"), scene).unwrap();
@@ -114,6 +149,6 @@ fn other_commands_refuse_it() {
     ] {
         let output = vibrissa(dir.path(), arguments);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!output.status.success() && message.contains("not uniform or not straight at rest"), "{message}");
+        assert!(!output.status.success() && message.contains(why), "{message}");
     }
 }

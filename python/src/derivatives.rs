@@ -9,7 +9,7 @@ use crate::{errors, running, shape};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Derivatives, Quantity, TransitionDerivatives};
-use vibrissa::rod::ContactRate;
+use vibrissa::rod::{ContactRate, RodParameter};
 use vibrissa::{Composite, Pose};
 use vibrissa_cli::AnyRod;
 
@@ -60,14 +60,33 @@ impl PyDerivatives {
     }
 }
 
-/// The quantity of that name.
-fn named<'a>(quantity: &str, object: usize, piece: usize, parameter: Option<&'a str>) -> PyResult<Quantity<'a>> {
-    Ok(match (quantity, parameter) {
+/// What one may differentiate by.
+enum By<'a> {
+    Quantity(Quantity<'a>),
+    Rod(RodParameter),
+}
+
+/// The quantity or the parameter of the rod of that name.
+fn named<'a>(quantity: &str, [object, piece, section]: [usize; 3], parameter: Option<&'a str>) -> PyResult<By<'a>> {
+    let of_rod = match quantity {
+        "taper" => Some(RodParameter::Taper),
+        "natural_curvature" => Some(RodParameter::NaturalCurvature),
+        "section_stiffness" => Some(RodParameter::SectionStiffness(section)),
+        "section_curvature" => Some(RodParameter::SectionCurvature(section)),
+        _ => None,
+    };
+    if let Some(of_rod) = of_rod.filter(|_| parameter.is_none()) {
+        return Ok(By::Rod(of_rod));
+    }
+    Ok(By::Quantity(match (quantity, parameter) {
         ("clamp_x", None) => Quantity::ClampX,
         ("clamp_y", None) => Quantity::ClampY,
         ("clamp_angle", None) => Quantity::ClampAngle,
         ("stiffness", None) => Quantity::Stiffness,
         ("length", None) => Quantity::Length,
+        ("clamp_stiffness_x", None) => Quantity::ClampStiffnessX,
+        ("clamp_stiffness_y", None) => Quantity::ClampStiffnessY,
+        ("clamp_stiffness_phi", None) => Quantity::ClampStiffnessPhi,
         ("object_x", None) => Quantity::ObjectX(object),
         ("object_y", None) => Quantity::ObjectY(object),
         ("object_angle", None) => Quantity::ObjectAngle(object),
@@ -77,10 +96,12 @@ fn named<'a>(quantity: &str, object: usize, piece: usize, parameter: Option<&'a 
         _ => {
             return Err(errors::value(format!(
                 "quantity is {quantity:?}, expected \"clamp_x\", \"clamp_y\", \"clamp_angle\", \"stiffness\", \"length\", \
-                 \"object_x\", \"object_y\", \"object_angle\", \"object_scale\", or \"shape\" with a parameter"
+                 \"taper\", \"natural_curvature\", \"section_stiffness\", \"section_curvature\", \"clamp_stiffness_x\", \
+                 \"clamp_stiffness_y\", \"clamp_stiffness_phi\", \"object_x\", \"object_y\", \"object_angle\", \"object_scale\", or \
+                 \"shape\" with a parameter"
             )));
         }
-    })
+    }))
 }
 
 #[pymethods]
@@ -118,9 +139,11 @@ impl PyDerivatives {
     /// quantity : str
     ///     ``"clamp_x"``, ``"clamp_y"`` (m), ``"clamp_angle"`` (rad), ``"stiffness"`` (N m^2), ``"length"`` (m), ``"object_x"``,
     ///     ``"object_y"`` (m), ``"object_angle"`` (rad, about the origin), ``"object_scale"`` (a factor of its coordinates), or
-    ///     ``"shape"``: a parameter of a shape.
-    /// object, piece : int, optional
-    ///     Number of the object and of its piece, from 0.
+    ///     ``"shape"``: a parameter of a shape. Of the rod: ``"taper"`` (1 - tip / base diameter), ``"natural_curvature"`` (1/m, added all
+    ///     along), ``"section_stiffness"`` (N m^2), ``"section_curvature"`` (1/m). Of its clamp: ``"clamp_stiffness_x"``,
+    ///     ``"clamp_stiffness_y"`` (N/m), ``"clamp_stiffness_phi"`` (N m/rad).
+    /// object, piece, section : int, optional
+    ///     Number of the object and of its piece, or of the section of the rod, from 0.
     /// parameter : str, optional
     ///     The parameter of the shape, such as ``"coefficient"`` of a parabola.
     ///
@@ -135,17 +158,25 @@ impl PyDerivatives {
     /// ------
     /// ValueError
     ///     There is no such quantity, object, piece or parameter.
-    #[pyo3(signature = (quantity, *, object=0, piece=0, parameter=None))]
+    #[pyo3(signature = (quantity, *, object=0, piece=0, section=0, parameter=None))]
     fn by<'py>(
         &self,
         py: Python<'py>,
         quantity: &str,
         #[pyo3(from_py_with = whole)] object: usize,
         #[pyo3(from_py_with = whole)] piece: usize,
+        #[pyo3(from_py_with = whole)] section: usize,
         parameter: Option<&str>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyAny>)> {
-        let quantity = named(quantity, object, piece, parameter)?;
-        let response = self.ask(py, |derivatives| derivatives.by(quantity))?;
+        let response = match named(quantity, [object, piece, section], parameter)? {
+            By::Quantity(quantity) => self.ask(py, |derivatives| derivatives.by(quantity))?,
+            By::Rod(parameter) => {
+                let Self { rod, objects, state, .. } = self;
+                let by =
+                    || for_rod!(rod, rod => Derivatives::new(rod, &objects[..], &state.state)?.by_rod(rod, parameter));
+                running::run(py, by)?.map_err(errors::value)?
+            }
+        };
         let reactions = response.reactions;
         let reactions = PyArray1::from_slice(py, &[reactions.f0x, reactions.f0y, reactions.m0z]);
         Ok((reactions, structured(py, RATE, response.contacts.iter())?))
@@ -214,7 +245,7 @@ impl PyTransitionDerivatives {
     ///
     /// Parameters
     /// ----------
-    /// quantity, object, piece, parameter
+    /// quantity, object, piece, section, parameter
     ///     As for :meth:`Derivatives.by`.
     ///
     /// Returns
@@ -226,16 +257,27 @@ impl PyTransitionDerivatives {
     /// ------
     /// ValueError
     ///     There is no such quantity, object, piece or parameter.
-    #[pyo3(signature = (quantity, *, object=0, piece=0, parameter=None))]
+    #[pyo3(signature = (quantity, *, object=0, piece=0, section=0, parameter=None))]
     fn by(
         &self,
         py: Python<'_>,
         quantity: &str,
         #[pyo3(from_py_with = whole)] object: usize,
         #[pyo3(from_py_with = whole)] piece: usize,
+        #[pyo3(from_py_with = whole)] section: usize,
         parameter: Option<&str>,
     ) -> PyResult<f64> {
-        let quantity = named(quantity, object, piece, parameter)?;
-        self.ask(py, |derivatives| derivatives.by(quantity))
+        match named(quantity, [object, piece, section], parameter)? {
+            By::Quantity(quantity) => self.ask(py, |derivatives| derivatives.by(quantity)),
+            By::Rod(parameter) => {
+                let Self { rod, objects, event, rate } = self;
+                let by = || {
+                    for_rod!(rod, rod => {
+                        TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?.by_rod(rod, parameter)
+                    })
+                };
+                running::run(py, by)?.map_err(errors::value)
+            }
+        }
     }
 }

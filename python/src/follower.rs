@@ -9,7 +9,7 @@ use crate::{errors, running, shape};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use vibrissa::contact::{Item, Stop};
-use vibrissa::rod::VaryingRod;
+use vibrissa::rod::{Mounted, VaryingRod};
 use vibrissa::{Composite, Follower, Pose, Rod, State};
 
 /// A rod in equilibrium whose clamp is moved from pose to pose, for controllers.
@@ -51,7 +51,7 @@ pub struct PyFollower {
 #[derive(Clone)]
 enum AnyFollower {
     Uniform(Follower<'static, Rod>),
-    Varying(Follower<'static, VaryingRod>),
+    Mounted(Follower<'static, Mounted<VaryingRod>>),
 }
 
 impl From<Follower<'static, Rod>> for AnyFollower {
@@ -60,9 +60,9 @@ impl From<Follower<'static, Rod>> for AnyFollower {
     }
 }
 
-impl From<Follower<'static, VaryingRod>> for AnyFollower {
-    fn from(follower: Follower<'static, VaryingRod>) -> Self {
-        Self::Varying(follower)
+impl From<Follower<'static, Mounted<VaryingRod>>> for AnyFollower {
+    fn from(follower: Follower<'static, Mounted<VaryingRod>>) -> Self {
+        Self::Mounted(follower)
     }
 }
 
@@ -70,14 +70,14 @@ impl AnyFollower {
     fn state(&self) -> &State {
         match self {
             Self::Uniform(follower) => follower.state(),
-            Self::Varying(follower) => follower.state(),
+            Self::Mounted(follower) => follower.state(),
         }
     }
 
     fn to(&mut self, pose: Pose) -> Result<Vec<Item>, Stop> {
         match self {
             Self::Uniform(follower) => follower.to(pose),
-            Self::Varying(follower) => follower.to(pose),
+            Self::Mounted(follower) => follower.to(pose),
         }
     }
 }

@@ -7,6 +7,7 @@
 //! take it back.
 
 mod array;
+mod clamp;
 mod composite;
 mod derivatives;
 mod equilibrium;
@@ -46,6 +47,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("UNITS", array::units(module.py())?)?;
     module.add_class::<rod::PyRod>()?;
     module.add_class::<rod::PySection>()?;
+    module.add_class::<clamp::PyElasticClamp>()?;
     module.add_class::<shape::PyShape>()?;
     shapes::add(module)?;
     module.add_class::<composite::PyComposite>()?;

@@ -1,6 +1,7 @@
 //! The rod.
 
 use crate::array::Floats;
+use crate::clamp::PyElasticClamp;
 use crate::errors;
 use crate::made::{Made, Reduced};
 use crate::written::{number, point, points};
@@ -9,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 use toml::{Table, Value};
 use vibrissa::Rod;
-use vibrissa::rod::{NaturalCurvature, RodSection, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodSection, VaryingRod};
 use vibrissa_cli::AnyRod;
 
 /// Something that is computed for a rod of either kind.
@@ -17,7 +18,7 @@ macro_rules! for_rod {
     ($any:expr, $rod:ident => $computed:expr) => {
         match $any {
             vibrissa_cli::AnyRod::Uniform($rod) => $computed,
-            vibrissa_cli::AnyRod::Varying($rod) => $computed,
+            vibrissa_cli::AnyRod::Mounted($rod) => $computed,
         }
     };
 }
@@ -225,6 +226,8 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 ///     Parts from the clamp to the tip, in place of stiffness or diameters. Their lengths add up to ``length``.
 /// yield_stress : float, optional
 ///     Yield stress of a uniform rod in Pa. It is kept for scene files; the rod stays elastic.
+/// clamp : ElasticClamp, optional
+///     The springs that hold it; without them the clamp is rigid.
 ///
 /// Raises
 /// ------
@@ -234,7 +237,7 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 /// Notes
 /// -----
 /// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives`` and studies take any rod. ``simulate``, ``Recording``,
-/// ``reconstruct``, ``single`` and ``Live`` take uniform rods that are straight at rest.
+/// ``reconstruct``, ``single`` and ``Live`` take uniform rods that are straight at rest, on a rigid clamp.
 ///
 /// Examples
 /// --------
@@ -255,6 +258,7 @@ pub struct PyRod {
     natural_curvature: Option<Curvature>,
     sections: Vec<PySection>,
     yield_stress: Option<f64>,
+    clamp: Option<PyElasticClamp>,
 }
 
 impl PartialEq for PyRod {
@@ -263,6 +267,7 @@ impl PartialEq for PyRod {
         numbers(self) == numbers(other)
             && self.natural_curvature == other.natural_curvature
             && self.sections == other.sections
+            && self.clamp == other.clamp
     }
 }
 
@@ -276,12 +281,16 @@ impl PyRod {
             natural_curvature: None,
             sections: Vec::new(),
             yield_stress: rod.yield_stress(),
+            clamp: None,
             rod: AnyRod::Uniform(rod),
         }
     }
 
-    /// The rod of a table `[rod]`.
-    pub fn of_table(table: &Table) -> PyResult<Self> {
+    /// The rod of the tables `[rod]` and `[clamp]`.
+    pub fn of_tables(tables: &Table) -> PyResult<Self> {
+        let none = Table::new();
+        let table = tables.get("rod").and_then(Value::as_table).unwrap_or(&none);
+        let clamp = tables.get("clamp").and_then(Value::as_table).map(PyElasticClamp::of_table).transpose()?;
         let field = |name: &str| number(table, name);
         let [stiffness, diameter, modulus] = STIFFNESS.map(field);
         let tables = table.get("section").and_then(Value::as_array).into_iter().flatten();
@@ -289,7 +298,12 @@ impl PyRod {
         let sections = (!sections.is_empty()).then_some(sections);
         let (length, curvature) = (field("length").unwrap_or(f64::NAN), Curvature::of(table));
         let (tip, stress) = (field("tip_diameter"), field("yield_stress"));
-        Self::new(length, stiffness, diameter, modulus, tip, curvature, sections, stress)
+        Self::new(length, stiffness, diameter, modulus, tip, curvature, sections, stress, clamp)
+    }
+
+    /// The springs of the clamp, if it gives way.
+    pub fn springs(&self) -> Option<&PyElasticClamp> {
+        self.clamp.as_ref()
     }
 
     /// The table `[rod]`.
@@ -311,9 +325,9 @@ impl PyRod {
     pub fn uniform(&self) -> PyResult<&Rod> {
         match &self.rod {
             AnyRod::Uniform(rod) => Ok(rod),
-            AnyRod::Varying(_) => Err(errors::value(format!(
-                "rod is {}, not uniform or not straight at rest, expected a uniform, straight one: only from its reactions contacts \
-                 are found",
+            AnyRod::Mounted(_) => Err(errors::value(format!(
+                "rod is {}, not uniform, not straight at rest or not on a rigid clamp, expected a uniform, straight one on a rigid \
+                 clamp: only from its reactions contacts are found",
                 self.__repr__()
             ))),
         }
@@ -357,7 +371,7 @@ impl PyRod {
     #[new]
     #[pyo3(signature = (
         length, bending_stiffness=None, *, diameter=None, youngs_modulus=None, tip_diameter=None, natural_curvature=None,
-        sections=None, yield_stress=None
+        sections=None, yield_stress=None, clamp=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "the fields of a rod in a scene file")]
     pub fn new(
@@ -369,32 +383,42 @@ impl PyRod {
         natural_curvature: Option<Curvature>,
         sections: Option<Vec<PySection>>,
         yield_stress: Option<f64>,
+        clamp: Option<PyElasticClamp>,
     ) -> PyResult<Self> {
         let sections = sections.unwrap_or_default();
         let stiffness = [bending_stiffness, diameter, youngs_modulus];
         let none = Rod::new(1.0, 1.0).map_err(errors::value)?;
         let rod = AnyRod::Uniform(none);
-        let mut made = Self { rod, length, stiffness, tip_diameter, natural_curvature, sections, yield_stress };
-        made.rod = match (made.varying()?, yield_stress) {
-            (None, None) => AnyRod::Uniform(stiff(length, stiffness)?),
-            (None, Some(stress)) => {
-                AnyRod::Uniform(stiff(length, stiffness)?.with_yield_stress(stress).map_err(errors::value)?)
-            }
-            (Some(_), Some(_)) => {
+        let mut made = Self { rod, length, stiffness, tip_diameter, natural_curvature, sections, yield_stress, clamp };
+        let springs = made.clamp.as_ref().map_or_else(|| Ok(ElasticClamp::default()), PyElasticClamp::clamp)?;
+        made.rod = match made.varying()? {
+            None if springs.is_rigid() => AnyRod::Uniform(match yield_stress {
+                None => stiff(length, stiffness)?,
+                Some(stress) => stiff(length, stiffness)?.with_yield_stress(stress).map_err(errors::value)?,
+            }),
+            _ if yield_stress.is_some() => {
                 return Err(errors::value(
-                    "yield_stress is given for a rod that is not uniform or not straight at rest, expected it with a uniform rod alone",
+                    "yield_stress is given for a rod that is not uniform, not straight at rest or not on a rigid clamp, expected it with a \
+                     uniform, straight rod on a rigid clamp alone",
                 ));
             }
-            (Some(rod), None) => match &made.natural_curvature {
-                None => AnyRod::Varying(rod),
-                Some(Curvature::Constant(curvature)) => {
-                    AnyRod::Varying(rod.with_natural_curvature(*curvature).map_err(errors::value)?)
-                }
-                Some(Curvature::Points(points)) => {
-                    let curvature = NaturalCurvature::points(points).map_err(errors::value)?;
-                    AnyRod::Varying(rod.with_natural_curvature(curvature).map_err(errors::value)?)
-                }
-            },
+            None => {
+                let straight = stiff(length, stiffness)?.with_natural_curvature(0.0).map_err(errors::value)?;
+                AnyRod::Mounted(Mounted::new(straight, springs))
+            }
+            Some(rod) => {
+                let bent = match &made.natural_curvature {
+                    None => rod,
+                    Some(Curvature::Constant(curvature)) => {
+                        rod.with_natural_curvature(*curvature).map_err(errors::value)?
+                    }
+                    Some(Curvature::Points(points)) => {
+                        let curvature = NaturalCurvature::points(points).map_err(errors::value)?;
+                        rod.with_natural_curvature(curvature).map_err(errors::value)?
+                    }
+                };
+                AnyRod::Mounted(Mounted::new(bent, springs))
+            }
         };
         Ok(made)
     }
@@ -450,7 +474,13 @@ impl PyRod {
         self.yield_stress
     }
 
-    /// Whether the rod is uniform and straight at rest.
+    /// The springs of the clamp; None where it is rigid.
+    #[getter]
+    fn clamp(&self) -> Option<PyElasticClamp> {
+        self.clamp.clone()
+    }
+
+    /// Whether the rod is uniform and straight at rest, on a rigid clamp.
     #[getter]
     fn is_uniform(&self) -> bool {
         matches!(self.rod, AnyRod::Uniform(_))
@@ -473,6 +503,9 @@ impl PyRod {
         if let Some(stress) = self.yield_stress {
             text += &format!(", yield_stress={stress:?}");
         }
+        if let Some(clamp) = &self.clamp {
+            text += &format!(", clamp={}", clamp.__repr__());
+        }
         text + ")"
     }
 
@@ -486,6 +519,7 @@ impl PyRod {
         ]);
         let arguments = numbers.into_py_dict(py)?;
         arguments.set_item("natural_curvature", self.natural_curvature.clone())?;
+        arguments.set_item("clamp", self.clamp.clone())?;
         arguments.set_item("sections", (!self.sections.is_empty()).then(|| self.sections.clone()))?;
         Ok(Made::class(py, "Rod", &arguments)?.reduced(py))
     }

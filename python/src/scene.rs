@@ -54,7 +54,7 @@ impl PyScene {
     fn of(py: Python<'_>, scene: AnyScene, text: &str, directory: &Path) -> PyResult<Self> {
         match scene {
             AnyScene::Uniform(scene) => Self::of_scene(py, scene, text, directory),
-            AnyScene::Varying(scene) => Self::of_scene(py, scene, text, directory),
+            AnyScene::Mounted(scene) => Self::of_scene(py, scene, text, directory),
         }
     }
 
@@ -64,7 +64,7 @@ impl PyScene {
         let mut written = written_objects(&tables, directory).into_iter();
         let with = |composite| Py::new(py, PyComposite::read(composite, written.next()));
         let objects = objects.into_iter().map(with).collect::<PyResult<_>>()?;
-        let rod = PyRod::of_table(tables.get("rod").and_then(Value::as_table).unwrap_or(&Table::new()))?;
+        let rod = PyRod::of_tables(&tables)?;
         let mut steps = vec![step];
         steps.extend(legs.iter().map(|leg| leg.step));
         Ok(Self { rod: Py::new(py, rod)?, objects, path: path_of(py, path, &legs, &tables)?, steps, name, warnings })
@@ -87,11 +87,14 @@ impl PyScene {
             };
             list.push(Value::Table(object.as_ref().ok_or_else(none)?.table(composite.is_cavity())));
         }
-        Ok(Table::from_iter([
-            ("rod".to_owned(), Value::Table(self.rod.get().table())),
+        let rod = self.rod.get();
+        let clamp = rod.springs().map(|springs| ("clamp".to_owned(), Value::Table(springs.table())));
+        let others = [
+            ("rod".to_owned(), Value::Table(rod.table())),
             ("object".to_owned(), Value::Array(list)),
             ("sweep".to_owned(), Value::Table(self.sweep_table()?)),
-        ]))
+        ];
+        Ok(others.into_iter().chain(clamp).collect())
     }
 
     fn sweep_table(&self) -> PyResult<Table> {

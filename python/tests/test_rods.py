@@ -25,14 +25,22 @@ SECTIONS = vibrissa.Rod(
     0.1,
     sections=[vibrissa.Section(0.06, 2e-3), vibrissa.Section(0.04, diameter=5e-4, youngs_modulus=3e9, natural_curvature=3.0)],
 )
+SOFT = vibrissa.Rod(0.1, 2e-3, clamp=vibrissa.ElasticClamp(stiffness_x=500.0, stiffness_phi=0.4))
+TAPERED_SOFT = vibrissa.Rod(
+    0.1, diameter=1e-3, tip_diameter=2e-4, youngs_modulus=3e9, natural_curvature=2.0, clamp=vibrissa.ElasticClamp(stiffness_phi=0.1)
+)
 DISC = vibrissa.CircularArc((0.0, 0.06), 0.02, -math.pi, math.pi)
 PATH = vibrissa.ClampPath((0.06, 0.0, math.pi / 2), (-0.02, 0.0, math.pi / 2))
 
 
-@pytest.mark.parametrize("rod", [TAPERED, BENT, MEASURED, SECTIONS], ids=["tapered", "bent", "measured", "sections"])
+@pytest.mark.parametrize(
+    "rod",
+    [TAPERED, BENT, MEASURED, SECTIONS, SOFT, TAPERED_SOFT],
+    ids=["tapered", "bent", "measured", "sections", "soft", "tapered-soft"],
+)
 class TestAnyRod:
     def test_is_the_same_after_pickling_and_from_its_text(self, rod: vibrissa.Rod) -> None:
-        names = {"Rod": vibrissa.Rod, "Section": vibrissa.Section}
+        names = {"Rod": vibrissa.Rod, "Section": vibrissa.Section, "ElasticClamp": vibrissa.ElasticClamp}
         assert pickle.loads(pickle.dumps(rod)) == rod == copy.deepcopy(rod) == eval(repr(rod), names)
         assert not rod.is_uniform and rod != vibrissa.Rod(0.1, rod.bending_stiffness)
 
@@ -85,6 +93,42 @@ class TestAnyRod:
         ):
             with pytest.raises(ValueError, match="rod is Rod.*expected a uniform, straight one"):
                 refused()
+
+
+def test_derivatives_by_what_makes_the_rod() -> None:
+    scan = vibrissa.sweep(SOFT, DISC, PATH, 1e-3)
+    state = next(state for state in map(scan.state, range(len(scan))) if state.phase == "B")
+    derivatives = vibrissa.Derivatives(SOFT, DISC, state)
+
+    def pressed(curvature: float = 0.0, stiffness: float = 0.4) -> float:
+        clamp = vibrissa.ElasticClamp(stiffness_x=500.0, stiffness_phi=stiffness)
+        rod = vibrissa.Rod(0.1, 2e-3, natural_curvature=curvature, clamp=clamp)
+        return float(vibrissa.equilibrium(rod, DISC, state.pose, state.contacts).state.contacts[0].force)
+
+    for name, h, change in [
+        ("natural_curvature", 1e-3, lambda h: pressed(curvature=h)),
+        ("clamp_stiffness_phi", 1e-5, lambda h: pressed(stiffness=0.4 + h)),
+    ]:
+        slope = (change(h) - change(-h)) / (2.0 * h)
+        assert derivatives.by(name)[1]["force"][0] == pytest.approx(slope, rel=1e-6), name
+    event = scan.events[0]
+    assert isinstance(event, vibrissa.Event)
+    touch = vibrissa.TransitionDerivatives(SOFT, DISC, event, PATH.rate(0.0))
+    assert touch.by("clamp_stiffness_phi") == pytest.approx(0.0, abs=1e-12)  # a free rod has not given way
+    with pytest.raises(ValueError, match="taper"):
+        derivatives.by("taper")
+    with pytest.raises(ValueError, match="section 3"):
+        vibrissa.Derivatives(SECTIONS, DISC, vibrissa.sweep(SECTIONS, DISC, PATH, 1e-3).state(40)).by(
+            "section_stiffness", section=3
+        )
+
+
+def test_what_is_no_clamp() -> None:
+    with pytest.raises(ValueError, match="stiffness_phi of the clamp is 0"):
+        vibrissa.ElasticClamp(stiffness_phi=0.0)
+    with pytest.raises(ValueError, match="yield_stress is given for a rod"):
+        vibrissa.Rod(0.1, 2e-3, yield_stress=1e9, clamp=vibrissa.ElasticClamp(stiffness_x=1.0))
+    assert vibrissa.Rod(0.1, 2e-3, clamp=vibrissa.ElasticClamp()).is_uniform
 
 
 def test_sections_of_one_kind_are_a_uniform_rod() -> None:

@@ -3,7 +3,7 @@
 All quantities have SI units, angles are in rad and count counter-clockwise from x. A contour runs with the solid on its left.
 
 Objects
-    :class:`Rod`, uniform, tapered, of :class:`Section` parts, or bent at rest; the shapes :class:`Line`, :class:`Parabola`,
+    :class:`Rod`, uniform, tapered, of :class:`Section` parts, bent at rest, or on an :class:`ElasticClamp`; the shapes :class:`Line`, :class:`Parabola`,
     :class:`CircularArc`, :class:`EllipticArc`, :class:`Bezier`, :class:`Spline`, :class:`Polygon`, :class:`Svg`, :class:`Graph`,
     :class:`Curve`, or any object with ``frame(t)`` (:func:`check_contract`); :class:`Composite`.
 Paths of the clamp
@@ -37,6 +37,7 @@ from ._core import (
     Contact,
     Curve,
     Derivatives,
+    ElasticClamp,
     EllipticArc,
     Equilibrium,
     Event,
@@ -85,6 +86,7 @@ __all__ = [
     "Contact",
     "Curve",
     "Derivatives",
+    "ElasticClamp",
     "EllipticArc",
     "Equilibrium",
     "Event",

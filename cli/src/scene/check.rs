@@ -18,7 +18,7 @@ pub(crate) const MOST_STATES: f64 = 1e6;
 pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<AnyScene, Fault> {
     let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
     let Document { tables, contour, objects } = document;
-    let rod = rod_table::rod(&tables.rod)?;
+    let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
     let objects = object::all(&tables, &contour, &objects, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
@@ -29,8 +29,8 @@ pub(super) fn scene(name: String, source: Source, document: Document, directory:
         AnyRod::Uniform(rod) => {
             AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, warnings, files, source })
         }
-        AnyRod::Varying(rod) => {
-            AnyScene::Varying(Scene { name, rod, objects, path, step, legs, warnings, files, source })
+        AnyRod::Mounted(rod) => {
+            AnyScene::Mounted(Scene { name, rod, objects, path, step, legs, warnings, files, source })
         }
     })
 }

@@ -21,6 +21,7 @@ pub(super) struct Document {
 #[serde(deny_unknown_fields)]
 pub(super) struct Tables {
     pub rod: Spanned<RodTable>,
+    pub clamp: Option<Spanned<ClampTable>>,
     pub contour: Option<Spanned<ObjectTable>>,
     #[serde(default)]
     pub object: Vec<Spanned<ObjectTable>>,
@@ -40,6 +41,15 @@ pub(super) struct RodTable {
     pub yield_stress: Option<Spanned<f64>>,
     #[serde(default)]
     pub section: Vec<Spanned<SectionTable>>,
+}
+
+/// `[clamp]`: springs between support and rod.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ClampTable {
+    pub stiffness_x: Option<Spanned<f64>>,
+    pub stiffness_y: Option<Spanned<f64>>,
+    pub stiffness_phi: Option<Spanned<f64>>,
 }
 
 /// One `[[rod.section]]`.

@@ -1,16 +1,16 @@
 //! The rods that a scene may have.
 
 use super::Scene;
-use super::rod_table::NOT_UNIFORM;
+use super::rod_table::{NOT_RIGID, NOT_UNIFORM};
 use crate::SceneError;
 use crate::toml_file;
 use std::path::{Path, PathBuf};
 use vibrissa::Rod;
-use vibrissa::rod::{PhysicalRod, VaryingRod};
+use vibrissa::rod::{Mounted, PhysicalRod, VaryingRod};
 
 /// A rod of a scene.
 pub trait SceneRod: PhysicalRod {
-    /// The rod, if it is uniform and straight at rest: only of such a rod contacts are found from reactions.
+    /// The rod, if it is uniform and straight at rest and its clamp is rigid: only of such a rod contacts are found from reactions.
     fn uniform(&self) -> Option<&Rod>;
 }
 
@@ -20,7 +20,7 @@ impl SceneRod for Rod {
     }
 }
 
-impl SceneRod for VaryingRod {
+impl SceneRod for Mounted<VaryingRod> {
     fn uniform(&self) -> Option<&Rod> {
         None
     }
@@ -29,10 +29,10 @@ impl SceneRod for VaryingRod {
 /// A rod of either kind.
 #[derive(Clone, Debug)]
 pub enum AnyRod {
-    /// Uniform, and straight at rest.
+    /// Uniform, straight at rest, and clamped rigidly.
     Uniform(Rod),
-    /// Its stiffness varies, or it is bent at rest.
-    Varying(VaryingRod),
+    /// Its stiffness varies, it is bent at rest, or its clamp gives way.
+    Mounted(Mounted<VaryingRod>),
 }
 
 impl AnyRod {
@@ -40,7 +40,7 @@ impl AnyRod {
     pub fn length(&self) -> f64 {
         match self {
             Self::Uniform(rod) => rod.length(),
-            Self::Varying(rod) => rod.length(),
+            Self::Mounted(rod) => rod.rod().length(),
         }
     }
 }
@@ -48,10 +48,10 @@ impl AnyRod {
 /// A scene with any rod.
 #[derive(Debug)]
 pub enum AnyScene {
-    /// The rod is uniform and straight at rest.
+    /// The rod is uniform, straight at rest, and clamped rigidly.
     Uniform(Scene),
-    /// Its stiffness varies, or it is bent at rest.
-    Varying(Scene<VaryingRod>),
+    /// Its stiffness varies, it is bent at rest, or its clamp gives way.
+    Mounted(Scene<Mounted<VaryingRod>>),
 }
 
 impl AnyScene {
@@ -84,7 +84,7 @@ impl AnyScene {
     ///     angle = 45.0
     ///     step = 1e-3
     /// "#)?;
-    /// assert!(matches!(scene, AnyScene::Varying(_)));
+    /// assert!(matches!(scene, AnyScene::Mounted(_)));
     /// # Ok::<(), vibrissa_cli::SceneError>(())
     /// ```
     ///
@@ -98,7 +98,7 @@ impl AnyScene {
     pub fn warnings(&self) -> &[String] {
         match self {
             Self::Uniform(scene) => &scene.warnings,
-            Self::Varying(scene) => &scene.warnings,
+            Self::Mounted(scene) => &scene.warnings,
         }
     }
 
@@ -106,18 +106,19 @@ impl AnyScene {
     pub fn files(&self) -> &[PathBuf] {
         match self {
             Self::Uniform(scene) => &scene.files,
-            Self::Varying(scene) => &scene.files,
+            Self::Mounted(scene) => &scene.files,
         }
     }
 
-    /// Takes the scene whose rod is uniform and straight at rest.
+    /// Takes the scene whose rod is uniform and straight at rest, on a rigid clamp.
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] at the field `rod` of another one.
+    /// [`SceneError::Invalid`] at the field `rod` of another one, or at `clamp`.
     pub fn uniform(self) -> Result<Scene, SceneError> {
         match self {
             Self::Uniform(scene) => Ok(scene),
-            Self::Varying(scene) => Err(scene.source.error("rod", NOT_UNIFORM)),
+            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => Err(scene.source.error("clamp", NOT_RIGID)),
+            Self::Mounted(scene) => Err(scene.source.error("rod", NOT_UNIFORM)),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! A rod with what a calibration knows of it and of its sensor.
 
 use super::rod::RodFile;
-use super::rod_table;
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
@@ -54,7 +53,7 @@ pub fn read_known_rod(file: &Path) -> Result<KnownRod, SceneError> {
 pub(super) fn parse(file: &Path, text: &str) -> Result<KnownRod, SceneError> {
     toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        let rod = rod_table::uniform(&file.rod)?;
+        let rod = file.uniform()?;
         let known = file.calibration.map_or_else(|| Ok(Known::NOTHING), |table| known(&table, &rod))?;
         Ok(KnownRod { rod, known })
     })

@@ -192,7 +192,7 @@ fn parse(file: &Path, text: &str) -> Result<AnyScene, SceneError> {
     let (mut scene, warnings) = toml_file::parse_angles(file, text, read)?;
     match &mut scene {
         AnyScene::Uniform(scene) => scene.warnings.extend(warnings),
-        AnyScene::Varying(scene) => scene.warnings.extend(warnings),
+        AnyScene::Mounted(scene) => scene.warnings.extend(warnings),
     }
     Ok(scene)
 }

@@ -1,8 +1,9 @@
 //! A rod on its own.
 
-use super::document::RodTable;
+use super::document::{ClampTable, RodTable};
 use super::known_rod::CalibrationTable;
 use super::rod_table;
+use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -16,6 +17,7 @@ use vibrissa::Rod;
 #[serde(deny_unknown_fields)]
 pub(super) struct RodFile {
     pub rod: Spanned<RodTable>,
+    pub clamp: Option<Spanned<ClampTable>>,
     pub calibration: Option<CalibrationTable>,
     #[serde(rename = "contour")]
     _contour: Option<IgnoredAny>,
@@ -23,6 +25,16 @@ pub(super) struct RodFile {
     _object: Option<IgnoredAny>,
     #[serde(rename = "sweep")]
     _sweep: Option<IgnoredAny>,
+}
+
+impl RodFile {
+    /// The rod, if it is uniform and straight at rest and its clamp is rigid.
+    pub fn uniform(&self) -> Result<Rod, Fault> {
+        match (rod_table::uniform(&self.rod)?, &self.clamp) {
+            (rod, None) => Ok(rod),
+            (_, Some(clamp)) => Err(Fault::new(clamp.span(), rod_table::NOT_RIGID)),
+        }
+    }
 }
 
 /// The rod in a TOML file that holds a table `[rod]` as a scene does, or in a scene.
@@ -34,7 +46,7 @@ pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
 }
 
 fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
-    toml_file::parse(file, text, |table| rod_table::uniform(&RodFile::deserialize(Deserializer::from(table))?.rod))
+    toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform())
 }
 
 #[cfg(test)]

@@ -1,16 +1,20 @@
 //! The table `[rod]` as a rod.
 
-use super::document::{RodTable, SectionTable};
+use super::document::{ClampTable, RodTable, SectionTable};
 use super::kind::AnyRod;
 use crate::toml_file::Fault;
 use std::ops::Range;
 use toml::{Spanned, Value};
 use vibrissa::Rod;
-use vibrissa::rod::{NaturalCurvature, RodError, RodSection, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
 
 /// What is said where another rod is given than a uniform, straight one.
 pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour` and `study` take, \
      expected length with diameter and youngs_modulus, or with bending_stiffness";
+
+/// What is said where a clamp gives way.
+pub(super) const NOT_RIGID: &str =
+    "a clamp that gives way, which only `sweep`, `contour` and `study` take, expected no table [clamp]";
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
@@ -65,8 +69,46 @@ fn written(table: Range<usize>, [stiffness, diameter, modulus]: [Option<&Spanned
     }
 }
 
+/// The rod of a table `[rod]`, on the springs of a table `[clamp]`.
+pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<AnyRod, Fault> {
+    let clamp = clamp.map_or_else(|| Ok(ElasticClamp::default()), springs)?;
+    match alone(table)? {
+        Alone::Uniform(rod) if clamp.is_rigid() => Ok(AnyRod::Uniform(rod)),
+        Alone::Uniform(rod) => {
+            if let Some(stress) = &table.get_ref().yield_stress {
+                let message = "given for a rod whose clamp gives way, expected it with a rigid clamp alone";
+                return Err(Fault::new(stress.span(), message));
+            }
+            let straight =
+                rod.with_natural_curvature(0.0).map_err(|error| Fault::new(table.span(), error.to_string()))?;
+            Ok(AnyRod::Mounted(Mounted::new(straight, clamp)))
+        }
+        Alone::Varying(rod) => Ok(AnyRod::Mounted(Mounted::new(rod, clamp))),
+    }
+}
+
+fn springs(table: &Spanned<ClampTable>) -> Result<ElasticClamp, Fault> {
+    let ClampTable { stiffness_x, stiffness_y, stiffness_phi } = table.get_ref();
+    let fields = [("stiffness_x", stiffness_x), ("stiffness_y", stiffness_y), ("stiffness_phi", stiffness_phi)];
+    let [x, y, phi] = fields.map(|(_, field)| field.as_ref().map(|field| *field.get_ref()));
+    ElasticClamp::springs(x, y, phi).map_err(|error| {
+        let at = |what: &str| fields.iter().find(|(name, _)| *name == what).and_then(|(_, field)| field.as_ref());
+        let field = match &error {
+            RodError::ClampStiffness { what, .. } => at(what),
+            _ => None,
+        };
+        Fault::new(field.map_or(table.span(), Spanned::span), error.to_string())
+    })
+}
+
+/// A rod without its clamp.
+enum Alone {
+    Uniform(Rod),
+    Varying(VaryingRod),
+}
+
 /// The rod of a table.
-pub(super) fn rod(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
+fn alone(table: &Spanned<RodTable>) -> Result<Alone, Fault> {
     let RodTable {
         length,
         diameter,
@@ -109,7 +151,7 @@ pub(super) fn rod(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
                     None => rod,
                 };
                 match natural_curvature {
-                    None => return Ok(AnyRod::Uniform(rod)),
+                    None => return Ok(Alone::Uniform(rod)),
                     Some(_) => Some(rod.with_natural_curvature(0.0).map_err(&at)?),
                 }
             }
@@ -129,21 +171,21 @@ pub(super) fn rod(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
         return Err(Fault::new(stress.span(), message));
     }
     let Some(rod) = varying else { return Err(Fault::new(table.span(), "no rod")) };
-    let Some(curvature) = natural_curvature else { return Ok(AnyRod::Varying(rod)) };
+    let Some(curvature) = natural_curvature else { return Ok(Alone::Varying(rod)) };
     if let Some(bent) = section.iter().find_map(|section| section.get_ref().natural_curvature.as_ref()) {
         let message = "given beside rod.natural_curvature, expected one of the two";
         return Err(Fault::new(bent.span(), message));
     }
     let wrong = |error: RodError| Fault::new(curvature.span(), error.to_string());
     let curvature = natural(curvature).and_then(|curvature| curvature.map_err(wrong))?;
-    rod.with_natural_curvature(curvature).map(AnyRod::Varying).map_err(wrong)
+    rod.with_natural_curvature(curvature).map(Alone::Varying).map_err(wrong)
 }
 
 /// The rod of a table, if it is uniform and straight at rest.
 pub(super) fn uniform(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
-    match rod(table)? {
-        AnyRod::Uniform(rod) => Ok(rod),
-        AnyRod::Varying(_) => Err(Fault::new(table.span(), NOT_UNIFORM)),
+    match alone(table)? {
+        Alone::Uniform(rod) => Ok(rod),
+        Alone::Varying(_) => Err(Fault::new(table.span(), NOT_UNIFORM)),
     }
 }
 

@@ -65,7 +65,7 @@ impl StudyRow {
     pub fn sweep(scene: usize, values: Vec<f64>, file: &Path, text: &str) -> Self {
         match AnyScene::parse(file, text) {
             Ok(AnyScene::Uniform(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
-            Ok(AnyScene::Varying(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
+            Ok(AnyScene::Mounted(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
             Err(error) => Self::refused(scene, values, error.without_place()),
         }
     }

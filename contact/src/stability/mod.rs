@@ -115,7 +115,7 @@ impl Judge {
             q.add([PENALTY / square.clamp(LEAST_WAY, 1.0), 0.0, 0.0], across, eta);
         }
         q.add_load(modes, &integrals.moments);
-        q.add_load_of_base(modes, &springs, &integrals);
+        q.add_load_of_base(modes, &springs, integrals);
         q.is_positive()
     }
 }

@@ -22,15 +22,12 @@ use crate::units::Units;
 pub struct Mounted<R> {
     rod: R,
     clamp: ElasticClamp,
-    /// The clamp in units of the rod, somewhere.
-    elastic: Elastic,
 }
 
 impl<R: PhysicalRod<Clamp = Pose>> Mounted<R> {
     /// A rod on a clamp. A rigid clamp is `ElasticClamp::default()`: then the results are those of the rod alone, to the last bit.
     pub fn new(rod: R, clamp: ElasticClamp) -> Self {
-        let elastic = clamp.at(Pose { x: 0.0, y: 0.0, phi: 0.0 }, &rod.units());
-        Self { rod, clamp, elastic }
+        Self { rod, clamp }
     }
 }
 
@@ -60,7 +57,7 @@ impl<R: PhysicalRod<Clamp = Pose>> PhysicalRod for Mounted<R> {
 
     #[inline(always)]
     fn clamp(&self, pose: Pose) -> Elastic {
-        Elastic { pose, ..self.elastic }
+        self.clamp.at(pose, &self.units())
     }
 
     fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {

@@ -97,6 +97,11 @@ impl ElasticClamp {
         Ok(Self { compliance })
     }
 
+    /// Whether it gives way nowhere.
+    pub fn is_rigid(&self) -> bool {
+        self.compliance == [[0.0; 3]; 3]
+    }
+
     /// Displacement (m, m, rad) per reaction (N, N, N m), row by row: symmetric.
     pub fn compliance(&self) -> [[f64; 3]; 3] {
         self.compliance
