@@ -236,8 +236,8 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 ///
 /// Notes
 /// -----
-/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives`` and studies take any rod. ``simulate``, ``Recording``,
-/// ``reconstruct``, ``single`` and ``Live`` take uniform rods that are straight at rest, on a rigid clamp.
+/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``single`` and studies take any rod. ``simulate``, ``Recording``,
+/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest, on a rigid clamp.
 ///
 /// Examples
 /// --------

@@ -1,17 +1,22 @@
 //! The contact point of each sample, as if it had a single contact.
 
 use crate::array::{Column, Get, structured};
-use crate::rod::PyRod;
+use crate::rod::{PyRod, for_rod};
 use crate::running;
 use crate::samples::Samples;
 use pyo3::prelude::*;
+use std::borrow::Cow;
+use vibrissa::Sample;
 use vibrissa::reconstruct::nalgebra::Matrix3;
-use vibrissa::reconstruct::{Touch, single as invert};
+use vibrissa::reconstruct::{OneSample, Touch, one_sample, single as invert};
+use vibrissa::rod::Reactions;
+use vibrissa_cli::AnyRod;
 
-/// A point, where there is one, and whether a single contact gives such reactions.
+/// A point, where there is one, whether a single contact gives such reactions, and of which kind.
 struct Point {
     touch: Option<Touch>,
     fits: bool,
+    kind: Cow<'static, str>,
 }
 
 impl Point {
@@ -27,17 +32,19 @@ const POINT: &[Column<Point>] = &[
     Column { name: "alpha", get: Get::Float(|point| point.of(|touch| touch.alpha)) },
     Column { name: "force", get: Get::Float(|point| point.of(|touch| touch.force)) },
     Column { name: "fits", get: Get::Flag(|point| point.fits) },
+    Column { name: "kind", get: Get::Text(|point| point.kind.clone()) },
 ];
 
-/// The contact point of each sample as if it had a single contact, sample by sample (Merker et al. 2020).
+/// The contact point of each sample as if it had a single contact, sample by sample (Merker et al. 2020), and whether it has one.
 ///
-/// With exact reactions of one contact the point is exact to 1e-13 of the rod's length. Of several contacts it is wrong: by millimetres in a
-/// notch. :func:`reconstruct` tells them apart by the whole scan.
+/// With exact reactions of one contact the point is exact to 1e-13 of the length of a uniform rod, and to 1e-12 of any other. Of several
+/// contacts it is wrong: by millimetres in a notch. :func:`reconstruct` tells them apart by the whole scan of a uniform rod; on a rod that
+/// tapers, ``kind`` does by each sample.
 ///
 /// Parameters
 /// ----------
 /// rod : Rod
-///     The rod.
+///     Any rod, on any clamp.
 /// samples : structured array, data frame, mapping or array of shape (n, 6)
 ///     As for :func:`reconstruct`.
 ///
@@ -45,7 +52,9 @@ const POINT: &[Column<Point>] = &[
 /// -------
 /// numpy.ndarray
 ///     Structured, one row for each sample: ``x``, ``y`` (m), ``s`` (m), ``alpha`` (rad), ``force`` (N), NaN where the reactions give no
-///     point; ``fits``: whether a single contact gives such reactions (if not, there are several, or the sensor has an error).
+///     point; ``fits``: whether a single contact gives such reactions (if not, there are several, or the sensor has an error); ``kind``:
+///     ``"free"``, ``"tip"``, ``"tangent"`` (along the side), ``"several"``, or ``"none"`` where the moment vanishes nowhere. Two contacts
+///     on a rod that is uniform from the first of them on may give the reactions of ``"tangent"``.
 ///
 /// Raises
 /// ------
@@ -64,13 +73,28 @@ const POINT: &[Column<Point>] = &[
 /// True
 #[pyfunction]
 pub fn single<'py>(py: Python<'py>, rod: &PyRod, samples: Samples) -> PyResult<Bound<'py, PyAny>> {
-    let rod = rod.uniform()?;
-    let points = running::run(py, || {
-        let point = |sample: &vibrissa::Sample| match invert(rod, sample.pose, sample.reactions, &Matrix3::zeros()) {
-            Ok(touch) => Point { touch: Some(touch), fits: true },
-            Err(none) => Point { touch: none.touch(), fits: false },
+    let point = |sample: &Sample| {
+        let Sample { pose, reactions, .. } = *sample;
+        let covariance = sample.sigma.map_or_else(Matrix3::zeros, |Reactions { f0x, f0y, m0z }| {
+            Matrix3::from_diagonal(&[f0x, f0y, m0z].map(|sigma| sigma * sigma).into())
+        });
+        let one = for_rod!(&rod.rod, rod => one_sample(rod, pose, reactions, &covariance));
+        let kind = one.as_ref().map_or(Cow::Borrowed("none"), |one| Cow::Owned(one.to_string()));
+        // the closed form of a uniform rod, as in Rust
+        let closed = match &rod.rod {
+            AnyRod::Uniform(rod) => Some(invert(rod, pose, reactions, &covariance)),
+            AnyRod::Mounted(_) => None,
         };
-        samples.0.iter().map(point).collect::<Vec<_>>()
-    })?;
+        match (closed, one) {
+            (Some(Ok(touch)), _) => Point { touch: Some(touch), fits: true, kind },
+            (Some(Err(none)), _) => Point { touch: none.touch(), fits: false, kind },
+            (None, Ok(one)) => {
+                let fits = matches!(one, OneSample::Tip(_) | OneSample::Tangent(_));
+                Point { touch: one.touch(), fits, kind }
+            }
+            (None, Err(_)) => Point { touch: None, fits: false, kind },
+        }
+    };
+    let points = running::run(py, || samples.0.iter().map(point).collect::<Vec<_>>())?;
     structured(py, POINT, points.iter())
 }

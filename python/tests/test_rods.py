@@ -83,10 +83,19 @@ class TestAnyRod:
         assert found.solved and found.problem is None
         np.testing.assert_allclose(found.state.reactions, state.reactions, rtol=1e-9)
 
-    def test_contacts_are_not_found_from_its_reactions(self, rod: vibrissa.Rod) -> None:
+    def test_single_contacts_are_found_sample_by_sample(self, rod: vibrissa.Rod) -> None:
+        scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
+        points = vibrissa.single(rod, scan.states)
+        kinds = {"free": "free", "A": "tip", "B": "tangent"}
+        one = np.isin(scan.states["phase"], list(kinds))
+        assert one.sum() > 40
+        assert [kinds[phase] for phase in scan.states["phase"][one]] == list(points["kind"][one])
+        fits = points["fits"]
+        np.testing.assert_allclose(np.hypot(points["x"][fits], points["y"][fits] - 0.06), 0.02, atol=1e-11)
+
+    def test_scans_are_not_reconstructed(self, rod: vibrissa.Rod) -> None:
         scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
         for refused in (
-            lambda: vibrissa.single(rod, scan.states),
             lambda: vibrissa.reconstruct(rod, scan.states),
             lambda: vibrissa.simulate(vibrissa.Scene(rod, DISC, PATH, 1e-3), rate=100.0, speed=0.01),
             lambda: vibrissa.Live(rod, scan.states),

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! - [`single`]: the contact point of one contact from one [`Sample`] (pose of the clamp and reactions), in closed form, and
-//!   [`single_general`] for rods without one. [`NoContact`]: why there is none.
+//!   [`one_sample`] for any rod, with the kind of contact; [`single_general`] through any integrator. [`NoContact`]: why there is none.
 //! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
 //!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
 //! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them.
@@ -66,7 +66,7 @@ pub use pipeline::{
     explanations, reconstruct, reconstruct_passes,
 };
 #[cfg(feature = "std")]
-pub use point::{GeneralError, single_general};
+pub use point::{GeneralError, OneSample, one_sample, single_general};
 pub use point::{NoContact, Touch, single};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]

@@ -1,10 +1,13 @@
-//! One contact from one sample: [`single`] in closed form, [`single_general`] for any law of curvature.
+//! One contact from one sample: [`single`] in closed form, [`one_sample`] for any rod on any clamp and with the kind of contact,
+//! [`single_general`] through any integrator.
 //!
 //! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; [`Touch`] is a contact point.
 
 mod clamp;
 mod moment_zero;
 mod no_contact;
+#[cfg(feature = "std")]
+mod one_sample;
 mod single;
 #[cfg(feature = "std")]
 mod single_general;
@@ -15,6 +18,8 @@ pub(crate) use clamp::Clamp;
 #[cfg(feature = "std")]
 pub(crate) use moment_zero::MomentZero;
 pub use no_contact::NoContact;
+#[cfg(feature = "std")]
+pub use one_sample::{OneSample, one_sample};
 pub use single::single;
 #[cfg(feature = "std")]
 pub use single_general::{GeneralError, single_general};

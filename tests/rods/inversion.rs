@@ -1,0 +1,108 @@
+//! From the reactions of one sample back to the contact, for rods that are not uniform and clamps that give way.
+
+use super::scans::{bent, cone, o1, on_a_spring, two_sections};
+use std::f64::consts::FRAC_PI_2;
+use vibrissa::reconstruct::nalgebra::Matrix3;
+use vibrissa::reconstruct::{OneSample, one_sample};
+use vibrissa::rod::{ElasticClamp, Mounted, PhysicalRod, Pose, Reactions, Rod};
+use vibrissa::{ClampPath, State, Sweep};
+
+fn states(rod: &impl PhysicalRod) -> Vec<State> {
+    let at = |x| Pose { x, y: -0.4, phi: FRAC_PI_2 };
+    Sweep::new(rod, &o1(), ClampPath::new(at(1.0), at(-1.0)).unwrap(), 0.004).unwrap().run().states
+}
+
+/// How many states of each phase: of one contact found as such, of one contact not, of several found as such, of several not.
+fn judged(rod: &impl PhysicalRod, worst: &mut f64) -> [usize; 4] {
+    let mut counts = [0; 4];
+    for state in states(rod) {
+        let found = one_sample(rod, state.pose, state.reactions, &Matrix3::zeros()).unwrap();
+        let phase = state.phase().to_string();
+        let right = match (phase.as_str(), &found) {
+            ("free", OneSample::Free) => continue,
+            ("A", OneSample::Tip(touch)) | ("B", OneSample::Tangent(touch)) => {
+                let [contact] = &state.contacts[..] else { panic!("{phase}") };
+                let off = (touch.x - contact.x).hypot(touch.y - contact.y).max((touch.s - contact.s).abs());
+                *worst = worst.max(off);
+                true
+            }
+            ("A" | "B", _) => false,
+            (_, found) => matches!(found, OneSample::Several(_)),
+        };
+        let several = usize::from(state.contacts.len() > 1);
+        counts[2 * several + usize::from(!right)] += 1;
+    }
+    counts
+}
+
+#[test]
+fn one_sample_tells_one_contact_from_two() {
+    let mut worst = 0.0;
+    // all of one contact and all of two: a cone has phase BB, the bent rod and that on a spring BA
+    let soft = Mounted::new(cone(0.5), ElasticClamp::springs(Some(40.0), Some(30.0), Some(8.0)).unwrap());
+    for (name, counts) in [
+        ("cone", judged(&cone(0.8), &mut worst)),
+        ("bent", judged(&bent(), &mut worst)),
+        ("spring", judged(&on_a_spring(), &mut worst)),
+        ("soft cone", judged(&soft, &mut worst)),
+    ] {
+        println!("{name}: states of one contact, missed, of several, missed: {counts:?}");
+        let [one, one_missed, several, several_missed] = counts;
+        assert!(one > 200 && one_missed == 0, "{name}: {counts:?}");
+        // the reactions of BB on a uniform rod are those of B
+        let told = name != "spring";
+        assert!(!told || several > 0 && several_missed == 0, "{name}: {counts:?}");
+    }
+    // both contacts behind the joint are on a uniform rod
+    let [one, one_missed, ..] = judged(&two_sections(), &mut worst);
+    assert!(one > 200 && one_missed == 0);
+    assert!(worst < 1e-9, "{worst:e}");
+}
+
+#[test]
+fn the_covariance_is_that_of_the_point() {
+    let soft = Mounted::new(cone(0.6), ElasticClamp::springs(Some(40.0), None, Some(8.0)).unwrap());
+    let covariance = 1e-6 * Matrix3::new(1e-6, 2e-7, 0.0, 2e-7, 2e-6, -1e-7, 0.0, -1e-7, 5e-7);
+    let mut compared = 0;
+    // the differences are those of a force that changes little
+    for state in states(&soft).iter().filter(|s| s.contacts.len() == 1 && s.contacts[0].force > 0.1).step_by(30) {
+        let found = one_sample(&soft, state.pose, state.reactions, &covariance).unwrap().touch().unwrap();
+        let h = 1e-5;
+        let moved = |c: usize| {
+            let by = |h: f64| {
+                let Reactions { f0x, f0y, m0z } = state.reactions;
+                let mut felt = [f0x, f0y, m0z];
+                felt[c] += h;
+                let [f0x, f0y, m0z] = felt;
+                let touch = one_sample(&soft, state.pose, Reactions { f0x, f0y, m0z }, &covariance).unwrap();
+                touch.touch().map(|touch| [touch.x, touch.y]).unwrap()
+            };
+            let (up, down) = (by(h), by(-h));
+            [0, 1].map(|i| (up[i] - down[i]) / (2.0 * h))
+        };
+        let columns = [moved(0), moved(1), moved(2)];
+        for i in 0..2 {
+            for j in 0..2 {
+                let sum: f64 = (0..9).map(|k| columns[k / 3][i] * covariance[(k / 3, k % 3)] * columns[k % 3][j]).sum();
+                assert!((found.covariance[(i, j)] - sum).abs() < 1e-6 * found.covariance.trace(), "{state:?}");
+            }
+        }
+        compared += 1;
+    }
+    assert!(compared > 5);
+}
+
+#[test]
+fn what_gives_no_point() {
+    let rod = Rod::new(1.0, 1.0).unwrap();
+    let at = |f0x, f0y, m0z| {
+        let pose = Pose { x: 0.0, y: 0.0, phi: 1.5 };
+        one_sample(&rod, pose, Reactions { f0x, f0y, m0z }, &Matrix3::zeros())
+    };
+    assert_eq!(at(0.0, 0.0, 0.0).unwrap(), OneSample::Free);
+    assert!(at(0.0, 0.0, 1.0).unwrap_err().to_string().contains("vanishes nowhere"));
+    assert!(at(f64::NAN, 0.0, 1.0).unwrap_err().to_string().contains("not finite"));
+    assert!(at(1e300, 1e300, 1e300).is_err());
+    // a force on an inner point that is not across the rod is of no single contact
+    assert!(matches!(at(-2.0, 1.0, 1.5).unwrap(), OneSample::Several(_)));
+}
