@@ -55,7 +55,9 @@ pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
-pub use scene::{AnyRod, AnyScene, KnownRod, Leg, LegPath, Scene, SceneRod, read_known_rod, read_rod};
+pub use scene::{
+    AnyRod, AnyScene, KnownRod, Leg, LegPath, Scene, SceneRod, read_known_rod, read_mounted_rod, read_rod,
+};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use shapes::shapes_list;
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};

@@ -6,15 +6,17 @@ use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals,
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::{Budget, Known};
+use vibrissa::rod::Mounted;
 use vibrissa::{Rod, Settings};
 use vibrissa_cli::{
-    Error, KnownRod, LiveScan, Merged, Reconstructed, Recording, Scene, Setup, Staged, read_known_rod, read_noise,
+    Error, KnownRod, LiveScan, Merged, Reconstructed, Recording, Scene, Setup, Staged, read_mounted_rod, read_noise,
 };
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let Reconstruct { recordings, rod, truth, out, align, moved, trust, written } = arguments;
     signals::end();
-    let given = read_known_rod(&rod)?;
+    let (given, clamp) = read_mounted_rod(&rod)?;
+    let mounted = Mounted::new(given.rod, clamp);
     let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
     let settings = settings(&trust, &given, &setup)?;
     let mut scan = scan_of(&given, rod, moved, setup, written.into())?;
@@ -31,7 +33,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let mut found = Vec::with_capacity(recordings.len());
     let mut left_out = Vec::new();
     for file in &recordings {
-        match one(file, &scan, &settings, truth.as_deref()) {
+        match one(file, &scan, &mounted, &settings, truth.as_deref()) {
             Ok(one) => found.push(one),
             Err(error) => left_out.push(error),
         }
@@ -74,10 +76,16 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
 }
 
 /// Reads and reconstructs one recording.
-fn one(file: &Path, scan: &LiveScan, settings: &Settings, truth: Option<&Path>) -> Result<Reconstructed, Error> {
+fn one(
+    file: &Path,
+    scan: &LiveScan,
+    rod: &Mounted<Rod>,
+    settings: &Settings,
+    truth: Option<&Path>,
+) -> Result<Reconstructed, Error> {
     let name = file.display();
     stage(&format!("{name}: reading"));
-    let recording = read(file, scan)?;
+    let recording = read(file, scan)?.at_base(rod);
     stage(&format!("{name}: kinks, phases, errors and contact points of {} samples", recording.samples().count()));
     let mut found = Reconstructed::new(recording, scan.rod, settings)?;
     if !found.check.fits() {

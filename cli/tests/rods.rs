@@ -129,6 +129,26 @@ fn a_clamp_gives_way_by_its_springs() {
     }
 }
 
+/// What was felt on a clamp that gives way is reconstructed with the springs of the file of the rod.
+#[test]
+fn a_scan_on_springs_is_reconstructed() {
+    let springs = "[clamp]\nstiffness_x = 400\nstiffness_y = 300\nstiffness_phi = 0.13\n";
+    let dir = tempfile::tempdir().unwrap();
+    let scene = with_rod(&format!("{WIRE}{springs}"));
+    std::fs::write(dir.path().join("soft.toml"), &scene).unwrap();
+    std::fs::write(dir.path().join("rigid.toml"), scene.replace(springs, "")).unwrap();
+    let said = |arguments: &[&str]| String::from_utf8(vibrissa(dir.path(), arguments).stdout).unwrap();
+    said(&["sweep", "soft.toml", "--out", "swept"]);
+    let of = |rod: &str| said(&["reconstruct", "swept/states.csv", "--rod", rod, "--as-is", "--out", "found"]);
+    let AnyScene::Mounted(scene) = AnyScene::parse("soft.toml".as_ref(), &scene).unwrap() else { panic!("rigid") };
+    let mut phases: Vec<String> =
+        Scan::run(scene).unwrap().outcome.states.iter().map(|state| state.phase().to_string()).collect();
+    phases.dedup();
+    let wanted = format!("states: {};", phases.join(" "));
+    assert!(of("soft.toml").contains(&wanted), "{wanted}\n{}", of("soft.toml"));
+    assert!(!of("rigid.toml").contains(&wanted));
+}
+
 #[test]
 fn other_commands_refuse_it() {
     let soft = with_rod(&format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"));

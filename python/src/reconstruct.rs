@@ -316,8 +316,9 @@ pub fn reconstruct(
         Ok(recording) => recording.get().recording.clone(),
         Err(_) => recording(samples.extract()?),
     };
-    let rod = *rod.uniform()?;
-    let found = running::run(py, || Reconstructed::new(recording, rod, &settings))?.map_err(errors::value)?;
+    let mounted = rod.uniform_mounted()?;
+    let reconstructed = || Reconstructed::new(recording.at_base(&mounted), *mounted.rod(), &settings);
+    let found = running::run(py, reconstructed)?.map_err(errors::value)?;
     if !found.check.fits() {
         let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();
         let text = format!("recording, units and rod do not fit: {}", findings.join("; "));

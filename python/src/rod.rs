@@ -237,7 +237,7 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 /// Notes
 /// -----
 /// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``single`` and studies take any rod. ``simulate``, ``Recording``,
-/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest, on a rigid clamp.
+/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest; ``simulate`` takes them on a rigid clamp only.
 ///
 /// Examples
 /// --------
@@ -328,6 +328,21 @@ impl PyRod {
             AnyRod::Mounted(_) => Err(errors::value(format!(
                 "rod is {}, not uniform, not straight at rest or not on a rigid clamp, expected a uniform, straight one on a rigid \
                  clamp: only from its reactions contacts are found",
+                self.__repr__()
+            ))),
+        }
+    }
+
+    /// The rod on its clamp for what takes only a uniform one that is straight at rest.
+    pub fn uniform_mounted(&self) -> PyResult<Mounted<Rod>> {
+        match &self.rod {
+            AnyRod::Uniform(rod) => Ok(Mounted::new(*rod, ElasticClamp::default())),
+            AnyRod::Mounted(mounted) if self.varying()?.is_none() => {
+                Ok(Mounted::new(stiff(self.length, self.stiffness)?, *mounted.springs()))
+            }
+            AnyRod::Mounted(_) => Err(errors::value(format!(
+                "rod is {}, not uniform or not straight at rest, expected a uniform, straight one: only from its reactions scans are \
+                 reconstructed",
                 self.__repr__()
             ))),
         }

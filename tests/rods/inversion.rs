@@ -3,9 +3,9 @@
 use super::scans::{bent, cone, o1, on_a_spring, two_sections};
 use std::f64::consts::FRAC_PI_2;
 use vibrissa::reconstruct::nalgebra::Matrix3;
-use vibrissa::reconstruct::{OneSample, one_sample};
+use vibrissa::reconstruct::{Budget, Known, OneSample, Settings, Source, one_sample, reconstruct};
 use vibrissa::rod::{ElasticClamp, Mounted, PhysicalRod, Pose, Reactions, Rod};
-use vibrissa::{ClampPath, State, Sweep};
+use vibrissa::{ClampPath, Sample, State, Sweep};
 
 fn states(rod: &impl PhysicalRod) -> Vec<State> {
     let at = |x| Pose { x, y: -0.4, phi: FRAC_PI_2 };
@@ -105,4 +105,46 @@ fn what_gives_no_point() {
     assert!(at(1e300, 1e300, 1e300).is_err());
     // a force on an inner point that is not across the rod is of no single contact
     assert!(matches!(at(-2.0, 1.0, 1.5).unwrap(), OneSample::Several(_)));
+}
+
+/// A scan of O1 by `swept`, whose samples have the pose of the base, as the recording of a uniform rod: how many samples there are, how many
+/// labels are right, how many points there are, and by how much they miss.
+fn reconstructed(swept: &impl PhysicalRod, known: Known) -> (usize, usize, usize, f64) {
+    let rod = Rod::new(1.0, 1.0).unwrap();
+    let at = |x| Pose { x, y: -0.4, phi: FRAC_PI_2 };
+    let path = ClampPath::new(at(1.0), at(-0.9)).unwrap();
+    let states = Sweep::new(swept, &o1(), path, 2e-4).unwrap().run().states;
+    let sample = |state: &State| Sample::new(swept.base(state.pose, &state.reactions), state.reactions);
+    let samples: Vec<Sample> = states.iter().map(sample).collect();
+    let settings = Settings { budget: Some(Budget::NONE), known, ..Settings::default() };
+    let found = reconstruct(&rod, &samples, &settings).unwrap();
+    let (mut right, mut points, mut worst) = (0, 0, 0.0_f64);
+    for (state, reading) in states.iter().zip(&found.readings) {
+        right += usize::from(state.phase().to_string() == reading.label.to_string());
+        let touches = [reading.touch.as_ref().ok(), reading.second.as_ref().and_then(|second| second.as_ref().ok())];
+        for (touch, contact) in touches.iter().zip(&state.contacts) {
+            let Some(touch) = touch else { continue };
+            worst = worst.max((touch.x - contact.x).hypot(touch.y - contact.y));
+            points += 1;
+        }
+    }
+    (states.len(), right, points, worst)
+}
+
+/// The springs of a clamp tell from each sample where the base is: then the scan is that of a rigid clamp.
+#[test]
+fn a_scan_on_springs_is_reconstructed() {
+    let three = ElasticClamp::springs(Some(60.0), Some(40.0), Some(9.0)).unwrap();
+    for swept in [on_a_spring(), Mounted::new(Rod::new(1.0, 1.0).unwrap(), three)] {
+        let (samples, right, points, worst) = reconstructed(&swept, Known::NOTHING);
+        assert!(right == samples && points > 7000 && worst < 1e-7, "{right} of {samples}, {points}, {worst:e}");
+    }
+}
+
+/// The recording of a rod that is bent at rest as an arc, whose curvature is known.
+#[test]
+fn a_scan_of_a_bent_rod_is_reconstructed() {
+    let known = Known::NOTHING.with(Source::NaturalCurvature, 0.5, 0.0);
+    let (samples, right, points, worst) = reconstructed(&bent(), known);
+    assert!(right == samples && points > 9000 && worst < 3e-9, "{right} of {samples}, {points}, {worst:e}");
 }

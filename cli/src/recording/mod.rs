@@ -19,6 +19,7 @@ pub use row::{RowFault, RowProblem};
 use std::path::PathBuf;
 use vibrissa::Sample;
 use vibrissa::hw::recording::{ColumnMap, TableOptions};
+use vibrissa::rod::PhysicalRod;
 
 /// A row of a recording: a sample, or what is wrong with it.
 pub type Row = Result<Sample, RowFault>;
@@ -62,6 +63,16 @@ pub struct ReadOptions {
 }
 
 impl Recording {
+    /// The recording with the poses of the base of a rod in place of those of the support of its clamp: where the springs go under the
+    /// reactions of each sample.
+    #[must_use]
+    pub fn at_base(mut self, rod: &impl PhysicalRod) -> Self {
+        for sample in self.rows.iter_mut().flatten() {
+            sample.pose = rod.base(sample.pose, &sample.reactions);
+        }
+        self
+    }
+
     /// The usable samples in order.
     pub fn samples(&self) -> impl Iterator<Item = &Sample> {
         self.rows.iter().flatten()

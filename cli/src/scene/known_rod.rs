@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
 use vibrissa::reconstruct::{Known, Source};
+use vibrissa::rod::ElasticClamp;
 
 /// A rod, and what `vibrissa calibrate` found of the errors of rod, sensor, clamp and stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +43,19 @@ pub(crate) fn written(source: Source, rod: &Rod) -> (&'static str, f64) {
     }
 }
 
+/// The rod in a TOML file as for [`read_known_rod`], and the springs of its table `[clamp]`.
+///
+/// # Errors
+/// [`SceneError`]: the file cannot be read, holds no rod, or its calibration or its clamp is wrong.
+pub fn read_mounted_rod(file: &Path) -> Result<(KnownRod, ElasticClamp), SceneError> {
+    let text = toml_file::text("the rod", file)?;
+    toml_file::parse(file, &text, |table| {
+        let file = RodFile::deserialize(Deserializer::from(table))?;
+        let mounted = file.mounted()?;
+        Ok((file.known(*mounted.rod())?, *mounted.springs()))
+    })
+}
+
 /// The rod in a TOML file as for [`read_rod`](super::read_rod), with its table `[calibration]`.
 ///
 /// # Errors
@@ -53,10 +67,16 @@ pub fn read_known_rod(file: &Path) -> Result<KnownRod, SceneError> {
 pub(super) fn parse(file: &Path, text: &str) -> Result<KnownRod, SceneError> {
     toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        let rod = file.uniform()?;
-        let known = file.calibration.map_or_else(|| Ok(Known::NOTHING), |table| known(&table, &rod))?;
-        Ok(KnownRod { rod, known })
+        file.known(file.uniform()?)
     })
+}
+
+impl RodFile {
+    /// A rod with the calibration of the file.
+    fn known(&self, rod: Rod) -> Result<KnownRod, Fault> {
+        let known = self.calibration.as_ref().map_or_else(|| Ok(Known::NOTHING), |table| known(table, &rod))?;
+        Ok(KnownRod { rod, known })
+    }
 }
 
 fn known(table: &CalibrationTable, rod: &Rod) -> Result<Known, Fault> {

@@ -19,7 +19,7 @@ mod shape;
 pub(crate) use check::MOST_STATES;
 pub use kind::{AnyRod, AnyScene, SceneRod};
 pub(crate) use known_rod::written;
-pub use known_rod::{KnownRod, read_known_rod};
+pub use known_rod::{KnownRod, read_known_rod, read_mounted_rod};
 pub use leg::{Leg, LegPath};
 pub use rod::read_rod;
 

@@ -11,6 +11,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
+use vibrissa::rod::Mounted;
 
 /// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
@@ -34,6 +35,11 @@ impl RodFile {
             (rod, None) => Ok(rod),
             (_, Some(clamp)) => Err(Fault::new(clamp.span(), rod_table::NOT_RIGID)),
         }
+    }
+
+    /// The rod on its clamp, if it is uniform and straight at rest.
+    pub fn mounted(&self) -> Result<Mounted<Rod>, Fault> {
+        Ok(Mounted::new(rod_table::uniform(&self.rod)?, rod_table::springs(self.clamp.as_ref())?))
     }
 }
 

@@ -13,8 +13,8 @@ pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight 
      expected length with diameter and youngs_modulus, or with bending_stiffness";
 
 /// What is said where a clamp gives way.
-pub(super) const NOT_RIGID: &str =
-    "a clamp that gives way, which only `sweep`, `contour` and `study` take, expected no table [clamp]";
+pub(super) const NOT_RIGID: &str = "a clamp that gives way, which only `sweep`, `contour`, `study` and `reconstruct` take, expected no table \
+     [clamp]";
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
@@ -71,7 +71,7 @@ fn written(table: Range<usize>, [stiffness, diameter, modulus]: [Option<&Spanned
 
 /// The rod of a table `[rod]`, on the springs of a table `[clamp]`.
 pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<AnyRod, Fault> {
-    let clamp = clamp.map_or_else(|| Ok(ElasticClamp::default()), springs)?;
+    let clamp = springs(clamp)?;
     match alone(table)? {
         Alone::Uniform(rod) if clamp.is_rigid() => Ok(AnyRod::Uniform(rod)),
         Alone::Uniform(rod) => {
@@ -87,7 +87,9 @@ pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>
     }
 }
 
-fn springs(table: &Spanned<ClampTable>) -> Result<ElasticClamp, Fault> {
+/// The clamp of a table `[clamp]`, rigid without one.
+pub(super) fn springs(table: Option<&Spanned<ClampTable>>) -> Result<ElasticClamp, Fault> {
+    let Some(table) = table else { return Ok(ElasticClamp::default()) };
     let ClampTable { stiffness_x, stiffness_y, stiffness_phi } = table.get_ref();
     let fields = [("stiffness_x", stiffness_x), ("stiffness_y", stiffness_y), ("stiffness_phi", stiffness_phi)];
     let [x, y, phi] = fields.map(|(_, field)| field.as_ref().map(|field| *field.get_ref()));

@@ -4,8 +4,9 @@ use super::clamp::Clamp;
 use super::no_contact::NoContact;
 use super::touch::Touch;
 use crate::numeric::{Number, propagated};
+use core::cmp::Ordering::Equal;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
-use rod_core::{Section, inflection};
+use rod_core::{Section, advance, inflection};
 
 /// Standard deviations within which a difference counts as noise. Larger: more weak contacts count as a free rod, and fewer
 /// points on the rod are called beyond its tip.
@@ -16,10 +17,34 @@ const NEWTON_STEPS: usize = 4;
 /// Largest distance between the two, rod lengths. Larger: steps that do not converge give contact points anywhere.
 const FARTHEST: f64 = 0.2;
 
+/// Natural curvature (1 / L) above which the zeros of the moment are followed along the rod: below, and so for all that a calibration
+/// estimates, the first is near where the curvature vanishes.
+const BENT: f64 = 0.2;
+/// Length (L) of the steps in which they are, and their number, which ends beyond the tip. Two zeros within one step may be missed.
+const STEP: f64 = 1.0 / 64.0;
+const STEPS: u32 = 96;
+
 /// Whether the reactions are within the noise of zero in each channel.
 pub(super) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
     let sigmas = T::from_f64(NOISE_SIGMAS);
     (0..3).all(|c| clamp.reactions[c].abs() <= sigmas * covariance[(c, c)].max(T::zero()).sqrt())
+}
+
+fn is_bent<T: Number>(clamp: &Clamp<T>) -> bool {
+    clamp.natural.abs() > T::from_f64(BENT)
+}
+
+/// Where the moment of a rod that is bent at rest vanishes, from the clamp on: to the square of a step.
+fn along<T: Number>(clamp: &Clamp<T>) -> impl Iterator<Item = T> {
+    let ([a, b], step) = (clamp.force(), T::from_f64(STEP));
+    let (mut section, natural) = (clamp.section(), clamp.natural);
+    (0..STEPS).filter_map(move |k| {
+        let from = section.kappa - natural;
+        section = advance(&section, a, b, step);
+        let to = section.kappa - natural;
+        let changes = from * to < T::zero();
+        changes.then(|| step * (T::from_f64(f64::from(k)) + from / (from - to)))
+    })
 }
 
 /// A cross-section without moment, dimensionless, with derivatives by the reactions.
@@ -48,8 +73,8 @@ impl<T: Number> MomentZero<T> {
             return Err(NoContact::Free);
         }
         let [a, b] = clamp.force();
-        let s = inflection(&clamp.section(), a, b).ok_or(NoContact::NoMomentZero)?;
-        Self::at(clamp, s, derived).ok_or(NoContact::NoMomentZero)
+        let s = if is_bent(clamp) { along(clamp).next() } else { inflection(&clamp.section(), a, b) };
+        s.and_then(|s| Self::at(clamp, s, derived)).ok_or(NoContact::NoMomentZero)
     }
 
     /// The zero nearest to the tip, if that is a later one than this, the first. A rod that is pushed into a notch, or on end,
@@ -61,6 +86,11 @@ impl<T: Number> MomentZero<T> {
 
     /// The same, with derivatives (`derived`) or with zeros in their place.
     pub(super) fn later(&self, clamp: &Clamp<T>, derived: bool) -> Option<Self> {
+        if is_bent(clamp) {
+            let from_tip = |s: &T| (*s - T::one()).abs();
+            let nearest = along(clamp).skip(1).min_by(|u, v| from_tip(u).partial_cmp(&from_tip(v)).unwrap_or(Equal))?;
+            return if from_tip(&nearest) < from_tip(&self.s) { Self::at(clamp, nearest, derived) } else { None };
+        }
         // the spacing is no less than the first zero's arc length
         if self.s * T::from_f64(1.5) > T::one() {
             return None;
