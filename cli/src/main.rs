@@ -197,8 +197,14 @@ fn contour_of<R: SceneRod>(
 }
 
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
-    let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
-    let scene = read_scene(&scene)?;
+    match read_any(&arguments.scene)? {
+        AnyScene::Uniform(scene) => simulate_scene(scene, arguments),
+        AnyScene::Mounted(scene) => simulate_scene(scene, arguments),
+    }
+}
+
+fn simulate_scene<R: SceneRod>(scene: Scene<R>, arguments: Simulate) -> Result<ExitCode, Error> {
+    let Simulate { noise, rate, speed, seed, sigmas, out, .. } = arguments;
     scene.check_single_leg()?;
     scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));

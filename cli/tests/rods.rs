@@ -138,13 +138,13 @@ fn a_scan_on_springs_is_reconstructed() {
     std::fs::write(dir.path().join("soft.toml"), &scene).unwrap();
     std::fs::write(dir.path().join("rigid.toml"), scene.replace(springs, "")).unwrap();
     let said = |arguments: &[&str]| String::from_utf8(vibrissa(dir.path(), arguments).stdout).unwrap();
-    said(&["sweep", "soft.toml", "--out", "swept"]);
-    let of = |rod: &str| said(&["reconstruct", "swept/states.csv", "--rod", rod, "--as-is", "--out", "found"]);
+    said(&["simulate", "soft.toml", "--rate", "100", "--speed", "0.01", "--out", "felt.csv"]);
+    let of = |rod: &str| said(&["reconstruct", "felt.csv", "--rod", rod, "--as-is", "--out", "found"]);
     let AnyScene::Mounted(scene) = AnyScene::parse("soft.toml".as_ref(), &scene).unwrap() else { panic!("rigid") };
     let mut phases: Vec<String> =
         Scan::run(scene).unwrap().outcome.states.iter().map(|state| state.phase().to_string()).collect();
     phases.dedup();
-    let wanted = format!("states: {};", phases.join(" "));
+    let wanted = format!("felt: {};", phases.join(" "));
     assert!(of("soft.toml").contains(&wanted), "{wanted}\n{}", of("soft.toml"));
     assert!(!of("rigid.toml").contains(&wanted));
 }
@@ -163,7 +163,7 @@ fn refuse(scene: &str, why: &str) {
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("scene.toml"), scene).unwrap();
     for arguments in [
-        &["simulate", "scene.toml"][..],
+        &["live", "--sensor", "file:nowhere", "--rod", "scene.toml"][..],
         &["fake-sensor", "scene.toml", "--protocol", "rdt"],
         &["budget", "scene.toml"],
     ] {

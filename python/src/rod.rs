@@ -236,8 +236,8 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 ///
 /// Notes
 /// -----
-/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``single`` and studies take any rod. ``simulate``, ``Recording``,
-/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest; ``simulate`` takes them on a rigid clamp only.
+/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``simulate``, ``single`` and studies take any rod. ``Recording``,
+/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest, on any clamp.
 ///
 /// Examples
 /// --------
@@ -319,18 +319,6 @@ impl PyRod {
             table.insert("section".to_owned(), Value::Array(sections));
         }
         table
-    }
-
-    /// The rod for what takes only a uniform one that is straight at rest.
-    pub fn uniform(&self) -> PyResult<&Rod> {
-        match &self.rod {
-            AnyRod::Uniform(rod) => Ok(rod),
-            AnyRod::Mounted(_) => Err(errors::value(format!(
-                "rod is {}, not uniform, not straight at rest or not on a rigid clamp, expected a uniform, straight one on a rigid \
-                 clamp: only from its reactions contacts are found",
-                self.__repr__()
-            ))),
-        }
     }
 
     /// The rod on its clamp for what takes only a uniform one that is straight at rest.

@@ -2,6 +2,7 @@
 
 use crate::array::{structured, whole};
 use crate::composite::contours;
+use crate::rod::for_rod;
 use crate::running::Watch;
 use crate::samples::SAMPLE;
 use crate::scene::PyScene;
@@ -10,7 +11,7 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use vibrissa::contact::{Item, Stop};
 use vibrissa::reconstruct::{NoiseGenerator, NoiseModel};
-use vibrissa::rod::Reactions;
+use vibrissa::rod::{PhysicalRod, Reactions};
 use vibrissa::{ClampPath, Pose, Sample, Sweep};
 use vibrissa_cli::read_noise;
 
@@ -26,15 +27,15 @@ pub fn model(noise: &Bound<'_, PyAny>) -> PyResult<NoiseModel> {
 }
 
 /// The sweep and the sensor, without the interpreter.
-struct Recorder<'a> {
-    sweep: Sweep<'a>,
+struct Recorder<'a, R> {
+    sweep: Sweep<'a, R>,
     path: ClampPath,
     sensor: NoiseGenerator,
     step: f64,
     rate: f64,
 }
 
-impl Recorder<'_> {
+impl<R: PhysicalRod> Recorder<'_, R> {
     fn run(mut self) -> (Vec<Sample>, Option<Stop>) {
         let (mut samples, mut next, mut watch) = (Vec::new(), 0, Watch::new());
         let start = self.path.at(0.0);
@@ -111,11 +112,13 @@ pub fn simulate<'py>(
     let path = path.ok_or_else(|| errors::value("the path is not straight, expected a ClampPath"))?;
     let noise = noise.map(model).transpose()?.unwrap_or_default();
     let objects: Vec<_> = scene.objects.iter().map(|object| object.bind(py).clone()).collect();
-    let (objects, step, rod) = (contours(&objects), speed / rate, *scene.rod.get().uniform()?);
+    let (objects, step, rod) = (contours(&objects), speed / rate, &scene.rod.get().rod);
     let made = running::run(py, || {
-        let sweep = Sweep::new(&rod, &objects[..], path, step).map_err(errors::value)?;
         let sensor = noise.generator(seed).map_err(errors::value)?;
-        Ok::<_, PyErr>(Recorder { sweep, path, sensor, step, rate }.run())
+        for_rod!(rod, rod => {
+            let sweep = Sweep::new(rod, &objects[..], path, step).map_err(errors::value)?;
+            Ok::<_, PyErr>(Recorder { sweep, path, sensor, step, rate }.run())
+        })
     })?;
     match made? {
         (_, Some(stop)) => Err(errors::stopped(py, &stop, None)),

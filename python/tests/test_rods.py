@@ -95,8 +95,9 @@ class TestAnyRod:
 
     def test_recordings_are_of_uniform_rods(self, rod: vibrissa.Rod) -> None:
         scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
-        with pytest.raises(ValueError, match="rod is Rod.*expected a uniform, straight one on a rigid clamp"):
-            vibrissa.simulate(vibrissa.Scene(rod, DISC, PATH, 1e-3), rate=100.0, speed=0.01)
+        felt = vibrissa.simulate(vibrissa.Scene(rod, DISC, PATH, 1e-3), rate=10.0, speed=0.01)
+        for field in ("x0", "f0x", "f0y", "m0z"):
+            np.testing.assert_array_equal(felt[field], scan.states[field][: len(felt)])
         if rod is SOFT:
             return
         for refused in (lambda: vibrissa.reconstruct(rod, scan.states), lambda: vibrissa.Live(rod, scan.states)):

@@ -9,12 +9,12 @@ use vibrissa::Rod;
 use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
 
 /// What is said where another rod is given than a uniform, straight one.
-pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour` and `study` take, \
-     expected length with diameter and youngs_modulus, or with bending_stiffness";
+pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour`, `study` and \
+     `simulate` take, expected length with diameter and youngs_modulus, or with bending_stiffness";
 
 /// What is said where a clamp gives way.
-pub(super) const NOT_RIGID: &str = "a clamp that gives way, which only `sweep`, `contour`, `study` and `reconstruct` take, expected no table \
-     [clamp]";
+pub(super) const NOT_RIGID: &str = "a clamp that gives way, which only `sweep`, `contour`, `study`, `simulate` and `reconstruct` take, \
+     expected no table [clamp]";
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);

@@ -8,13 +8,13 @@ pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
 use crate::scene::MOST_STATES;
-use crate::{Error, Interrupt, Interrupted, OutputError, Scene, Staged};
+use crate::{Error, Interrupt, Interrupted, OutputError, Scene, SceneRod, Staged};
 use std::io::{self, Write};
 use std::path::Path;
-use vibrissa::Pose;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::NoiseModel;
 use vibrissa::rod::Reactions;
+use vibrissa::{Pose, Rod};
 
 /// The columns, those of the standard deviations last.
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
@@ -25,9 +25,9 @@ pub(crate) const INCOMPLETE: &str = "incomplete";
 
 /// A recording to be made, SI units.
 #[derive(Debug)]
-pub struct Simulation {
+pub struct Simulation<R = Rod> {
     /// What the clamp is led along. The scene's own step is not used.
-    pub scene: Scene,
+    pub scene: Scene<R>,
     /// The sensor; zeros for one that reads the truth.
     pub noise: NoiseModel,
     /// Samples in a second, 1/s.
@@ -95,7 +95,7 @@ pub enum SimulationError {
     },
 }
 
-impl Simulation {
+impl<R: SceneRod> Simulation<R> {
     /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which
     /// appears when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked
     /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample.
@@ -132,7 +132,7 @@ impl Simulation {
         Ok(self.samples()?.record(out, interrupt).map_err(OutputError::Standard)?)
     }
 
-    fn samples(&self) -> Result<Samples<'_>, Error> {
+    fn samples(&self) -> Result<Samples<'_, R>, Error> {
         let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
         Ok(Samples { simulation: self, sigma, ticks: self.ticks()? })
     }
@@ -174,13 +174,13 @@ impl Simulation {
 }
 
 /// The samples of a recording that is being written.
-struct Samples<'a> {
-    simulation: &'a Simulation,
+struct Samples<'a, R> {
+    simulation: &'a Simulation<R>,
     sigma: Option<Reactions>,
-    ticks: Ticks<'a>,
+    ticks: Ticks<'a, R>,
 }
 
-impl Samples<'_> {
+impl<R: SceneRod> Samples<'_, R> {
     fn record(mut self, out: &mut dyn Write, interrupt: &Interrupt) -> io::Result<Simulated> {
         let mut recorded = Simulated::default();
         let mut last = None;

@@ -1,11 +1,11 @@
 //! The samples of a simulated recording, one after the other.
 
 use super::Simulation;
-use crate::Error;
+use crate::{Error, SceneRod};
 use vibrissa::contact::{Item, Stop};
 use vibrissa::reconstruct::NoiseGenerator;
 use vibrissa::rod::Reactions;
-use vibrissa::{Label, Pose, State, Sweep};
+use vibrissa::{Label, Pose, Rod, State, Sweep};
 
 /// One sample that the sensor took.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,21 +23,21 @@ pub struct Tick {
 /// The samples along a scene, in order; an error where the sweep stops early, and nothing after it. Poses that a snap jumps
 /// over have no sample, but a number.
 #[derive(Debug)]
-pub struct Ticks<'a> {
-    sweep: Sweep<'a>,
-    simulation: &'a Simulation,
+pub struct Ticks<'a, R = Rod> {
+    sweep: Sweep<'a, R>,
+    simulation: &'a Simulation<R>,
     step: f64,
     sensor: NoiseGenerator,
     /// Number of the next sample.
     next: usize,
 }
 
-impl Simulation {
+impl<R: SceneRod> Simulation<R> {
     /// The samples. The memory they take does not grow with their number.
     ///
     /// # Errors
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
-    pub fn ticks(&self) -> Result<Ticks<'_>, Error> {
+    pub fn ticks(&self) -> Result<Ticks<'_, R>, Error> {
         let (step, sensor) = (self.step()?, self.noise.generator(self.seed)?);
         let sweep = Sweep::new(&self.scene.rod, &self.scene.objects, self.scene.path, step)?;
         Ok(Ticks { sweep, simulation: self, step, sensor, next: 0 })
@@ -47,7 +47,7 @@ impl Simulation {
 /// Share of a step by which a state may be off its sample by rounding.
 const ROUNDING: f64 = 1e-6;
 
-impl Ticks<'_> {
+impl<R: SceneRod> Ticks<'_, R> {
     /// None of the end of the path, which the sweep reports too, where no sample is due.
     fn tick(&mut self, state: &State) -> Option<Tick> {
         let Pose { x, y, phi } = state.pose;
@@ -70,7 +70,7 @@ impl Ticks<'_> {
     }
 }
 
-impl Iterator for Ticks<'_> {
+impl<R: SceneRod> Iterator for Ticks<'_, R> {
     type Item = Result<Tick, Stop>;
 
     fn next(&mut self) -> Option<Self::Item> {
