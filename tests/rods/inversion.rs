@@ -4,7 +4,7 @@ use super::scans::{bent, cone, o1, on_a_spring, two_sections};
 use std::f64::consts::FRAC_PI_2;
 use vibrissa::reconstruct::nalgebra::Matrix3;
 use vibrissa::reconstruct::{Budget, Known, OneSample, Settings, Source, one_sample, reconstruct_passes};
-use vibrissa::rod::{ElasticClamp, Mounted, PhysicalRod, Pose, Reactions, Rod};
+use vibrissa::rod::{ElasticClamp, GeneralElastica, Load, Mounted, PhysicalRod, Pose, Reactions, Rod};
 use vibrissa::{ClampPath, Sample, State, Sweep};
 
 fn states(rod: &impl PhysicalRod) -> Vec<State> {
@@ -90,6 +90,31 @@ fn the_covariance_is_that_of_the_point() {
         compared += 1;
     }
     assert!(compared > 5);
+}
+
+/// A force along the end of the rod: its moment vanishes at the tip without a change of sign.
+#[test]
+fn a_tip_that_is_pressed_on_end_is_found() {
+    let rod = cone(0.5).with_natural_curvature(-1.0).unwrap();
+    let pose = Pose { x: 0.0, y: 0.0, phi: 1.5 };
+    for along in [-1e-3, -1e-6, 0.0, 1e-6, 1e-3, 0.02] {
+        let slope = GeneralElastica::under_loads(&rod, rod.units(), pose, &[]).unwrap().0.at(1.0).unwrap().phi;
+        // loads are given by the tangent angle of the contour: across it the force is along the rod
+        let mut alpha = slope - FRAC_PI_2;
+        let mut bent = None;
+        for _ in 0..60 {
+            let load = Load { s: 1.0, force: 0.2, alpha };
+            let shape = GeneralElastica::under_loads(&rod, rod.units(), pose, &[load]).unwrap().0;
+            alpha = shape.at(1.0).unwrap().phi - FRAC_PI_2 + along;
+            bent = Some((shape, load));
+        }
+        let (shape, load) = bent.unwrap();
+        let found = one_sample(&rod, pose, shape.reactions(), &Matrix3::zeros()).unwrap();
+        let (OneSample::Tip(touch), tip) = (found, shape.at(1.0).unwrap()) else {
+            panic!("{along}: {found:?} {load:?}")
+        };
+        assert!((touch.x - tip.x).hypot(touch.y - tip.y) < 1e-9, "{along}: {touch:?}");
+    }
 }
 
 #[test]

@@ -104,12 +104,16 @@ pub fn one_sample<R: PhysicalRod>(
     let rounding = (EXACT * (1.0 + clamp.reactions.norm())).powi(2);
     let exact = covariance + Matrix3::from_diagonal_element(rounding);
     let zeros = bent.zeros();
-    let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
-    let places: Vec<Place> = zeros.into_iter().map(|zero| bent.place(zero, &exact)).collect();
-    let touch = |s: f64| bent.touch(s, &covariance).in_units(units);
+    let places: Vec<Place> = zeros.iter().map(|zero| bent.place(*zero, &exact)).collect();
+    let touch = |s: f64| bent.touch(s, true, &covariance).in_units(units);
     if let Some(tip) = places.iter().find(|place| place.is_at_tip() && place.presses()) {
         return Ok(OneSample::Tip(touch(tip.s)));
     }
+    // where the force acts along the end of the rod, the moment vanishes there without a change of sign
+    if bent.is_free_of_moment(1.0, &exact) && bent.place(1.0, &exact).presses() {
+        return Ok(OneSample::Tip(bent.touch(1.0, false, &covariance).in_units(units)));
+    }
+    let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
     let tangent = places.iter().find(|place| place.s < 1.0 && place.is_tangential());
     Ok(tangent.map_or_else(|| OneSample::Several(touch(first)), |place| OneSample::Tangent(touch(place.s))))
 }
@@ -199,12 +203,19 @@ impl<M: RodModel> Bent<'_, M> {
         Place { s, s_noise: noise(by_s), pressing, pressing_noise: noise(by_angle * tilt) }
     }
 
-    /// The contact there, dimensionless.
-    fn touch(&self, s: f64, covariance: &Matrix3<f64>) -> Touch {
+    /// Whether the moment at an arc length is within its noise.
+    fn is_free_of_moment(&self, s: f64, covariance: &Matrix3<f64>) -> bool {
+        let (at, columns) = self.by_reactions(s);
+        let by_reactions = Vector3::from(columns.map(|column| column[3]));
+        at.moment.abs() <= SIGMAS * propagated(&by_reactions.transpose(), covariance).x.sqrt()
+    }
+
+    /// The contact there, dimensionless; it `slides` along the rod with the reactions so that the moment there stays 0.
+    fn touch(&self, s: f64, slides: bool, covariance: &Matrix3<f64>) -> Touch {
         let (at, columns) = self.by_reactions(s);
         let (rate, (sin, cos)) = (self.moment_rate(&at), at.phi.sin_cos());
         let columns = columns.map(|[x, y, _, moment]| {
-            let slide = -moment / rate;
+            let slide = if slides { -moment / rate } else { 0.0 };
             [x + cos * slide, y + sin * slide]
         });
         let position = Matrix2x3::from_fn(|i, c| columns[c][i]);
