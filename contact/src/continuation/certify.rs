@@ -86,6 +86,9 @@ pub(crate) fn energy<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Confi
 
 /// Energy (J) of a rod of this shape and of its clamp.
 fn stored<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: &Elastica<M>) -> f64 {
+    if clamp.law().is_none() {
+        return shape.bending_energy();
+    }
     let Units { force, moment, energy, .. } = rod.units();
     let Reactions { f0x, f0y, m0z } = shape.reactions();
     let of_clamp = clamp.energy(&Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment });

@@ -20,7 +20,7 @@ use crate::scene::rod::holds_between_ends;
 use crate::scene::setup::Setup;
 use crate::scene::springs::{Spring, springs};
 use rod_core::{Clamp, CutSensitivities, PhysicalRod, RodModel, Supports};
-use smallvec::{SmallVec, smallvec};
+use smallvec::SmallVec;
 
 /// Least pivot, over the diagonal entry that it came from, that proves a sign. The entries are exact to about 1e-13 of the largest
 /// one, which on a nearly straight segment is larger than the pivots by as much as [`STIFFEST`]. Closer to a fold the modes decide.
@@ -28,6 +28,9 @@ const LEAST_PIVOT: f64 = 1e-8;
 
 /// Largest change of force or moment by a change of an end, of which the digits are right. A straight segment cannot become shorter.
 const STIFFEST: f64 = 1e8;
+
+/// Most unknowns that move the ends of a segment: three springs or the two of a contact at its start, and two at its end.
+const MOST_MOVES: usize = 5;
 
 /// Turn at the start, turn at the end, way of the end relative to the start.
 type Ends = [f64; 4];
@@ -45,19 +48,21 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
     for (k, spring) in springs.iter().enumerate() {
         matrix[k * size + k] = 1.0 / spring.softness;
     }
-    // what moves the start of the segment: the base by its springs, then the contact before by its shift and its turn
-    let mut before: SmallVec<[Ends; 5]> =
-        springs.iter().map(|Spring { way: [x, y, phi], .. }| [*phi, 0.0, -x, -y]).collect();
+    // what moves the ends of the segment: first the base by its springs, then the contact before by its shift and its turn
+    let mut moves: [Ends; MOST_MOVES] = [[0.0; 4]; MOST_MOVES];
+    let mut known = base;
+    for (own, Spring { way: [x, y, phi], .. }) in moves.iter_mut().zip(&springs) {
+        *own = [*phi, 0.0, -x, -y];
+    }
     for j in 0..n {
         let support = supports.support(j, configuration.t(j));
         let Form::Moves([uu, uv, vv]) = super::form(rod, configuration, shape, j, &support) else { return false };
         let (sin, cos) = support.alpha.sin_cos();
         let Some(stiffness) = stiffness(rod, shape, j) else { return false };
-        let mut moves = before;
-        moves.extend([[0.0, 0.0, cos, sin], [0.0, 1.0, 0.0, 0.0]]);
+        (moves[known], moves[known + 1]) = ([0.0, 0.0, cos, sin], [0.0, 1.0, 0.0, 0.0]);
         let (u, eta) = (base + 2 * j, base + 2 * j + 1);
-        let first = eta + 1 - moves.len();
-        for (row, own) in moves.iter().enumerate() {
+        let first = u - known;
+        for (row, own) in moves[..known + 2].iter().enumerate() {
             let forces: Ends = std::array::from_fn(|i| dot(&stiffness[i], own));
             for (column, other) in moves[..=row].iter().enumerate() {
                 matrix[(first + row) * size + first + column] += dot(&forces, other);
@@ -66,7 +71,7 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
         matrix[u * size + u] += uu;
         matrix[eta * size + u] += uv;
         matrix[eta * size + eta] += vv;
-        before = smallvec![[0.0, 0.0, -cos, -sin], [1.0, 0.0, 0.0, 0.0]];
+        (moves[0], moves[1], known) = ([0.0, 0.0, -cos, -sin], [1.0, 0.0, 0.0, 0.0], 2);
     }
     has_pivots(&mut matrix, base, size)
 }
