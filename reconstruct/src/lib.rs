@@ -4,7 +4,8 @@
 //!   [`one_sample`] for any rod, with the kind of contact; [`single_general`] through any integrator. [`NoContact`]: why there is none.
 //! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
 //!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
-//! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them.
+//! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them; [`reconstruct_general`] for
+//!   any rod on any clamp.
 //! - [`kink`], [`noise_estimate`]: the places where the reactions have kinks and jumps, and their noise.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: offsets of the contours of several scans, where they disagree, and one contour from all.
@@ -63,7 +64,7 @@ pub use phase::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
 pub use pipeline::{
     Explanation, Live, LiveSession, LiveSettings, Pass, Reading, Reason, ReconstructError, Reconstruction, Settings,
-    explanations, reconstruct, reconstruct_passes,
+    explanations, reconstruct, reconstruct_general, reconstruct_passes,
 };
 #[cfg(feature = "std")]
 pub use point::{GeneralError, OneSample, one_sample, single_general};

@@ -2,7 +2,7 @@
 
 use super::evidence::Evidence;
 use crate::numeric::NormalEquations;
-use crate::point::Clamp;
+use crate::point::{Clamp, Inverse};
 use crate::scan::{Noise, Track};
 use nalgebra::{Vector1, Vector2, Vector3};
 use std::ops::Range;
@@ -14,7 +14,7 @@ const MEANS: usize = 400;
 ///
 /// The criterion K leaves 0 on the side of A, and the arc length of the moment zero leaves the tip on the side of B, both gradually.
 /// On each side a parabola that vanishes at the border is fitted; the border is where the two fit best.
-pub(super) fn border(track: &Track, noise: &Noise, range: Range<usize>, tip_first: bool) -> usize {
+pub(super) fn border<I: Inverse>(rod: &I, track: &Track, noise: &Noise, range: Range<usize>, tip_first: bool) -> usize {
     let count = range.len().div_ceil(MEANS).max(1);
     let spread = noise.variance.component_mul(&noise.long_run) / count as f64;
     let means: Vec<Mean> = range
@@ -22,7 +22,7 @@ pub(super) fn border(track: &Track, noise: &Noise, range: Range<usize>, tip_firs
         .step_by(count)
         .map(|from| {
             let part = from..(from + count).min(range.end);
-            Mean::new(track, part, if count == 1 { &noise.variance } else { &spread })
+            Mean::new(rod, track, part, if count == 1 { &noise.variance } else { &spread })
         })
         .collect();
     let mut best = (f64::NEG_INFINITY, range.start);
@@ -48,13 +48,13 @@ struct Mean {
 }
 
 impl Mean {
-    fn new(track: &Track, part: Range<usize>, variance: &Vector3<f64>) -> Self {
+    fn new<I: Inverse>(rod: &I, track: &Track, part: Range<usize>, variance: &Vector3<f64>) -> Self {
         let count = part.len() as f64;
         let sum = track.clamps[part.clone()]
             .iter()
             .fold((Vector3::zeros(), Vector3::zeros()), |sum, clamp| (sum.0 + clamp.pose, sum.1 + clamp.reactions));
         let clamp = Clamp { pose: sum.0 / count, reactions: sum.1 / count, natural: track.natural };
-        let evidence = Evidence::of_sample(&clamp, variance);
+        let evidence = Evidence::of_sample(rod, &clamp, variance);
         let weighted = |value: f64, sigma: f64| if value.is_finite() { (value, sigma.powi(-2)) } else { (0.0, 0.0) };
         Self {
             from: track.tau[part.start],

@@ -3,9 +3,9 @@
 use super::basis::Basis;
 use super::label::Label;
 use super::quantity::Quantity;
-use crate::point::{Clamp, MomentZero, NoContact};
+use crate::point::{Clamp, Inverse, MomentZero, NoContact};
 use crate::scan::Estimate;
-use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 /// Error of the criterion, the arc length and the reactions (dimensionless) that solvers and rounding leave. Smaller: exact samples
 /// contradict their own phase.
@@ -59,7 +59,8 @@ pub struct Evidence {
     /// The reactions f0x, f0y, m0z: all 0 where the rod is free.
     pub force: [Quantity; 3],
     /// Phase criterion K = m0z^2 - 2 (f0y sin phi0 + f0x cos phi0): 0 where the last contact is tangential (Merker et al.
-    /// 2020, eq. 20), negative where it is at the tip.
+    /// 2020, eq. 20), negative where it is at the tip. Of a rod that is not uniform it is what K is with a single contact,
+    /// -2 force sin(angle from contour to rod).
     pub criterion: Quantity,
     /// Length criterion: arc length at which the moment vanishes, less 1: 0 where the tip alone is in contact.
     pub length: Quantity,
@@ -74,36 +75,35 @@ pub struct Evidence {
     trust: [f64; 4],
     /// Whether a contact may be so weak that the criterion is small in every phase.
     weak: bool,
+    /// Whether the criterion tells of the last of several contacts, too.
+    uniform: bool,
 }
 
 impl Evidence {
     /// The criteria at a place where the reactions and their rates are estimated.
-    pub(crate) fn of(estimate: &Estimate) -> Self {
+    pub(crate) fn of<I: Inverse>(rod: &I, estimate: &Estimate) -> Self {
         let none = Vector3::zeros();
-        let found = MomentZero::of(&estimate.clamp, &Matrix3::zeros());
-        let speed = |found: &MomentZero, later| speed(estimate, found, later);
-        Self::new(&estimate.clamp, found, speed, |gradient| estimate.variance(gradient, &none))
+        let speed = |found: &MomentZero, later| speed(rod, estimate, found, later);
+        Self::new(rod, &estimate.clamp, speed, |gradient| estimate.variance(gradient, &none))
     }
 
     /// The criteria of one sample with noise of this variance. Without rates there is no tangent criterion.
-    pub(crate) fn of_sample(clamp: &Clamp, variance: &Vector3<f64>) -> Self {
-        let found = MomentZero::of(clamp, &Matrix3::zeros());
-        Self::new(
-            clamp,
-            found,
-            |_, _| [Quantity::UNKNOWN; 2],
-            |gradient| gradient.component_mul(gradient).dot(variance),
-        )
+    pub(crate) fn of_sample<I: Inverse>(rod: &I, clamp: &Clamp, variance: &Vector3<f64>) -> Self {
+        let unknown = |_: &MomentZero, _| [Quantity::UNKNOWN; 2];
+        Self::new(rod, clamp, unknown, |gradient| gradient.component_mul(gradient).dot(variance))
     }
 
-    fn new(
+    fn new<I: Inverse>(
+        rod: &I,
         clamp: &Clamp,
-        found: Result<MomentZero, NoContact>,
         speed: impl Fn(&MomentZero, bool) -> [Quantity; 2],
         variance: impl Fn(&Vector3<f64>) -> f64,
     ) -> Self {
-        let (k, by_reactions) = clamp.criterion();
+        let found = rod.first(clamp);
         let size = 1.0 + clamp.reactions.norm();
+        let criterion = rod
+            .criterion(clamp, found.as_ref().ok())
+            .map_or(Quantity::UNKNOWN, |(k, by_reactions)| Quantity::new(k, variance(&by_reactions), FLOOR * size));
         let length_of = |found: &MomentZero| {
             Quantity::new(found.s - 1.0, variance(&found.s_by_reactions), FLOOR * (1.0 + 1.0 / found.force))
         };
@@ -116,16 +116,17 @@ impl Evidence {
         let unit = |c: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == c)));
         let mut evidence = Self {
             force: [0, 1, 2].map(|c| Quantity::new(clamp.reactions[c], variance(&unit(c)), FLOOR)),
-            criterion: Quantity::new(k, variance(&by_reactions), FLOOR * size),
+            criterion,
             length,
             tangent,
             motion,
-            again: found.as_ref().ok().and_then(|found| found.by_tip(clamp)).map(|found| {
+            again: found.as_ref().ok().and_then(|found| rod.by_tip(found, clamp)).map(|found| {
                 let [tangent, motion] = speed(&found, true);
                 [length_of(&found), tangent, motion]
             }),
             trust: [1.0; 4],
             weak: false,
+            uniform: I::UNIFORM,
         };
         let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
         let size = force.norm();
@@ -151,6 +152,7 @@ impl Evidence {
             let standing = STANDING * along.vanishes(MOVING).min(MOST_STILL).exp();
             across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
         };
+        let last = |of_criterion: f64| if self.uniform { of_criterion } else { 0.0 };
         let [free, k, s, v] = match label {
             Label::Free => [self.force.iter().map(of_force).sum::<f64>(), 0.0, 0.0, 0.0],
             Label::A => {
@@ -158,8 +160,8 @@ impl Evidence {
                 [0.0, tip, s.vanishes(length), single(&v, &along)]
             }
             Label::B => [0.0, touch, self.length.not_positive(), single(&self.tangent, &self.motion)],
-            Label::BA => [0.0, tip, 0.0, 0.0],
-            Label::BB => [0.0, touch, 0.0, 0.0],
+            Label::BA => [0.0, last(tip), 0.0, 0.0],
+            Label::BB => [0.0, last(touch), 0.0, 0.0],
         };
         let [force, criterion, length, tangent] = self.trust;
         [
@@ -252,11 +254,11 @@ impl Evidence {
 }
 
 /// The speed of the moment zero across its tangent and along it, with standard deviations.
-fn speed(estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
+fn speed<I: Inverse>(rod: &I, estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
     let of = |clamp: &Clamp, found: &MomentZero| {
-        let (_, gradient) = clamp.gradient_at(found.s);
+        let gradient = rod.gradient_at(clamp, found.s);
         let rate = gradient.rate(&estimate.rate);
-        // the point slides along the rod such that the curvature there stays 0
+        // the point slides along the rod such that the moment there stays 0
         let slide = -rate[3] / gradient.by_s[3];
         let velocity = Vector2::new(rate[0] + gradient.by_s[0] * slide, rate[1] + gradient.by_s[1] * slide);
         let normal = found.normal();
@@ -273,7 +275,7 @@ fn speed(estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] 
         }
         let mut clamp = estimate.clamp;
         clamp.reactions[c] += step;
-        let found = if later { MomentZero::of_tip(&clamp) } else { MomentZero::of(&clamp, &Matrix3::zeros()) };
+        let found = if later { rod.of_tip(&clamp) } else { rod.first(&clamp) };
         let Ok(found) = found else { return [Quantity::UNKNOWN; 2] };
         by_value.set_column(c, &((of(&clamp, &found) - value) / step));
     }

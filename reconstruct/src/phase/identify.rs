@@ -5,6 +5,7 @@ use super::diagram::Break;
 use super::evidence::Evidence;
 use super::label::Label;
 use super::trellis::{Place, Trellis, forward};
+use crate::point::Inverse;
 use crate::scan::{LocalCubic, Noise, Track};
 use std::ops::Range;
 
@@ -28,9 +29,16 @@ pub(crate) struct Node {
 
 impl Node {
     /// At a sample, from samples of `part` only, at most `widest` on one side; none where these are too few.
-    pub fn about(track: &Track, index: usize, part: Range<usize>, noise: &Noise, widest: usize) -> Option<Self> {
+    pub fn about<I: Inverse>(
+        rod: &I,
+        track: &Track,
+        index: usize,
+        part: Range<usize>,
+        noise: &Noise,
+        widest: usize,
+    ) -> Option<Self> {
         let fit = LocalCubic::about(track, index, part, noise, widest)?;
-        let evidence = Evidence::of(&fit.at(track.tau[index]));
+        let evidence = Evidence::of(rod, &fit.at(track.tau[index]));
         Some(Self { index, fit, evidence, weight: 1.0, place: Place { scores: [0.0; 5], between: None } })
     }
 
@@ -74,13 +82,13 @@ pub(crate) fn parts(samples: usize, breaks: &[Break]) -> Vec<(Range<usize>, Opti
 }
 
 /// The places of a scan whose reactions break at `breaks`.
-pub(crate) fn places(track: &Track, noise: &Noise, breaks: &[Break]) -> Vec<Node> {
+pub(crate) fn places<I: Inverse>(rod: &I, track: &Track, noise: &Noise, breaks: &[Break]) -> Vec<Node> {
     let mut nodes = Vec::new();
     for (part, before) in parts(track.tau.len(), breaks) {
         let mut between = before;
         let mut index = part.start;
         // a part with too few samples for a fit has no node, and takes the label of its neighbours
-        while let Some(node) = Node::about(track, index, part.clone(), noise, WIDEST) {
+        while let Some(node) = Node::about(rod, track, index, part.clone(), noise, WIDEST) {
             let stride = (node.fit.window.len() / PLACES).max(1);
             nodes.push(node.placed(stride, between.take()));
             if index + 1 >= part.end {
@@ -104,14 +112,20 @@ pub(crate) fn likelihood(nodes: &[Node]) -> f64 {
 }
 
 /// The phases of a scan with these places.
-pub(crate) fn identify(track: &Track, noise: &Noise, nodes: Vec<Node>) -> Identified {
+pub(crate) fn identify<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: Vec<Node>) -> Identified {
     let labels = labels(&nodes);
-    let runs = runs(track, noise, &nodes, &labels);
+    let runs = runs(rod, track, noise, &nodes, &labels);
     Identified { nodes, runs, labels }
 }
 
 /// Runs of one label. They end at breaks, or, between A and B, at the border that fits the samples best.
-fn runs(track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -> Vec<(Range<usize>, Label)> {
+fn runs<I: Inverse>(
+    rod: &I,
+    track: &Track,
+    noise: &Noise,
+    nodes: &[Node],
+    labels: &[(Label, f64)],
+) -> Vec<(Range<usize>, Label)> {
     let mut runs: Vec<(Range<usize>, Label)> = Vec::new();
     let mut start = 0;
     for k in 1..nodes.len() {
@@ -127,7 +141,7 @@ fn runs(track: &Track, noise: &Noise, nodes: &[Node], labels: &[(Label, f64)]) -
                 let from = nodes[k - 1].index.saturating_sub(reach).max(start);
                 let to = (nodes[k].index + reach).min(track.tau.len());
                 let stop = nodes[k..].iter().find(|node| node.place.between.is_some()).map_or(to, |node| node.index);
-                border(track, noise, from..to.min(stop), before == Label::A)
+                border(rod, track, noise, from..to.min(stop), before == Label::A)
             }
         };
         runs.push((start..border, before));

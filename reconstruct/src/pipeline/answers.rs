@@ -6,7 +6,7 @@ use super::settings::Settings;
 use super::torn::torn;
 use crate::kink::Kink;
 use crate::phase::{Break, Identified, Label, contact};
-use crate::point::Touch;
+use crate::point::{Inverse, Touch};
 use crate::scan::{Noise, Track};
 use crate::systematic::Shared;
 use crate::two_contacts::{Limits, Neighbour, Passed, Piece, Unresolved, resolve};
@@ -30,7 +30,8 @@ fn jumps(breaks: &[Break], index: usize) -> bool {
 }
 
 /// What the answers to the samples of a scan are computed from.
-pub(super) struct Answers<'a> {
+pub(super) struct Answers<'a, I> {
+    pub rod: &'a I,
     pub track: &'a Track,
     pub kinks: &'a [Kink],
     pub noise: &'a Noise,
@@ -43,14 +44,23 @@ pub(super) struct Answers<'a> {
     pub systematic: &'a [Option<Matrix2<f64>>],
 }
 
-impl Answers<'_> {
+impl<I: Inverse> Answers<'_, I> {
     /// The answers to all usable samples.
     pub fn all(&self, breaks: &[Break]) -> Vec<Reading> {
         let mut readings = Vec::with_capacity(self.track.len());
         let runs = &self.identified.runs;
         let mut next = 0;
         while next < runs.len() {
-            if runs[next].1.several() {
+            if runs[next].1.several() && !I::UNIFORM {
+                let (range, label) = runs[next].clone();
+                let mut nodes = Nearest::new(self.identified, label, range.start);
+                let reason = Reason::Several(Unresolved::NotUniform);
+                readings.extend(range.map(|index| Reading {
+                    second: Some(Err(reason)),
+                    ..self.reading(&mut nodes, index, label, Err(reason))
+                }));
+                next += 1;
+            } else if runs[next].1.several() {
                 let many = runs[next..].iter().take_while(|run| run.1.several()).count();
                 self.several(next..next + many, breaks, &mut readings);
                 next += many;
@@ -85,7 +95,7 @@ impl Answers<'_> {
             return self.reading(nodes, index, label, Err(Reason::Free));
         }
         let fit = &node.fit;
-        let touch = contact(&self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
+        let touch = contact(self.rod, &self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
         let systematic = match self.systematic.get(place) {
             Some(None) => return self.reading(nodes, index, label, Err(Reason::Unshared)),
             Some(Some(found)) => *found,

@@ -3,10 +3,11 @@
 use super::settings::{ReconstructError, Settings, positive, possible};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Node, places};
+use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
 use crate::systematic::{Budget, Calibration, Errors, Shared, calibrate};
-use rod_core::{Rod, Sample, Units};
+use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
 const COARSE: f64 = 0.02;
@@ -32,9 +33,34 @@ pub(super) struct Calibrated {
 impl Calibrated {
     /// From the samples of one path of the clamp.
     pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
+        let mut scan = Self::measured(&Uniform, rod, samples, settings)?;
+        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
+        possible(&budget, &settings.known)?;
+        let Self { track, noise, breaks, nodes, units, calibration, .. } = &mut scan;
+        if let Some((correction, shared, told)) = calibrate(rod, track, noise, breaks, nodes, &budget, &settings.known)
+        {
+            if let Some(correction) = correction {
+                *track = correction.track(track);
+                *nodes = places(&Uniform, track, noise, breaks);
+                *units = told.rod(rod).units();
+            }
+            shared.doubt(nodes);
+            shared.judge(&Errors::zeros(), track, nodes);
+            *calibration = Some((shared, told));
+        }
+        Ok(scan)
+    }
+
+    /// The samples as they are; `units` is a rod of the same units as `rod`.
+    pub fn measured<I: Inverse>(
+        rod: &I,
+        units: &Rod,
+        samples: &[Sample],
+        settings: &Settings,
+    ) -> Result<Self, ReconstructError> {
         positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
-        let mut units = rod.units();
-        let (mut track, numbered) = Track::new(rod, samples);
+        let (track, numbered) = Track::new(units, samples);
+        let units = units.units();
         if track.len() < FEWEST_SAMPLES {
             return Err(ReconstructError::TooFew {
                 usable: track.len(),
@@ -57,23 +83,12 @@ impl Calibrated {
             .iter()
             .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
             .collect();
-        let mut nodes = places(&track, &noise, &breaks);
-        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
-        possible(&budget, &settings.known)?;
-        let mut calibration = None;
-        if let Some((correction, shared, told)) =
-            calibrate(rod, &track, &noise, &breaks, &nodes, &budget, &settings.known)
-        {
-            if let Some(correction) = correction {
-                track = correction.track(&track);
-                nodes = places(&track, &noise, &breaks);
-                units = told.rod(rod).units();
-            }
-            shared.doubt(&mut nodes);
-            shared.judge(&Errors::zeros(), &track, &mut nodes);
-            calibration = Some((shared, told));
+        let nodes = places(rod, &track, &noise, &breaks);
+        // numbers so large that their squares overflow leave none
+        if nodes.is_empty() {
+            return Err(ReconstructError::TooFew { usable: 0, samples: samples.len(), fewest: FEWEST_SAMPLES });
         }
-        Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration })
+        Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration: None })
     }
 }
 

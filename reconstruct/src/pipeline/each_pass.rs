@@ -19,17 +19,26 @@ pub fn reconstruct_passes(
     samples: &[Sample],
     settings: &Settings,
 ) -> Result<Reconstruction, ReconstructError> {
-    let ranges = passes(rod, samples);
+    each_pass(rod, samples, |pass| reconstruct(rod, pass, settings))
+}
+
+/// The reconstructions of all passes, joined; `units` is a rod of the same units.
+pub(super) fn each_pass(
+    units: &Rod,
+    samples: &[Sample],
+    reconstruct: impl Fn(&[Sample]) -> Result<Reconstruction, ReconstructError>,
+) -> Result<Reconstruction, ReconstructError> {
+    let ranges = passes(units, samples);
     if ranges.len() < 2 {
-        return reconstruct(rod, samples, settings);
+        return reconstruct(samples);
     }
-    let each = |pass: &Range<usize>| reconstruct(rod, samples.get(pass.clone()).unwrap_or_default(), settings);
+    let each = |pass: &Range<usize>| reconstruct(samples.get(pass.clone()).unwrap_or_default());
     let found: Vec<_> = ranges.iter().map(each).collect();
     let longest = (0..found.len()).max_by_key(|k| (found[*k].is_ok(), ranges[*k].len()));
     let (noise, steps) = match longest.map(|k| &found[k]) {
         Some(Ok(result)) => (result.noise, result.steps),
         Some(Err(error)) => return Err(error.clone()),
-        None => return reconstruct(rod, samples, settings),
+        None => return reconstruct(samples),
     };
     let mut whole = Reconstruction {
         readings: Vec::with_capacity(samples.len()),

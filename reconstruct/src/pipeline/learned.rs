@@ -6,7 +6,7 @@ use crate::point::{Clamp, Touch};
 use crate::scan::Noise;
 use crate::systematic::{Correction, Errors, Shared, of_point};
 use nalgebra::{Matrix2, Matrix3};
-use rod_core::Units;
+use rod_core::{Uniform, Units};
 
 /// Places that the same errors count as one for, about. Smaller: labels are too sure of themselves. Larger: they are less sure than they
 /// might be. Chosen by `tests/live_labels.rs` with other seeds.
@@ -56,7 +56,7 @@ impl Learned {
             (measured.clamp, measured.covariance())
         };
         let here = self.correction.apply(tau, &clamp, &measured.rate);
-        let touch = constrained(&here.0, &covariance, label)?;
+        let touch = constrained(&Uniform, &here.0, &covariance, label)?;
         let systematic = match self.point {
             Some((index, of, found)) if index == node.index && of == label => found,
             _ => {

@@ -7,7 +7,7 @@ use super::settings::{ReconstructError, positive};
 use crate::kink::{Kink, KinkFilter, KinkKind, KinkOptions};
 use crate::phase::{Break, Label, Node, Trellis, contact, forward, greatest, passed};
 use crate::scan::{Fault, Intake, Noise, Track, dimensionless};
-use rod_core::{Rod, Sample, Units};
+use rod_core::{Rod, Sample, Uniform, Units};
 use std::collections::VecDeque;
 
 /// Places per half-window.
@@ -246,7 +246,7 @@ impl Live {
             self.open.back().or_else(|| self.decided.back().map(|place| &place.node)).map_or(0, |node| node.index + 1);
         let between = self.breaks.range(..earlier).filter(|here| here.index >= since);
         let between = between.copied().max_by(|u, v| u.score.total_cmp(&v.score));
-        if let Some(node) = Node::about(&self.track, index - self.dropped, part, &self.noise, half) {
+        if let Some(node) = Node::about(&Uniform, &self.track, index - self.dropped, part, &self.noise, half) {
             let mut node = Node { index, ..node.placed(stride, between) };
             if let Some(learned) = &self.learned {
                 learned.judge(self.track.tau[index - self.dropped], &mut node);
@@ -311,7 +311,7 @@ impl Live {
         let touch = match (label, &mut self.learned) {
             (Label::Free, _) => Err(Reason::Free),
             (Label::BA | Label::BB, _) => Err(Reason::Live),
-            (Label::A | Label::B, None) => contact(clamp, tau, &node.fit, &self.noise, *label)
+            (Label::A | Label::B, None) => contact(&Uniform, clamp, tau, &node.fit, &self.noise, *label)
                 .map_err(Reason::NoContact)
                 .and_then(|touch| sure(touch, self.units, self.largest_sigma, false)),
             (Label::A | Label::B, Some(learned)) => learned

@@ -9,6 +9,7 @@ mod calibrated;
 mod doubts;
 mod each_pass;
 mod explanation;
+mod general;
 mod history;
 mod learned;
 mod live;
@@ -23,6 +24,7 @@ mod torn;
 
 pub use each_pass::reconstruct_passes;
 pub use explanation::{Explanation, explanations};
+pub use general::reconstruct_general;
 pub use live::Live;
 pub use live_settings::LiveSettings;
 pub use reading::{Reading, Reason};

@@ -7,9 +7,9 @@ use super::reconstruction::{Pass, Reconstruction};
 use super::settings::{ReconstructError, Settings};
 use crate::kink::{Kink, KinkKind};
 use crate::phase::{Label, identify};
-use crate::scan::FEWEST_SAMPLES;
+use crate::point::Inverse;
 use crate::scan::noise_estimate::ChannelNoise;
-use rod_core::{Rod, Sample};
+use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Computes from the reactions of a scan the phase of each sample and the places where the rod touched the object.
 ///
@@ -27,17 +27,24 @@ use rod_core::{Rod, Sample};
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    let Calibrated { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration } =
-        Calibrated::of(rod, samples, settings)?;
-    // numbers so large that their squares overflow leave none
-    if nodes.is_empty() {
-        return Err(ReconstructError::TooFew { usable: 0, samples: samples.len(), fewest: FEWEST_SAMPLES });
-    }
-    let identified = identify(&track, &noise, nodes);
+    Ok(answered(&Uniform, rod.units(), samples, Calibrated::of(rod, samples, settings)?, settings))
+}
+
+/// The labels and contact points of a scan; `given` are the units of the rod as it was given.
+pub(super) fn answered<I: Inverse>(
+    rod: &I,
+    given: Units,
+    samples: &[Sample],
+    scan: Calibrated,
+    settings: &Settings,
+) -> Reconstruction {
+    let Calibrated { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration } = scan;
+    let identified = identify(rod, &track, &noise, nodes);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
     let systematic =
         shared.map_or_else(Vec::new, |shared| shared.points(&track, &noise, &identified.nodes, &identified.labels));
     let answers = Answers {
+        rod,
         track: &track,
         kinks: &kinks,
         noise: &noise,
@@ -68,7 +75,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
     }
     let runs =
         identified.runs.iter().filter(|run| !run.0.is_empty()).map(|run| (numbers[run.0.start], run.1)).collect();
-    let size = [rod.units().force, rod.units().force, rod.units().moment];
+    let size = [given.force, given.force, given.moment];
     let slope = |kink: &Kink, c: usize| if kink.kind == KinkKind::Kink { size[c] / units.length } else { size[c] };
     let in_units = |kink: &Kink| Kink {
         tau: kink.tau * units.length,
@@ -79,7 +86,7 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         ..*kink
     };
     let clean = noise.is_clean();
-    Ok(Reconstruction {
+    Reconstruction {
         readings,
         runs,
         kinks: kinks.iter().map(in_units).collect(),
@@ -88,5 +95,5 @@ pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
         steps: std::array::from_fn(|c| steps[c].map(|step| step * size[c])),
         passes: vec![Pass { samples: 0..samples.len(), calibration: calibration.map(|calibration| calibration.1) }],
-    })
+    }
 }

@@ -64,6 +64,12 @@ pub enum ReconstructError {
         /// The number that is wrong.
         value: f64,
     },
+    /// Errors that all samples share are to be taken off a scan of a rod of which they are not known.
+    #[error(
+        "the errors that all samples share are estimated for uniform rods alone, expected `known` empty and the budget none, or \
+         `Budget::NONE`"
+    )]
+    NotUniform,
     /// A setting that is not possible.
     #[error("{what} is {value}, expected a positive, finite number")]
     Setting {

@@ -1,9 +1,14 @@
 //! One contact from one sample: [`single`] in closed form, [`one_sample`] for any rod on any clamp and with the kind of contact,
 //! [`single_general`] through any integrator.
 //!
-//! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; [`Touch`] is a contact point.
+//! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; `Inverse` is what a whole scan needs of a
+//! rod, in closed form or step by step; [`Touch`] is a contact point.
 
+#[cfg(feature = "std")]
+mod bent;
 mod clamp;
+#[cfg(feature = "std")]
+mod inverse;
 mod moment_zero;
 mod no_contact;
 #[cfg(feature = "std")]
@@ -15,6 +20,8 @@ mod touch;
 
 #[cfg(feature = "std")]
 pub(crate) use clamp::Clamp;
+#[cfg(feature = "std")]
+pub(crate) use inverse::{Any, Inverse};
 #[cfg(feature = "std")]
 pub(crate) use moment_zero::MomentZero;
 pub use no_contact::NoContact;

@@ -108,13 +108,6 @@ impl<T: Number> MomentZero<T> {
         Self::at(clamp, self.s + later * spacing, derived)
     }
 
-    /// The zero at which the tip would be, were it the only contact.
-    #[cfg(feature = "std")]
-    pub fn of_tip(clamp: &Clamp<T>) -> Result<Self, NoContact<T>> {
-        let first = Self::of(clamp, &Matrix3::zeros())?;
-        Ok(first.by_tip(clamp).unwrap_or(first))
-    }
-
     /// The zero at arc length `s`, or, for a rod with natural curvature, the point near it where the curvature is that; none where the
     /// curvature is stationary.
     fn at(clamp: &Clamp<T>, mut s: T, derived: bool) -> Option<Self> {

@@ -1,18 +1,14 @@
 //! What one sample tells of the contacts of any rod, on any clamp: tapered, of sections, bent at rest, on springs.
 
+use super::bent::Bent;
 use super::moment_zero::is_free;
 use super::no_contact::NoContact;
 use super::single::dimensionless;
 use super::touch::Touch;
 use crate::numeric::propagated;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
-use rod_core::{Clamp, Cut, PhysicalRod, Pose, Reactions, RodModel, find_root};
+use rod_core::{PhysicalRod, Pose, Reactions, RodModel};
 
-/// Length of the steps (rod lengths) in which the moment is followed. Two zeros within one step may be missed; the work grows
-/// with its inverse.
-const STEP: f64 = 1.0 / 64.0;
-/// Steps beyond the tip in which a zero of the moment is looked for: noise puts that of a contact at the tip there.
-const BEYOND: usize = 6;
 /// Standard deviations within which a difference counts as noise.
 const SIGMAS: f64 = 4.0;
 /// What exact reactions are off by, relative to 1 + |reactions|: what solver and rounding leave.
@@ -94,16 +90,10 @@ pub fn one_sample<R: PhysicalRod>(
     if is_free(&clamp, &covariance) {
         return Ok(OneSample::Free);
     }
-    let [x, y, phi] = [clamp.pose.x, clamp.pose.y, clamp.pose.z];
-    let felt = Reactions { f0x: clamp.reactions.x, f0y: clamp.reactions.y, m0z: clamp.reactions.z };
-    let held = rod.clamp(Pose { x, y, phi });
-    let compliance = held.law().map_or([[0.0; 3]; 3], |law| law.compliance);
-    let Pose { x, y, phi } = held.base(&felt);
-    let bent =
-        Bent { model: rod.model(), base: Cut { x, y, phi, moment: -felt.m0z }, a: felt.f0y, b: -felt.f0x, compliance };
+    let bent = Bent::new(rod, &clamp);
     let rounding = (EXACT * (1.0 + clamp.reactions.norm())).powi(2);
     let exact = covariance + Matrix3::from_diagonal_element(rounding);
-    let zeros = bent.zeros();
+    let zeros: Vec<f64> = bent.zeros().collect();
     let places: Vec<Place> = zeros.iter().map(|zero| bent.place(*zero, &exact)).collect();
     let touch = |s: f64| bent.touch(s, true, &covariance).in_units(units);
     if let Some(tip) = places.iter().find(|place| place.is_at_tip() && place.presses()) {
@@ -116,15 +106,6 @@ pub fn one_sample<R: PhysicalRod>(
     let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
     let tangent = places.iter().find(|place| place.s < 1.0 && place.is_tangential());
     Ok(tangent.map_or_else(|| OneSample::Several(touch(first)), |place| OneSample::Tangent(touch(place.s))))
-}
-
-/// The rod as its reactions bend it, as if nothing touched it before.
-struct Bent<'a, M> {
-    model: &'a M,
-    base: Cut,
-    a: f64,
-    b: f64,
-    compliance: [[f64; 3]; 3],
 }
 
 /// A zero of the moment.
@@ -149,49 +130,8 @@ impl Place {
 }
 
 impl<M: RodModel> Bent<'_, M> {
-    /// The zeros of the moment from the clamp on, a little beyond the tip too.
-    fn zeros(&self) -> Vec<f64> {
-        let mut zeros = Vec::new();
-        let mut start = self.base;
-        for k in 0..(1.0 / STEP) as usize + BEYOND {
-            let s = k as f64 * STEP;
-            let along = |length: f64| self.model.carry(s, &start, self.a, self.b, length);
-            let end = along(STEP);
-            if start.moment == 0.0 {
-                zeros.push(s);
-            } else if start.moment * end.moment < 0.0
-                && let Ok(root) = find_root("moment", |length| Ok(along(length).moment), 0.0, STEP, 0.0)
-            {
-                zeros.push(s + root.at);
-            }
-            start = end;
-        }
-        zeros
-    }
-
-    /// (x, y, phi, moment) at an arc length, and its derivatives by the reactions, of which the base of a rod on springs depends too.
-    fn by_reactions(&self, s: f64) -> (Cut, [[f64; 4]; 3]) {
-        let (end, d) = self.model.carry_with_sensitivities(0.0, &self.base, self.a, self.b, s);
-        let direct = [d.by_b.map(|v| -v), d.by_a, d.by_moment.map(|v| -v)];
-        let columns = [0, 1, 2].map(|c| {
-            let [x, y, phi] = self.compliance.map(|row| -row[c]);
-            let shift = [x, y, 0.0, 0.0];
-            [0, 1, 2, 3].map(|i| direct[c][i] + shift[i] + phi * d.by_phi[i])
-        });
-        (end, columns)
-    }
-
-    fn alpha(&self) -> f64 {
-        self.b.atan2(self.a)
-    }
-
-    /// How the moment changes along the rod.
-    fn moment_rate(&self, at: &Cut) -> f64 {
-        self.a * at.phi.cos() + self.b * at.phi.sin()
-    }
-
     fn place(&self, s: f64, covariance: &Matrix3<f64>) -> Place {
-        let (at, columns) = self.by_reactions(s);
+        let (at, columns, _) = self.by_reactions(s);
         let (rate, force) = (self.moment_rate(&at), self.a.hypot(self.b));
         // the zero slides along the rod so that the moment there stays 0
         let by_s = Vector3::from(columns.map(|column| -column[3] / rate));
@@ -205,14 +145,14 @@ impl<M: RodModel> Bent<'_, M> {
 
     /// Whether the moment at an arc length is within its noise.
     fn is_free_of_moment(&self, s: f64, covariance: &Matrix3<f64>) -> bool {
-        let (at, columns) = self.by_reactions(s);
+        let (at, columns, _) = self.by_reactions(s);
         let by_reactions = Vector3::from(columns.map(|column| column[3]));
         at.moment.abs() <= SIGMAS * propagated(&by_reactions.transpose(), covariance).x.sqrt()
     }
 
     /// The contact there, dimensionless; it `slides` along the rod with the reactions so that the moment there stays 0.
     fn touch(&self, s: f64, slides: bool, covariance: &Matrix3<f64>) -> Touch {
-        let (at, columns) = self.by_reactions(s);
+        let (at, columns, _) = self.by_reactions(s);
         let (rate, (sin, cos)) = (self.moment_rate(&at), at.phi.sin_cos());
         let columns = columns.map(|[x, y, _, moment]| {
             let slide = if slides { -moment / rate } else { 0.0 };

@@ -7,7 +7,7 @@ use crate::phase::{Label, constrained};
 use crate::point::Clamp;
 use crate::scan::{Estimate, Track};
 use nalgebra::{Matrix3, Vector3};
-use rod_core::{Rod, Sample};
+use rod_core::{Rod, Sample, Uniform};
 
 /// Displacement across the contour of a single contact point by errors that all samples share, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub fn influences(
         let rate = Clamp { pose: motion(&track, index), reactions: Vector3::zeros(), natural: 0.0 };
         let place = Estimate::exact(clamp, rate);
         let (by, _) = point_by_errors(frame, track.tau[index], &place, &noise, label)?;
-        let alpha = constrained(&clamp, &noise, label).ok()?.alpha;
+        let alpha = constrained(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];
         let by = std::array::from_fn(|k| across(k) * units.length / Source::ALL[k].unit(rod));
         by.iter().all(|v| v.is_finite()).then_some((number, Influence { by }))

@@ -7,6 +7,7 @@ use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
 use crate::scan::Estimate;
 use nalgebra::{DMatrix, DVector, SVector};
+use rod_core::Uniform;
 
 /// Gauss-Newton steps; each weighs the residuals anew.
 const STEPS: usize = 8;
@@ -77,7 +78,7 @@ fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]
         let is_free = place.label == Label::Free;
         let (correction, errors) = if is_free { (&all.1, &without_load) } else { (&all.0, errors) };
         let here = correction.apply(place.tau, &place.measured.clamp, &place.measured.rate);
-        let evidence = Evidence::of(&place.measured.moved(here.0, here.1));
+        let evidence = Evidence::of(&Uniform, &place.measured.moved(here.0, here.1));
         let quantities = evidence.quantities();
         let Some(by) = of_inputs_by_errors(frame, errors, place.tau, &place.measured) else { continue };
         let by = of_criteria(&here, &by);

@@ -12,7 +12,7 @@ use super::turns::{Found, RAISED, Turns, raise};
 use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node};
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SymmetricEigen, Vector3};
-use rod_core::Rod;
+use rod_core::{Rod, Uniform};
 use std::ops::Range;
 
 /// Most places that the errors are estimated from, besides those next to kinks. More: more time.
@@ -67,7 +67,7 @@ impl Shared {
     ) -> Evidence {
         let measured = node.fit.at(tau);
         let here = correction.apply(tau, &measured.clamp, &measured.rate);
-        let mut evidence = Evidence::of(&measured.moved(here.0, here.1));
+        let mut evidence = Evidence::of(&Uniform, &measured.moved(here.0, here.1));
         if shared.is_none() {
             let by = of_inputs_by_errors(self.frame, errors, tau, &measured);
             *shared = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));

@@ -6,6 +6,7 @@ use crate::phase::{CRITERIA, Evidence, Label, constrained};
 use crate::point::Clamp;
 use crate::scan::Estimate;
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
+use rod_core::Uniform;
 
 /// Pose, reactions, natural curvature, and rates of pose and reactions.
 const INPUTS: usize = 13;
@@ -66,7 +67,7 @@ pub(super) fn of_criteria(
             let mut x = here;
             x[k] += step;
             let (clamp, rate) = of_inputs(&x);
-            SVector::<f64, CRITERIA>::from(Evidence::of(&Estimate::exact(clamp, rate)).values())
+            SVector::<f64, CRITERIA>::from(Evidence::of(&Uniform, &Estimate::exact(clamp, rate)).values())
         };
         let column = (at(STEP) - at(-STEP)) / (2.0 * STEP);
         by_inputs.set_column(k, &column.map(|v| if v.is_finite() { v } else { 0.0 }));
@@ -113,14 +114,14 @@ pub(super) fn point_by_errors(
         let at = |step: f64| {
             let mut x = here;
             x[k] += step;
-            let touch = constrained(&of_inputs(&x).0, noise, label).ok()?;
+            let touch = constrained(&Uniform, &of_inputs(&x).0, noise, label).ok()?;
             Some(SVector::<f64, 2>::new(touch.x, touch.y))
         };
         by_inputs.set_column(k, &((at(STEP)? - at(-STEP)?) / (2.0 * STEP)));
     }
     let mut by = by_inputs * by_errors.fixed_rows::<OF_POINT>(0);
     // a longer rod reaches farther
-    let touch = constrained(&of_inputs(&here).0, noise, label).ok()?;
+    let touch = constrained(&Uniform, &of_inputs(&here).0, noise, label).ok()?;
     by[(0, Source::Length as usize)] += touch.x - here[0];
     by[(1, Source::Length as usize)] += touch.y - here[1];
     Some((by, by_inputs.fixed_columns::<3>(3).into_owned()))

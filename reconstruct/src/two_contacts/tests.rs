@@ -197,6 +197,7 @@ impl Errors {
                         Unresolved::NoAnchor => "no anchor",
                         Unresolved::TooNoisy { .. } => "too noisy",
                         Unresolved::Torn => "torn",
+                        Unresolved::NotUniform => "not uniform",
                         Unresolved::Inconsistent => "inconsistent",
                     };
                     *self.given_up.entry(why).or_default() += 1;

@@ -1,0 +1,56 @@
+//! The reconstruction of a scan of any rod on any clamp.
+
+use super::calibrated::Calibrated;
+use super::each_pass::each_pass;
+use super::reconstruct::answered;
+use super::reconstruction::Reconstruction;
+use super::settings::{ReconstructError, Settings};
+use crate::point::Any;
+use crate::systematic::Budget;
+use rod_core::{PhysicalRod, Rod, Sample};
+
+/// [`reconstruct_passes`](crate::reconstruct_passes) for any rod on any clamp: tapered, of sections, bent at rest, on springs. The poses
+/// are those of the support. A uniform rod that is straight at rest has more answers there.
+///
+/// Kinks, rates and the phase diagram are as for the uniform rod. Of the criteria the arc length and the tangent are, too; the angle
+/// between rod and contour where the moment vanishes takes the place of K ([`one_sample`](crate::one_sample)). Neither of them tells BA
+/// from BB: which of the two it is follows from the phases before and after.
+///
+/// What is not given: contact points of BA and BB ([`Unresolved::NotUniform`](crate::Unresolved::NotUniform)), and errors that all samples
+/// share, such as a bias. Nothing is taken off, and no covariance contains them: subtract the bias of the free rod beforehand. Where they
+/// exceed the noise, criteria contradict labels, such points are not given, and
+/// [`findings`](crate::Reconstruction::findings) tell of it.
+///
+/// Accuracy: on noise-free samples single contact points are exact to 1e-9 of the rod's length. In noise, each has its covariance.
+///
+/// ```no_run
+/// use rod_core::{Rod, Sample};
+/// use rod_reconstruct::{Settings, reconstruct_general};
+/// # let samples: Vec<Sample> = Vec::new();
+/// let whisker = Rod::tapered(0.04, 1e-4, 2e-5, 3e9)?.with_natural_curvature(10.0)?;
+/// let found = reconstruct_general(&whisker, &samples, &Settings::default())?;
+/// let points = found.readings.iter().filter_map(|reading| reading.touch.ok());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ReconstructError`]; [`ReconstructError::NotUniform`] where settings tell of errors that all samples share.
+pub fn reconstruct_general<R: PhysicalRod>(
+    rod: &R,
+    samples: &[Sample],
+    settings: &Settings,
+) -> Result<Reconstruction, ReconstructError> {
+    if !settings.known.is_nothing() || settings.budget.is_some_and(|budget| budget != Budget::NONE) {
+        return Err(ReconstructError::NotUniform);
+    }
+    let units = rod.units();
+    let stiffness = units.force * units.length * units.length;
+    let what = "stiffness of the rod at its clamp";
+    let uniform =
+        Rod::new(units.length, stiffness).map_err(|_| ReconstructError::Setting { what, value: stiffness })?;
+    let inverse = Any(rod);
+    each_pass(&uniform, samples, |pass| {
+        let scan = Calibrated::measured(&inverse, &uniform, pass, settings)?;
+        Ok(answered(&inverse, units, pass, scan, settings))
+    })
+}

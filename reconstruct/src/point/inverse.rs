@@ -1,0 +1,175 @@
+//! What the inversion of a scan has to know of a rod.
+
+use super::bent::Bent;
+use super::clamp::{Clamp, Gradient};
+use super::moment_zero::MomentZero;
+use super::no_contact::NoContact;
+use nalgebra::{Matrix3, Matrix4x3, Vector3, Vector4};
+use rod_core::{PhysicalRod, RodModel, Section, Uniform};
+
+/// Where the moment of a rod vanishes, and the criterion of a tangential contact, dimensionless and with exact derivatives. Which rod it
+/// is, is a type, so that the uniform one keeps its closed forms.
+pub(crate) trait Inverse {
+    /// Whether the criterion of one tangential contact holds for two as well, and these can be resolved: on a uniform rod, straight at
+    /// rest or bent to an arc.
+    const UNIFORM: bool;
+
+    /// The zero of the moment that is next to the clamp.
+    fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact>;
+
+    /// The zero that is nearest to the tip, if that is a later one than `first`.
+    fn by_tip(&self, first: &MomentZero, clamp: &Clamp) -> Option<MomentZero>;
+
+    /// The derivatives of (x, y, phi, moment) at an arc length.
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient;
+
+    /// -2 |F| sin rho with the angle rho from contour to rod at the first zero of the moment: 0 where that is a tangential contact,
+    /// negative where it is one of the tip. Of the uniform rod it is the phase criterion K (Merker et al. 2020, eq. 20), wherever the zero
+    /// is. With its derivatives by the reactions; none where the moment vanishes nowhere.
+    fn criterion(&self, clamp: &Clamp, first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)>;
+
+    /// The zero at which the tip would be, were it the only contact.
+    fn of_tip(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
+        let first = self.first(clamp)?;
+        Ok(self.by_tip(&first, clamp).unwrap_or(first))
+    }
+}
+
+/// The uniform rod in closed form. Its natural curvature is that of the clamp it is asked with.
+impl Inverse for Uniform {
+    const UNIFORM: bool = true;
+
+    fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
+        MomentZero::of(clamp, &Matrix3::zeros())
+    }
+
+    fn by_tip(&self, first: &MomentZero, clamp: &Clamp) -> Option<MomentZero> {
+        first.by_tip(clamp)
+    }
+
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient {
+        clamp.gradient_at(s).1
+    }
+
+    fn criterion(&self, clamp: &Clamp, _first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)> {
+        Some(clamp.criterion())
+    }
+}
+
+/// Any rod on any clamp, followed step by step. The poses are those of the support.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Any<'a, R>(pub &'a R);
+
+impl<R: PhysicalRod> Inverse for Any<'_, R> {
+    const UNIFORM: bool = false;
+
+    fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
+        if clamp.reactions == Vector3::zeros() {
+            return Err(NoContact::Free);
+        }
+        let bent = Bent::new(self.0, clamp);
+        bent.zeros().next().and_then(|s| zero(&bent, s)).ok_or(NoContact::NoMomentZero)
+    }
+
+    fn by_tip(&self, first: &MomentZero, clamp: &Clamp) -> Option<MomentZero> {
+        let bent = Bent::new(self.0, clamp);
+        let from_tip = |s: &f64| (s - 1.0).abs();
+        let nearest = bent.zeros().min_by(|u, v| from_tip(u).total_cmp(&from_tip(v)))?;
+        (from_tip(&nearest) < from_tip(&first.s)).then(|| zero(&bent, nearest)).flatten()
+    }
+
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient {
+        let bent = Bent::new(self.0, clamp);
+        let (at, columns, by_phi0) = bent.by_reactions(s);
+        let (sin, cos) = at.phi.sin_cos();
+        Gradient {
+            by_reactions: Matrix4x3::from_columns(&columns.map(Vector4::from)),
+            by_phi0: by_phi0.into(),
+            by_s: Vector4::new(cos, sin, bent.model.curvature_at(s, at.moment), bent.moment_rate(&at)),
+        }
+    }
+
+    fn criterion(&self, clamp: &Clamp, first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)> {
+        let found = first?;
+        let ([a, b], (sin, cos)) = (clamp.force(), found.section.phi.sin_cos());
+        // B = -f0x and A = f0y change it, and so does the slope angle there
+        let by_force = Vector3::new(-2.0 * cos, -2.0 * sin, 0.0);
+        let turns = found.by_reactions.row(2).transpose() * (-2.0 * (b * sin + a * cos));
+        Some((2.0 * (b * cos - a * sin), by_force + turns))
+    }
+}
+
+/// The zero of the moment at an arc length; none where the moment is stationary.
+fn zero<M: RodModel>(bent: &Bent<'_, M>, s: f64) -> Option<MomentZero> {
+    let (at, columns, _) = bent.by_reactions(s);
+    let (rate, kappa) = (bent.moment_rate(&at), bent.model.curvature_at(s, at.moment));
+    if rate == 0.0 || !at.x.is_finite() {
+        return None;
+    }
+    let (sin, cos) = at.phi.sin_cos();
+    let s_by_reactions = Vector3::from(columns.map(|column| -column[3] / rate));
+    let at_s = Matrix3::from_columns(&columns.map(|[x, y, phi, _]| Vector3::new(x, y, phi)));
+    Some(MomentZero {
+        s,
+        section: Section { x: at.x, y: at.y, phi: at.phi, kappa },
+        force: bent.a.hypot(bent.b),
+        alpha: bent.alpha(),
+        s_by_reactions,
+        by_reactions: at_s + Vector3::new(cos, sin, kappa) * s_by_reactions.transpose(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_core::{ElasticClamp, Elastica, GeneralElastica, Load, Mounted, Pose, Rod, Units};
+
+    /// The rod of the closed forms, followed step by step, gives the same; and all derivatives are those of differences.
+    #[test]
+    fn the_step_by_step_inverse_agrees_with_the_closed_forms_and_with_differences() {
+        let rod = Rod::new(1.0, 1.0).unwrap();
+        let at = Pose { x: 0.1, y: -0.4, phi: 1.5 };
+        let soft = Mounted::new(
+            Rod::tapered(1.0, 0.01, 0.008, 1.0).unwrap(),
+            ElasticClamp::springs(Some(4e-7), None, Some(4e-8)).unwrap(),
+        );
+        for load in [Load { s: 1.0, force: 2.0, alpha: 1.0 }, Load { s: 0.8, force: 3.0, alpha: 1.2 }] {
+            let bent = Elastica::under_loads(rod.units(), at, &[load]).unwrap().0;
+            let clamp = Clamp::new(rod.units(), at, bent.reactions());
+            let [closed, found] = [Uniform.first(&clamp).unwrap(), Any(&rod).first(&clamp).unwrap()];
+            assert!((closed.s - load.s).abs() < 1e-13 && (found.s - closed.s).abs() < 1e-13);
+            assert!((found.by_reactions - closed.by_reactions).norm() < 1e-11);
+            assert!((found.s_by_reactions - closed.s_by_reactions).norm() < 1e-11);
+            let (by_steps, closed_form) = (Any(&rod).gradient_at(&clamp, 0.7), Uniform.gradient_at(&clamp, 0.7));
+            assert!((by_steps.by_reactions - closed_form.by_reactions).norm() < 1e-12);
+            assert!((by_steps.by_phi0 - closed_form.by_phi0).norm() < 1e-12);
+            let k = Any(&rod).criterion(&clamp, Some(&found)).unwrap();
+            let closed_form = Uniform.criterion(&clamp, None).unwrap();
+            assert!((k.0 - closed_form.0).abs() < 1e-12);
+            // the uniform rod's criterion does not depend on where the zero is: the derivatives are the same too
+            assert!((k.1 - closed_form.1).norm() < 1e-11, "{} {}", k.1, closed_form.1);
+            // of a soft cone by differences, under a load of its own
+            let (shape, _) = GeneralElastica::under_loads(soft.rod(), Units::ONE, at, &[load]).unwrap();
+            let clamp = Clamp::new(Units::ONE, at, shape.reactions());
+            let of = |clamp: &Clamp| {
+                let first = Any(&soft).first(clamp).unwrap();
+                let k = Any(&soft).criterion(clamp, Some(&first)).unwrap().0;
+                Vector4::new(first.s, first.section.x, first.section.phi, k)
+            };
+            let first = Any(&soft).first(&clamp).unwrap();
+            let k = Any(&soft).criterion(&clamp, Some(&first)).unwrap().1;
+            for c in 0..3 {
+                let by = |h: f64| {
+                    let mut moved = clamp;
+                    moved.reactions[c] += h;
+                    of(&moved)
+                };
+                let h = 1e-5;
+                let difference = (by(h) - by(-h)) / (2.0 * h);
+                let exact =
+                    Vector4::new(first.s_by_reactions[c], first.by_reactions[(0, c)], first.by_reactions[(2, c)], k[c]);
+                assert!((difference - exact).norm() < 1e-7 * (1.0 + exact.norm()), "{c}: {difference} {exact}");
+            }
+        }
+    }
+}
