@@ -1,6 +1,7 @@
 //! The table `[rod]` as a rod.
 
 use super::document::{ClampTable, RodTable, SectionTable};
+use super::given_rod::GivenRod;
 use super::kind::AnyRod;
 use crate::toml_file::Fault;
 use std::ops::Range;
@@ -9,8 +10,8 @@ use vibrissa::Rod;
 use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
 
 /// What is said where another rod is given than a uniform, straight one.
-pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour`, `study` and \
-     `simulate` take, expected length with diameter and youngs_modulus, or with bending_stiffness";
+pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour`, `study`, \
+     `simulate` and `reconstruct` take, expected length with diameter and youngs_modulus, or with bending_stiffness";
 
 /// What is said where a clamp gives way.
 pub(super) const NOT_RIGID: &str = "a clamp that gives way, which only `sweep`, `contour`, `study`, `simulate` and `reconstruct` take, \
@@ -84,6 +85,17 @@ pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>
             Ok(AnyRod::Mounted(Mounted::new(straight, clamp)))
         }
         Alone::Varying(rod) => Ok(AnyRod::Mounted(Mounted::new(rod, clamp))),
+    }
+}
+
+/// The rod of a table `[rod]` on the springs of a table `[clamp]`, for recordings of it.
+pub(super) fn given(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<GivenRod, Fault> {
+    let clamp = springs(clamp)?;
+    match alone(table)? {
+        Alone::Uniform(rod) => Ok(GivenRod::Uniform(Mounted::new(rod, clamp))),
+        Alone::Varying(rod) => {
+            GivenRod::varying(Mounted::new(rod, clamp)).map_err(|error| Fault::new(table.span(), error.to_string()))
+        }
     }
 }
 
