@@ -259,12 +259,12 @@ fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: Re
     let Moved { stage, path } = moved;
     let told = match (&path, &stage) {
         (Some(scene), _) => {
-            let scene = read_scene(scene)?;
+            let scene = read_any(scene)?;
             scene.check_single_leg()?;
-            Some(scene.path)
+            Some(*scene.path())
         }
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
-        (None, Some(StageSpec::Constant(_))) => read_scene(&file).ok().map(|scene| scene.path),
+        (None, Some(StageSpec::Constant(_))) => read_any(&file).ok().map(|scene| *scene.path()),
         (None, _) => None,
     };
     let table = if let Some(StageSpec::Table(table)) = &stage { Some(table.clone()) } else { None };

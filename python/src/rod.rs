@@ -11,7 +11,7 @@ use pyo3::types::IntoPyDict;
 use toml::{Table, Value};
 use vibrissa::Rod;
 use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodSection, VaryingRod};
-use vibrissa_cli::AnyRod;
+use vibrissa_cli::{AnyRod, GivenRod};
 
 /// Something that is computed for a rod of either kind.
 macro_rules! for_rod {
@@ -236,8 +236,8 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 ///
 /// Notes
 /// -----
-/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``simulate``, ``single`` and studies take any rod. ``Recording``,
-/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest, on any clamp.
+/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``simulate``, ``single``, ``Recording``,
+/// ``reconstruct`` and studies take any rod. ``Live`` takes uniform rods that are straight at rest, on any clamp.
 ///
 /// Examples
 /// --------
@@ -333,6 +333,16 @@ impl PyRod {
                  reconstructed",
                 self.__repr__()
             ))),
+        }
+    }
+
+    /// The rod on its clamp for recordings of it.
+    pub fn given(&self) -> PyResult<GivenRod> {
+        match &self.rod {
+            AnyRod::Mounted(mounted) if self.varying()?.is_some() => {
+                GivenRod::varying(mounted.clone()).map_err(errors::value)
+            }
+            _ => Ok(self.uniform_mounted()?.into()),
         }
     }
 

@@ -5,8 +5,8 @@ use super::rod_table::{NOT_RIGID, NOT_UNIFORM};
 use crate::SceneError;
 use crate::toml_file;
 use std::path::{Path, PathBuf};
-use vibrissa::Rod;
 use vibrissa::rod::{Mounted, PhysicalRod, VaryingRod};
+use vibrissa::{ClampPath, Composite, Rod};
 
 /// A rod of a scene.
 pub trait SceneRod: PhysicalRod {
@@ -107,6 +107,52 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.files,
             Self::Mounted(scene) => &scene.files,
+        }
+    }
+
+    /// What to call it, as [`Scene::name`].
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Uniform(scene) => &scene.name,
+            Self::Mounted(scene) => &scene.name,
+        }
+    }
+
+    /// The objects, as [`Scene::objects`].
+    pub fn objects(&self) -> &[Composite] {
+        match self {
+            Self::Uniform(scene) => &scene.objects,
+            Self::Mounted(scene) => &scene.objects,
+        }
+    }
+
+    /// The way of the clamp, as [`Scene::path`].
+    pub fn path(&self) -> &ClampPath {
+        match self {
+            Self::Uniform(scene) => &scene.path,
+            Self::Mounted(scene) => &scene.path,
+        }
+    }
+
+    /// Refuses a path of several legs, as [`Scene::check_single_leg`].
+    ///
+    /// # Errors
+    /// As [`Scene::check_single_leg`].
+    pub fn check_single_leg(&self) -> Result<(), SceneError> {
+        match self {
+            Self::Uniform(scene) => scene.check_single_leg(),
+            Self::Mounted(scene) => scene.check_single_leg(),
+        }
+    }
+
+    /// Whether the clamp is outside of all objects in its first pose, as [`Scene::check_start`].
+    ///
+    /// # Errors
+    /// As [`Scene::check_start`].
+    pub fn check_start(&self) -> Result<(), SceneError> {
+        match self {
+            Self::Uniform(scene) => scene.check_start(),
+            Self::Mounted(scene) => scene.check_start(),
         }
     }
 

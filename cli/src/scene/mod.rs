@@ -7,6 +7,7 @@
 mod check;
 mod document;
 mod files;
+mod given_rod;
 mod kind;
 mod known_rod;
 mod leg;
@@ -17,9 +18,10 @@ mod rod_table;
 mod shape;
 
 pub(crate) use check::MOST_STATES;
+pub use given_rod::GivenRod;
 pub use kind::{AnyRod, AnyScene, SceneRod};
 pub(crate) use known_rod::written;
-pub use known_rod::{KnownRod, read_known_rod, read_mounted_rod};
+pub use known_rod::{KnownRod, read_given_rod, read_known_rod};
 pub use leg::{Leg, LegPath};
 pub use rod::read_rod;
 

@@ -1,6 +1,7 @@
 //! A rod on its own.
 
 use super::document::{ClampTable, RodTable};
+use super::given_rod::GivenRod;
 use super::known_rod::CalibrationTable;
 use super::rod_table;
 use crate::toml_file::Fault;
@@ -11,7 +12,6 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
-use vibrissa::rod::Mounted;
 
 /// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
@@ -19,7 +19,7 @@ use vibrissa::rod::Mounted;
 pub(super) struct RodFile {
     pub rod: Spanned<RodTable>,
     pub clamp: Option<Spanned<ClampTable>>,
-    pub calibration: Option<CalibrationTable>,
+    pub calibration: Option<Spanned<CalibrationTable>>,
     #[serde(rename = "contour")]
     _contour: Option<IgnoredAny>,
     #[serde(rename = "object")]
@@ -37,9 +37,9 @@ impl RodFile {
         }
     }
 
-    /// The rod on its clamp, if it is uniform and straight at rest.
-    pub fn mounted(&self) -> Result<Mounted<Rod>, Fault> {
-        Ok(Mounted::new(rod_table::uniform(&self.rod)?, rod_table::springs(self.clamp.as_ref())?))
+    /// The rod of any kind on its clamp.
+    pub fn given(&self) -> Result<GivenRod, Fault> {
+        rod_table::given(&self.rod, self.clamp.as_ref())
     }
 }
 
