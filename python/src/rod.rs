@@ -360,8 +360,14 @@ impl PyRod {
                     "natural_curvature is given beside that of a section, expected one of the two",
                 ));
             }
+            let diameters: Option<Vec<f64>> = sections.iter().map(|section| section.diameter).collect();
             let sections: Vec<_> = sections.iter().map(PySection::section).collect();
-            return Rod::sections(length, &sections).map(Some).map_err(errors::value);
+            let rod = Rod::sections(length, &sections);
+            let rod = match diameters {
+                Some(diameters) => rod.and_then(|rod| rod.with_section_diameters(&diameters)),
+                None => rod,
+            };
+            return rod.map(Some).map_err(errors::value);
         }
         let rod = stiff(length, stiffness)?;
         match (tip_diameter, diameter.zip(modulus)) {

@@ -5,3 +5,4 @@ mod parameters;
 mod random;
 mod restarts;
 mod scans;
+mod stress;
