@@ -1,6 +1,6 @@
 //! Scenes whose rod is not uniform or not straight at rest, or whose clamp gives way.
 
-use crate::common::{SCENE, edited, refused_beside, vibrissa};
+use crate::common::{edited, refused_beside, vibrissa};
 use vibrissa_cli::{AnyScene, Scan};
 
 /// The scene with another table `[rod]`.
@@ -300,26 +300,41 @@ fn a_scan_on_springs_is_compared_with_its_scene() {
     }
 }
 
+/// What takes a uniform rod on a rigid clamp alone names the field, and says what to use instead.
 #[test]
 fn other_commands_refuse_it() {
-    let soft = with_rod(&format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"));
-    let scenes = [(with_rod(TWO), "not uniform or not straight at rest"), (soft, "clamp: a clamp that gives way")];
-    for (scene, why) in scenes {
-        refuse(&scene, why);
-    }
-}
-
-fn refuse(scene: &str, why: &str) {
-    assert!(scene != SCENE);
     let dir = tempfile::tempdir().unwrap();
-    std::fs::write(dir.path().join("scene.toml"), scene).unwrap();
-    for arguments in [
-        &["live", "--sensor", "file:nowhere", "--rod", "scene.toml"][..],
-        &["fake-sensor", "scene.toml", "--protocol", "rdt"],
-        &["budget", "scene.toml"],
-    ] {
-        let output = vibrissa(dir.path(), arguments);
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!output.status.success() && message.contains(why), "{message}");
+    let write = |file: &str, scene: &str| std::fs::write(dir.path().join(file), scene).unwrap();
+    write("rod.toml", &with_rod(TWO));
+    write("clamp.toml", &with_rod(&format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n")));
+    let parts = [
+        ("rod", "rod.toml:1:1: rod: a rod that is not uniform or not straight at rest, expected length with diameter"),
+        ("clamp", "clamp.toml:5:1: clamp: a clamp that gives way, expected no table [clamp]"),
+    ];
+    for (name, why) in parts {
+        let file = format!("{name}.toml");
+        for (arguments, instead) in [
+            (
+                &["live", "--sensor", "file:nowhere", "--rod", &file][..],
+                "`vibrissa reconstruct --rod`, which takes any rod",
+            ),
+            (
+                &["calibrate", "nowhere.csv", "--rod", &file, "--out", "o.toml"],
+                "`vibrissa reconstruct --rod` takes any rod",
+            ),
+            (&["budget", &file], "`vibrissa simulate --noise` and `vibrissa reconstruct --truth` show"),
+            (
+                &["fake-sensor", &file, "--protocol", "rdt", "--rate", "-1"],
+                "by `vibrissa simulate`, which takes any clamp",
+            ),
+        ] {
+            let output = vibrissa(dir.path(), arguments);
+            let message = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(!output.status.success());
+            // a sensor is played with any rod on a rigid clamp: the next mistake is told
+            let refused = arguments[0] != "fake-sensor" || name == "clamp";
+            let expected: &[&str] = if refused { &[why, instead] } else { &["--rate is -1"] };
+            assert!(expected.iter().all(|part| message.contains(part)), "{expected:?} is not in: {message}");
+        }
     }
 }

@@ -223,7 +223,7 @@ impl PyReconstruction {
 
 impl PyReconstruction {
     fn answers(&self) -> Vec<Answer> {
-        let (samples, found) = (&self.found.samples, &self.found.found);
+        let found = &self.found.found;
         let mut last: Option<(&Evidence, Label, Basis)> = None;
         let mut basis = |number: usize, label: Label| {
             let evidence = found.evidence(number)?;
@@ -234,7 +234,7 @@ impl PyReconstruction {
             Some(basis)
         };
         let answer = |(number, reading): (usize, &Reading)| Answer {
-            pose: samples[number].pose,
+            pose: self.found.pose(number),
             reading: Some(*reading),
             basis: basis(number, reading.label),
         };

@@ -139,7 +139,7 @@ impl Reconstructed {
     }
 
     /// The pose of the support of the clamp at a sample, as it was recorded.
-    pub(crate) fn pose(&self, sample: usize) -> Pose {
+    pub fn pose(&self, sample: usize) -> Pose {
         let sample = &self.samples[sample];
         self.rod.support(sample.pose, &sample.reactions)
     }

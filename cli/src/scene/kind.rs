@@ -156,15 +156,31 @@ impl AnyScene {
         }
     }
 
-    /// Takes the scene whose rod is uniform and straight at rest, on a rigid clamp.
+    /// Takes the scene whose rod is uniform and straight at rest, on a rigid clamp. `instead` ends the message where it is not: what the
+    /// user may do with it.
     ///
     /// # Errors
     /// [`SceneError::Invalid`] at the field `rod` of another one, or at `clamp`.
-    pub fn uniform(self) -> Result<Scene, SceneError> {
+    pub fn uniform(self, instead: &str) -> Result<Scene, SceneError> {
         match self {
             Self::Uniform(scene) => Ok(scene),
-            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => Err(scene.source.error("clamp", NOT_RIGID)),
-            Self::Mounted(scene) => Err(scene.source.error("rod", NOT_UNIFORM)),
+            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => {
+                Err(scene.source.error("clamp", &format!("{NOT_RIGID}; {instead}")))
+            }
+            Self::Mounted(scene) => Err(scene.source.error("rod", &format!("{NOT_UNIFORM}; {instead}"))),
+        }
+    }
+
+    /// Refuses a clamp that gives way, of whatever rod. `instead` ends the message: what the user may do with it.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `clamp`.
+    pub fn check_rigid(&self, instead: &str) -> Result<(), SceneError> {
+        match self {
+            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => {
+                Err(scene.source.error("clamp", &format!("{NOT_RIGID}; {instead}")))
+            }
+            _ => Ok(()),
         }
     }
 }

@@ -67,18 +67,19 @@ fn parse_given(file: &Path, text: &str) -> Result<(KnownRod, GivenRod), SceneErr
     })
 }
 
-/// The rod in a TOML file as for [`read_rod`](super::read_rod), with its table `[calibration]`.
+/// The rod in a TOML file as for [`read_rod`](super::read_rod), with its table `[calibration]`. `instead` ends the message where the rod is
+/// not uniform, not straight at rest or not on a rigid clamp: what the user may do with it.
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, holds no rod, or its calibration is wrong.
-pub fn read_known_rod(file: &Path) -> Result<KnownRod, SceneError> {
-    parse(file, &toml_file::text("the rod", file)?)
+pub fn read_known_rod(file: &Path, instead: &str) -> Result<KnownRod, SceneError> {
+    parse(file, &toml_file::text("the rod", file)?, instead)
 }
 
-pub(super) fn parse(file: &Path, text: &str) -> Result<KnownRod, SceneError> {
+fn parse(file: &Path, text: &str, instead: &str) -> Result<KnownRod, SceneError> {
     toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        file.known(file.uniform()?)
+        file.known(file.uniform(instead)?)
     })
 }
 
@@ -131,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_calibration_is_read_in_its_units() {
-        let read = |table: &str| parse("rod.toml".as_ref(), &format!("{ROD}{table}"));
+        let read = |table: &str| parse("rod.toml".as_ref(), &format!("{ROD}{table}"), "take another");
         let plain = read("").unwrap();
         assert!(plain.known.is_nothing());
         let table = "[calibration]\nclamp_angle = { value = 8e-3, sigma = 1e-4, unit = \"rad\" }\n\

@@ -95,7 +95,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        parse(file, text)?.uniform()
+        parse(file, text)?.uniform("`AnyScene` reads any")
     }
 }
 

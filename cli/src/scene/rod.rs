@@ -13,6 +13,9 @@ use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
 
+/// What a program may do with another rod than a uniform, straight one.
+const INSTEAD: &str = "`read_given_rod` reads any";
+
 /// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -29,11 +32,11 @@ pub(super) struct RodFile {
 }
 
 impl RodFile {
-    /// The rod, if it is uniform and straight at rest and its clamp is rigid.
-    pub fn uniform(&self) -> Result<Rod, Fault> {
-        match (rod_table::uniform(&self.rod)?, &self.clamp) {
+    /// The rod, if it is uniform and straight at rest and its clamp is rigid; `instead` is what the user may do with another one.
+    pub fn uniform(&self, instead: &str) -> Result<Rod, Fault> {
+        match (rod_table::uniform(&self.rod, instead)?, &self.clamp) {
             (rod, None) => Ok(rod),
-            (_, Some(clamp)) => Err(Fault::new(clamp.span(), rod_table::NOT_RIGID)),
+            (_, Some(clamp)) => Err(Fault::new(clamp.span(), format!("{}; {instead}", rod_table::NOT_RIGID))),
         }
     }
 
@@ -52,7 +55,7 @@ pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
 }
 
 fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
-    toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform())
+    toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform(INSTEAD))
 }
 
 #[cfg(test)]
