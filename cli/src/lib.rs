@@ -56,7 +56,8 @@ pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transiti
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    AnyRod, AnyScene, GivenRod, KnownRod, Leg, LegPath, Scene, SceneRod, read_given_rod, read_known_rod, read_rod,
+    AnyRod, AnyScene, GivenRod, KnownRod, Leg, LegPath, Scene, SceneFriction, SceneRod, read_given_rod, read_known_rod,
+    read_rod,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use shapes::shapes_list;

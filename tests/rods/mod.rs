@@ -1,8 +1,9 @@
 //! Sweeps of rods that are not uniform, and of clamps that give way.
 
+mod attack;
 mod inversion;
 mod parameters;
 mod random;
 mod restarts;
-mod scans;
+pub mod scans;
 mod stress;

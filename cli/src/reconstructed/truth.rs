@@ -119,7 +119,7 @@ impl<'a, R: SceneRod> Truth<'a, R> {
         let told = |label| told(label, told_apart);
         let happening = |event: &'a Event| {
             let [from, to] = [event.from(), event.to()].map(|phase| told(Label::of(phase.contacts, phase.tip)));
-            let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip);
+            let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
             let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
             Happening { event, way: interval::way(&scan.scene.path, event.pose()), from, to, kinks }
         };

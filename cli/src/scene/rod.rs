@@ -23,6 +23,8 @@ pub(super) struct RodFile {
     pub rod: Spanned<RodTable>,
     pub clamp: Option<Spanned<ClampTable>>,
     pub calibration: Option<Spanned<CalibrationTable>>,
+    #[serde(rename = "contact")]
+    _contact: Option<IgnoredAny>,
     #[serde(rename = "contour")]
     _contour: Option<IgnoredAny>,
     #[serde(rename = "object")]
@@ -70,7 +72,8 @@ mod tests {
         let rod = read_rod(&scene).unwrap();
         assert!((rod.bending_stiffness() - 6.32e-4).abs() < 1e-6);
         // Of a scene only the rod is looked at.
-        let scene = "[rod]\nlength = 0.1\nbending_stiffness = 1\n[sweep]\nfrom = 3\n[[object]]\n";
+        let scene =
+            "[rod]\nlength = 0.1\nbending_stiffness = 1\n[contact]\nfriction = 1\n[sweep]\nfrom = 3\n[[object]]\n";
         assert!(parse("scene.toml".as_ref(), scene).is_ok());
     }
 

@@ -133,8 +133,9 @@ fn largest_in_piece<M: RodModel + ?Sized>(
         let bend = w * (of_taper + force * low.abs().max(high.abs()));
         let at_ends = left.stress.abs().max(right.stress.abs());
         let is_monotone = left.rate.abs() > bend * h;
-        // also where something is NaN
-        if is_monotone || !(at_ends + 0.125 * bend * h * h > largest * (1.0 + ACCURACY)) {
+        // not where something is NaN
+        let may_exceed = at_ends + 0.125 * bend * h * h > largest * (1.0 + ACCURACY);
+        if is_monotone || !may_exceed {
             continue;
         }
         let half = 0.5 * h;
