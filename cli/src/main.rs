@@ -287,16 +287,16 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
     let name = scene.name().to_owned();
     let interrupt = signals::ask().interrupt;
-    let (tell, stopped_by): (&mut dyn FnMut(&str), &dyn Fn() -> bool) =
-        (&mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised());
+    let tell: &mut dyn FnMut(&str) = &mut |line| say(&format!("{line}\n"));
+    let is_over = || interrupt.is_raised();
     let Played { samples, sent, stop } = match scene {
         AnyScene::Uniform(scene) => {
             let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
-            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, stopped_by)?
+            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
         }
         AnyScene::Mounted(scene) => {
             let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
-            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, stopped_by)?
+            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
         }
     };
     say(&format!("{sent} of {samples} samples sent\n"));
