@@ -134,6 +134,7 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     match read_any(file)? {
         AnyScene::Uniform(scene) => sweep_scene(scene, out),
         AnyScene::Mounted(scene) => sweep_scene(scene, out),
+        AnyScene::Guided(scene) => sweep_scene(scene, out),
     }
 }
 
@@ -168,6 +169,7 @@ fn contour(
     match read_any(file)? {
         AnyScene::Uniform(scene) => contour_of(scene, out, tolerance, object),
         AnyScene::Mounted(scene) => contour_of(scene, out, tolerance, object),
+        AnyScene::Guided(scene) => contour_of(scene, out, tolerance, object),
     }
 }
 
@@ -200,6 +202,7 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     match read_any(&arguments.scene)? {
         AnyScene::Uniform(scene) => simulate_scene(scene, arguments),
         AnyScene::Mounted(scene) => simulate_scene(scene, arguments),
+        AnyScene::Guided(scene) => simulate_scene(scene, arguments),
     }
 }
 

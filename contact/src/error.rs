@@ -88,6 +88,9 @@ pub enum ContactError {
         /// Condition number of the equations.
         condition: f64,
     },
+    /// A rod that runs through a roller, of which there are no derivatives by quantities.
+    #[error("there are no derivatives of a rod that runs through a roller, expected a rod on a clamp without one")]
+    Roller,
     /// A quantity that does not exist.
     #[error("there is no {what}")]
     NoQuantity {
@@ -163,6 +166,8 @@ pub enum StopReason {
     BetweenObjects,
     /// The clamp itself runs into the object, or is inside it in the first pose.
     ClampInside,
+    /// The rod comes upon an object between its clamp and the roller ahead of that, or a contact slides to there.
+    BeforeRoller,
     /// More events at one pose than a rod can have.
     Chatter,
     /// The pose to go to has a number that is not finite, or an angle beyond [`LARGEST_ANGLE`].
@@ -225,6 +230,7 @@ impl std::fmt::Display for StopReason {
             Self::LineContact => "line-contact",
             Self::BetweenObjects => "between-objects",
             Self::ClampInside => "clamp-inside",
+            Self::BeforeRoller => "before-roller",
             Self::Chatter => "chatter",
             Self::NoPose => "no-pose",
             Self::StepBudget => "step-budget",
@@ -258,6 +264,9 @@ impl std::fmt::Display for Stop {
                 "the clamp is inside an object in the first pose; start with the clamp outside of all objects"
             }
             StopReason::ClampInside => "the clamp itself runs into the object; end the path before it",
+            StopReason::BeforeRoller => {
+                "the rod comes upon an object between the clamp and its roller; end the path before it, or put the roller nearer to the clamp"
+            }
             StopReason::NoPose => {
                 "the pose to go to has a number that is not finite, or an angle beyond 100 rad; give m, m and rad"
             }

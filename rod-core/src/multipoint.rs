@@ -271,7 +271,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// run through the roller.
     pub(crate) fn passage(&self, nodes: &Nodes) -> Option<Passage> {
         let (roller, first) = (self.clamp.roller()?, nodes.first()?);
-        roller.pass(&self.rod, first.s, &first.cut(), first.a, first.b)
+        roller.pass(&self.rod, self.clamp.pose(), (first.s, &first.cut()), [first.a, first.b])
     }
 
     /// The rod at the roller of its clamp. None without one, and where the rod that the unknowns define does not run through it.

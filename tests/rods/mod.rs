@@ -4,4 +4,5 @@ mod inversion;
 mod parameters;
 mod random;
 mod restarts;
+mod roller;
 mod scans;

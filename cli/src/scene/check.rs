@@ -2,7 +2,7 @@
 
 use super::document::{Document, Point, SweepTable};
 use super::kind::AnyRod;
-use super::rod_table;
+use super::rod_table::{self, Held};
 use super::{AnyScene, Scene, files, leg, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
@@ -26,12 +26,13 @@ pub(super) fn scene(name: String, source: Source, document: Document, directory:
     let warnings =
         plausible::rod(tables.rod.get_ref()).into_iter().map(|fault| source.place(fault).to_string()).collect();
     Ok(match rod {
-        AnyRod::Uniform(rod) => {
+        Held::Clamped(AnyRod::Uniform(rod)) => {
             AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, warnings, files, source })
         }
-        AnyRod::Mounted(rod) => {
+        Held::Clamped(AnyRod::Mounted(rod)) => {
             AnyScene::Mounted(Scene { name, rod, objects, path, step, legs, warnings, files, source })
         }
+        Held::Guided(rod) => AnyScene::Guided(Scene { name, rod, objects, path, step, legs, warnings, files, source }),
     })
 }
 

@@ -1,17 +1,22 @@
 //! The rods that a scene may have.
 
 use super::Scene;
-use super::rod_table::{NOT_RIGID, NOT_UNIFORM};
+use super::rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
 use crate::SceneError;
 use crate::toml_file;
 use std::path::{Path, PathBuf};
 use vibrissa::Rod;
-use vibrissa::rod::{Mounted, PhysicalRod, VaryingRod};
+use vibrissa::rod::{Guided, Mounted, PhysicalRod, VaryingRod};
 
 /// A rod of a scene.
 pub trait SceneRod: PhysicalRod {
     /// The rod, if it is uniform and straight at rest and its clamp is rigid: only of such a rod contacts are found from reactions.
     fn uniform(&self) -> Option<&Rod>;
+
+    /// Whether it runs through a roller, whose reaction is measured as well.
+    fn has_roller(&self) -> bool {
+        false
+    }
 }
 
 impl SceneRod for Rod {
@@ -23,6 +28,16 @@ impl SceneRod for Rod {
 impl SceneRod for Mounted<VaryingRod> {
     fn uniform(&self) -> Option<&Rod> {
         None
+    }
+}
+
+impl SceneRod for Guided<VaryingRod> {
+    fn uniform(&self) -> Option<&Rod> {
+        None
+    }
+
+    fn has_roller(&self) -> bool {
+        true
     }
 }
 
@@ -52,6 +67,8 @@ pub enum AnyScene {
     Uniform(Scene),
     /// Its stiffness varies, it is bent at rest, or its clamp gives way.
     Mounted(Scene<Mounted<VaryingRod>>),
+    /// Any rod that runs through a roller ahead of a rigid clamp.
+    Guided(Scene<Guided<VaryingRod>>),
 }
 
 impl AnyScene {
@@ -99,6 +116,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.warnings,
             Self::Mounted(scene) => &scene.warnings,
+            Self::Guided(scene) => &scene.warnings,
         }
     }
 
@@ -107,18 +125,20 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.files,
             Self::Mounted(scene) => &scene.files,
+            Self::Guided(scene) => &scene.files,
         }
     }
 
     /// Takes the scene whose rod is uniform and straight at rest, on a rigid clamp.
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] at the field `rod` of another one, or at `clamp`.
+    /// [`SceneError::Invalid`] at the field `rod` of another one, at `clamp` or at `clamp.roller`.
     pub fn uniform(self) -> Result<Scene, SceneError> {
         match self {
             Self::Uniform(scene) => Ok(scene),
             Self::Mounted(scene) if !scene.rod.springs().is_rigid() => Err(scene.source.error("clamp", NOT_RIGID)),
             Self::Mounted(scene) => Err(scene.source.error("rod", NOT_UNIFORM)),
+            Self::Guided(scene) => Err(scene.source.error("clamp.roller", NO_ROLLER)),
         }
     }
 }

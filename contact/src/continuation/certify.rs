@@ -3,8 +3,8 @@
 use crate::contact_set::Configuration;
 use crate::gap::scan::Scan;
 use crate::scene::setup::Setup;
-use crate::state::{Certificate, Contact, GapBounds, State};
-use rod_core::{Clamp, Elastica, PhysicalRod, Pose, Reactions, RodModel, SolveReport, Supports, Units};
+use crate::state::{Certificate, Contact, GapBounds, RollerContact, State};
+use rod_core::{Clamp, Elastica, PhysicalRod, Pose, Reactions, RodModel, RollerHold, SolveReport, Supports, Units};
 
 /// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
@@ -71,10 +71,26 @@ pub(crate) fn state<R: PhysicalRod>(
         contacts,
         leg: 0,
         reactions: shape.reactions(),
+        roller: roller(setup, configuration),
         energy: stored(rod, &clamp, &shape),
         max_stress: rod.bending_stress(shape.largest_curvature()),
         certificate,
     }
+}
+
+/// The roller ahead of the clamp, if there is one.
+fn roller<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> Option<Box<RollerContact>> {
+    let supports = configuration.supports(&setup.world);
+    let RollerHold { s, force, at } =
+        setup.problem(&supports, configuration.tau()).roller(configuration.of_contacts())?;
+    let units = setup.rod.units();
+    Some(Box::new(RollerContact {
+        s: s * units.length,
+        x: at.x * units.length,
+        y: at.y * units.length,
+        alpha: at.phi,
+        force: force * units.force,
+    }))
 }
 
 /// Energy (J) of the rod in `configuration` and of its clamp.

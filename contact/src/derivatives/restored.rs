@@ -25,9 +25,12 @@ pub(crate) struct Restored {
 
 impl Restored {
     pub fn new<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> Result<Self, ContactError> {
-        let configuration = configuration(rod, world, state)?;
         let length = rod.units().length;
         let clamp = Pose { x: state.pose.x / length, y: state.pose.y / length, phi: state.pose.phi };
+        if rod.clamp(clamp).roller().is_some() {
+            return Err(ContactError::Roller);
+        }
+        let configuration = configuration(rod, world, state)?;
         let linear = {
             let supports = configuration.supports(world);
             let problem = MultiPoint { rod: rod.model(), clamp: rod.clamp(clamp), supports: &supports };

@@ -13,10 +13,11 @@
 //! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
 //! -|eta|^(3/2), so that eta is held. p_k is the way of the base along its spring k. The equilibrium is stable if Q > 0 for all such
 //! eta and p. eta is expanded in the first modes of a free cantilever and the turn of the base, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
-//! Cholesky factor. Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
+//! Cholesky factor. A [`roller`] holds the rod like a vertex that it slides over, v = 0, with a force of either sign. Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
 //! not, the modes decide.
 
 mod condensed;
+mod roller;
 
 use crate::contact_set::Configuration;
 use crate::gap::shape::{Node, Shape};
@@ -84,7 +85,8 @@ impl Judge {
         let Self { integrals, quadratic: q, along, across, eta } = self;
         let shape = &shape.refined(rod);
         let springs = springs(setup.clamp(configuration.tau()).law());
-        let modes = MODES + 2 * n;
+        let lead = shape.lead();
+        let modes = MODES + 2 * (n + lead);
         let end = configuration.s(n - 1);
         let turns = Turns::new(rod, end, !springs.is_empty());
         q.reset(modes + springs.len(), |m| match m.checked_sub(modes) {
@@ -93,22 +95,28 @@ impl Judge {
         });
         integrals.reset(modes);
         let supports = configuration.supports(world);
-        for j in 0..n {
-            let Segment { a, b, .. } = shape.segments[j];
+        for i in 0..lead + n {
+            let Segment { a, b, .. } = shape.segments[i];
             match turns.scale {
-                Some(scale) => integrals.add(shape.along(j), (a, b), scale),
-                None => integrals.add_at(shape.along(j), (a, b), |s| turns.phase(rod, s)),
+                Some(scale) => integrals.add(shape.along(i), (a, b), scale),
+                None => integrals.add_at(shape.along(i), (a, b), |s| turns.phase(rod, s)),
             }
-            let support = supports.support(j, configuration.t(j));
+            let (support, form, s) = match i.checked_sub(lead) {
+                None => (roller::support(shape), roller::form(rod, shape), shape.segments[1].s),
+                Some(j) => {
+                    let support = supports.support(j, configuration.t(j));
+                    (support, form(rod, configuration, shape, j, &support), configuration.s(j))
+                }
+            };
             integrals.shifts(support.alpha.sin_cos(), along, across);
             push_shifts(&springs, shape, &support, along, across);
-            let form = match form(rod, configuration, shape, j, &support) {
+            let form = match form {
                 Form::Moves(form) => form,
                 Form::Held => [PENALTY, 0.0, 0.0],
                 Form::Flat => [0.0, 0.0, PENALTY],
                 Form::Slips => return false,
             };
-            modes_at(turns.phase(rod, configuration.s(j)), modes, eta);
+            modes_at(turns.phase(rod, s), modes, eta);
             eta.extend(springs.iter().map(|spring| spring.way[2]));
             q.add(form, along, eta);
             let square: f64 = across.iter().map(|way| way * way).sum();
@@ -180,7 +188,7 @@ fn form(rod: &impl RodModel, configuration: &Configuration, shape: &Shape, j: us
         Hold::Tip if v == 0.0 => Form::Slips,
         Hold::Tip => Form::Moves([-f * w / v, 0.0, 0.0]),
         Hold::Tangent { offset } => {
-            let kappa = offset.cos() * curvature_behind(rod, &shape.segments, j);
+            let kappa = offset.cos() * curvature_behind(rod, &shape.segments, (j, configuration.count()));
             let divisor = w - v * kappa;
             if lies_flat(w, kappa) {
                 Form::Flat
@@ -405,7 +413,7 @@ pub(crate) fn wraps<R: PhysicalRod>(
     configuration.contacts.iter().enumerate().position(|(j, contact)| match contact.hold {
         Hold::Tangent { offset } => {
             let support = supports.support(j, configuration.t(j));
-            let kappa = offset.cos() * curvature_behind(setup.rod.model(), segments, j);
+            let kappa = offset.cos() * curvature_behind(setup.rod.model(), segments, (j, configuration.count()));
             support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
         }
         Hold::Tip => false,

@@ -16,6 +16,8 @@ mod one_sample;
 mod single;
 #[cfg(feature = "std")]
 mod single_general;
+#[cfg(feature = "std")]
+mod through_roller;
 mod touch;
 
 #[cfg(feature = "std")]
@@ -30,4 +32,6 @@ pub use one_sample::{OneSample, one_sample};
 pub use single::single;
 #[cfg(feature = "std")]
 pub use single_general::{GeneralError, single_general};
+#[cfg(feature = "std")]
+pub use through_roller::{Estimate, ThroughRoller, beyond_roller, through_roller};
 pub use touch::Touch;

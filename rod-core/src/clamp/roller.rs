@@ -46,6 +46,16 @@ const LAST_STEP: f64 = 1e-9;
 /// Longest step of s_r over the distance of the roller. A bent rod is longer than its chord by less than that.
 const LONGEST_STEP: f64 = 0.3;
 
+/// Steps to the start for s_r. More are for the iteration.
+const CLOSER: usize = 3;
+/// Least rate at which the distance along the rod grows with the arc length that a step takes for true.
+const LEAST_RATE: f64 = 0.3;
+
+/// Distance across the rod, over that of the roller, by which the rod may miss the roller before both unknowns are iterated, and iterations
+/// in which only the force is, at most. Under strong forces the moment changes fast along the rod: a step of s_r would overshoot.
+const FAR: f64 = 1e-2;
+const FORCE_ALONE: u32 = 8;
+
 /// Number of what a passage depends on, but for where it is: slope angle, moment, force (A, B) and arc length of the cut that it comes from.
 const INPUTS: usize = 5;
 
@@ -87,11 +97,30 @@ impl Roller {
         1.5 * moment / self.at - across
     }
 
-    /// The passage of the rod whose first contact is at arc length `from`. None where it does not run through the roller on its way to the
+    /// Where the rod that comes from its first contact is closest to the roller of a clamp at `pose`, about: a start for s_r.
+    fn closest(&self, rod: &impl RodModel, pose: Pose, from: f64, start: &Cut, a: f64, b: f64) -> f64 {
+        let ([x, y], mut s) = (self.point(pose), self.at);
+        for _ in 0..CLOSER {
+            let at = rod.carry(from, start, a, b, s - from);
+            let ((sin, cos), dx, dy) = (at.phi.sin_cos(), at.x - x, at.y - y);
+            let rate = 1.0 + rod.curvature_at(s, at.moment) * (dy * cos - dx * sin);
+            let step = -(dx * cos + dy * sin) / rate.max(LEAST_RATE);
+            s += step.clamp(-LONGEST_STEP * self.at, LONGEST_STEP * self.at);
+        }
+        if s > 0.0 && s < from { s } else { self.at }
+    }
+
+    /// The passage of the rod whose first contact is at arc length `from`, to a base near `pose`. None where it does not run through the roller on its way to the
     /// base, or the contact is not beyond the roller.
-    pub(crate) fn pass(&self, rod: &impl RodModel, from: f64, start: &Cut, a: f64, b: f64) -> Option<Passage> {
-        let (mut s, mut force, mut is_last) = (self.at, None, false);
-        for _ in 0..MOST_ITERATIONS {
+    pub(crate) fn pass(
+        &self,
+        rod: &impl RodModel,
+        pose: Pose,
+        (from, start): (f64, &Cut),
+        [a, b]: [f64; 2],
+    ) -> Option<Passage> {
+        let (mut s, mut force, mut is_last) = (self.closest(rod, pose, from, start, a, b), None, false);
+        for iteration in 0..MOST_ITERATIONS {
             let (at, to_roller) = rod.carry_with_sensitivities(from, start, a, b, s - from);
             let (sin, cos) = at.phi.sin_cos();
             let r = *force.get_or_insert_with(|| self.force_by_a_beam(at.moment, a * cos + b * sin));
@@ -154,7 +183,12 @@ impl Roller {
                 let passage = Passage { hold, base, force: [a0, b0], sensitivities, force_rates };
                 return (beyond && is_number).then_some(passage);
             }
-            let [by_s, by_r] = solve([seen[0] - self.place[0], seen[1] - self.place[1]]);
+            let missed = [seen[0] - self.place[0], seen[1] - self.place[1]];
+            let [by_s, by_r] = if missed[1].abs() > FAR * self.at && iteration < FORCE_ALONE {
+                [0.0, -missed[1] / columns[1][1]]
+            } else {
+                solve(missed)
+            };
             let long = by_s.abs() / (LONGEST_STEP * self.at);
             let share = 1.0 / long.max(1.0);
             s += share * by_s;
@@ -218,12 +252,13 @@ mod tests {
     use super::*;
     use crate::model::Uniform;
 
+    const NEAR: Pose = Pose { x: 0.0, y: 0.0, phi: 0.0 };
     const CUT: Cut = Cut { x: 0.55, y: 0.1, phi: 0.5, moment: 0.4 };
 
     #[test]
     fn the_rod_runs_through_the_roller() {
         let roller = Roller::of(&Uniform, 0.2);
-        let passage = roller.pass(&Uniform, 0.6, &CUT, -1.0, 2.0).unwrap();
+        let passage = roller.pass(&Uniform, NEAR, (0.6, &CUT), [-1.0, 2.0]).unwrap();
         let Cut { x, y, phi, .. } = passage.base;
         let [px, py] = roller.point(Pose { x, y, phi });
         let at = passage.hold.at;
@@ -240,7 +275,8 @@ mod tests {
         let roller = Roller::of(&Uniform, 0.3);
         let inputs = [CUT.phi, CUT.moment, -1.0, 2.0, 0.6];
         let of = |v: [f64; 5]| {
-            let passage = roller.pass(&Uniform, v[4], &Cut { phi: v[0], moment: v[1], ..CUT }, v[2], v[3]).unwrap();
+            let cut = Cut { phi: v[0], moment: v[1], ..CUT };
+            let passage = roller.pass(&Uniform, NEAR, (v[4], &cut), [v[2], v[3]]).unwrap();
             let Cut { x, y, phi, moment } = passage.base;
             ([x, y, phi, moment, passage.force[0], passage.force[1]], passage)
         };
@@ -265,7 +301,7 @@ mod tests {
     #[test]
     fn the_same_rod_is_found_from_the_clamp() {
         let roller = Roller::of(&Uniform, 0.2);
-        let passage = roller.pass(&Uniform, 0.6, &CUT, -1.0, 2.0).unwrap();
+        let passage = roller.pass(&Uniform, NEAR, (0.6, &CUT), [-1.0, 2.0]).unwrap();
         let Cut { x, y, phi, .. } = passage.base;
         let found = roller.under(&Uniform, Pose { x, y, phi }, passage.hold.at.moment, -1.0, 2.0).unwrap();
         assert!((found.s - passage.hold.s).abs() < 1e-14 && (found.force - passage.hold.force).abs() < 1e-12);
@@ -275,7 +311,7 @@ mod tests {
     #[test]
     fn a_contact_before_the_roller_is_none() {
         let roller = Roller::of(&Uniform, 0.2);
-        assert!(roller.pass(&Uniform, 0.15, &CUT, -1.0, 2.0).is_none());
-        assert!(roller.pass(&Uniform, 0.6, &Cut { moment: f64::NAN, ..CUT }, -1.0, 2.0).is_none());
+        assert!(roller.pass(&Uniform, NEAR, (0.15, &CUT), [-1.0, 2.0]).is_none());
+        assert!(roller.pass(&Uniform, NEAR, (0.6, &Cut { moment: f64::NAN, ..CUT }), [-1.0, 2.0]).is_none());
     }
 }

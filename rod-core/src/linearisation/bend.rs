@@ -23,7 +23,8 @@ const SAME: f64 = 1e-6;
 
 impl Linearisation {
     /// The change of the residual, at fixed unknowns, per unit of something by which the curvature of the rod changes by
-    /// `rate(s, moment)`, all dimensionless. It is smooth between the joints of the rod. None for another rod than that of the problem, and for a clamp with a roller.
+    /// `rate(s, moment)`, all dimensionless. It is smooth between the joints of the rod. None for another rod than that of the problem,
+    /// and for a clamp with a roller.
     pub fn bend_rates(&self, rod: &impl RodModel, rate: impl Fn(f64, f64) -> f64) -> Option<SmallVec<[f64; 25]>> {
         Some(self.rates_of(&self.bent_ends(rod, rate)?))
     }
