@@ -91,6 +91,15 @@ pub enum ContactError {
     /// A rod that runs through a roller, of which there are no derivatives by quantities.
     #[error("there are no derivatives of a rod that runs through a roller, expected a rod on a clamp without one")]
     Roller,
+    /// Derivatives of a state in which a contact sticks.
+    #[error(
+        "contact {index} sticks: where it is depends on how it came there, so that it has no derivatives; \
+         take a state in which all contacts slip"
+    )]
+    Sticks {
+        /// Number of the contact, from 0 at the clamp.
+        index: usize,
+    },
     /// A quantity that does not exist.
     #[error("there is no {what}")]
     NoQuantity {
@@ -168,10 +177,19 @@ pub enum StopReason {
     ClampInside,
     /// The rod comes upon an object between its clamp and the roller ahead of that, or a contact slides to there.
     BeforeRoller,
+    /// The objects have friction, and the rod runs through a roller: this is not computed.
+    RollerFriction,
     /// More events at one pose than a rod can have.
     Chatter,
     /// The pose to go to has a number that is not finite, or an angle beyond [`LARGEST_ANGLE`].
     NoPose,
+    /// The straight rod is pushed on along its axis against an object, and friction holds its tip: it carries any force until it buckles.
+    Jammed,
+    /// Friction allows more than one motion of the contacts, or none that leads on.
+    Undetermined,
+    /// A contact with friction comes to a place that is only followed without: the rod parts, lies down or runs together with another contact
+    /// in a notch or at an inflection of the contour.
+    FrictionInNotch,
     /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
     StepBudget,
 }
@@ -231,8 +249,12 @@ impl std::fmt::Display for StopReason {
             Self::BetweenObjects => "between-objects",
             Self::ClampInside => "clamp-inside",
             Self::BeforeRoller => "before-roller",
+            Self::RollerFriction => "roller-friction",
             Self::Chatter => "chatter",
             Self::NoPose => "no-pose",
+            Self::Jammed => "jammed",
+            Self::Undetermined => "undetermined",
+            Self::FrictionInNotch => "friction-in-notch",
             Self::StepBudget => "step-budget",
         })
     }
@@ -267,8 +289,20 @@ impl std::fmt::Display for Stop {
             StopReason::BeforeRoller => {
                 "the rod comes upon an object between the clamp and its roller; end the path before it, or put the roller nearer to the clamp"
             }
+            StopReason::RollerFriction => {
+                "the friction of a rod that runs through a roller is not computed; take away the friction or the roller"
+            }
             StopReason::NoPose => {
                 "the pose to go to has a number that is not finite, or an angle beyond 100 rad; give m, m and rad"
+            }
+            StopReason::Jammed => {
+                "the rod is pushed on along its axis and friction holds its tip; move the clamp across the rod, or lower the friction"
+            }
+            StopReason::Undetermined => {
+                "friction leaves the motion of the contacts undetermined; start a new sweep beyond, or lower the friction"
+            }
+            StopReason::FrictionInNotch => {
+                "the rod lies down in a notch or at an inflection, which is only followed without friction; end the path before it"
             }
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",

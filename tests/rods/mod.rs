@@ -5,4 +5,4 @@ mod parameters;
 mod random;
 mod restarts;
 mod roller;
-mod scans;
+pub mod scans;

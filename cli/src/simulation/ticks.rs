@@ -46,7 +46,7 @@ impl<R: SceneRod> Simulation<R> {
         // a sample is lost as a whole
         let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..self.noise };
         let roller = of_roller.generator(self.seed ^ ROLLER_SEED)?;
-        let sweep = Sweep::new(&self.scene.rod, &self.scene.objects, self.scene.path, step)?;
+        let sweep = self.scene.sweep_by(step)?;
         Ok(Ticks { sweep, simulation: self, step, sensor, roller, next: 0 })
     }
 }

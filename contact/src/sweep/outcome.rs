@@ -8,6 +8,7 @@ use crate::state::State;
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[allow(clippy::large_enum_variant, reason = "an event is two states")]
 pub enum Item {
     /// The equilibrium at a pose that is reported.
     State(State),
@@ -27,6 +28,9 @@ pub struct Outcome {
     pub states: Vec<State>,
     /// Transitions in order.
     pub events: Vec<Event>,
+    /// Work (J) that friction took ([`Sweep::dissipated`](crate::Sweep::dissipated)).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub dissipated: Option<f64>,
     /// Why it stopped before the end of the path, if it did.
     pub stop: Option<Stop>,
 }
