@@ -6,3 +6,4 @@ mod random;
 mod restarts;
 mod roller;
 pub mod scans;
+mod through_roller;

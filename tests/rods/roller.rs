@@ -99,6 +99,9 @@ fn scans_agree_with_the_integration_from_the_clamp() {
         let outcome = judged("uniform", &rod, &|_, m| m, &[], distance, 0.005);
         assert!(outcome.events.len() >= 5 && outcome.events.iter().any(|event| event.kind == EventKind::SnapOff));
         assert!(outcome.states.iter().any(|state| state.contacts.len() == 2));
+        // the branch ends in a fold, where its equations are singular, and not where the second variation says so
+        let last = outcome.events.last().unwrap();
+        assert!(last.before.certificate.condition > 1e5 * last.before.contacts[0].force, "{last:?}");
         assert!(outcome.states.iter().any(|state| state.roller.as_ref().unwrap().force.abs() > 1.0));
     }
     let rod = Guided::new(cone(0.5), 0.2).unwrap();

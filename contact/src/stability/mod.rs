@@ -450,7 +450,7 @@ mod tests {
     }
 
     /// Another rod that stands so, by all that judges it.
-    fn held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
+    pub(super) fn held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
         let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap()).unwrap();
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let setup = Setup::new(rod, contour.as_ref(), path);
