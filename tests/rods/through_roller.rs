@@ -185,7 +185,9 @@ fn a_recording_beyond_the_roller_is_one_of_a_rigid_clamp() {
     let (mut right, mut points, mut worst) = (0, 0, 0.0_f64);
     for (state, reading) in states.iter().zip(&found.readings) {
         right += usize::from(reading.label.to_string() == state.phase().to_string());
-        if let ([touch], [contact]) = (&reading.touches[..], &state.contacts[..]) {
+        let touches = [reading.touch.as_ref().ok(), reading.second.as_ref().and_then(|second| second.as_ref().ok())];
+        for (touch, contact) in touches.iter().zip(&state.contacts) {
+            let Some(touch) = touch else { continue };
             points += 1;
             worst = worst.max((touch.x - contact.x).hypot(touch.y - contact.y));
         }

@@ -102,7 +102,7 @@ pub fn through_roller<R: PhysicalRod<Clamp = Pose>>(
     let held = Held::new(rod, pose);
     let (mut readings, unit) = (dimensionless(units, reactions, roller), sizes(units));
     let mut covariance = Matrix4::from_fn(|i, j| covariance[(i, j)] / (unit[i] * unit[j]));
-    if !covariance.iter().all(|v| v.is_finite()) {
+    if !covariance.iter().chain(&readings).all(|v| v.is_finite()) {
         return Err(NoContact::NotFinite);
     }
     let first = held.walked(readings).ok_or(NoContact::NotFinite)?;
@@ -149,6 +149,9 @@ pub fn beyond_roller<R: PhysicalRod<Clamp = Pose>>(
 ) -> Result<Sample, NoContact> {
     let units = rod.units();
     let readings = dimensionless(units, sample.reactions, roller);
+    if !readings.iter().all(|v| v.is_finite()) {
+        return Err(NoContact::NotFinite);
+    }
     let walked = Held::new(rod, sample.pose).walked(readings).ok_or(NoContact::NotFinite)?;
     let [a, b] = walked.force;
     let Cut { x, y, phi, moment } = walked.model.carry(walked.s, &walked.at, a, b, -walked.s);
