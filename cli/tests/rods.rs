@@ -149,6 +149,7 @@ fn the_reaction_of_a_roller_is_written() {
     let dir = tempfile::tempdir().unwrap();
     let scene = with_rod(&format!("{WIRE}[clamp]\nroller = 0.02\n"));
     std::fs::write(dir.path().join("roller.toml"), &scene).unwrap();
+    std::fs::write(dir.path().join("rigid.toml"), with_rod(WIRE)).unwrap();
     assert!(vibrissa(dir.path(), &["sweep", "roller.toml"]).status.success());
     let written = |name: &str| std::fs::read_to_string(dir.path().join("out/roller").join(name)).unwrap();
     let header = written("states.csv").lines().next().unwrap().to_owned();
@@ -169,7 +170,7 @@ fn the_reaction_of_a_roller_is_written() {
     assert!(read.len() > 150 && read.iter().zip(&states).all(|(r, s)| *r == s.roller.as_ref().unwrap().force));
     for arguments in [
         ["reconstruct", "out/roller/recording.csv", "--rod", "roller.toml"],
-        ["fake-sensor", "roller.toml", "--rate", "100"],
+        ["reconstruct", "out/roller/recording.csv", "--rod", "rigid.toml"],
     ] {
         let refused = vibrissa(dir.path(), &arguments);
         let said = String::from_utf8(refused.stderr).unwrap();

@@ -95,7 +95,7 @@ fn judged(name: &str, rod: &impl PhysicalRod, law: Law<'_>, jumps: &[f64], dista
 fn scans_agree_with_the_integration_from_the_clamp() {
     let uniform = Rod::new(1.0, 1.0).unwrap();
     for distance in [0.05, 0.2, 0.3] {
-        let rod = Guided::new(uniform.clone(), distance).unwrap();
+        let rod = Guided::new(uniform, distance).unwrap();
         let outcome = judged("uniform", &rod, &|_, m| m, &[], distance, 0.005);
         assert!(outcome.events.len() >= 5 && outcome.events.iter().any(|event| event.kind == EventKind::SnapOff));
         assert!(outcome.states.iter().any(|state| state.contacts.len() == 2));
@@ -157,7 +157,7 @@ fn a_roller_at_the_clamp_is_a_rigid_clamp() {
     let rigid = scan(&uniform, 0.05);
     let mut last = f64::INFINITY;
     for distance in [4e-3, 2e-3, 1e-3] {
-        let outcome = scan(&Guided::new(uniform.clone(), distance).unwrap(), 0.05);
+        let outcome = scan(&Guided::new(uniform, distance).unwrap(), 0.05);
         assert_eq!(phases(&outcome), phases(&rigid));
         let mut off = 0.0_f64;
         for (ours, theirs) in outcome.states.iter().zip(&rigid.states).filter(|(a, b)| a.phase() == b.phase()) {
@@ -240,7 +240,7 @@ fn an_object_before_the_roller_stops_the_sweep() {
     let disc = Composite::single(CircularArc::new([0.0, 0.15], 0.05, 0.0, TAU).unwrap()).unwrap();
     let pose = |x: f64| Pose { x, y: 0.0, phi: FRAC_PI_2 };
     let path = ClampPath::new(pose(0.5), pose(-0.5)).unwrap();
-    let outcome = Sweep::new(&rod, &disc, path.clone(), 0.01).unwrap().run();
+    let outcome = Sweep::new(&rod, &disc, path, 0.01).unwrap().run();
     assert_eq!(outcome.stop.unwrap().reason, StopReason::BeforeRoller);
     assert!((outcome.states.last().unwrap().pose.x - 0.05).abs() < 0.011);
     // a rod that is held beyond the roller comes upon it as well
