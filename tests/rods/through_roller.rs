@@ -200,13 +200,14 @@ fn a_recording_beyond_the_roller_is_one_of_a_rigid_clamp() {
 fn what_is_no_sample() {
     let rod = Guided::new(uniform(), 0.2).unwrap();
     let pose = Pose { x: 0.0, y: 0.0, phi: 0.0 };
-    let told = |m0z: f64, roller: f64| {
-        through_roller(&rod, pose, Reactions { f0x: 0.0, f0y: 0.0, m0z }, roller, &Matrix4::zeros())
+    let told = |f0y: f64, m0z: f64, roller: f64| {
+        through_roller(&rod, pose, Reactions { f0x: 0.0, f0y, m0z }, roller, &Matrix4::zeros())
     };
-    assert_eq!(told(0.0, 0.0).unwrap().contact, OneSample::Free);
-    assert!(told(f64::NAN, 0.0).unwrap_err().to_string().contains("not finite"));
-    assert!(told(0.0, f64::INFINITY).is_err());
-    // a moment alone, which bends the rod away from the roller: neither a stiffness nor a gain explains it
-    let found = told(0.5, 0.1).unwrap();
+    assert_eq!(told(0.0, 0.0, 0.0).unwrap().contact, OneSample::Free);
+    assert!(told(0.0, f64::NAN, 0.0).unwrap_err().to_string().contains("not finite"));
+    assert!(told(0.0, 0.0, f64::INFINITY).unwrap_err().to_string().contains("not finite"));
+    assert!(told(0.0, 0.5, 0.0).unwrap_err().to_string().contains("vanishes nowhere"));
+    // force and moment as of a rod without a roller, which bend it away from that: neither a stiffness nor a gain explains it
+    let found = told(1.0, 0.5, 0.0).unwrap();
     assert!(found.miss.value < -1e-3 && found.bending_stiffness.is_none() && found.moment_gain.is_none(), "{found:?}");
 }
