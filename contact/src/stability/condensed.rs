@@ -14,7 +14,7 @@
 //! the contour and the turns eta_j: two unknowns a contact. A clamp on springs adds the ways p of its base, with their own p^2 / softness.
 //! A roller counts as the first contact.
 
-use super::{Form, roller};
+use super::{Form, PENALTY, roller};
 use crate::contact_set::Configuration;
 use crate::gap::shape::Shape;
 use crate::scene::rod::holds_between_ends;
@@ -60,7 +60,7 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
             None => (roller::support(shape), roller::form(rod, shape)),
             Some(j) => {
                 let support = supports.support(j, configuration.t(j));
-                (support, super::form(rod, configuration, shape, j, &support))
+                (support, super::form(rod, configuration, shape, (j, PENALTY), &support))
             }
         };
         let Form::Moves([uu, uv, vv]) = form else { return false };

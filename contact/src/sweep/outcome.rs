@@ -8,7 +8,7 @@ use crate::state::State;
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[allow(clippy::large_enum_variant, reason = "an event is two states")]
+#[expect(clippy::large_enum_variant, reason = "items are handed out one by one, not kept")]
 pub enum Item {
     /// The equilibrium at a pose that is reported.
     State(State),
