@@ -21,7 +21,6 @@ const MOST_CONTACTS: usize = 6;
 
 /// The contact set with the modes in which it may go on.
 #[derive(Debug)]
-#[allow(clippy::large_enum_variant, reason = "it lives for one step")]
 pub(crate) enum Motion {
     /// In each of these ways: none where no combination of modes is admissible.
     Ways(Vec<Configuration>),
