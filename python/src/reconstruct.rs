@@ -169,12 +169,11 @@ impl PyReconstruction {
     /// Returns
     /// -------
     /// list of tuple
-    ///     Explanations in words with their likelihoods, which add up to 1, the likeliest first; empty where everything fits.
+    ///     Explanations in words with their likelihoods, which add up to 1, the likeliest first; empty where everything fits, and of a rod
+    ///     that is not uniform or not straight at rest.
     fn explain(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
         let Reconstructed { rod, samples, check, .. } = &self.found;
-        if check.fits() {
-            return Ok(Vec::new());
-        }
+        let Some(rod) = rod.uniform().filter(|_| !check.fits()) else { return Ok(Vec::new()) };
         let tried =
             running::run(py, || vibrissa::reconstruct::explanations(rod, samples, &self.settings, &check.findings))?;
         Ok(tried.into_iter().map(|(what, share)| (what.to_string(), share)).collect())
@@ -224,7 +223,7 @@ impl PyReconstruction {
 
 impl PyReconstruction {
     fn answers(&self) -> Vec<Answer> {
-        let (samples, found) = (&self.found.samples, &self.found.found);
+        let found = &self.found.found;
         let mut last: Option<(&Evidence, Label, Basis)> = None;
         let mut basis = |number: usize, label: Label| {
             let evidence = found.evidence(number)?;
@@ -235,7 +234,7 @@ impl PyReconstruction {
             Some(basis)
         };
         let answer = |(number, reading): (usize, &Reading)| Answer {
-            pose: samples[number].pose,
+            pose: self.found.pose(number),
             reading: Some(*reading),
             basis: basis(number, reading.label),
         };
@@ -270,7 +269,8 @@ fn recording(samples: Samples) -> Recording {
 /// Parameters
 /// ----------
 /// rod : Rod
-///     The rod.
+///     The rod, on any clamp. For a rod that is not uniform or not straight at rest BA and BB are not told apart, their contact points are
+///     not computed, and samples and rod are taken for exact, as with ``as_is``.
 /// samples : Recording or table
 ///     A recording; or a table with the columns ``x0``, ``y0`` (m), ``phi0`` (rad), ``f0x``, ``f0y`` (N), ``m0z`` (N m), perhaps ``t``
 ///     (s) and ``sigma_f0x``, ``sigma_f0y``, ``sigma_m0z``: a structured array (``Scan.states``), a data frame, a mapping; or an array
@@ -316,8 +316,8 @@ pub fn reconstruct(
         Ok(recording) => recording.get().recording.clone(),
         Err(_) => recording(samples.extract()?),
     };
-    let mounted = rod.uniform_mounted()?;
-    let reconstructed = || Reconstructed::new(recording.at_base(&mounted), *mounted.rod(), &settings);
+    let rod = rod.given()?;
+    let reconstructed = || Reconstructed::new(recording, rod, &settings);
     let found = running::run(py, reconstructed)?.map_err(errors::value)?;
     if !found.check.fits() {
         let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();

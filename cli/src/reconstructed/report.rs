@@ -16,6 +16,8 @@ pub(super) struct ReportRecord {
     recording: String,
     rows: RowsRecord,
     rod: RodRecord,
+    /// What is not computed for this rod, in words.
+    missing: Option<&'static str>,
     noise: NoiseRecord,
     answered: AnsweredRecord,
     runs: Vec<RunRecord>,
@@ -38,7 +40,10 @@ struct RowsRecord {
 #[derive(Serialize)]
 struct RodRecord {
     length: f64,
+    /// At the clamp, where the rod is not uniform.
     bending_stiffness: f64,
+    /// Uniform and straight at rest.
+    uniform: bool,
 }
 
 #[derive(Serialize)]
@@ -127,11 +132,11 @@ struct PhysicsRecord {
     fits: bool,
     /// The line of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0).
     line: Option<LineRecord>,
-    /// Shares of the scan in contact by what a single contact makes of them.
-    explained: f64,
-    beyond_tip: f64,
-    pulling: f64,
-    no_moment_zero: f64,
+    /// Shares of the scan in contact by what a single contact makes of them; null where the rod is not uniform or not straight.
+    explained: Option<f64>,
+    beyond_tip: Option<f64>,
+    pulling: Option<f64>,
+    no_moment_zero: Option<f64>,
     findings: Vec<String>,
     /// What explains a recording that does not fit.
     causes: Vec<CauseRecord>,
@@ -159,12 +164,14 @@ impl PhysicsRecord {
         let line = check.line.map(|line| LineRecord {
             slope: line.slope,
             slope_sigma: line.slope_sigma,
-            slope_by_bending_stiffness: line.slope / rod.bending_stiffness(),
+            slope_by_bending_stiffness: line.slope / rod.alike().bending_stiffness(),
             intercept: line.intercept,
             intercept_sigma: line.intercept_sigma,
             share: line.share,
         });
         let Shares { explained, beyond_tip, pulling, no_moment_zero } = check.shares;
+        let [explained, beyond_tip, pulling, no_moment_zero] =
+            [explained, beyond_tip, pulling, no_moment_zero].map(|share| rod.uniform().map(|_| share));
         let findings = check.findings.iter().map(ToString::to_string).collect();
         let cause =
             |(what, likelihood): &(Explanation, f64)| CauseRecord { cause: what.to_string(), likelihood: *likelihood };
@@ -257,7 +264,7 @@ impl From<&Comparison> for TruthRecord {
         let confusion = &truth.confusion;
         let counts = Label::ALL.map(|of| Label::ALL.map(|found| confusion.count(of, found)).to_vec()).to_vec();
         Self {
-            scene: truth.scene.name.clone(),
+            scene: truth.scene.name().to_owned(),
             stopped: truth.stop.as_ref().map(ToString::to_string),
             compared: confusion.total(),
             off_path: truth.off_path,
@@ -318,7 +325,8 @@ impl Answered {
 
 impl ReportRecord {
     pub fn of(found: &Reconstructed) -> Self {
-        let Reconstructed { recording, rod, samples, rows, found: result, .. } = found;
+        let Reconstructed { recording, rod, rows, found: result, .. } = found;
+        let rod = rod.alike();
         let mut faults = BTreeMap::new();
         for fault in recording.faults() {
             *faults.entry(fault.problem.name()).or_insert(0) += 1;
@@ -327,8 +335,8 @@ impl ReportRecord {
             label,
             from: rows[run.start],
             to: rows[run.end - 1],
-            from_pose: samples[run.start].pose.into(),
-            to_pose: samples[run.end - 1].pose.into(),
+            from_pose: found.pose(run.start).into(),
+            to_pose: found.pose(run.end - 1).into(),
         });
         let kinks = result.kinks.iter().zip(found.kink_poses()).map(|(kink, pose)| KinkRecord {
             pose: pose.into(),
@@ -355,7 +363,12 @@ impl ReportRecord {
                 faults,
                 warnings: recording.warnings(),
             },
-            rod: RodRecord { length: rod.length(), bending_stiffness: rod.bending_stiffness() },
+            rod: RodRecord {
+                length: rod.length(),
+                bending_stiffness: rod.bending_stiffness(),
+                uniform: found.rod.uniform().is_some(),
+            },
+            missing: found.missing(),
             noise: NoiseRecord { f0x, f0y, m0z },
             answered: AnsweredRecord {
                 single: answered.single,

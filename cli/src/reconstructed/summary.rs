@@ -30,7 +30,10 @@ impl Reconstructed {
              {first_answered}, the second of {second_answered}"
         )?;
         writeln!(text, "{} kinks, {} gaps", self.found.kinks.len(), self.contour.gaps.len())?;
-        self.tell_calibration(text)?;
+        match self.missing() {
+            Some(missing) => writeln!(text, "{missing}")?,
+            None => self.tell_calibration(text)?,
+        }
         self.tell_physics(text)?;
         text.push_str(&self.run_table().to_string());
         match &self.comparison {
@@ -74,7 +77,7 @@ impl Reconstructed {
 
     fn tell_physics(&self, text: &mut String) -> std::fmt::Result {
         if let Some(line) = &self.check.line {
-            let stiffness = self.rod.bending_stiffness();
+            let stiffness = self.rod.alike().bending_stiffness();
             writeln!(
                 text,
                 "physics: m0z^2 = {:.4e} +- {:.1e} N^2 m^2 + 2 ({:.4} +- {:.4}) EI (f0y sin phi0 + f0x cos phi0) in {:.0} % \
@@ -112,7 +115,10 @@ impl Reconstructed {
 impl Comparison {
     fn tell(&self, text: &mut String) -> std::fmt::Result {
         let Self { scene, confusion, either, off_path, kinks, .. } = self;
-        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name, confusion.total())?;
+        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name(), confusion.total())?;
+        if !self.told_apart {
+            writeln!(text, "BA counts as BB, because the reactions of this rod do not tell one from the other")?;
+        }
         if let Some(stop) = &self.stop {
             writeln!(text, "its sweep stopped early, samples beyond are not compared: {stop}")?;
         }
@@ -139,7 +145,7 @@ impl Comparison {
             kinks.found,
             kinks.found - real.min(kinks.found)
         )?;
-        let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
+        let unit = if scene.path().turns_only() { "error mrad" } else { "error mm" };
         let mut table = Table::new(["transition", "kind", "x0 mm", "y0 mm", "phi0 deg", unit]);
         for Transition { from, to, kind, pose, error } in &self.transitions {
             table.row([
