@@ -15,7 +15,7 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
 use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Reading, Source, SourceEstimate, TraceRow};
-use vibrissa::{Label, Settings};
+use vibrissa::{Label, Sample, Settings};
 use vibrissa_cli::{Reconstructed, Recording};
 
 const TRACE: &[Column<TraceRow>] = &[
@@ -59,6 +59,7 @@ fn name(source: Source) -> String {
 /// A reconstruction: a phase and contact points for each sample, and the contour.
 #[pyclass(frozen, name = "Reconstruction", module = "vibrissa")]
 pub struct PyReconstruction {
+    rod: PyRod,
     found: Reconstructed,
     settings: Settings,
     readings: PyOnceLock<Py<PyAny>>,
@@ -70,13 +71,15 @@ impl PyReconstruction {
     /// The rod that was assumed.
     #[getter]
     fn rod(&self) -> PyRod {
-        PyRod::of_rod(self.found.rod)
+        self.rod.clone()
     }
 
     /// The samples, as the fields of ``Recording.samples``.
     #[getter]
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        structured(py, SAMPLE, self.found.samples.iter())
+        let given = |(number, sample): (usize, &Sample)| Sample { pose: self.found.pose(number), ..*sample };
+        let samples: Vec<Sample> = self.found.samples.iter().enumerate().map(given).collect();
+        structured(py, SAMPLE, samples.iter())
     }
 
     /// The answers as a structured array, one row for each sample.
@@ -316,8 +319,8 @@ pub fn reconstruct(
         Ok(recording) => recording.get().recording.clone(),
         Err(_) => recording(samples.extract()?),
     };
-    let rod = rod.given()?;
-    let reconstructed = || Reconstructed::new(recording, rod, &settings);
+    let given = rod.given()?;
+    let reconstructed = || Reconstructed::new(recording, given, &settings);
     let found = running::run(py, reconstructed)?.map_err(errors::value)?;
     if !found.check.fits() {
         let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();
@@ -325,5 +328,6 @@ pub fn reconstruct(
         let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }
-    Ok(PyReconstruction { found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
+    let rod = rod.clone();
+    Ok(PyReconstruction { rod, found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
 }

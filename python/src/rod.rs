@@ -272,20 +272,6 @@ impl PartialEq for PyRod {
 }
 
 impl PyRod {
-    /// A uniform rod.
-    pub fn of_rod(rod: Rod) -> Self {
-        Self {
-            length: rod.length(),
-            stiffness: [Some(rod.bending_stiffness()), None, None],
-            tip_diameter: None,
-            natural_curvature: None,
-            sections: Vec::new(),
-            yield_stress: rod.yield_stress(),
-            clamp: None,
-            rod: AnyRod::Uniform(rod),
-        }
-    }
-
     /// The rod of the tables `[rod]` and `[clamp]`.
     pub fn of_tables(tables: &Table) -> PyResult<Self> {
         let none = Table::new();

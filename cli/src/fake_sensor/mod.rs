@@ -229,7 +229,7 @@ mod tests {
     #[test]
     fn a_cone_is_played() {
         let scene = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\ntip_diameter = 0.2e-3\nyoungs_modulus = 206e9\n\
-                     [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0\n\
+                     [[contour.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0\n\
                      [sweep]\nfrom = [0.06, -0.04]\nto = [0.03, -0.04]\nangle = 90.0\nstep = 1e-3\n";
         let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), scene).unwrap() else {
             panic!("uniform")
