@@ -3,6 +3,7 @@
 
 mod clean;
 mod common;
+mod friction;
 mod free_rod;
 mod kink_filter;
 mod kinks;

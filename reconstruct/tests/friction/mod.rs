@@ -1,0 +1,4 @@
+//! Rods that slide with Coulomb friction.
+
+mod recording;
+mod reference;
