@@ -6,8 +6,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
-    Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, Travel, explanations, plausibility,
-    reconstruct_passes,
+    Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, Travel, explanations,
+    plausibility_with_friction,    reconstruct_passes,
 };
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
 
@@ -61,13 +61,15 @@ impl Reconstructed {
     pub fn new(recording: Recording, rod: Rod, settings: &Settings) -> Result<Self, Error> {
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
-        let raw = plausibility(&rod, &samples);
         let of = |settings: &Settings| {
             reconstruct_passes(&rod, &samples, settings)
                 .map_err(|source| ReconstructionError { file: recording.file.clone(), source })
         };
         let is_gross = |check: &Plausibility| check.findings.iter().any(Finding::is_gross);
         let mut found = of(settings)?;
+        let friction = found.frictions();
+        let plausibility = |rod: &Rod, samples: &[Sample]| plausibility_with_friction(rod, samples, |k| friction[k]);
+        let raw = plausibility(&rod, &samples);
         // the physics of what is left after the corrections: a bias alone may look like a wrong sign
         let mut check = raw.clone();
         if found.is_corrected() {

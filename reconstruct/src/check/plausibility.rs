@@ -57,7 +57,7 @@ pub fn plausibility(rod: &Rod, samples: &[Sample]) -> Plausibility {
 }
 
 /// [`plausibility`] of a rod that slides over the object. `friction` is the coefficient of each sample by its number, as
-/// [`Reconstruction::friction`](crate::Reconstruction::friction) has it: positive where friction draws the rod from its clamp towards its tip.
+/// [`Reconstruction::frictions`](crate::Reconstruction::frictions) has it: positive where friction draws the rod from its clamp towards its tip.
 /// The line is that of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) + 2 |F| sin rho.
 pub fn plausibility_with_friction(rod: &Rod, samples: &[Sample], friction: impl Fn(usize) -> f64) -> Plausibility {
     let bins = bins(samples, friction);

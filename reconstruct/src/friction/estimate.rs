@@ -19,6 +19,8 @@ pub struct FrictionEstimate {
     /// How far K / (2 |F|) along tangential contacts is from one value, in standard deviations of its noise (root mean square): 1 where
     /// the coefficient is the same along the pass.
     pub scatter: f64,
+    /// How much the coefficient varies along the pass beyond the noise (standard deviation).
+    pub spread: f64,
     /// Logarithm of the likelihood of the pass with friction over that without, each with the errors that explain it best.
     pub gain: f64,
     /// Share of the tangential path along which the rod slides the other way than this sign of friction asks for.

@@ -1,6 +1,7 @@
 //! The value of K / (2 |F|) along tangential contacts: sin rho.
 
-use crate::phase::{Evidence, Label, Node, labels, likelihood};
+use crate::numeric::{median, robust_sigma};
+use crate::phase::{Evidence, Node, likelihood};
 use crate::point::{Clamp, Inverse};
 use crate::scan::{Estimate, Noise, Track};
 use nalgebra::Vector3;
@@ -19,18 +20,20 @@ const WEAK: f64 = 0.1;
 /// Values of which the density is at least this part of the largest are tried, and the most of them.
 const PART: f64 = 0.2;
 const MOST: usize = 4;
-/// Turns of labels and least squares at most; they settle in two or three.
-const TURNS: usize = 6;
-/// Change of the sine below which they have settled.
-const SETTLED: f64 = 1e-12;
+/// Values farther from a peak than this belong to another one.
+const NEAR: f64 = 0.02;
+/// Turns of medians and least squares about a peak; they settle in three or four.
+const TURNS: usize = 8;
 /// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the label may be wrong.
 const OUTLYING: f64 = 3.0;
 /// Smallest standard deviation of the sine at one place: rounding. Smaller: the noise of noise-free samples decides.
 const FINEST: f64 = 1e-9;
 /// A plateau this close to 0 is none: sensors, clamps and rods of an ordinary laboratory let K / (2 |F|) be as large.
 const NOTHING: f64 = 0.03;
-/// Standard deviations by which a place must slide the other way to count as such.
-const SIGMAS: f64 = 3.0;
+/// Standard deviations within which a number may be 0 by chance.
+const SIGMAS: f64 = 4.0;
+/// The same absolutely, per way of the clamp: the error of rates of noise-free samples. Smaller: exact samples are no plateau.
+const RATE: f64 = 1e-6;
 
 /// K / (2 |F|) of a place without regard to friction, with its standard deviation; none where the force is too weak.
 fn ratio<I: Inverse>(rod: &I, estimate: &Estimate, clamp: &Clamp) -> Option<(f64, f64)> {
@@ -54,20 +57,62 @@ fn place(track: &Track, noise: &Noise, node: &Node) -> (Estimate, Clamp) {
     (estimate, clamp)
 }
 
-/// How densely the places of a scan lie about each value of K / (2 |F|), by the way of the clamp.
-fn density<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> Vec<(f64, f64)> {
+/// A place that kinematics alone tell to be of one contact along the rod's side, whatever its friction: the moment vanishes before the tip,
+/// and the rod does not move across itself there.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    /// K / (2 |F|), and its standard deviation.
+    value: f64,
+    sigma: f64,
+    /// Its share of the samples of its window.
+    weight: f64,
+    /// Way of the clamp to the next one.
+    way: f64,
+    /// Speed of the rod's matter along the rod per way of the clamp, and its standard deviation.
+    slides: (f64, f64),
+}
+
+impl Side {
+    fn of<I: Inverse>(rod: &I, track: &Track, noise: &Noise, node: &Node, way: f64) -> Option<Self> {
+        let (estimate, clamp) = place(track, noise, node);
+        let (value, sigma) = ratio(rod, &estimate, &clamp).filter(|(_, sigma)| *sigma < VAGUE)?;
+        let found = rod.first(&estimate.clamp).ok()?;
+        let none = Vector3::zeros();
+        let before_tip = 1.0 - found.s - SIGMAS * estimate.variance(&found.s_by_reactions, &none).sqrt();
+        let gradient = rod.gradient_at(&estimate.clamp, found.s);
+        let rate = gradient.rate(&estimate.rate);
+        let (sin, cos) = found.section.phi.sin_cos();
+        let along = |x: f64, y: f64| {
+            let by_rate = gradient.by_reactions.row(0).transpose() * x + gradient.by_reactions.row(1).transpose() * y;
+            (x * rate[0] + y * rate[1], estimate.variance(&none, &by_rate).sqrt())
+        };
+        let (across, of_across) = along(-sin, cos);
+        let slides = along(cos, sin);
+        let is_one = before_tip > RATE && across.abs() < SIGMAS * of_across + RATE * (1.0 + slides.0.abs());
+        is_one.then_some(Self { value, sigma: sigma.max(FINEST), weight: node.weight, way, slides })
+    }
+
+    /// Of the places of a scan, at most [`PLACES`] of them.
+    fn all<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> Vec<Self> {
+        let stride = nodes.len().div_ceil(PLACES).max(1);
+        let of = |part: &[Node]| {
+            let (first, last) = (part.first()?, part.last()?);
+            let way = track.tau[last.index] - track.tau[first.index.saturating_sub(1)];
+            Self::of(rod, track, noise, first, way)
+        };
+        nodes.chunks(stride).filter_map(of).collect()
+    }
+}
+
+/// How densely places lie about each value of K / (2 |F|), by the way of the clamp.
+fn density(sides: &[Side]) -> Vec<(f64, f64)> {
     let most = (LARGEST / SPACING) as i32;
     let mut density: Vec<(f64, f64)> = (-most..=most).map(|k| (SPACING * f64::from(k), 0.0)).collect();
-    let stride = nodes.len().div_ceil(PLACES).max(1);
-    for part in nodes.chunks(stride) {
-        let (Some(first), Some(last)) = (part.first(), part.last()) else { continue };
-        let way = track.tau[last.index] - track.tau[first.index.saturating_sub(1)];
-        let (estimate, clamp) = place(track, noise, first);
-        let Some((value, sigma)) = ratio(rod, &estimate, &clamp).filter(|(_, sigma)| *sigma < VAGUE) else { continue };
-        let width = sigma.hypot(NARROWEST);
+    for side in sides {
+        let width = side.sigma.hypot(NARROWEST);
         for (at, density) in &mut density {
-            let z = (*at - value) / width;
-            *density += way / width * (-0.5 * z * z).exp();
+            let z = (*at - side.value) / width;
+            *density += side.way / width * (-0.5 * z * z).exp();
         }
     }
     density
@@ -85,7 +130,7 @@ fn peaks(density: &[(f64, f64)]) -> Vec<f64> {
 
 /// Whether places are dense about a value of K / (2 |F|) that an ordinary laboratory does not explain without friction.
 pub(crate) fn rubs<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> bool {
-    peaks(&density(rod, track, noise, nodes)).iter().any(|peak| peak.abs() > NOTHING)
+    peaks(&density(&Side::all(rod, track, noise, nodes))).iter().any(|peak| peak.abs() > NOTHING)
 }
 
 /// Friction as the plateau tells it.
@@ -97,6 +142,8 @@ pub(crate) struct Start {
     pub sigma: f64,
     /// Residuals of the plateau in standard deviations of their noise, 1 at least.
     pub scatter: f64,
+    /// How much the coefficient varies beyond the noise.
+    pub spread: f64,
     /// Share of the tangential path along which the rod slides the other way.
     pub against: f64,
     /// Logarithm of the likelihood of the labels with it, and of those without friction.
@@ -106,35 +153,38 @@ pub(crate) struct Start {
 
 /// The likeliest friction: of size `mu`, if it is known, and of either sign.
 pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], mu: Option<f64>) -> Start {
-    let mut judged = nodes.to_vec();
-    judge(rod, track, &mut judged, 0.0);
-    let without = likelihood(&judged);
+    let sides = Side::all(rod, track, noise, nodes);
     let tried: Vec<f64> = match mu {
         Some(mu) => vec![mu, -mu],
-        None => peaks(&density(rod, track, noise, nodes)).into_iter().map(|sine| tangent(sine)).chain([0.0]).collect(),
+        None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
     };
-    let mut best: Option<Start> = None;
-    for first in tried {
-        judge(rod, track, &mut judged, first);
-        let mut found = level(rod, track, noise, &judged, first, without);
-        for _ in 0..if mu.is_some() { 0 } else { TURNS } {
-            let before = found.mu;
-            judge(rod, track, &mut judged, before);
-            found = level(rod, track, noise, &judged, before, without);
-            if (found.mu - before).abs() < SETTLED {
-                break;
-            }
-        }
-        if let Some(mu) = mu {
-            found.mu = mu.copysign(first);
-        }
-        judge(rod, track, &mut judged, found.mu);
-        found.likelihood = likelihood(&judged);
-        if best.is_none_or(|best| found.likelihood > best.likelihood) {
-            best = Some(found);
-        }
+    let mut judged = nodes.to_vec();
+    let mut likelihoods = [0.0].into_iter().chain(tried).map(|mu| {
+        judge(rod, track, &mut judged, mu);
+        (mu, likelihood(&judged))
+    });
+    let without = likelihoods.next().map_or(0.0, |first| first.1);
+    let (found, likelihood) = likelihoods.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, without));
+    let sine = found / found.hypot(1.0);
+    let information = level(&sides, sine).1;
+    let off = |side: &Side| side.value - sine;
+    let scatter = robust_sigma(sides.iter().map(|side| off(side) / side.sigma)).unwrap_or(1.0).max(1.0);
+    let (size, own) = (robust_sigma(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
+    let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
+    let spread = (size.unwrap_or(0.0).powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * tangent_by_sine;
+    let way = |sides: &mut dyn Iterator<Item = &Side>| sides.map(|side| side.way).sum::<f64>();
+    let backwards = |side: &&Side| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
+    let all = way(&mut sides.iter());
+    let against = if all > 0.0 && found != 0.0 { way(&mut sides.iter().filter(backwards)) / all } else { 0.0 };
+    Start {
+        mu: found,
+        sigma: tangent_by_sine / information.sqrt(),
+        scatter,
+        spread,
+        against,
+        likelihood,
+        without,
     }
-    best.unwrap_or(Start { mu: 0.0, sigma: 0.0, scatter: 1.0, against: 0.0, likelihood: without, without })
 }
 
 fn tangent(sine: f64) -> f64 {
@@ -150,50 +200,30 @@ fn judge<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) 
     }
 }
 
-/// Least squares of K / (2 |F|) = sin rho over the places that are labelled B; `before` where there are none.
-fn level<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], before: f64, without: f64) -> Start {
-    let labels = labels(nodes);
-    let of = |(node, label): (&Node, &(Label, f64))| {
-        let (estimate, clamp) = place(track, noise, node);
-        let (value, sigma) = ratio(rod, &estimate, &clamp).filter(|_| label.0 == Label::B)?;
-        Some((value, sigma.max(FINEST), node.weight, slides(rod, &estimate)))
-    };
-    let values: Vec<(f64, f64, f64, Option<(f64, f64)>)> = nodes.iter().zip(&labels).filter_map(of).collect();
-    let mut sine = before / before.hypot(1.0);
+/// The value of a plateau about a peak, by medians of what is ever nearer and then by least squares, and how much is known of it.
+fn level(sides: &[Side], peak: f64) -> (f64, f64) {
+    let (mut sine, mut near) = (peak, NEAR);
+    for _ in 0..TURNS {
+        let about: Vec<&Side> = sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(SIGMAS * side.sigma)).collect();
+        let Some(middle) = median(about.iter().map(|side| side.value).collect()) else { break };
+        sine = middle;
+        near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
+    }
     let (mut information, mut scatter) = (0.0, 1.0);
     for _ in 0..TURNS {
-        let (mut sums, mut squares) = ((0.0, 0.0), Vec::with_capacity(values.len()));
-        for (value, sigma, weight, _) in &values {
-            let z = (value - sine) / (sigma * scatter);
-            let weight = weight / (1.0 + (z / OUTLYING).powi(2)) / (sigma * sigma);
-            sums = (sums.0 + weight, sums.1 + weight * value);
-            squares.push((value - sine) / sigma);
+        let mut sums = (0.0, 0.0);
+        let about = |side: &&Side| (side.value - sine).abs() < NEAR.hypot(SIGMAS * side.sigma);
+        let z = |side: &Side| (side.value - sine) / side.sigma;
+        let next = robust_sigma(sides.iter().filter(about).map(z)).unwrap_or(1.0).max(1.0);
+        for side in sides {
+            let z = z(side) / (OUTLYING * scatter);
+            let weight = side.weight / (1.0 + z * z) / (side.sigma * scatter).powi(2);
+            sums = (sums.0 + weight, sums.1 + weight * side.value);
         }
         if sums.0 > 0.0 {
             (information, sine) = (sums.0, sums.1 / sums.0);
         }
-        scatter = crate::numeric::robust_sigma(squares.into_iter()).unwrap_or(1.0).max(1.0);
+        scatter = next;
     }
-    sine = sine.clamp(-LARGEST, LARGEST);
-    let mu = tangent(sine);
-    // by derivative of the tangent by the sine
-    let sigma = if information > 0.0 { scatter / information.sqrt() * (1.0 - sine * sine).powf(-1.5) } else { f64::INFINITY };
-    let way = |all: bool| {
-        let counted = values.iter().filter(|(.., slides)| all || slides.is_some_and(|(v, s)| v * mu > SIGMAS * s * mu.abs()));
-        counted.map(|value| value.2).sum::<f64>()
-    };
-    let against = if values.is_empty() || mu == 0.0 { 0.0 } else { way(false) / way(true) };
-    Start { mu, sigma, scatter, against, likelihood: without, without }
-}
-
-/// The speed of the rod's matter along the rod where the moment vanishes, per way of the clamp, and its standard deviation by the noise
-/// of the rates.
-fn slides<I: Inverse>(rod: &I, estimate: &Estimate) -> Option<(f64, f64)> {
-    let found = rod.first(&estimate.clamp).ok()?;
-    let gradient = rod.gradient_at(&estimate.clamp, found.s);
-    let rate = gradient.rate(&estimate.rate);
-    let (sin, cos) = found.section.phi.sin_cos();
-    let by_rate = gradient.by_reactions.row(0).transpose() * cos + gradient.by_reactions.row(1).transpose() * sin;
-    let sigma = estimate.variance(&Vector3::zeros(), &by_rate).sqrt();
-    Some((cos * rate[0] + sin * rate[1], sigma))
+    (sine.clamp(-LARGEST, LARGEST), information)
 }

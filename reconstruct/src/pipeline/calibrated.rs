@@ -14,7 +14,7 @@ use rod_core::{Rod, Sample, Uniform, Units};
 const COARSE: f64 = 0.02;
 
 /// Standard deviation of the coefficient of friction about that of the plateau, where nothing is known of it: as good as anything.
-const ANY_FRICTION: f64 = 0.3;
+pub(super) const ANY_FRICTION: f64 = 0.3;
 
 /// A scan with the errors that its samples share taken off.
 #[derive(Clone)]
@@ -41,35 +41,40 @@ impl Calibrated {
     /// From the samples of one path of the clamp.
     pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
         let scan = Self::measured(&Uniform, rod, samples, settings)?;
+        if settings.friction == Friction::None && !rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes) {
+            return scan.smooth(rod, settings);
+        }
+        let rough = scan.clone().rough(rod, settings)?;
+        let smooth = scan.smooth(rod, settings)?.compared(&rough);
+        if settings.friction == Friction::None {
+            return Ok(smooth);
+        }
+        Ok(Self { friction: smooth.friction, ..rough })
+    }
+
+    /// Without friction, and without the errors that all samples share.
+    pub fn smooth(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
         let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
         possible(&budget, &settings.known)?;
-        match settings.friction {
-            Friction::None if !rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes) => {
-                Ok(scan.settled(rod, &budget, &settings.known))
-            }
-            Friction::None => {
-                let rough = scan.clone().rubbed(&Uniform, settings).settled(rod, &with_friction(budget, settings), &settings.known);
-                let smooth = scan.settled(rod, &budget, &settings.known);
-                Ok(smooth.compared(&rough))
-            }
-            _ => {
-                let smooth = scan.clone().settled(rod, &budget, &settings.known);
-                let rough = scan.rubbed(&Uniform, settings).settled(rod, &with_friction(budget, settings), &settings.known);
-                let friction = smooth.compared(&rough).friction;
-                Ok(Self { friction, ..rough })
-            }
-        }
+        Ok(self.settled(rod, &budget, &settings.known))
+    }
+
+    /// With friction that is known or estimated, and without the errors that all samples share.
+    pub fn rough(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
+        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
+        possible(&budget, &settings.known)?;
+        Ok(self.rubbed(&Uniform, settings).settled(rod, &with_friction(budget, settings), &settings.known))
     }
 
     /// The scan with friction that is known or as its plateau tells it.
     pub fn rubbed<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
-        let Start { mu, sigma, scatter, against, likelihood, without } =
+        let Start { mu, sigma, scatter, spread, against, likelihood, without } =
             start(rod, &self.track, &self.noise, &self.nodes, mu);
         let track = self.track.with_friction(mu);
         let nodes = places(rod, &track, &self.noise, &self.breaks);
         let gain = likelihood - without;
-        let friction = Some(FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, gain, against });
+        let friction = Some(FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against });
         Self { track, nodes, friction, ..self }
     }
 
@@ -96,7 +101,8 @@ impl Calibrated {
     /// Without the errors that all samples share.
     fn settled(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
         let Self { track, noise, breaks, nodes, units, calibration, friction, .. } = &mut self;
-        if let Some((correction, shared, told)) = calibrate(rod, track, noise, breaks, nodes, budget, known)
+        let plateau = track.friction;
+        if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known)
         {
             if let Some(correction) = correction {
                 *track = correction.track(track);
@@ -105,6 +111,7 @@ impl Calibrated {
             }
             shared.doubt(nodes);
             shared.judge(&Errors::zeros(), track, nodes);
+            told.shift(Source::Friction, plateau);
             if let Some((found, own)) = friction.as_mut().zip(told.source(Source::Friction)) {
                 (found.mu, found.sigma) = (track.friction, own.sigma);
             }

@@ -21,6 +21,10 @@ const UNCERTAIN: f64 = 0.01;
 const MUCH: f64 = 0.1;
 /// Share of the tangential path along which the rod slides against friction that is reported: the rest is noise of the rates.
 const AGAINST: f64 = 0.2;
+/// How much the coefficient of friction may vary along a pass, beyond its noise and in multiples of it. Sensors and clamps of an ordinary
+/// laboratory let it seem to vary by 0.01.
+const SPREAD: f64 = 0.02;
+const SCATTERED: f64 = 3.0;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
 
@@ -82,15 +86,14 @@ impl Reconstruction {
 
 /// Friction that was not asked for, and friction that is not what was asked for.
 fn of_friction(pass: &Pass) -> Option<Finding> {
-    let FrictionEstimate { mu, sigma, scatter, gain, against, sigma_of_noise } = pass.friction?;
+    let FrictionEstimate { mu, sigma, scatter, spread, gain, against, .. } = pass.friction?;
     if pass.used_friction == 0.0 {
         return pass.friction.filter(FrictionEstimate::is_there).map(|_| Finding::Friction { mu, sigma, gain });
     }
     if against > AGAINST {
         return Some(Finding::FrictionAgainst { mu, share: against });
     }
-    let _ = (scatter, sigma_of_noise);
-    None
+    (scatter > SCATTERED && spread > SPREAD).then_some(Finding::FrictionChanges { mu, scatter, spread })
 }
 
 fn of_calibration(calibration: &Calibration) -> Vec<Finding> {

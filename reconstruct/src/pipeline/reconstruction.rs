@@ -142,9 +142,9 @@ impl Reconstruction {
         }
     }
 
-    /// The coefficient of friction with which a sample was reconstructed, with the sign of [`FrictionEstimate::mu`]; 0 without.
-    pub fn friction(&self, sample: usize) -> f64 {
-        self.passes.iter().find(|pass| pass.samples.contains(&sample)).map_or(0.0, |pass| pass.used_friction)
+    /// The coefficient of friction with which each sample was reconstructed, with the sign of [`FrictionEstimate::mu`]; 0 without.
+    pub fn frictions(&self) -> Vec<f64> {
+        self.passes.iter().flat_map(|pass| std::iter::repeat_n(pass.used_friction, pass.samples.len())).collect()
     }
 
     /// The criteria at the place nearest to a sample, dimensionless; none for a sample that cannot be used.

@@ -85,12 +85,12 @@ pub(super) fn conditions(local: &Local, tip: bool) -> Vec<Condition> {
     let mut k = m * (m - natural - natural) - By::constant(2.0 * sin) * fy - By::constant(2.0 * cos) * fx;
     if friction.value != 0.0 {
         // each contact adds twice its force along the rod
-        let f1 = inputs[Unknown::F1].value;
-        let first = if f1.value < 0.0 { -f1 } else { f1 };
         let [a, b] = two.force.map(|force| force.value);
-        let sin_rho = friction.value / (1.0 + friction.value * friction.value).sqrt();
-        let second = (a * a + b * b).sqrt() * By::constant(sin_rho);
-        k = k - (first * friction + second) * By::constant(2.0);
+        let (sin, cos) = two.second.phi.value.sin_cos();
+        for normal in [inputs[Unknown::F1].value, a * cos + b * sin] {
+            let pushes = if normal.value < 0.0 { -normal } else { normal };
+            k = k - pushes * friction * By::constant(2.0);
+        }
     }
     vec![first, kappa, second, still(k)]
 }

@@ -5,6 +5,7 @@ use super::conditions::two;
 use super::displaced::Spread;
 use super::part::{Local, Part};
 use super::run::Resolved;
+use super::slip::slides;
 use super::unknowns::{UNKNOWNS, Unknown, Unknowns};
 use super::unresolved::Unresolved;
 use crate::numeric::variance;
@@ -108,7 +109,9 @@ pub(super) fn answer(
         let bend = [0, 1].map(|i| bends[k][i].max(bends[k + 1][i]));
         let shared = [0, 1].map(|i| spread[k][i] * (1.0 - w) + spread[k + 1][i] * w);
         let mut pair = pair(part, &local, &covariance, bend, limits);
-        if local.values[Unknown::F1] * strongest.signum() < VANISHES * covariance[(F1, F1)].max(0.0).sqrt() {
+        if !slides(part, &local) {
+            pair = Pair { first: Err(Unresolved::Sticks), second: Err(Unresolved::Sticks) };
+        } else if local.values[Unknown::F1] * strongest.signum() < VANISHES * covariance[(F1, F1)].max(0.0).sqrt() {
             pair.first = Err(Unresolved::FirstForceVanishes);
         }
         pairs.push(pair.with_systematic(shared));
