@@ -197,6 +197,7 @@ impl Errors {
                         Unresolved::NoAnchor => "no anchor",
                         Unresolved::TooNoisy { .. } => "too noisy",
                         Unresolved::Torn => "torn",
+                        Unresolved::Sticks => "sticks",
                         Unresolved::NotUniform => "not uniform",
                         Unresolved::Inconsistent => "inconsistent",
                     };
