@@ -74,7 +74,7 @@ impl Fit {
         let t = alpha.tan() / (2.0 * coefficient);
         let (x, y) = (vertex_x + t, vertex_y + coefficient * t * t);
         let s = (x - sample.pose.x).hypot(y - sample.pose.y).min(LENGTH);
-        Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s, x, y, alpha, force }
+        Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s, x, y, alpha, force, friction: None }
     }
 }
 

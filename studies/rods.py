@@ -60,7 +60,7 @@ def kinks(rod, distance):
         name = transition(event)
         if name is None or name in found:
             continue
-        if event.kind in ("snap", "snap-off", "slip"):
+        if event.kind in ("snap", "snap-off", "slip-over"):
             found[name] = (math.nan, math.nan, math.nan)
             continue
         jump = slope(rod, event.after) - slope(rod, event.before)

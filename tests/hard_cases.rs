@@ -394,8 +394,17 @@ fn what_the_default_tolerance_leaves() {
 #[test]
 fn a_contact_set_that_is_not_the_right_one() {
     let contour = Composite::single(Parabola::new([0.0, 0.0], STEEP).unwrap()).unwrap();
-    let guess =
-        Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.95, x: 0.3, y: 0.45, alpha: 1.2, force: 1.0 };
+    let guess = Contact {
+        object: 0,
+        piece: 0,
+        kind: ContactKind::Tangent,
+        s: 0.95,
+        x: 0.3,
+        y: 0.45,
+        alpha: 1.2,
+        force: 1.0,
+        friction: None,
+    };
     // the tip becomes tangent near x = 0.1514; beyond, a tangential contact would be off the rod
     for x in [0.152, 0.16, 0.2] {
         let found = equilibrium(&rod(), &contour, up(x), &[guess]).unwrap();

@@ -28,7 +28,17 @@ fn solved(x: f64, guess: &[Contact]) -> Equilibrium {
 
 #[test]
 fn a_rod_that_cannot_reach_the_contact_is_not_solved() {
-    let tip = Contact { object: 0, piece: 1, kind: ContactKind::Tip, s: 1.0, x: 0.6, y: 0.45, alpha: 1.2, force: 1.0 };
+    let tip = Contact {
+        object: 0,
+        piece: 1,
+        kind: ContactKind::Tip,
+        s: 1.0,
+        x: 0.6,
+        y: 0.45,
+        alpha: 1.2,
+        force: 1.0,
+        friction: None,
+    };
     // 1.2 L below, the vertex is out of reach
     let far = Pose { x: 0.3, y: -1.2, phi: FRAC_PI_2 };
     let found = equilibrium(&rod(), &notched(), far, &[tip]).unwrap();
@@ -56,7 +66,17 @@ fn contacts_that_change_places_are_not_in_order() {
 fn a_contact_beyond_the_end_of_its_piece_is_off_it() {
     // the tip would rest on the line through the upper edge, right of the square
     let square = Composite::polygon(&[[-1.0, -0.5], [0.0, -0.5], [0.0, 0.0], [-1.0, 0.0]]).unwrap();
-    let edge = Contact { object: 0, piece: 2, kind: ContactKind::Tip, s: 1.0, x: -0.1, y: 0.0, alpha: PI, force: 1.0 };
+    let edge = Contact {
+        object: 0,
+        piece: 2,
+        kind: ContactKind::Tip,
+        s: 1.0,
+        x: -0.1,
+        y: 0.0,
+        alpha: PI,
+        force: 1.0,
+        friction: None,
+    };
     let pose = |x| Pose { x, y: 0.8, phi: -0.3 * PI };
     let on = equilibrium(&rod(), &square, pose(-1.1), &[edge]).unwrap();
     assert_eq!(on.is_admissible(), Ok(()), "{on:?}");

@@ -418,6 +418,7 @@ fn of_the_contours(problem: &Problem, rod: &impl PhysicalRod) -> Vec<(String, f6
             y: at.y,
             alpha: number("alpha"),
             force: force + PERTURBATION * (1.0 + force),
+            friction: None,
         }
     });
     let found = equilibrium(rod, &objects(problem), clamp(problem), &guess.collect::<Vec<_>>()).unwrap();

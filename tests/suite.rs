@@ -9,6 +9,7 @@ mod equilibrium;
 mod fit;
 mod flat;
 mod follow_contour;
+mod friction;
 mod hard;
 mod hard_cases;
 mod hard_starts;

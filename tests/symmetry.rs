@@ -40,7 +40,7 @@ fn assert_same_outcome(what: &str, a: &Outcome, b: &Outcome) {
 
 /// Every number of a state through a change of units or a mirror, then compared.
 fn mapped(mut outcome: Outcome, map: impl Fn(State) -> State) -> Outcome {
-    let event = |e: Event| Event { kind: e.kind, before: map(e.before), after: map(e.after) };
+    let event = |e: Event| Event { kind: e.kind, before: map(e.before), after: map(e.after), dissipated: None };
     outcome.states = outcome.states.into_iter().map(&map).collect();
     outcome.events = outcome.events.into_iter().map(event).collect();
     outcome

@@ -94,7 +94,17 @@ impl Warm {
     pub fn equilibrium(&self, rod: &Rod) -> Equilibrium {
         let contact = |(j, u): (usize, &[f64])| {
             let Support { x, y, alpha, .. } = self.slalom.support(j, u[0]);
-            Contact { object: j, piece: 0, kind: ContactKind::Tangent, s: u[2], x, y, alpha, force: u[1] }
+            Contact {
+                object: j,
+                piece: 0,
+                kind: ContactKind::Tangent,
+                s: u[2],
+                x,
+                y,
+                alpha,
+                force: u[1],
+                friction: None,
+            }
         };
         let contacts: Vec<Contact> = self.guess.chunks(3).enumerate().map(contact).collect();
         equilibrium(rod, black_box(&self.objects), clamp(MOVED), &contacts).unwrap()

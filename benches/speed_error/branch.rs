@@ -179,6 +179,7 @@ fn contacts(case: &Case<'_>, u: &[f64]) -> Vec<Contact> {
             y: at.y,
             alpha: at.alpha,
             force: of[1],
+            friction: None,
         }
     };
     u.chunks_exact(3).enumerate().map(contact).collect()

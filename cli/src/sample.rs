@@ -29,6 +29,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
         y: 0.0,
         alpha: 0.0,
         force: 0.0,
+        friction: None,
     };
     State {
         pose: pose(x),
@@ -51,7 +52,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
 
 /// A transition at x.
 pub(crate) fn event(x: f64, from: &str, to: &str, kind: EventKind) -> Event {
-    Event { kind, before: state(x, from), after: state(x, to) }
+    Event { kind, before: state(x, from), after: state(x, to), dissipated: None }
 }
 
 /// A sweep that was not stopped.

@@ -54,7 +54,7 @@ impl Swept {
     fn is_jump(&self, event: &Event) -> bool {
         let Event { kind, before, after, .. } = event;
         let units = self.scene.rod.units();
-        matches!(kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip)
+        matches!(kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver)
             || (before.pose.x - after.pose.x).hypot(before.pose.y - after.pose.y) > 0.0
             || (before.energy - after.energy).abs() > NO_ENERGY * units.energy
     }

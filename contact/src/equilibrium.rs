@@ -46,7 +46,7 @@ impl Equilibrium {
     /// use rod_core::{Pose, Rod};
     /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
     /// let pose = Pose { x: 0.32, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
-    /// let along = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.9, x: 0.35, y: 0.6, alpha: 1.3, force: 1.0 };
+    /// let along = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.9, x: 0.35, y: 0.6, alpha: 1.3, force: 1.0, friction: None };
     /// let beyond = equilibrium(&rod, &object, pose, &[along])?;
     /// assert!(matches!(beyond.is_admissible(), Err(Inadmissible::BeyondTip { .. })));
     /// let tip = equilibrium(&rod, &object, pose, &[Contact { kind: ContactKind::Tip, ..along }])?;
@@ -103,7 +103,7 @@ fn judged(
 /// let rod = Rod::new(1.0, 1.0)?;
 /// // a vertical rod beside the parabola, pushed against its flank
 /// let pose = Pose { x: 0.1, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
-/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0 };
+/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0, friction: None };
 /// let found = equilibrium(&rod, &contour, pose, &[guess])?;
 /// assert!(found.report.status.is_solved() && found.state.certificate.stable);
 /// assert_eq!(found.state.phase().to_string(), "B");
@@ -136,7 +136,7 @@ pub fn equilibrium<R: PhysicalRod>(
 /// use rod_core::{Pose, Rod};
 /// let contour = Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?;
 /// let pose = Pose { x: 0.1, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
-/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0 };
+/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0, friction: None };
 /// let found = equilibrium_with_search(&Rod::new(1.0, 1.0)?, &contour, pose, &[guess], |search| {
 ///     search.configure(|state| state.max_iters(20)).timeout(std::time::Duration::from_millis(5))
 /// })?;

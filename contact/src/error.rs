@@ -88,6 +88,15 @@ pub enum ContactError {
         /// Condition number of the equations.
         condition: f64,
     },
+    /// Derivatives of a state in which a contact sticks.
+    #[error(
+        "contact {index} sticks: where it is depends on how it came there, so that it has no derivatives; \
+         take a state in which all contacts slip"
+    )]
+    Sticks {
+        /// Number of the contact, from 0 at the clamp.
+        index: usize,
+    },
     /// A quantity that does not exist.
     #[error("there is no {what}")]
     NoQuantity {
@@ -167,6 +176,13 @@ pub enum StopReason {
     Chatter,
     /// The pose to go to has a number that is not finite, or an angle beyond [`LARGEST_ANGLE`].
     NoPose,
+    /// The straight rod is pushed on along its axis against an object, and friction holds its tip: it carries any force until it buckles.
+    Jammed,
+    /// Friction allows more than one motion of the contacts, or none that leads on.
+    Undetermined,
+    /// A contact with friction comes to a place that is only followed without: the rod parts, lies down or runs together with another contact
+    /// in a notch or at an inflection of the contour.
+    FrictionInNotch,
     /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
     StepBudget,
 }
@@ -227,6 +243,9 @@ impl std::fmt::Display for StopReason {
             Self::ClampInside => "clamp-inside",
             Self::Chatter => "chatter",
             Self::NoPose => "no-pose",
+            Self::Jammed => "jammed",
+            Self::Undetermined => "undetermined",
+            Self::FrictionInNotch => "friction-in-notch",
             Self::StepBudget => "step-budget",
         })
     }
@@ -260,6 +279,15 @@ impl std::fmt::Display for Stop {
             StopReason::ClampInside => "the clamp itself runs into the object; end the path before it",
             StopReason::NoPose => {
                 "the pose to go to has a number that is not finite, or an angle beyond 100 rad; give m, m and rad"
+            }
+            StopReason::Jammed => {
+                "the rod is pushed on along its axis and friction holds its tip; move the clamp across the rod, or lower the friction"
+            }
+            StopReason::Undetermined => {
+                "friction leaves the motion of the contacts undetermined; start a new sweep beyond, or lower the friction"
+            }
+            StopReason::FrictionInNotch => {
+                "the rod lies down in a notch or at an inflection, which is only followed without friction; end the path before it"
             }
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",

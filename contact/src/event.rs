@@ -24,6 +24,10 @@ pub enum EventKind {
     /// A contact runs over the border of a piece: onto the next one, a corner or a notch.
     Piece,
     /// The tip slips over a convex corner, by less than 0.05 lengths of the rod, and rests on the piece beyond.
+    SlipOver,
+    /// A contact that slips, or a rod with friction whose clamp turns back, comes to rest on the contour: from there on it sticks or rolls.
+    Stick,
+    /// A contact that sticks or rolls has all the force along the contour that friction can bear, and begins to slip.
     Slip,
     /// The equilibrium ends and the rod jumps to another one.
     Snap,
@@ -40,6 +44,8 @@ impl fmt::Display for EventKind {
             Self::TipToTangent => "tip-to-tangent",
             Self::TangentToTip => "tangent-to-tip",
             Self::Piece => "piece",
+            Self::SlipOver => "slip-over",
+            Self::Stick => "stick",
             Self::Slip => "slip",
             Self::Snap => "snap",
             Self::SnapOff => "snap-off",
@@ -60,6 +66,9 @@ pub struct Event {
     /// after a snap whose new branch starts only beyond the fold, where it starts, and at an inflection of the contour,
     /// where the two contacts are (were) 0.01 lengths of the rod apart. Poses to report in between have no state.
     pub after: State,
+    /// Work (J) that friction has taken since the sweep began; none without friction ([`Sweep::dissipated`](crate::Sweep::dissipated)).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub dissipated: Option<f64>,
 }
 
 impl Event {

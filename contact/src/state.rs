@@ -48,8 +48,64 @@ pub struct Contact {
     pub y: f64,
     /// Tangent angle of the contour, radians: the force on the rod is force (sin alpha, -cos alpha).
     pub alpha: f64,
-    /// Contact force, N, >= 0.
+    /// Contact force, N, >= 0: the normal one where there is friction.
     pub force: f64,
+    /// What friction does there; none where there is none.
+    #[cfg_attr(feature = "serde", serde(flatten, default, skip_serializing_if = "Option::is_none"))]
+    pub friction: Option<ContactFriction>,
+}
+
+/// How a rod moves along a contour with friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum SlipMode {
+    /// The rod slips in the sense of the contour.
+    #[cfg_attr(feature = "serde", serde(rename = "slip+"))]
+    Forward,
+    /// The rod slips against the sense of the contour.
+    #[cfg_attr(feature = "serde", serde(rename = "slip-"))]
+    Backward,
+    /// The tip sticks, or the side rolls.
+    #[cfg_attr(feature = "serde", serde(rename = "stick"))]
+    Stick,
+}
+
+/// Its name in files: `slip+`, `slip-` or `stick`.
+impl std::fmt::Display for SlipMode {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Forward => "slip+",
+            Self::Backward => "slip-",
+            Self::Stick => "stick",
+        })
+    }
+}
+
+/// Friction at a contact, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ContactFriction {
+    /// How the rod moves there.
+    pub mode: SlipMode,
+    /// Force on the rod along the contour's direction, N: force (cos alpha, sin alpha).
+    #[cfg_attr(feature = "serde", serde(rename = "friction"))]
+    pub force: f64,
+    /// Slip coordinate, m: arc length of the contour at the contact, from parameter 0 of the piece or from its start, less the arc length
+    /// of the rod in the contour's sense. It grows as the rod slips forward, falls as it slips backward, and stays as it sticks. It means
+    /// nothing but by its differences between states on one piece.
+    pub slip: f64,
+}
+
+impl Contact {
+    /// The whole force on the rod: with friction it is not across the contour.
+    pub(crate) fn load(&self) -> Load {
+        let friction = self.friction.map_or(0.0, |friction| friction.force);
+        if friction == 0.0 {
+            return Load { s: self.s, force: self.force, alpha: self.alpha };
+        }
+        Load { s: self.s, force: self.force.hypot(friction), alpha: self.alpha + friction.atan2(self.force) }
+    }
 }
 
 /// Bounds of the smallest gap between the whole rod and all objects, m. About zero wherever there is a contact.
@@ -129,7 +185,7 @@ impl State {
     /// # Errors
     /// [`RodError`] where the state's numbers are not those of a rod as long as `rod`.
     pub fn elastica<R: PhysicalRod>(&self, rod: &R) -> Result<Elastica<R::Model>, RodError> {
-        let loads: Vec<_> = self.contacts.iter().map(|c| Load { s: c.s, force: c.force, alpha: c.alpha }).collect();
+        let loads: Vec<_> = self.contacts.iter().map(Contact::load).collect();
         let base = rod.base(self.pose, &self.reactions);
         Elastica::of_rod(rod.model().clone(), rod.units(), base, self.reactions.m0z, &loads)
     }

@@ -113,13 +113,13 @@ pub struct PyContact {
 
 impl PyContact {
     pub fn of(contact: &Contact) -> Self {
-        let Contact { object, piece, kind, s, x, y, alpha, force } = *contact;
+        let Contact { object, piece, kind, s, x, y, alpha, force, .. } = *contact;
         Self { kind: kind.to_string(), s, x, y, alpha, force, object, piece }
     }
 
     pub fn contact(&self) -> PyResult<Contact> {
         let Self { s, x, y, alpha, force, object, piece, .. } = *self;
-        Ok(Contact { object, piece, kind: kind(&self.kind)?, s, x, y, alpha, force })
+        Ok(Contact { object, piece, kind: kind(&self.kind)?, s, x, y, alpha, force, friction: None })
     }
 }
 

@@ -29,7 +29,7 @@ use rod_contours::{Composite, Contour, StretchKind};
 impl From<Touch> for Contact {
     fn from(touch: Touch) -> Self {
         let Touch { s, x, y, alpha, force, .. } = touch;
-        Self { object: 0, piece: 0, kind: ContactKind::Tangent, s, x, y, alpha, force }
+        Self { object: 0, piece: 0, kind: ContactKind::Tangent, s, x, y, alpha, force, friction: None }
     }
 }
 

@@ -39,6 +39,7 @@ mod elastica;
 mod error;
 #[cfg(feature = "std")]
 mod general;
+mod grip;
 mod inflection;
 #[cfg(feature = "std")]
 mod linear;
@@ -86,6 +87,7 @@ pub use elastica::Elastica;
 pub use error::RodError;
 #[cfg(feature = "std")]
 pub use general::GeneralElastica;
+pub use grip::{Grip, arc_length};
 pub use inflection::inflection;
 #[cfg(feature = "std")]
 pub use linearisation::{ContactRate, Linearisation, PathRow, Response, SupportRate};

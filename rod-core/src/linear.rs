@@ -27,8 +27,8 @@ pub(crate) fn invert(dimension: usize, a: &[f64], inverse: &mut [f64]) -> bool {
             }
         };
     }
-    // 3 n of a boundary-value problem and 3 n + 1 of its continuation along a path, n <= 8
-    of_known_size!(closed: 1 2 3 4; columns: 6 7 9 10 12 13 15 16 18 19 21 22 24 25)
+    // 3 n of a boundary-value problem and 3 n + 1 of its continuation along a path, n <= 8; one more for each of up to two contacts that stick
+    of_known_size!(closed: 1 2 3 4; columns: 5 6 7 8 9 10 11 12 13 15 16 18 19 21 22 24 25)
         && inverse.iter().all(|v| v.is_finite())
 }
 

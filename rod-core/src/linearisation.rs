@@ -8,7 +8,7 @@ mod bend;
 use crate::clamp::{Clamp, ClampLaw, product};
 use crate::linear::{invert, multiply};
 use crate::model::{CutSensitivities, RodModel};
-use crate::multipoint::{Hold, MultiPoint, Node, Supports, natural_sizes, reactions};
+use crate::multipoint::{Hold, MultiPoint, Node, Supports, reactions};
 use crate::newton::System;
 use crate::pose::{Pose, Reactions};
 use crate::propagator::Cut;
@@ -107,6 +107,7 @@ pub struct Linearisation {
 struct Held {
     node: Node,
     tangent: bool,
+    sticks: bool,
     segment: CutSensitivities,
 }
 
@@ -141,9 +142,16 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         let mut held = Vec::with_capacity(count);
         for (j, node) in nodes.iter().enumerate() {
             let segment = self.segment(&nodes, j, &mut residual, &mut jacobian, size);
-            held.push(Held { node: *node, tangent: self.supports.hold(j) != Hold::Tip, segment });
+            held.push(Held {
+                node: *node,
+                tangent: self.supports.hold(j) != Hold::Tip,
+                sticks: self.supports.grip(j).sticks(),
+                segment,
+            });
         }
-        let weights = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
+        self.sticking_equations(&nodes, u, &mut residual, &mut jacobian, size);
+        let mut weights = Vector::from_elem(0.0, size);
+        self.weights(u, &mut weights);
         let mut inverse = vec![0.0; size * size];
         let regular = invert(size, &jacobian, &mut inverse);
         let (base, law) = (self.base_of(&nodes), self.clamp.law().map(Box::new));
@@ -301,23 +309,31 @@ impl Linearisation {
             rates.extend((0..3).map(|i| end[i] - target[i]));
             target = [rate.contact.x, rate.contact.y, rate.contact.phi];
         }
+        // a contact that sticks moves with its support
+        rates.resize(self.residual.len(), 0.0);
         Some(rates)
     }
 
     /// How the supports move, and force and moment with them; with the rates of the unknowns, if any, how the contacts do.
     fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
         let mut rates: Vec<NodeRate> = Vec::with_capacity(supports.len());
-        for (j, (Held { node, tangent, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
+        let mut tangential = 3 * self.held.len();
+        for (j, (Held { node, tangent, sticks, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
             let [t, force, third] = unknowns.map_or([0.0; 3], |u| [u[3 * j], u[3 * j + 1], u[3 * j + 2]]);
             let along = node.at.speed * t;
             let alpha = moves.alpha + node.at.turning * t;
             let (phi, s) = if *tangent { (alpha, third) } else { (third, 0.0) };
             let (x, y) = (moves.x + along * node.cos, moves.y + along * node.sin);
-            let turned = node.force * alpha;
+            let ((own_a, own_b), (push_a, push_b)) = (node.own, node.push());
+            let mut friction = 0.0;
+            if *sticks {
+                friction = unknowns.map_or(0.0, |u| u[tangential]);
+                tangential += 1;
+            }
             rates.push(NodeRate {
                 contact: ContactRate { x, y, alpha, phi, s, force },
-                a: force * node.cos - turned * node.sin,
-                b: force * node.sin + turned * node.cos,
+                a: force * push_a - friction * node.sin - alpha * own_b,
+                b: force * push_b + friction * node.cos + alpha * own_a,
                 moment: 0.0,
             });
         }

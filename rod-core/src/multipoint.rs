@@ -9,16 +9,22 @@
 //!
 //! Segment j runs backwards from support j to support j - 1 (or the clamp). Its start is known from the unknowns alone:
 //! the position and angle of the support, the force (A, B) as the sum over all supports ahead, and the bending moment by
-//! moment balance, m_j = - sum_{k > j} f_k ((x_k - x_j) cos alpha_k + (y_k - y_j) sin alpha_k), so that the closure
+//! moment balance, m_j = - sum_{k > j} (A_k (x_k - x_j) + B_k (y_k - y_j)), so that the closure
 //! m(s_n) = 0 holds exactly. Where the segment ends it must meet the support before it, in position and angle: 3
 //! equations a support (Merker et al. 2020, eq. 14 to 17 are n = 1 and 2). The segments are independent given the
 //! unknowns: no error grows from one to the next.
+//!
+//! **Friction** ([`Grip`]). A support also pushes along its tangent with f_t, positive in the sense of the curve: the force on the rod is
+//! f (sin alpha, -cos alpha) + f_t (cos alpha, sin alpha), so that A gains f cos alpha - f_t sin alpha and B gains f sin alpha + f_t cos alpha.
+//! Where the rod slips f_t is a given part of f. Where it sticks or rolls f_t is one more unknown, and one more equation holds: the contact
+//! goes as far along the curve as along the rod. These unknowns and equations follow those of all supports, in their order.
 //!
 //! A clamp that gives way ([`ClampLaw`]) changes the three equations of segment 0. The moment in them is that at the end of the segment,
 //! which is the base of the rod: m0z has the lever of the displaced base.
 
 use crate::clamp::{Clamp, ClampLaw};
 use crate::elastica::Elastica;
+use crate::grip::{Grip, arc_length};
 use crate::model::{CutSensitivities, RodModel, Uniform, uniform};
 use crate::newton::System;
 use crate::pose::{Pose, Reactions};
@@ -64,6 +70,11 @@ pub trait Supports {
     fn hold(&self, j: usize) -> Hold;
     /// Number `j` at parameter `t`. Smooth also a little beyond where it ends.
     fn support(&self, j: usize, t: f64) -> Support;
+    /// Whether number `j` slips or sticks: without friction unless said otherwise.
+    #[inline(always)]
+    fn grip(&self, _j: usize) -> Grip {
+        Grip::SMOOTH
+    }
 }
 
 /// The boundary-value problem of a clamped rod of any kind on given supports, dimensionless.
@@ -103,6 +114,10 @@ pub(crate) struct Node {
     pub sin: f64,
     pub cos: f64,
     pub force: f64,
+    /// Tangential force over the normal one where the rod slips; 0 where it sticks: there the tangential force is an unknown.
+    pub ratio: f64,
+    /// The force of this support alone, as (A, B).
+    pub own: (f64, f64),
     /// Slope angle of the rod there.
     pub phi: f64,
     /// Arc length.
@@ -117,6 +132,17 @@ pub(crate) struct Node {
 impl Node {
     pub(crate) fn cut(&self) -> Cut {
         Cut { x: self.at.x, y: self.at.y, phi: self.phi, moment: self.moment }
+    }
+
+    /// (A, B) per unit of the normal force: with the friction of a rod that slips.
+    #[inline(always)]
+    pub(crate) fn push(&self) -> (f64, f64) {
+        (self.cos - self.ratio * self.sin, self.sin + self.ratio * self.cos)
+    }
+
+    /// The sense in which the rod runs along the curve: 1 along it, -1 against it.
+    pub(crate) fn sense(&self) -> f64 {
+        1.0_f64.copysign((self.phi - self.at.alpha).cos())
     }
 }
 
@@ -133,6 +159,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     #[inline(always)]
     pub(crate) fn nodes(&self, u: &[f64]) -> Nodes {
         let n = self.supports.count();
+        let mut tangential = 3 * n;
         // in place, one by one: a list that is handed on is copied, and costs as much as a tenth of a solve
         let mut nodes = Nodes::new();
         for (j, unknowns) in u.chunks_exact(3).take(n).enumerate() {
@@ -143,7 +170,15 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                 Hold::Tangent { offset } => (at.alpha + offset, third),
                 Hold::Tip => (third, 1.0),
             };
-            nodes.push(Node { at, sin, cos, force, phi, s, a: force * cos, b: force * sin, moment: 0.0 });
+            let (ratio, friction) = match self.supports.grip(j) {
+                Grip::Slips { ratio } => (ratio, ratio * force),
+                Grip::Sticks { .. } => {
+                    tangential += 1;
+                    (0.0, u[tangential - 1])
+                }
+            };
+            let own = (force * cos - friction * sin, force * sin + friction * cos);
+            nodes.push(Node { at, sin, cos, force, ratio, own, phi, s, a: own.0, b: own.1, moment: 0.0 });
         }
         for j in (1..n).rev() {
             let ahead = nodes[j];
@@ -155,8 +190,8 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         nodes
     }
 
-    /// Writes the residual (3 a support) and, where asked for, the Jacobian into the leading 3n x 3n block of a
-    /// column-major matrix with `stride` rows.
+    /// Writes the residual (3 a support, and 1 more for each that sticks) and, where asked for, the Jacobian into the leading block of
+    /// a column-major matrix with `stride` rows.
     ///
     /// Where the support of the clamp moves, and the unknowns do not, the first three equations change by minus its rate, (x, y, phi):
     /// on springs too, since the reactions follow from the unknowns alone. Only on a pivot the third does not change.
@@ -169,11 +204,15 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                     let end = self.rod.carry(node.s, &node.cut(), node.a, node.b, s - node.s);
                     self.residual_of(&nodes, j, &end, residual);
                 }
+                if u.len() > 3 * nodes.len() {
+                    self.sticking_residual(&nodes, u, residual);
+                }
             }
             Some((matrix, stride)) => {
                 for j in 0..nodes.len() {
                     self.segment(&nodes, j, residual, matrix, stride);
                 }
+                self.sticking_equations(&nodes, u, residual, matrix, stride);
             }
         }
     }
@@ -228,27 +267,29 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
 
         // This support: its point moves the start, its angle turns start and force.
         let Support { speed, turning, .. } = node.at;
-        let (sin, cos, f) = (node.sin, node.cos, node.force);
+        let (sin, cos) = (node.sin, node.cos);
+        let (own_a, own_b) = node.own;
+        let (push_a, push_b) = node.push();
         let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
         let moment_by_t = speed * (ahead_a * cos + ahead_b * sin);
         let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
         let phi_by_t = if tangent { turning } else { 0.0 };
         let shift = [speed * cos, speed * sin, 0.0];
-        let force_by_t = |i: usize| turning * f * (cos * d.by_b[i] - sin * d.by_a[i]);
+        let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
         put(3 * j, three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i)));
-        put(3 * j + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i]));
+        put(3 * j + 1, three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]));
         put(3 * j + 2, three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] }));
 
         // Supports ahead: through the force and the moment they leave here.
         for (k, other) in nodes.iter().enumerate().skip(j + 1) {
             let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
-            let (sin, cos, f) = (other.sin, other.cos, other.force);
+            let ((own_a, own_b), (push_a, push_b)) = (other.own, other.push());
             let Support { speed, turning, .. } = other.at;
-            let moment_by_f = -(dx * cos + dy * sin);
-            let moment_by_t = -f * (speed + turning * (dy * cos - dx * sin));
-            let force_by_t = |i: usize| turning * f * (cos * d.by_b[i] - sin * d.by_a[i]);
+            let moment_by_f = -(dx * push_a + dy * push_b);
+            let moment_by_t = -speed * other.force - turning * (dy * own_a - dx * own_b);
+            let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
             put(3 * k, three(&|i| moment_by_t * d.by_moment[i] + force_by_t(i)));
-            put(3 * k + 1, three(&|i| cos * d.by_a[i] + sin * d.by_b[i] + moment_by_f * d.by_moment[i]));
+            put(3 * k + 1, three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i] + moment_by_f * d.by_moment[i]));
             put(3 * k + 2, [0.0; 3]);
         }
         if j == 0
@@ -257,6 +298,78 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             give_way(&law, nodes, &end, matrix, stride);
         }
         d
+    }
+
+    /// The supports that stick, in order.
+    fn sticking(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+        (0..self.supports.count()).filter_map(|j| match self.supports.grip(j) {
+            Grip::Sticks { t, s } => Some((j, t, s)),
+            Grip::Slips { .. } => None,
+        })
+    }
+
+    /// The equations of the supports that stick, if any, with their derivatives and those by their tangential forces.
+    #[inline(always)]
+    pub(crate) fn sticking_equations(
+        &self,
+        nodes: &Nodes,
+        u: &[f64],
+        residual: &mut [f64],
+        matrix: &mut [f64],
+        stride: usize,
+    ) {
+        if u.len() > 3 * nodes.len() {
+            self.sticking_residual(nodes, u, residual);
+            self.sticking_columns(nodes, matrix, stride);
+        }
+    }
+
+    /// How much farther each contact that sticks has gone along its curve than along the rod.
+    fn sticking_residual(&self, nodes: &Nodes, u: &[f64], residual: &mut [f64]) {
+        for ((j, t, s), left) in self.sticking().zip(&mut residual[3 * nodes.len()..]) {
+            let along = arc_length(|t| self.supports.support(j, t).speed, t, u[3 * j]);
+            *left = along - nodes[j].sense() * (nodes[j].s - s);
+        }
+    }
+
+    /// The columns of the tangential forces of supports that stick, and the rows of their equations.
+    #[cold]
+    fn sticking_columns(&self, nodes: &Nodes, matrix: &mut [f64], stride: usize) {
+        let n = nodes.len();
+        let rows = n * 3..n * 3 + self.sticking().count();
+        for column in 0..rows.end {
+            matrix[column * stride..][rows.clone()].fill(0.0);
+        }
+        for (index, (k, ..)) in self.sticking().enumerate() {
+            let (other, column) = (&nodes[k], 3 * n + index);
+            let (sin, cos) = (other.sin, other.cos);
+            for j in 0..n {
+                let rows = &mut matrix[column * stride + 3 * j..][..3];
+                if j > k {
+                    rows.fill(0.0);
+                    continue;
+                }
+                let node = &nodes[j];
+                let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
+                let length = self.s_before(nodes, j) - node.s;
+                let (end, d) = self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length);
+                let by_moment = dx * sin - dy * cos;
+                for (i, row) in rows.iter_mut().enumerate() {
+                    *row = cos * d.by_b[i] - sin * d.by_a[i] + by_moment * d.by_moment[i];
+                }
+                if j == 0
+                    && let Some(law) = self.clamp.law()
+                {
+                    let (dx, dy) = (end.x - other.at.x, end.y - other.at.y);
+                    give_way_by(&law, (node.a, node.b), [-sin, cos, dy * cos - dx * sin], rows);
+                }
+            }
+            let row = 3 * n + index;
+            matrix[3 * k * stride + row] = other.at.speed;
+            if self.supports.hold(k) != Hold::Tip {
+                matrix[(3 * k + 2) * stride + row] = -other.sense();
+            }
+        }
     }
 
     /// Bending moment at the base of the rod, -m0z, by moment balance over all supports.
@@ -338,7 +451,8 @@ impl<S: Supports + ?Sized, C: Clamp> MultiPoint<'_, S, Uniform, C> {
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M, C> {
     fn dimension(&self) -> usize {
-        3 * self.supports.count()
+        let n = self.supports.count();
+        3 * n + (0..n).filter(|j| self.supports.grip(*j).sticks()).count()
     }
 
     fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
@@ -347,8 +461,12 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
     }
 
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
-        for (j, w) in weights.chunks_exact_mut(3).enumerate() {
+        let (of_all, of_sticking) = weights.split_at_mut(3 * self.supports.count());
+        for (j, w) in of_all.chunks_exact_mut(3).enumerate() {
             w.copy_from_slice(&natural_sizes(&self.supports.support(j, u[3 * j]), u[3 * j + 1]));
+        }
+        for (w, friction) in of_sticking.iter_mut().zip(&u[of_all.len()..]) {
+            *w = 0.25 / (1.0 + friction.abs());
         }
     }
 }
@@ -362,18 +480,23 @@ pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
 /// unknowns change the reactions: m(0) = sum f_k ((x(0) - x_k) cos alpha_k + (y(0) - y_k) sin alpha_k).
 fn give_way(law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
     let (a, b) = (nodes[0].a, nodes[0].b);
-    for (k, Node { at, sin, cos, force, .. }) in nodes.iter().enumerate() {
+    for (k, node) in nodes.iter().enumerate() {
+        let (at, (own_a, own_b), (push_a, push_b)) = (&node.at, node.own, node.push());
         let (dx, dy) = (base.x - at.x, base.y - at.y);
-        let turned = at.turning * force;
-        let by_t = [-turned * sin, turned * cos, turned * (dy * cos - dx * sin) - force * at.speed];
-        let by_force = [*cos, *sin, dx * cos + dy * sin];
-        for (column, [a_rate, b_rate, moment_rate]) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
-            let rows = &mut matrix[(3 * k + column) * stride..][..3];
-            let end = [rows[0], rows[1], rows[2]];
-            let moment_rate = moment_rate + a * end[0] + b * end[1];
-            rows.copy_from_slice(&law.rates(end, &Reactions { f0x: -b_rate, f0y: a_rate, m0z: -moment_rate }));
+        let by_t =
+            [-at.turning * own_b, at.turning * own_a, at.turning * (dy * own_a - dx * own_b) - node.force * at.speed];
+        let by_force = [push_a, push_b, dx * push_a + dy * push_b];
+        for (column, rates) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
+            give_way_by(law, (a, b), rates, &mut matrix[(3 * k + column) * stride..][..3]);
         }
     }
+}
+
+/// The same for one unknown, by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
+fn give_way_by(law: &ClampLaw, (a, b): (f64, f64), [a_rate, b_rate, moment_rate]: [f64; 3], rows: &mut [f64]) {
+    let end = [rows[0], rows[1], rows[2]];
+    let moment_rate = moment_rate + a * end[0] + b * end[1];
+    rows.copy_from_slice(&law.rates(end, &Reactions { f0x: -b_rate, f0y: a_rate, m0z: -moment_rate }));
 }
 
 #[cfg(test)]

@@ -294,7 +294,7 @@ fn defining(scene: &Scene, event: &Event) -> Option<(State, Defining)> {
         },
         EventKind::TipToTangent => (after, Defining::AtTip),
         EventKind::TangentToTip => (before, Defining::AtTip),
-        EventKind::Piece | EventKind::Slip => {
+        EventKind::Piece | EventKind::SlipOver => {
             let defining = vertex(&before)?;
             (before, defining)
         }
@@ -370,8 +370,17 @@ fn of_the_poses_of_transitions() {
         errors_of_transitions(&name, &scene, &mut table);
     }
     print("largest relative error of the derivative of a pose, number of comparisons", &table);
-    let kinds =
-        ["first-contact", "touch", "release", "tip-to-tangent", "tangent-to-tip", "piece", "slip", "snap", "snap-off"];
+    let kinds = [
+        "first-contact",
+        "touch",
+        "release",
+        "tip-to-tangent",
+        "tangent-to-tip",
+        "piece",
+        "slip-over",
+        "snap",
+        "snap-off",
+    ];
     for kind in kinds {
         assert!(table.keys().any(|(row, _)| row.split(' ').next() == Some(kind)), "{kind}: {:?}", table.keys());
     }

@@ -4,4 +4,4 @@ mod inversion;
 mod parameters;
 mod random;
 mod restarts;
-mod scans;
+pub mod scans;

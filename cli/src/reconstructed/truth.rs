@@ -102,7 +102,7 @@ impl<'a> Truth<'a> {
     fn of(scan: &'a Scan, rod: &Rod) -> Self {
         let happening = |event: &'a Event| {
             let [from, to] = [event.from(), event.to()].map(|phase| Label::of(phase.contacts, phase.tip));
-            let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip);
+            let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
             let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
             Happening { event, way: interval::way(&scan.scene.path, event.pose()), from, to, kinks }
         };

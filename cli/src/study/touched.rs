@@ -24,7 +24,7 @@ const PARTS: usize = 16;
 pub(super) fn touched<R: SceneRod>(scan: &Scan<R>) -> Option<f64> {
     let objects = &scan.scene.objects;
     let mut covered = vec![Vec::new(); objects.len()];
-    let slips = scan.outcome.events.iter().filter(|event| event.kind == EventKind::Slip);
+    let slips = scan.outcome.events.iter().filter(|event| event.kind == EventKind::SlipOver);
     let slips: Vec<f64> = slips.map(|event| scan.scene.way(&event.before)).collect();
     for interval in scan.intervals() {
         // a state at the very pose of a transition may be of the phase before

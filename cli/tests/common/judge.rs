@@ -30,7 +30,7 @@ pub fn judge(scene: &Scene, outcome: &Outcome) -> Result<(), String> {
         judge_state(state).and_then(|()| stable(state)).map_err(|what| format!("{name}: {what}"))?;
     }
     for event in &outcome.events {
-        let lands = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::Slip);
+        let lands = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
         for (state, ends) in [(&event.before, lands), (&event.after, false)] {
             // where an equilibrium ends it is on the verge of stability
             let stable = if ends { Ok(()) } else { stable(state) };

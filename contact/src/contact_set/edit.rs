@@ -55,7 +55,7 @@ pub(crate) fn across_corner(mut configuration: Configuration, world: &World<'_>)
     let corner = corner_ahead(&configuration, last, world)?.0;
     let phi = configuration.slope(last);
     let Passing { alpha, t, .. } = Corner::new(world, corner).passing(&Section { x: 0.0, y: 0.0, phi, kappa: 0.0 })?;
-    configuration.contacts[last] = Held { stretch: corner, hold: lying(phi - alpha) };
+    configuration.contacts[last] = Held::smooth(corner, lying(phi - alpha));
     configuration.set(Unknown::Parameter(last), t);
     configuration.set(Unknown::ArcLength(last), 1.0);
     Some(configuration)
@@ -97,7 +97,7 @@ pub(crate) fn off_corner(configuration: &Configuration, world: &World<'_>) -> Sm
 /// The last contact, tangential at s = 1, as a contact of the tip.
 pub(crate) fn as_tip(mut configuration: Configuration, world: &World<'_>) -> Configuration {
     let last = configuration.count() - 1;
-    let Held { stretch, hold } = configuration.contacts[last];
+    let Held { stretch, hold, .. } = configuration.contacts[last];
     if let Hold::Tangent { offset } = hold {
         let lying = world.support(stretch, configuration.t(last)).alpha + offset;
         configuration.set(Unknown::Slope(last), lying);

@@ -2,9 +2,9 @@
 
 use crate::contact_set::{Configuration, Held, lying};
 use crate::error::ContactError;
-use crate::scene::rod::{Walk, at_clamp};
+use crate::scene::rod::{Walk, at_clamp, push};
 use crate::scene::world::{Foot, World};
-use crate::state::{Contact, ContactKind};
+use crate::state::{Contact, ContactKind, SlipMode};
 use rod_contours::StretchKind;
 use rod_core::{Clamp, Hold, Pose, Reactions, RodModel, Units};
 use smallvec::SmallVec;
@@ -18,6 +18,15 @@ pub(crate) struct Supposed {
     pub tip: bool,
     pub s: f64,
     pub force: f64,
+    /// Force along the contour and whether the rod sticks, where there is friction.
+    pub friction: Option<(f64, bool)>,
+}
+
+impl Supposed {
+    /// What it adds to (A, B).
+    fn push(&self) -> (f64, f64) {
+        push(self.force, self.friction.map_or(0.0, |(friction, _)| friction), self.foot.alpha)
+    }
 }
 
 /// Share of its cone by which the force of a state may point out of it.
@@ -66,17 +75,17 @@ pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Sup
         }
     }
     let mut rod = Walk::new(rod, at_clamp(base, felt.m0z), (felt.f0y, -felt.f0x));
-    supposed.iter().map(|Supposed { foot, s, force, .. }| rod.to(*s, *force, foot.alpha)).collect()
+    supposed.iter().map(|contact| rod.to(contact.s, contact.push())).collect()
 }
 
 /// The reactions of the clamp to the forces, with its moment about the base.
 fn felt(base: Pose, supposed: &[Supposed]) -> Reactions {
     let [mut a, mut b, mut m0z] = [0.0; 3];
-    for Supposed { foot, force, .. } in supposed {
-        let (sin, cos) = foot.alpha.sin_cos();
-        a += force * cos;
-        b += force * sin;
-        m0z += force * ((foot.x - base.x) * cos + (foot.y - base.y) * sin);
+    for contact in supposed {
+        let (foot, (own_a, own_b)) = (&contact.foot, contact.push());
+        a += own_a;
+        b += own_b;
+        m0z += (foot.x - base.x) * own_a + (foot.y - base.y) * own_b;
     }
     Reactions { f0x: -b, f0y: a, m0z }
 }
@@ -84,9 +93,15 @@ fn felt(base: Pose, supposed: &[Supposed]) -> Reactions {
 /// The contacts of a guess with a rod that has such slope angles there.
 pub(crate) fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
     let mut configuration = Configuration::free(0.0);
-    for (j, (Supposed { stretch, foot, tip, s, force }, phi)) in supposed.iter().zip(slopes).enumerate() {
+    for (j, (Supposed { stretch, foot, tip, s, force, .. }, phi)) in supposed.iter().zip(slopes).enumerate() {
         let (hold, third) = if *tip { (Hold::Tip, *phi) } else { (lying(phi - foot.alpha), *s) };
-        configuration.insert(j, Held { stretch: *stretch, hold }, [foot.t, *force, third]);
+        configuration.insert(j, Held::smooth(*stretch, hold), [foot.t, *force, third]);
+    }
+    // behind all others, as their unknowns are
+    for (j, contact) in supposed.iter().enumerate() {
+        if let Some((friction, sticks)) = contact.friction {
+            configuration.rub(j, friction, sticks);
+        }
     }
     configuration
 }
@@ -122,7 +137,11 @@ pub(crate) fn supposed(
         turn_on_joint(world, stretch, &mut foot, contact.alpha);
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
         let s = if tip { 1.0 } else { contact.s / units.length };
-        supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force });
+        let friction = contact.friction.map(|f| (f.force / units.force, f.mode == SlipMode::Stick));
+        if friction.is_some_and(|(force, _)| !force.is_finite()) {
+            return wrong("its friction is not finite");
+        }
+        supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force, friction });
     }
     Ok(supposed)
 }

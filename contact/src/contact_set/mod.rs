@@ -11,18 +11,26 @@ use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::state::ContactKind;
 use rod_contours::StretchKind;
-use rod_core::{Hold, PhysicalRod, Support, Supports};
+use rod_core::{Grip, Hold, PhysicalRod, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
 /// Pulling force (E I / L^2) that counts as zero: a hundred times the error of a solved force.
 pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 
-/// Where a contact is (a stretch of the contour) and how it holds the rod.
+/// Where a contact is (a stretch of the contour), how it holds the rod, and whether the rod slips or sticks there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Held {
     pub stretch: usize,
     pub hold: Hold,
+    pub grip: Grip,
+}
+
+impl Held {
+    /// A contact without friction, or whose friction is still to be chosen.
+    pub const fn smooth(stretch: usize, hold: Hold) -> Self {
+        Self { stretch, hold, grip: Grip::SMOOTH }
+    }
 }
 
 /// An unknown of the boundary-value problem along the path.
@@ -41,18 +49,19 @@ pub(crate) enum Unknown {
 }
 
 impl Unknown {
-    /// Its place among the unknowns of so many contacts.
-    pub const fn index(self, contacts: usize) -> usize {
+    /// Its place among so many unknowns, the path parameter included.
+    pub const fn index(self, size: usize) -> usize {
         match self {
             Self::Parameter(j) => 3 * j,
             Self::Force(j) => 3 * j + 1,
             Self::ArcLength(j) | Self::Slope(j) => 3 * j + 2,
-            Self::Path => 3 * contacts,
+            Self::Path => size - 1,
         }
     }
 }
 
-/// Unknowns of the boundary-value problem, three a contact, and the path parameter behind them.
+/// Unknowns of the boundary-value problem, three a contact, then the tangential force of each contact that sticks, and the path
+/// parameter behind them.
 pub(crate) type Unknowns = SmallVec<[f64; 25]>;
 
 /// Contacts from the clamp to the tip, and z = (t_1, f_1, s_1, ..., tau), where the last third of a tip contact is the
@@ -73,11 +82,11 @@ impl Configuration {
     }
 
     pub fn get(&self, unknown: Unknown) -> f64 {
-        self.z[unknown.index(self.count())]
+        self.z[unknown.index(self.z.len())]
     }
 
     pub fn set(&mut self, unknown: Unknown, value: f64) {
-        let index = unknown.index(self.count());
+        let index = unknown.index(self.z.len());
         self.z[index] = value;
     }
 
@@ -122,13 +131,69 @@ impl Configuration {
 
     pub fn insert(&mut self, j: usize, held: Held, unknowns: [f64; 3]) {
         self.contacts.insert(j, held);
-        self.z.insert_from_slice(Unknown::Parameter(j).index(self.count()), &unknowns);
+        self.z.insert_from_slice(3 * j, &unknowns);
     }
 
     pub fn remove(&mut self, j: usize) {
+        self.set_slipping(j, 0.0);
         self.contacts.remove(j);
-        let first = Unknown::Parameter(j).index(self.count());
-        self.z.drain(first..first + 3);
+        self.z.drain(3 * j..3 * j + 3);
+    }
+
+    /// The place of the tangential force of contact j, where that sticks.
+    pub fn friction_index(&self, j: usize) -> usize {
+        3 * self.count() + self.contacts[..j].iter().filter(|held| held.grip.sticks()).count()
+    }
+
+    /// The force on the rod along the contour at contact j.
+    pub fn friction(&self, j: usize) -> f64 {
+        match self.contacts[j].grip {
+            Grip::Slips { ratio } => ratio * self.force(j),
+            Grip::Sticks { .. } => self.z[self.friction_index(j)],
+        }
+    }
+
+    /// Lets contact j slip with this part of its normal force along the contour.
+    pub fn set_slipping(&mut self, j: usize, ratio: f64) {
+        if self.contacts[j].grip.sticks() {
+            let index = self.friction_index(j);
+            self.z.remove(index);
+        }
+        self.contacts[j].grip = Grip::Slips { ratio };
+    }
+
+    /// Lets contact j stick where it is, with this force along the contour.
+    pub fn set_sticking(&mut self, j: usize, friction: f64) {
+        let index = self.friction_index(j);
+        if self.contacts[j].grip.sticks() {
+            self.z[index] = friction;
+        } else {
+            self.z.insert(index, friction);
+        }
+        self.contacts[j].grip = Grip::Sticks { t: self.t(j), s: self.s(j) };
+    }
+
+    /// Gives contact j the force along the contour that a state has there.
+    pub fn rub(&mut self, j: usize, friction: f64, sticks: bool) {
+        let force = self.force(j);
+        if sticks {
+            self.set_sticking(j, friction);
+        } else if force != 0.0 {
+            self.set_slipping(j, friction / force);
+        }
+    }
+
+    /// Whether friction acts at any contact.
+    pub fn rubs(&self) -> bool {
+        self.contacts.iter().any(|held| held.grip != Grip::SMOOTH)
+    }
+
+    /// Slope angle of the rod at contact j, whose support is given.
+    pub fn slope_along(&self, j: usize, support: &Support) -> f64 {
+        match self.contacts[j].hold {
+            Hold::Tangent { offset } => support.alpha + offset,
+            Hold::Tip => self.slope(j),
+        }
     }
 
     /// The contacts as supports of the rod.
@@ -146,7 +211,7 @@ impl Configuration {
     }
 
     pub fn kind(&self, world: &World<'_>, j: usize) -> ContactKind {
-        let Held { stretch, hold } = self.contacts[j];
+        let Held { stretch, hold, .. } = self.contacts[j];
         match (world.kind(stretch), hold) {
             (StretchKind::Notch { .. }, _) => ContactKind::Notch,
             (_, Hold::Tip) => ContactKind::Tip,
@@ -180,5 +245,9 @@ impl Supports for Holding<'_> {
     }
     fn support(&self, j: usize, t: f64) -> Support {
         self.world.support(self.contacts[j].stretch, t)
+    }
+    #[inline(always)]
+    fn grip(&self, j: usize) -> Grip {
+        self.contacts[j].grip
     }
 }

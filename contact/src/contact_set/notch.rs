@@ -52,8 +52,33 @@ pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usi
     parted.set(Unknown::Parameter(last), t_other);
     parted.set(Unknown::Force(last), f * (alpha - alpha_wall).sin() / whole);
     let force = f * (alpha_other - alpha).sin() / whole;
-    parted.insert(last, Held { stretch: wall, hold }, [t, force, 1.0]);
+    parted.insert(last, Held::smooth(wall, hold), [t, force, 1.0]);
     parted
+}
+
+/// The force of contact j, with its friction, carried over the border between a wall and its notch, from `before` to `after`. In the notch both
+/// walls hold the rod, each with a force within its cone of friction: only their sum is known, whose direction is the parameter.
+pub(crate) fn with_cone(
+    world: &World<'_>,
+    before: &Configuration,
+    mut after: Configuration,
+    j: usize,
+    upwards: bool,
+) -> Configuration {
+    let [from, to] = [before, &after].map(|configuration| configuration.contacts[j].stretch);
+    let turning = |notch: usize| world.support(notch, world.border(notch, false)).turning;
+    if world.is_notch(to) {
+        let (force, friction) = (before.force(j), before.friction(j));
+        after.set_slipping(j, 0.0);
+        let t = after.t(j) + friction.atan2(force) / turning(to);
+        after.set(Unknown::Parameter(j), t);
+        after.set(Unknown::Force(j), force.hypot(friction));
+    } else if world.is_notch(from) {
+        let angle = (before.t(j) - world.border(from, upwards)) * turning(from);
+        after.set(Unknown::Force(j), before.force(j) * angle.cos());
+        after.set_slipping(j, angle.tan());
+    }
+    after
 }
 
 /// Adds to the tip contact, which is on one wall of a notch, a force of `stretch`, the other wall: the tip rests in the
@@ -143,7 +168,7 @@ mod tests {
         let notch = world.find(0, StretchKind::Notch { before: 0 }).unwrap();
         let mut resting = Configuration::free(0.0);
         let t = 0.5 * (world.range(notch).from + world.range(notch).to);
-        resting.insert(0, Held { stretch: notch, hold: Hold::Tip }, [t, 2.0, phi]);
+        resting.insert(0, Held::smooth(notch, Hold::Tip), [t, 2.0, phi]);
         (resting, notch)
     }
 

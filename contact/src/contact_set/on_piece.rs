@@ -32,7 +32,7 @@ mod tests {
         let world = World::new(square.as_ref(), 1.0);
         let off = |stretch: usize, t: f64| {
             let mut set = Configuration::free(0.0);
-            set.insert(0, Held { stretch, hold: Hold::Tip }, [t, 1.0, 0.0]);
+            set.insert(0, Held::smooth(stretch, Hold::Tip), [t, 1.0, 0.0]);
             off_piece(&world, &set)
         };
         for stretch in 0..square.stretches().len() {

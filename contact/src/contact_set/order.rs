@@ -25,7 +25,7 @@ mod tests {
         let at = |places: &[f64]| {
             let mut set = Configuration::free(0.0);
             for (j, s) in places.iter().enumerate() {
-                set.insert(j, Held { stretch: 0, hold: Hold::Tangent { offset: 0.0 } }, [0.0, 1.0, *s]);
+                set.insert(j, Held::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, *s]);
             }
             ordered(&world, &set)
         };

@@ -5,7 +5,7 @@
 use crate::contact_set::{Configuration, Held, Holding, Unknown, Unknowns};
 use crate::scene::setup::Setup;
 use rod_core::{
-    NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, Supports, System, newton_step, solve,
+    NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, System, newton_step, solve,
 };
 #[cfg(feature = "argmin")]
 use rod_core::{TrustRegionSearch, solve_by_trust_region};
@@ -15,6 +15,9 @@ use rod_core::{TrustRegionSearch, solve_by_trust_region};
 pub(crate) enum Condition<'a> {
     /// One unknown has a given value: the pose, a vanishing force, a contact at the tip or at the border of its stretch.
     Fixed { unknown: Unknown, value: f64 },
+    /// A contact that sticks has the force along the contour, unknown number `friction`, that it may have at most: `ratio` times the
+    /// normal one.
+    OnCone { friction: usize, force: usize, ratio: f64 },
     /// The plane across a tangent at a distance from a point.
     Plane { tangent: &'a Tangent, from: &'a [f64], distance: f64 },
 }
@@ -57,7 +60,7 @@ impl Tangent {
 
     /// The rate of an unknown of a contact by arclength.
     pub fn rate_of(&self, unknown: Unknown) -> f64 {
-        self.direction[unknown.index(self.direction.len() / 3)]
+        self.direction[unknown.index(self.direction.len())]
     }
 
     /// Change of the path parameter by arclength.
@@ -81,12 +84,22 @@ struct Bordered<'a, R = Rod> {
     setup: &'a Setup<'a, R>,
     holding: Holding<'a>,
     condition: Condition<'a>,
+    /// Number of unknowns.
+    size: usize,
 }
 
 impl<R: PhysicalRod> Bordered<'_, R> {
-    fn condition_row(&self, column: usize) -> f64 {
+    fn condition_row(&self, column: usize, size: usize) -> f64 {
         match self.condition {
-            Condition::Fixed { unknown, .. } => f64::from(u8::from(unknown.index(self.holding.count()) == column)),
+            Condition::Fixed { unknown, .. } => f64::from(u8::from(unknown.index(size) == column)),
+            Condition::OnCone { friction, .. } if column == friction => 1.0,
+            Condition::OnCone { force, ratio, .. } => {
+                if column == force {
+                    -ratio
+                } else {
+                    0.0
+                }
+            }
             Condition::Plane { tangent, .. } => tangent.row(column),
         }
     }
@@ -94,14 +107,15 @@ impl<R: PhysicalRod> Bordered<'_, R> {
 
 impl<R: PhysicalRod> System for Bordered<'_, R> {
     fn dimension(&self) -> usize {
-        Unknown::Path.index(self.holding.count()) + 1
+        self.size
     }
 
     fn evaluate(&self, z: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
         let (last, size) = (z.len() - 1, z.len());
         let problem = self.setup.problem(&self.holding, z[last]);
         residual[last] = match self.condition {
-            Condition::Fixed { unknown, value } => z[unknown.index(self.holding.count())] - value,
+            Condition::Fixed { unknown, value } => z[unknown.index(size)] - value,
+            Condition::OnCone { friction, force, ratio } => z[friction] - ratio * z[force],
             Condition::Plane { tangent, from, distance } => tangent.along(z, from) - distance,
         };
         match jacobian {
@@ -109,7 +123,7 @@ impl<R: PhysicalRod> System for Bordered<'_, R> {
             Some(matrix) => {
                 problem.evaluate_into(&z[..last], residual, Some((&mut *matrix, size)));
                 for column in 0..size {
-                    matrix[column * size + last] = self.condition_row(column);
+                    matrix[column * size + last] = self.condition_row(column, size);
                 }
                 // the clamp moves: only the first segment ends there
                 let rate = self.setup.path.rate(z[last]);
@@ -157,7 +171,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
 
     fn solve(&mut self, configuration: &mut Configuration, condition: Condition<'_>, iterations: u32) -> SolveReport {
         let Configuration { contacts, z } = configuration;
-        let system = bordered(&self.setup, contacts, condition);
+        let system = bordered(&self.setup, contacts, condition, z.len());
         solve(&system, z, &options(iterations), &mut self.workspace)
     }
 
@@ -192,7 +206,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         search: impl FnOnce(TrustRegionSearch<'_>) -> TrustRegionSearch<'_>,
     ) -> SolveReport {
         let Configuration { contacts, z } = configuration;
-        let system = bordered(&self.setup, contacts, Condition::Fixed { unknown: Unknown::Path, value: tau });
+        let system = bordered(&self.setup, contacts, Condition::Fixed { unknown: Unknown::Path, value: tau }, z.len());
         solve_by_trust_region(&system, z, &options(COLD), &mut self.workspace, search)
     }
 
@@ -200,7 +214,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
     /// fixed towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its
     /// equations.
     pub fn inspect(&mut self, configuration: &Configuration, condition: Condition<'_>) -> (Tangent, SolveReport) {
-        let system = bordered(&self.setup, &configuration.contacts, condition);
+        let system = bordered(&self.setup, &configuration.contacts, condition, configuration.z.len());
         let mut z = configuration.z.clone();
         self.workspace.prepare(&system, &z);
         newton_step(&system, &mut z, &options(WARM), &mut self.workspace);
@@ -237,6 +251,7 @@ fn bordered<'a, R: PhysicalRod>(
     setup: &'a Setup<'a, R>,
     contacts: &'a [Held],
     condition: Condition<'a>,
+    size: usize,
 ) -> Bordered<'a, R> {
-    Bordered { setup, holding: Holding { world: &setup.world, contacts }, condition }
+    Bordered { setup, holding: Holding { world: &setup.world, contacts }, condition, size }
 }

@@ -1,10 +1,12 @@
 //! A configuration as a state in SI units, with its certificate.
 
 use crate::contact_set::Configuration;
+use crate::friction::slip_coordinate;
 use crate::gap::scan::Scan;
 use crate::scene::setup::Setup;
-use crate::state::{Certificate, Contact, GapBounds, State};
-use rod_core::{Clamp, Elastica, PhysicalRod, Pose, Reactions, RodModel, SolveReport, Supports, Units};
+use crate::scene::world::World;
+use crate::state::{Certificate, Contact, ContactFriction, GapBounds, SlipMode, State};
+use rod_core::{Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RodModel, SolveReport, Supports, Units};
 
 /// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
@@ -55,6 +57,7 @@ pub(crate) fn state<R: PhysicalRod>(
             y: at.y * length,
             alpha: at.alpha,
             force: f * force,
+            friction: friction(world, configuration, j, (length, force)),
         });
     }
     let certificate = Certificate {
@@ -75,6 +78,23 @@ pub(crate) fn state<R: PhysicalRod>(
         max_stress: rod.bending_stress(shape.largest_curvature()),
         certificate,
     }
+}
+
+/// What friction does at contact j, in these units of length and force.
+fn friction(
+    world: &World<'_>,
+    configuration: &Configuration,
+    j: usize,
+    (length, force): (f64, f64),
+) -> Option<ContactFriction> {
+    let mode = match configuration.contacts[j].grip {
+        Grip::SMOOTH => return None,
+        Grip::Sticks { .. } => SlipMode::Stick,
+        Grip::Slips { ratio } if ratio < 0.0 => SlipMode::Forward,
+        Grip::Slips { .. } => SlipMode::Backward,
+    };
+    let slip = slip_coordinate(world, configuration, j) * length;
+    Some(ContactFriction { mode, force: configuration.friction(j) * force, slip })
 }
 
 /// Energy (J) of the rod in `configuration` and of its clamp.

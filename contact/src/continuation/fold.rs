@@ -2,6 +2,7 @@
 
 use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Corrector, Tangent};
+use crate::scene::world::World;
 use rod_core::{PhysicalRod, RodError, find_root};
 use std::cell::RefCell;
 
@@ -28,6 +29,17 @@ pub(crate) fn locate_fold<R: PhysicalRod>(
     tangent: &Tangent,
     to: &Configuration,
 ) -> Option<Configuration> {
+    locate_zero(corrector, from, tangent, to, |_, _, tangent| tangent.by_tau())
+}
+
+/// The first point between `from` and `to` where a rate along the branch, positive at `from`, vanishes: found as a fold is.
+pub(crate) fn locate_zero<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    from: &Configuration,
+    tangent: &Tangent,
+    to: &Configuration,
+    rate: impl Fn(&World<'_>, &Configuration, &Tangent) -> f64,
+) -> Option<Configuration> {
     let whole = tangent.along(&to.z, &from.z);
     let guess = |distance: f64| {
         let mut here = from.clone();
@@ -40,12 +52,13 @@ pub(crate) fn locate_fold<R: PhysicalRod>(
     // fold.
     let firsts = BEYOND.map(|d| -d * whole);
     let lasts = BEYOND.map(|d| (1.0 + d) * whole);
-    let (fold, own) = between(corrector, from, tangent, guess, (&firsts, &lasts), FIRST_LOOK)?;
+    let (fold, own) = between(corrector, from, tangent, guess, (&firsts, &lasts), (FIRST_LOOK, &rate))?;
     // The planes across a tangent at some distance meet the branch at an angle. Those across the tangent of the fold itself
     // find it to the last digits.
     let across = |distance| own.ahead(&fold, distance);
-    let closer = between(corrector, &fold, &own, across, (&[-AROUND], &[AROUND]), ARCLENGTH);
-    let (fold, _) = closer.or_else(|| between(corrector, from, tangent, guess, (&firsts, &lasts), ARCLENGTH))?;
+    let closer = between(corrector, &fold, &own, across, (&[-AROUND], &[AROUND]), (ARCLENGTH, &rate));
+    let (fold, _) =
+        closer.or_else(|| between(corrector, from, tangent, guess, (&firsts, &lasts), (ARCLENGTH, &rate)))?;
     (fold.tau() > from.tau() - SAME_FOLD).then_some(fold)
 }
 
@@ -56,7 +69,7 @@ fn between<R: PhysicalRod>(
     tangent: &Tangent,
     guess: impl Fn(f64) -> Configuration,
     (firsts, lasts): (&[f64], &[f64]),
-    tolerance: f64,
+    (tolerance, rate): (f64, &impl Fn(&World<'_>, &Configuration, &Tangent) -> f64),
 ) -> Option<(Configuration, Tangent)> {
     let corrector = RefCell::new(corrector);
     let point = |distance: f64| {
@@ -64,17 +77,22 @@ fn between<R: PhysicalRod>(
         let condition = Condition::Plane { tangent, from: &from.z, distance };
         let mut corrector = corrector.borrow_mut();
         let solved = corrector.correct(&mut here, condition).status.is_solved();
-        solved.then(|| (corrector.inspect(&here, condition).0, here))
+        if !solved {
+            return None;
+        }
+        let there = corrector.inspect(&here, condition).0;
+        let rate = rate(&corrector.setup.world, &here, &there);
+        Some((there, here, rate))
     };
     let slope = |distance: f64| {
         point(distance)
-            .map(|(tangent, _)| tangent.by_tau())
+            .map(|(.., rate)| rate)
             .ok_or(RodError::NoRoot { what: "fold", reason: "lost the branch".into() })
     };
-    let first = firsts.iter().find(|d| point(**d).is_some_and(|(tangent, _)| tangent.by_tau() > 0.0))?;
-    let last = lasts.iter().find(|d| point(**d).is_some_and(|(tangent, _)| tangent.by_tau() < 0.0))?;
+    let first = firsts.iter().find(|d| point(**d).is_some_and(|(.., rate)| rate > 0.0))?;
+    let last = lasts.iter().find(|d| point(**d).is_some_and(|(.., rate)| rate < 0.0))?;
     let fold = find_root("d tau / d arclength", slope, *first, *last, tolerance).ok()?;
-    point(fold.at).map(|(tangent, here)| (here, tangent))
+    point(fold.at).map(|(tangent, here, _)| (here, tangent))
 }
 
 #[cfg(test)]
@@ -96,7 +114,7 @@ mod tests {
         let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), ceiling.as_ref(), path);
         let mut corrector = Corrector::new(setup);
         let mut here = Configuration::free(0.0);
-        here.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.44, 0.05, FRAC_PI_2 - 0.1]);
+        here.insert(0, Held::smooth(0, Hold::Tip), [0.44, 0.05, FRAC_PI_2 - 0.1]);
         assert!(corrector.solve_from_guess(&mut here, 0.0).status.is_solved());
         let mut tangent = corrector.inspect_at_pose(&here).0;
         let (from, to) = loop {

@@ -41,7 +41,7 @@ struct Inflection {
 
 /// The inflection next to contact j, with the concave side towards the clamp.
 fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<Inflection> {
-    let Held { stretch, hold: Hold::Tangent { offset } } = configuration.contacts[j] else { return None };
+    let Held { stretch, hold: Hold::Tangent { offset }, .. } = configuration.contacts[j] else { return None };
     if !matches!(world.kind(stretch), StretchKind::Piece(_)) {
         return None;
     }
@@ -130,7 +130,7 @@ mod tests {
 
     fn lying_at(t: f64) -> Configuration {
         let mut lying = Configuration::free(0.0);
-        lying.insert(0, Held { stretch: 0, hold: Hold::Tangent { offset: 0.0 } }, [t, 1.0, 0.7]);
+        lying.insert(0, Held::smooth(0, Hold::Tangent { offset: 0.0 }), [t, 1.0, 0.7]);
         lying
     }
 

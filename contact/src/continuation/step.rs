@@ -4,16 +4,18 @@ use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::continuation::certify::Quality;
-use crate::continuation::fold::locate_fold;
+use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::joint::{self, Passed};
 use crate::continuation::transition::{Break, NoTransition, Transition, breaks, gathered, on};
 use crate::error::{Obstacle, StopReason};
 use crate::event::EventKind;
+use crate::friction::{reversed, slip_rate};
 use crate::gap::passing::Passing;
 use crate::gap::scan::{Scan, Scanner};
+use crate::scene::world::World;
 use crate::stability::wraps;
-use rod_core::{PhysicalRod, Rod, RodModel, SolveReport};
+use rod_core::{Grip, PhysicalRod, Rod, RodModel, SolveReport};
 use smallvec::SmallVec;
 
 /// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
@@ -258,6 +260,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             Ok(None) if !scan.is_outside() => return Err(Refused::TooLong(unexplained)),
             Ok(ended) => ended,
             Err(NoTransition::EndOfContour) => return Err(ends_if_short(StopReason::EndOfContour)),
+            Err(NoTransition::FrictionInNotch) => return Err(ends_if_short(StopReason::FrictionInNotch)),
             Err(NoTransition::NotLocated) => return Err(Refused::TooLong(unexplained)),
         };
         let reached = ended.as_ref().map_or(&scan, Step::scan);
@@ -278,7 +281,10 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
                 self.end(from, &next).map_err(Refused::Ended)
             };
         }
-        if let Some(transition) = self.runs_together(&next, &tangent).or_else(|| self.joined(&next, &tangent)) {
+        // a contact with friction does not run together with another one freely
+        let follows = !self.corrector.setup.world.rubs();
+        let together = follows.then(|| self.runs_together(&next, &tangent).or_else(|| self.joined(&next, &tangent)));
+        if let Some(transition) = together.flatten() {
             return Ok(self.changed(transition));
         }
         if report.iterations <= 2 {
@@ -298,6 +304,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
         match wraps(&self.corrector.setup, next, &next.segments(&self.corrector.setup)) {
             // a rod that is bent at rest may go on along a line, from the contact to its tip
+            Some(_) if self.corrector.setup.world.rubs() => Err(StopReason::LineContact),
             Some(last) if last + 1 == next.count() && self.corrector.setup.rod.model().is_straight() => {
                 let parted = parted(&mut self.corrector, &from.configuration);
                 Ok(parted.map_or_else(|| from.ends(), |transition| self.changed(transition)))
@@ -493,6 +500,11 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
                 first = Some(transition);
             }
         }
+        if let Some(stopped) = self.stop_within(from, next, tangent)?
+            && first.as_ref().is_none_or(|first| stopped.along < first.along)
+        {
+            first = Some(stopped);
+        }
         // Nothing else may be broken there: a shorter step would have met it first.
         if tangent.by_tau() < 0.0 {
             // behind a kink the branch may lead back at once
@@ -515,6 +527,26 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         let after = self.look(after);
         let change = after.scan.is_outside().then(|| Box::new(Change { kind, before, after }));
         change.map(|change| Some(Step::Changed(change))).ok_or(NoTransition::NotLocated)
+    }
+
+    /// Where a contact that slips comes to rest within the step to `next`, if one does.
+    fn stop_within(
+        &mut self,
+        from: &Point,
+        next: &Configuration,
+        tangent: &Tangent,
+    ) -> Result<Option<Transition>, NoTransition> {
+        let Some(j) = reversed(&self.corrector.setup.world, next, tangent) else { return Ok(None) };
+        let Grip::Slips { ratio } = next.contacts[j].grip else { return Ok(None) };
+        let forward = |world: &World<'_>, here: &Configuration, there: &Tangent| {
+            -ratio.signum() * slip_rate(world, here, there, j)
+        };
+        let at = locate_zero(&mut self.corrector, &from.configuration, &from.tangent, next, forward)
+            .ok_or(NoTransition::NotLocated)?;
+        let along = from.tangent.along(&at.z, &from.configuration.z);
+        let mut after = at.clone();
+        after.set_sticking(j, at.friction(j));
+        Ok(Some(Transition { kind: EventKind::Stick, before: at, after, along }))
     }
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
@@ -549,6 +581,10 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         let scan = self.scan(&probe);
         let mut holds = true;
         breaks(&self.corrector.setup.world, &probe, &scan.crossings, |_| holds = false);
+        if probe.rubs() {
+            let there = self.corrector.inspect(&probe, plane).0;
+            holds &= reversed(&self.corrector.setup.world, &probe, &there).is_none();
+        }
         holds && self.is_stable(&probe, &scan)
     }
 }

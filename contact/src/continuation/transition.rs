@@ -10,17 +10,19 @@
 //! | `TipToTangent` | tip above the contour's tangent | s = 1 of a tangential contact | the same, tangential |
 //! | `TangentToTip` | s <= 1 | s = 1 | the same, of the tip |
 //! | `OntoWall` | rod above both walls of a notch | slope angle = the wall's | one contact on each wall |
+//! | `Slip` | force along the contour within friction's limit | force along the contour = the limit | the same: its modes are chosen anew |
 //! | `Touch` | no crossing of rod and contour | force of one more contact = 0 | with that contact |
 
 use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour, without};
 use crate::contact_set::notch::{
-    gathered_in_notch, lying_angle, lying_to_notch, merged, parted, straddles, wall_run_into,
+    gathered_in_notch, lying_angle, lying_to_notch, merged, parted, straddles, wall_run_into, with_cone,
 };
 use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
 use crate::gap::Crossing;
 use crate::scene::world::World;
+use rod_contours::Range;
 use rod_core::{Hold, PhysicalRod};
 use smallvec::SmallVec;
 
@@ -37,6 +39,8 @@ pub(crate) enum Break {
     Border(usize, bool),
     /// The rod, its tip in a notch, lies down on one of the walls: the wall, and phi(1) minus its angle.
     OntoWall(usize, f64),
+    /// Contact j, which sticks, has this force along the contour over the normal one, more than friction can bear.
+    Slip(usize, f64),
     /// The rod goes through the contour.
     Touch(Crossing),
 }
@@ -71,7 +75,10 @@ pub(crate) fn breaks(
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
         }
-        let range = world.range(configuration.contacts[j].stretch);
+        if let Some(ratio) = slips(world, configuration, j) {
+            visit(Break::Slip(j, ratio));
+        }
+        let range = range_of_force(world, configuration.contacts[j].stretch);
         let t = configuration.t(j);
         let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
         let upwards = t > range.to + slack;
@@ -108,6 +115,27 @@ pub(crate) fn breaks(
     crossings.iter().filter(is_new).for_each(|crossing| visit(Break::Touch(*crossing)));
 }
 
+/// The range of a stretch: of a notch with friction the directions of the force in the cones of both walls.
+fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
+    let Range { from, to } = world.range(stretch);
+    if !world.rubs() || !world.is_notch(stretch) {
+        return Range { from, to };
+    }
+    let angle = world.coefficients(stretch).at_rest.atan() / world.support(stretch, from).turning.abs();
+    Range { from: from - angle, to: to + angle }
+}
+
+/// The limit of f_t / f at contact j, which sticks, if it is passed.
+fn slips(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<f64> {
+    let held = configuration.contacts[j];
+    if !held.grip.sticks() {
+        return None;
+    }
+    let (limit, friction) = (world.coefficients(held.stretch).at_rest, configuration.friction(j));
+    let passed = friction.abs() > limit * configuration.force(j) + FORCE_TOLERANCE;
+    passed.then_some(limit.copysign(friction))
+}
+
 /// phi(1) - alpha of a tip contact.
 fn tip_angle(world: &World<'_>, configuration: &Configuration) -> f64 {
     let last = configuration.count() - 1;
@@ -134,6 +162,8 @@ pub(crate) enum NoTransition {
     NotLocated,
     /// The contour ends there.
     EndOfContour,
+    /// What comes is only followed without friction.
+    FrictionInNotch,
 }
 
 impl Break {
@@ -150,8 +180,13 @@ impl Break {
         from: &Configuration,
         tangent: &Tangent,
     ) -> Result<Transition, NoTransition> {
-        let (start, unknown, value) = self.vanishing(&corrector.setup.world, broken)?;
-        let at = on(corrector, start, unknown, value)?;
+        let at = if let Self::Slip(j, ratio) = self {
+            let (friction, force) = (broken.friction_index(j), Unknown::Force(j).index(broken.z.len()));
+            where_holds(corrector, broken.clone(), Condition::OnCone { friction, force, ratio })?
+        } else {
+            let (start, unknown, value) = self.vanishing(&corrector.setup.world, broken)?;
+            on(corrector, start, unknown, value)?
+        };
         let (kind, before, after) = self.change(&corrector.setup.world, broken, at)?;
         // The tip-to-tangent point is compared as the tip contact it was.
         let along = tangent.along(&before.z, &from.z);
@@ -172,13 +207,17 @@ impl Break {
             Self::Border(j, upwards) => {
                 let here = broken.contacts[j].stretch;
                 world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
-                (broken.clone(), Unknown::Parameter(j), world.border(here, upwards))
+                let range = range_of_force(world, here);
+                (broken.clone(), Unknown::Parameter(j), if upwards { range.to } else { range.from })
             }
+            Self::OntoWall(..) if world.rubs() => return Err(NoTransition::FrictionInNotch),
             Self::OntoWall(wall, angle) => {
                 (broken.clone(), Unknown::Slope(last), lying_angle(world, broken, wall, angle))
             }
             Self::TangentToTip => (broken.clone(), Unknown::ArcLength(last), 1.0),
             Self::TipToTangent(angle) => (as_tangent(broken.clone(), angle), Unknown::ArcLength(last), 1.0),
+            // its condition is not that one unknown has a value
+            Self::Slip(..) => return Err(NoTransition::NotLocated),
             Self::Touch(crossing) if world.is_notch(crossing.stretch) => return Err(NoTransition::NotLocated),
             Self::Touch(crossing) => {
                 let (touching, j) = with_contact(broken, &crossing);
@@ -200,6 +239,9 @@ impl Break {
             Self::Border(j, upwards) => {
                 let here = at.contacts[j].stretch;
                 let next = world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
+                if world.rubs() && straddles(world, &at) {
+                    return Err(NoTransition::FrictionInNotch);
+                }
                 let meets = |lying: usize| (1.0 - at.s(lying)).abs() < MEETING;
                 if world.is_notch(next) && straddles(world, &at) && meets(at.count() - 2) {
                     let after = merged(world, &at);
@@ -208,9 +250,12 @@ impl Break {
                     // the rod is straight from the contact on its wall to the tip
                     (EventKind::Release, at.clone(), without(at, j))
                 } else {
-                    (EventKind::Piece, at.clone(), onto_neighbour(at, j, upwards, next, world))
+                    let after = onto_neighbour(at.clone(), j, upwards, next, world);
+                    let after = if world.rubs() { with_cone(world, &at, after, j, upwards) } else { after };
+                    (EventKind::Piece, at, after)
                 }
             }
+            Self::Slip(..) => (EventKind::Slip, at.clone(), at),
             Self::OntoWall(wall, _) => {
                 let after = parted(world, &at, wall);
                 (EventKind::Touch, at, after)
@@ -253,11 +298,20 @@ pub(crate) fn gathered<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &
 /// The point of the branch near `start` where one unknown has a given value.
 pub(crate) fn on<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
-    mut start: Configuration,
+    start: Configuration,
     unknown: Unknown,
     value: f64,
 ) -> Result<Configuration, NoTransition> {
-    let report = corrector.correct(&mut start, Condition::Fixed { unknown, value });
+    where_holds(corrector, start, Condition::Fixed { unknown, value })
+}
+
+/// The point of the branch near `start` where a condition holds.
+fn where_holds<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    mut start: Configuration,
+    condition: Condition<'_>,
+) -> Result<Configuration, NoTransition> {
+    let report = corrector.correct(&mut start, condition);
     if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
 }
 
@@ -267,7 +321,7 @@ pub(crate) fn with_contact(configuration: &Configuration, crossing: &Crossing) -
     let j = place(configuration, crossing);
     let (hold, third) =
         if crossing.tip { (Hold::Tip, crossing.phi) } else { (lying(crossing.phi - crossing.foot.alpha), crossing.s) };
-    more.insert(j, Held { stretch: crossing.stretch, hold }, [crossing.foot.t, 0.0, third]);
+    more.insert(j, Held::smooth(crossing.stretch, hold), [crossing.foot.t, 0.0, third]);
     (more, j)
 }
 
@@ -310,8 +364,8 @@ mod tests {
         let edge = world.neighbour(corner, true).unwrap();
         let (from, to) = (world.border(edge, false), world.border(edge, true));
         let (middle, alpha) = (0.5 * (from + to), world.support(edge, from).alpha);
-        let tip = Held { stretch: edge, hold: Hold::Tip };
-        let side = Held { stretch: edge, hold: Hold::Tangent { offset: 0.0 } };
+        let tip = Held::smooth(edge, Hold::Tip);
+        let side = Held::smooth(edge, Hold::Tangent { offset: 0.0 });
         let phi = alpha + 0.5;
         assert!(names(&world, tip, [middle, 1.0, phi], &[]).is_empty());
         assert!(names(&world, side, [middle, 1.0, 0.7], &[]).is_empty());
@@ -373,7 +427,7 @@ mod tests {
         let line = Composite::single(Line::new([0.0, 1.0], [1.0, 1.0]).unwrap()).unwrap();
         let mut corrector = Corrector::new(upright(&line));
         let mut broken = Configuration::free(0.9);
-        broken.insert(0, Held { stretch: 0, hold: Hold::Tip }, [-1e-3, 1.0, FRAC_PI_2]);
+        broken.insert(0, Held::smooth(0, Hold::Tip), [-1e-3, 1.0, FRAC_PI_2]);
         let tangent = Tangent { direction: SmallVec::from_elem(0.5, 4), weights: SmallVec::from_elem(1.0, 4) };
         let at_end = Break::Border(0, false).locate(&mut corrector, &broken, &broken, &tangent);
         assert!(matches!(at_end, Err(NoTransition::EndOfContour)), "{at_end:?}");

@@ -3,9 +3,9 @@
 use crate::contact_set::{Configuration, Held, lying};
 use crate::derivatives::given::Given;
 use crate::error::ContactError;
-use crate::scene::rod::{Walk, at_clamp};
+use crate::scene::rod::{Walk, at_clamp, push};
 use crate::scene::world::World;
-use crate::state::{ContactKind, State};
+use crate::state::{ContactFriction, ContactKind, SlipMode, State};
 use rod_contours::StretchKind;
 use rod_core::{Clamp, Hold, Linearisation, MultiPoint, PhysicalRod, Pose, Reactions, Units};
 
@@ -25,6 +25,10 @@ pub(crate) struct Restored {
 
 impl Restored {
     pub fn new<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> Result<Self, ContactError> {
+        let sticks = |friction: ContactFriction| friction.mode == SlipMode::Stick;
+        if let Some(index) = state.contacts.iter().position(|contact| contact.friction.is_some_and(sticks)) {
+            return Err(ContactError::Sticks { index });
+        }
         let configuration = configuration(rod, world, state)?;
         let length = rod.units().length;
         let clamp = Pose { x: state.pose.x / length, y: state.pose.y / length, phi: state.pose.phi };
@@ -65,7 +69,8 @@ fn configuration<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> R
             reason: "there is no such object, or it has no such piece or joint",
         })?;
         let (s, force) = (contact.s / units.length, contact.force / units.force);
-        let phi = rod.to(s, force, contact.alpha);
+        let friction = contact.friction.map_or(0.0, |friction| friction.force / units.force);
+        let phi = rod.to(s, push(force, friction, contact.alpha));
         let (x, y) = (contact.x / units.length, contact.y / units.length);
         let (t, alpha) = match contact.kind {
             // the point does not tell the angle
@@ -80,7 +85,8 @@ fn configuration<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> R
         };
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
         let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), s) };
-        configuration.insert(j, Held { stretch, hold }, [t, force, third]);
+        configuration.insert(j, Held::smooth(stretch, hold), [t, force, third]);
+        configuration.rub(j, friction, false);
     }
     Ok(configuration)
 }

@@ -91,7 +91,7 @@ impl<'a> TransitionDerivatives<'a> {
         let before = before?;
         let defined = match event.kind {
             // a jump leads elsewhere
-            EventKind::Snap | EventKind::SnapOff | EventKind::Slip => of_jump(&world, before, rate),
+            EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver => of_jump(&world, before, rate),
             kind => defining(&world, kind, before, after?).and_then(|(set, unknown, value)| {
                 let row = row(&set, rate, unknown)?;
                 Some((set, value, row))
@@ -187,7 +187,9 @@ fn defining(
             let (j, value) = at_border(world, &before.configuration)?;
             Some((before, Unknown::Parameter(j), value))
         }
-        EventKind::Snap | EventKind::SnapOff | EventKind::Slip => None,
+        // where a mode changes the rod has no derivatives, and its equation is not that of one unknown
+        EventKind::Stick | EventKind::Slip => None,
+        EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver => None,
     }
 }
 

@@ -11,6 +11,12 @@ pub(crate) fn at_clamp(Pose { x, y, phi }: Pose, m0z: f64) -> Cut {
     Cut { x, y, phi, moment: -m0z }
 }
 
+/// What a contact with the tangent angle `alpha` adds to (A, B) by its normal force and its force along the contour.
+pub(crate) fn push(force: f64, friction: f64, alpha: f64) -> (f64, f64) {
+    let (sin, cos) = alpha.sin_cos();
+    (force * cos - friction * sin, force * sin + friction * cos)
+}
+
 /// The rod at an arc length of one of its segments.
 #[inline(always)]
 pub(crate) fn at(rod: &impl RodModel, segment: &Segment, s: f64) -> Cut {
@@ -36,14 +42,12 @@ impl<'a, M: RodModel> Walk<'a, M> {
         Self { rod, s: 0.0, at: clamp, force }
     }
 
-    /// Goes on to a contact at arc length `s`, that pushes with `force` across the tangent angle `alpha`: the slope angle of the rod
-    /// there.
-    pub fn to(&mut self, s: f64, force: f64, alpha: f64) -> f64 {
+    /// Goes on to a contact at arc length `s`, that adds `push` to (A, B): the slope angle of the rod there.
+    pub fn to(&mut self, s: f64, push: (f64, f64)) -> f64 {
         let (a, b) = self.force;
         self.at = self.rod.carry(self.s, &self.at, a, b, s - self.s);
         self.s = s;
-        let (sin, cos) = alpha.sin_cos();
-        self.force = (a - force * cos, b - force * sin);
+        self.force = (a - push.0, b - push.1);
         self.at.phi
     }
 }

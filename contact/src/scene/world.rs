@@ -1,10 +1,12 @@
 //! The objects as the rod sees them: in lengths of the rod.
 
+use crate::friction::{Coefficients, Friction};
 use rod_contours::{
     Bounds, Closest, Composite, Contour, Frame, FrameRate, Index, Part, Range, Run, RunClosest, RunEnd, StretchKind,
 };
 use rod_core::{Support, SupportRate};
 use smallvec::SmallVec;
+use std::sync::Arc;
 
 /// Depth (L) to which there is solid behind an open contour. A step of the sweep moves no point of the rod as far; a rod that is
 /// deeper came around the end of the contour.
@@ -38,6 +40,8 @@ pub(crate) struct World<'a> {
     skin: f64,
     /// Length of the rod in the contours' unit.
     length: f64,
+    /// Friction of the objects, if there is any.
+    friction: Option<Arc<dyn Friction>>,
 }
 
 /// The point of one part of the contour that is closest to a given point.
@@ -113,7 +117,24 @@ impl<'a> World<'a> {
         let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
         let index =
             Index::new(objects.iter().map(|object| if is_bounded(object) { object.bounds() } else { Bounds::ALL }));
-        Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length }
+        Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length, friction: None }
+    }
+
+    /// Gives the objects this friction.
+    pub fn rub(&mut self, friction: Arc<dyn Friction>) {
+        self.friction = Some(friction);
+    }
+
+    /// Whether the objects have friction.
+    #[inline(always)]
+    pub fn rubs(&self) -> bool {
+        self.friction.is_some()
+    }
+
+    /// The coefficients of friction of a stretch: of a corner or notch those of the piece before it.
+    pub fn coefficients(&self, stretch: usize) -> Coefficients {
+        let of = |friction: &Arc<dyn Friction>| friction.coefficients(self.object(stretch), self.piece(stretch));
+        self.friction.as_ref().map_or(Coefficients::NONE, of)
     }
 
     /// Makes solid all that is behind an open contour.

@@ -67,7 +67,7 @@ pub(crate) fn rest<R: PhysicalRod>(
 fn badness(b: &Break, configuration: &Configuration) -> f64 {
     match b {
         Break::Release(j) => 1e3 - configuration.force(*j),
-        Break::TangentToTip | Break::TipToTangent(_) | Break::OntoWall(..) | Break::Border(..) => 1e2,
+        Break::TangentToTip | Break::TipToTangent(_) | Break::OntoWall(..) | Break::Border(..) | Break::Slip(..) => 1e2,
         Break::Touch(crossing) => -crossing.foot.gap,
     }
 }
@@ -81,6 +81,11 @@ fn mend(configuration: Configuration, b: Break, world: &World<'_>) -> Configurat
         Break::TipToTangent(angle) => as_tangent(configuration, angle),
         Break::OntoWall(wall, _) => parted(world, &configuration, wall),
         Break::TangentToTip => back_to_tip(configuration, world),
+        Break::Slip(j, ratio) => {
+            let mut slips = configuration;
+            slips.set_slipping(j, ratio);
+            slips
+        }
         Break::Touch(crossing) => with_contact(&configuration, &crossing).0,
     }
 }
@@ -111,7 +116,7 @@ fn back_to_tip(configuration: Configuration, world: &World<'_>) -> Configuration
 /// the edge rolls back to there. None where the contour does not bend away there.
 fn onto_end(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
     let last = configuration.count().checked_sub(1)?;
-    let Held { stretch, hold: Hold::Tangent { offset } } = configuration.contacts[last] else { return None };
+    let Held { stretch, hold: Hold::Tangent { offset }, .. } = configuration.contacts[last] else { return None };
     let at = world.support(stretch, configuration.t(last));
     let after = offset.cos() < 0.0;
     let next = world.neighbour(stretch, after).filter(|next| at.turning == 0.0 && !world.is_notch(*next))?;
@@ -148,7 +153,7 @@ mod tests {
     #[test]
     fn a_contact_that_pulls_is_let_go() {
         let mut pulled = Configuration::free(0.0);
-        pulled.insert(0, Held { stretch: 0, hold: Hold::Tangent { offset: 0.0 } }, [0.0, 1.0, 0.5]);
+        pulled.insert(0, Held::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, 0.5]);
         assert_eq!(settled(-0.02, pulled).unwrap().count(), 0);
     }
 

@@ -191,7 +191,7 @@ mod tests {
                 Hold::Tangent { offset } => Hold::Tangent { offset: offset + turns },
                 Hold::Tip => Hold::Tip,
             };
-            configuration.insert(j, Held { stretch, hold }, [foot.t, force, third]);
+            configuration.insert(j, Held::smooth(stretch, hold), [foot.t, force, third]);
         }
         let shape = Shape::of(&setup, &configuration);
         let miss = (shape.segments[0].start.x - at.x).hypot(shape.segments[0].start.y - at.y);

@@ -13,18 +13,20 @@
 //! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
 //! -|eta|^(3/2), so that eta is held. p_k is the way of the base along its spring k. The equilibrium is stable if Q > 0 for all such
 //! eta and p. eta is expanded in the first modes of a free cantilever and the turn of the base, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
-//! Cholesky factor. Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
+//! Cholesky factor. With friction the contacts are held along the contour too (u = 0): the energy of a rod that sticks. Then friction must
+//! also resist slips (`friction::resists`). Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
 //! not, the modes decide.
 
 mod condensed;
 
 use crate::contact_set::Configuration;
+use crate::friction::resists;
 use crate::gap::shape::{Node, Shape};
 use crate::scene::rod::{Segment, curvature_behind};
 use crate::scene::setup::Setup;
 use crate::scene::springs::{Spring, springs};
 use nalgebra::{DMatrix, SMatrix};
-use rod_core::{Clamp, Cut, Hold, PhysicalRod, RodModel, Support, Supports};
+use rod_core::{Clamp, Cut, Grip, Hold, PhysicalRod, RodModel, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
@@ -67,6 +69,10 @@ impl Judge {
         shape: &Shape,
     ) -> bool {
         let n = configuration.count();
+        if configuration.rubs() {
+            // the energy of a rod whose contacts all stick, and friction that lets those that slip move in one way only
+            return self.is_positive_by_modes(setup, configuration, shape) && resists(setup, configuration);
+        }
         n == 0
             || condensed::is_positive(setup, configuration, shape)
             || self.is_positive_by_modes(setup, configuration, shape)
@@ -111,8 +117,11 @@ impl Judge {
             modes_at(turns.phase(rod, configuration.s(j)), modes, eta);
             eta.extend(springs.iter().map(|spring| spring.way[2]));
             q.add(form, along, eta);
-            let square: f64 = across.iter().map(|way| way * way).sum();
-            q.add([PENALTY / square.clamp(LEAST_WAY, 1.0), 0.0, 0.0], across, eta);
+            let held = |ways: &[f64]| PENALTY / ways.iter().map(|way| way * way).sum::<f64>().clamp(LEAST_WAY, 1.0);
+            q.add([held(across), 0.0, 0.0], across, eta);
+            if configuration.contacts[j].grip != Grip::SMOOTH {
+                q.add([held(along), 0.0, 0.0], along, eta);
+            }
         }
         q.add_load(modes, &integrals.moments);
         q.add_load_of_base(modes, &springs, integrals);
@@ -437,7 +446,7 @@ mod tests {
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let setup = Setup::new(rod, contour.as_ref(), path);
         let mut column = Configuration::free(0.0);
-        column.insert(0, Held { stretch: 0, hold: Hold::Tip }, [0.0, f, 0.5 * PI]);
+        column.insert(0, Held::smooth(0, Hold::Tip), [0.0, f, 0.5 * PI]);
         let shape = Shape::of(&setup, &column);
         let by_modes = Judge::default().is_positive_by_modes(&setup, &column, &shape);
         assert!(by_modes || !condensed::is_positive(&setup, &column, &shape));

@@ -7,6 +7,7 @@ use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::step::{FIRST_STEP, Point, Seen, Stepper};
 use crate::error::StopReason;
 use crate::event::EventKind;
+use crate::friction::smooth;
 use crate::gap::GAP_TOLERANCE;
 use crate::scene::setup::Setup;
 use crate::snap::chain::Chain;
@@ -28,9 +29,11 @@ const SHORTEST_SLIP: f64 = 1e-9;
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
     pub(super) fn snap(&mut self, last: Seen) -> Result<Point, StopReason> {
-        let (here, tau) = (&last.configuration, last.configuration.tau());
+        // the descent and the solves about it know no friction
+        let (here, rubbing) = (&smooth(&last.configuration), &last.configuration.clone());
+        let tau = here.tau();
         if let Some(landed) = self.slip(here) {
-            return Ok(self.landed(EventKind::Slip, last, landed));
+            return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
         let mut beyond = None;
         // a free rod has no fold to get over
@@ -44,12 +47,14 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             // a free rod that touches something and stays free has gone past it
             let elsewhere = |landed: &Seen| here.count() + landed.configuration.count() > 0;
             // one that does not hold further on would only lead back
-            if let Some(landed) = at_pose.filter(elsewhere).and_then(|landed| self.goes_on(landed)) {
+            if let Some(landed) = at_pose.filter(elsewhere).and_then(|landed| self.goes_on_landed(landed, rubbing)) {
                 return Ok(self.jumped(last, landed));
             }
             beyond = beyond.or(ahead.filter(elsewhere));
         }
-        if let Some(landed) = self.behind_next_fold(here).and_then(|landed| self.goes_on(landed)) {
+        let follows = !self.setup().world.rubs();
+        let behind = if follows { self.behind_next_fold(here) } else { None };
+        if let Some(landed) = behind.and_then(|landed| self.goes_on(landed)) {
             return Ok(self.jumped(last, landed));
         }
         // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
@@ -59,11 +64,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             let end = self.setup().path.length();
             let is_beyond = landed.configuration.tau() > end + AT_END && tau <= end;
             let back = if is_beyond { self.back_to_end(&landed.configuration) } else { None };
-            let landed = self.stepper.point(back.unwrap_or(landed));
+            let landed = back.unwrap_or(landed);
+            let held_back = if follows { None } else { self.goes_on_landed(landed.clone(), rubbing) };
+            let landed = held_back.unwrap_or_else(|| self.stepper.point(landed));
             return Ok(self.jumped(last, landed));
         }
         if let Some(landed) = self.slip_off(here) {
-            return Ok(self.landed(EventKind::Slip, last, landed));
+            return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
         if let Some(landed) = self.slide_over(here) {
             return Ok(self.jumped(last, landed));
@@ -104,6 +111,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let here = last.contacts.last()?.stretch;
         let landed = settle(corrector, scanner, guess)?;
+        let rubs = corrector.setup.world.rubs();
         let Seen { configuration, .. } = &landed;
         let n = configuration.count();
         let tip = n.checked_sub(1).filter(|_| configuration.ends_at_tip() && n == last.count())?;
@@ -113,6 +121,9 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
         let slips = there != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
+        if slips && rubs {
+            return self.goes_on_landed(landed, last);
+        }
         slips.then(|| self.stepper.point(landed))
     }
 

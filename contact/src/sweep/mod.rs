@@ -9,6 +9,7 @@ mod leg;
 mod outcome;
 mod report;
 mod resume;
+mod rubbing;
 mod silent;
 mod start;
 
@@ -21,6 +22,7 @@ use crate::contact_set::edit::beside_corner;
 use crate::continuation::branch::Corrector;
 use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
 use crate::error::{ContactError, Stop, StopReason};
+use crate::friction::Friction;
 use crate::path::Path;
 use crate::scene::setup::Setup;
 use crate::scene::way::Way;
@@ -29,7 +31,9 @@ use crowd::Crowd;
 use leg::{Leg, legs};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Rod};
+use rubbing::stopped;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// A sweep of a rod past a contour: an iterator of states and events in the order in which they come. After an `Err` it is
 /// over; all items before stand.
@@ -57,6 +61,8 @@ pub struct Sweep<'a, R = Rod> {
     /// Path parameter of the last state, or of a snap without landing: how far it came.
     reached: f64,
     crowd: Crowd,
+    /// Work (E I / L) that friction has taken so far; none where a point on the way was not found.
+    dissipated: Option<f64>,
 }
 
 /// Default limit of steps along branches, rejected ones included: one to two minutes. A sweep of the paper takes about 50.
@@ -182,6 +188,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
             over: false,
             reached: 0.0,
             crowd: Crowd::NONE,
+            dissipated: Some(0.0),
         }
     }
 
@@ -213,6 +220,43 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         self.start.as_ref()
     }
 
+    /// Gives the objects friction: a coefficient, one for each object, or a law ([`Friction`]).
+    ///
+    /// Contacts then slip, stick or roll (Coulomb's law), which [`Contact::friction`](crate::Contact::friction) tells. The modes are chosen
+    /// anew at every event, and where the path turns, by the motion that they allow. Where the rod has snapped its friction is an estimate: the
+    /// descent that finds where it lands knows no friction, and each contact is held back in the sense in which it came. A start in contact that was
+    /// not brought there by the path has no friction until the rod moves.
+    ///
+    /// ```
+    /// use rod_contact::{ClampPath, SlipMode, Sweep};
+    /// use rod_contours::{Composite, Parabola};
+    /// use rod_core::{Pose, Rod};
+    /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
+    /// let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+    /// let path = ClampPath::new(clamp(0.5), clamp(0.1))?;
+    /// let state = Sweep::new(&rod, &object, path, 0.1)?.with_friction(0.3).run().states.pop().ok_or("no state")?;
+    /// let (contact, friction) = (&state.contacts[0], state.contacts[0].friction.ok_or("no friction")?);
+    /// // the clamp moves to the left, and draws the rod back along the contour
+    /// assert_eq!(friction.mode, SlipMode::Backward);
+    /// assert!((friction.force - 0.3 * contact.force).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_friction(mut self, friction: impl Friction + 'static) -> Self {
+        self.stepper.corrector.setup.world.rub(Arc::new(friction));
+        self
+    }
+
+    /// The work (J) that friction has taken so far: the integral of |f_t dg| over all contacts that slip. None without friction, and where it is
+    /// not known. The jump of a snap is not in it: what a rod loses there is the difference of the energies before and after.
+    ///
+    /// Along a branch of equilibria the clamp's work is the change of the energy of rod and clamp plus this, within 1e-12 E I / L for each of the
+    /// phases of a scan of the paper, but for the last step before a fold.
+    pub fn dissipated(&self) -> Option<f64> {
+        let energy = self.setup().rod.units().energy;
+        self.dissipated.filter(|_| self.setup().world.rubs()).map(|work| work * energy)
+    }
+
     /// Runs to the end and keeps everything.
     pub fn run(mut self) -> Outcome {
         let mut outcome = Outcome::default();
@@ -223,6 +267,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 Err(stop) => outcome.stop = Some(stop),
             }
         }
+        outcome.dissipated = self.dissipated();
         outcome.start = self.start;
         outcome
     }
@@ -232,7 +277,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     fn advance(&mut self) -> Result<(), StopReason> {
         let Some(point) = self.at.take() else {
             let start = Box::new(match self.given.take() {
-                Some(given) => self.resume(given),
+                Some(given) => self.resume(given)?,
                 None => self.begin()?,
             });
             if self.reported == 0 {
@@ -267,12 +312,12 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 }
                 if pose < step.tau() {
                     // the step has passed over something
-                    self.stepper.step(&point, pose).and_then(|step| self.arrive(step))
+                    self.stepper.step(&point, pose).and_then(|step| self.follow(&point, step))
                 } else {
-                    self.arrive(step)
+                    self.follow(&point, step)
                 }
             }
-            ahead => ahead.and_then(|step| self.arrive(step)),
+            ahead => ahead.and_then(|step| self.follow(&point, step)),
         };
         match next {
             Ok(next) => self.at = Some(next),
@@ -318,8 +363,14 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 // a corner at the very tip is none
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
+                let stopped = stopped(kind, &before, &after.configuration);
                 let before = self.stepper.look(before);
-                match self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside))) {
+                let next = if self.setup().world.rubs() {
+                    self.goes_on_rubbing(after, stopped)?
+                } else {
+                    self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside)))
+                };
+                match next {
                     Some(after) => {
                         let before = self.stepper.point(before);
                         self.announce(kind, &before, &after);

@@ -32,7 +32,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     pub(super) fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
-        let event = Event { kind, before: self.state(before), after: self.state(after) };
+        let dissipated = self.dissipated();
+        let event = Event { kind, before: self.state(before), after: self.state(after), dissipated };
         self.pending.push_back(Item::Event(event));
     }
 

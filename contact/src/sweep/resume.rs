@@ -6,7 +6,7 @@ use crate::continuation::branch::Tangent;
 use crate::continuation::certify::energy;
 use crate::continuation::recall::recall;
 use crate::continuation::step::Point;
-use crate::error::ContactError;
+use crate::error::{ContactError, StopReason};
 use crate::state::State;
 use rod_core::PhysicalRod;
 
@@ -33,7 +33,14 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// The point to begin with. At a fold two branches meet, of which the sweep takes the stable one if that leads along the path;
     /// otherwise the equilibrium ends here, and the next step is a snap.
-    pub(super) fn resume(&mut self, given: Configuration) -> Point {
+    pub(super) fn resume(&mut self, given: Configuration) -> Result<Point, StopReason> {
+        if self.setup().world.rubs() && given.count() > 0 {
+            return self.resume_rubbing(given);
+        }
+        Ok(self.resume_smooth(given))
+    }
+
+    fn resume_smooth(&mut self, given: Configuration) -> Point {
         let mut point = self.at_rest(given);
         if point.tangent.by_tau() > STEEP && point.quality.stable {
             return point;

@@ -31,7 +31,7 @@ impl<M: RodModel> Search<'_, M> {
     /// The contacts with the run between two nodes.
     pub(super) fn touches(&self, first: usize, last: usize) -> SmallVec<[Touch; 2]> {
         let Some(configuration) = self.configuration else { return SmallVec::new() };
-        let touch = |(j, Held { stretch, hold }): (usize, &Held)| {
+        let touch = |(j, Held { stretch, hold, .. }): (usize, &Held)| {
             let (node, t) = (self.shape.node_of(j), configuration.t(j));
             if !(first..=last).contains(&node) || !self.world.is_on_run(self.run, *stretch, t) {
                 return None;

@@ -82,7 +82,7 @@ pub(super) fn contacts(chain: &Chain, world: &World<'_>, clusters: &[Cluster], t
         let (t, alpha) = passing.map_or((foot.t, foot.alpha), |passing| (passing.t, passing.alpha));
         let tip = middle > LINKS as f64 - 0.75 && corner.is_none();
         let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), middle * LINK) };
-        configuration.insert(configuration.count(), Held { stretch, hold }, [t, force, third]);
+        configuration.insert(configuration.count(), Held::smooth(stretch, hold), [t, force, third]);
     }
     configuration
 }

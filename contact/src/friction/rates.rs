@@ -1,0 +1,48 @@
+//! How fast contacts slip along a branch.
+
+use crate::contact_set::{Configuration, Unknown};
+use crate::continuation::branch::Tangent;
+use crate::scene::world::World;
+use rod_core::{Grip, Hold, Support, arc_length};
+
+/// Rate of the slip coordinate by arclength of the branch in the wrong sense that is rounding. A contact that turns back at a rate of 1 (L)
+/// per arclength is seen this far (L) behind.
+const WRONG_WAY: f64 = 1e-10;
+
+/// 1 where the rod runs in the sense of the contour at contact j, -1 where it runs against it.
+pub(crate) fn sense(configuration: &Configuration, j: usize, support: &Support) -> f64 {
+    match configuration.contacts[j].hold {
+        Hold::Tangent { offset } => 1.0_f64.copysign(offset.cos()),
+        Hold::Tip => 1.0_f64.copysign((configuration.slope(j) - support.alpha).cos()),
+    }
+}
+
+/// The change of the slip coordinate of contact j along a branch.
+pub(crate) fn slip_rate(world: &World<'_>, configuration: &Configuration, tangent: &Tangent, j: usize) -> f64 {
+    let support = world.support(configuration.contacts[j].stretch, configuration.t(j));
+    let along = support.speed * tangent.rate_of(Unknown::Parameter(j));
+    if configuration.is_tip(j) {
+        return along;
+    }
+    along - sense(configuration, j, &support) * tangent.rate_of(Unknown::ArcLength(j))
+}
+
+/// The first contact that slips against its friction's sense: it has stopped on the way here.
+pub(crate) fn reversed(world: &World<'_>, configuration: &Configuration, tangent: &Tangent) -> Option<usize> {
+    (0..configuration.count()).find(|&j| match configuration.contacts[j].grip {
+        Grip::Slips { ratio } if ratio != 0.0 => {
+            ratio.signum() * slip_rate(world, configuration, tangent, j) > WRONG_WAY
+        }
+        _ => false,
+    })
+}
+
+/// The slip coordinate g (L) of contact j: arc length of the contour from parameter 0 of its stretch, or from its start, less that of
+/// the rod in the contour's sense.
+pub(crate) fn slip_coordinate(world: &World<'_>, configuration: &Configuration, j: usize) -> f64 {
+    let stretch = configuration.contacts[j].stretch;
+    let (range, t) = (world.range(stretch), configuration.t(j));
+    let support = world.support(stretch, t);
+    let along = arc_length(|t| world.support(stretch, t).speed, range.clamp(0.0), t);
+    along - sense(configuration, j, &support) * configuration.s(j)
+}

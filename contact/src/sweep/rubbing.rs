@@ -1,0 +1,87 @@
+//! What a sweep does where there is friction: it chooses the modes of the contacts anew at every event.
+
+use super::Sweep;
+use crate::contact_set::Configuration;
+use crate::continuation::step::{Point, Seen, Step};
+use crate::error::StopReason;
+use crate::event::EventKind;
+use crate::friction::{Motion, anew, dissipated, drags, smooth};
+use rod_core::PhysicalRod;
+
+/// Change of a force along the contour, relative to 1 + normal force, above which an equilibrium is solved anew.
+const CHANGED: f64 = 1e-9;
+
+/// The contact that has come to rest in an event of this kind.
+pub(super) fn stopped(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
+    let rests = |j: &usize| after.contacts[*j].grip.sticks() && !before.contacts[*j].grip.sticks();
+    if kind == EventKind::Stick { (0..after.count()).find(rests) } else { None }
+}
+
+impl<R: PhysicalRod> Sweep<'_, R> {
+    /// The point from which the sweep goes on with the contacts of `seen` in modes that the path allows; none where there is no such
+    /// motion, and the rod snaps.
+    pub(super) fn goes_on_rubbing(&mut self, seen: Seen, stopped: Option<usize>) -> Result<Option<Point>, StopReason> {
+        if seen.configuration.count() == 0 {
+            return Ok(self.goes_on(seen));
+        }
+        let ways = match anew(self.setup(), &seen.configuration, stopped) {
+            Motion::Ways(ways) => ways,
+            Motion::Jams => return Err(StopReason::Jammed),
+            Motion::TooMany => return Err(StopReason::Undetermined),
+        };
+        let mut found: Option<Point> = None;
+        for mut way in ways {
+            // a coefficient that has changed at once moves the rod
+            let moved = (0..way.count())
+                .any(|j| (way.friction(j) - seen.configuration.friction(j)).abs() > CHANGED * (1.0 + way.force(j)));
+            let tau = way.tau();
+            if moved && !self.stepper.corrector.at_pose(&mut way, tau).status.is_solved() {
+                continue;
+            }
+            if let Some(point) = self.goes_on_as(way) {
+                if found.is_some() {
+                    return Err(StopReason::Undetermined);
+                }
+                found = Some(point);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Where a step leads from a point, with the work of friction on the way.
+    pub(super) fn follow(&mut self, from: &Point, step: Step) -> Result<Box<Point>, StopReason> {
+        if self.setup().world.rubs() {
+            let work = dissipated(&mut self.stepper.corrector, (&from.configuration, &from.tangent), step.last());
+            self.dissipated = self.dissipated.zip(work).map(|(before, more)| before + more);
+        }
+        self.arrive(step)
+    }
+
+    /// The point to begin with where a path turns, or where an equilibrium was given.
+    pub(super) fn resume_rubbing(&mut self, given: Configuration) -> Result<Point, StopReason> {
+        let seen = self.stepper.look(given);
+        if let Some(point) = self.goes_on_rubbing(seen.clone(), None)? {
+            return Ok(point);
+        }
+        let point = self.stepper.point(seen);
+        self.ahead = Some(point.ends());
+        Ok(point)
+    }
+
+    /// The point from which the sweep goes on where the rod has landed: each contact is held back in the sense in which it came from the shape
+    /// of `last`, or, where there is no such equilibrium, sticks without a force along the contour.
+    pub(super) fn goes_on_landed(&mut self, landed: Seen, last: &Configuration) -> Option<Point> {
+        if !self.setup().world.rubs() || landed.configuration.count() == 0 {
+            return self.goes_on(landed);
+        }
+        let before = last.segments(self.setup());
+        let dragged = drags(&mut self.stepper.corrector, &landed.configuration, &before);
+        for way in dragged.into_iter().chain([smooth(&landed.configuration)]) {
+            let seen = self.stepper.look(way);
+            if let Ok(Some(point)) = self.goes_on_rubbing(seen, None) {
+                return Some(point);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,3 @@
+//! Sweeps with Coulomb friction.
+
+mod scans;
