@@ -35,7 +35,9 @@ pub fn friction(text: &str) -> Result<Friction, String> {
         _ => {
             let (mu, sigma) = text.split_once("+-").unwrap_or((text, "0"));
             let known = number(mu).zip(number(sigma)).map(|(mu, sigma)| Friction::Known { mu, sigma });
-            known.ok_or_else(|| "expected a coefficient, 0 or larger, as 0.1 or 0.1+-0.02, `estimate` or `none`".to_owned())
+            known.ok_or_else(|| {
+                "expected a coefficient, 0 or larger, as 0.1 or 0.1+-0.02, `estimate` or `none`".to_owned()
+            })
         }
     }
 }

@@ -3,8 +3,8 @@
 
 mod clean;
 mod common;
-mod friction;
 mod free_rod;
+mod friction;
 mod kink_filter;
 mod kinks;
 mod kinks_of_the_paper;

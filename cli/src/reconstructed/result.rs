@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
     Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, Travel, explanations,
-    plausibility_with_friction,    reconstruct_passes,
+    plausibility_with_friction, reconstruct_passes,
 };
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
 

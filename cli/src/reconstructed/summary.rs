@@ -5,8 +5,8 @@ use super::report::Answered;
 use super::result::Reconstructed;
 use crate::table::Table;
 use std::fmt::Write;
-use vibrissa::reconstruct::{Source, SourceEstimate};
 use vibrissa::reconstruct::score::Deviation;
+use vibrissa::reconstruct::{Source, SourceEstimate};
 
 impl Reconstructed {
     /// Rows, noise, labels, points and gaps, and the comparison with the truth where that is known.
@@ -71,7 +71,11 @@ impl Reconstructed {
                 if self.check.fits() { "none, as is" } else { "none, because the recording does not fit its rod" }
             );
         };
-        let taken: Vec<_> = calibration.sources.iter().filter(|estimate| estimate.taken != 0.0 && estimate.source != Source::Friction).collect();
+        let taken: Vec<_> = calibration
+            .sources
+            .iter()
+            .filter(|estimate| estimate.taken != 0.0 && estimate.source != Source::Friction)
+            .collect();
         if taken.is_empty() {
             let why =
                 if self.check.fits() { "none needed" } else { "none, because the recording does not fit its rod" };

@@ -21,9 +21,7 @@ impl Friction {
     /// The number that is not possible, if one is.
     pub(crate) fn fault(self) -> Option<f64> {
         match self {
-            Self::Known { mu, sigma } => {
-                [mu, sigma].into_iter().find(|value| !(value.is_finite() && *value >= 0.0))
-            }
+            Self::Known { mu, sigma } => [mu, sigma].into_iter().find(|value| !(value.is_finite() && *value >= 0.0)),
             _ => None,
         }
     }

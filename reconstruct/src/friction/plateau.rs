@@ -26,6 +26,11 @@ const NEAR: f64 = 0.02;
 const TURNS: usize = 8;
 /// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the label may be wrong.
 const OUTLYING: f64 = 3.0;
+/// Share of the places by which it is judged whether the plateau is flat, and the size of a standard normal variable that this share does
+/// not exceed. Larger: places with several contacts, which noise lets pass for tangential ones, count; smaller: friction that changes along a
+/// part of the scan is not told.
+const INNER: f64 = 0.8;
+const OF_INNER: f64 = 1.2816;
 /// Smallest standard deviation of the sine at one place: rounding. Smaller: the noise of noise-free samples decides.
 const FINEST: f64 = 1e-9;
 /// A plateau this close to 0 is none: sensors, clamps and rods of an ordinary laboratory let K / (2 |F|) be as large.
@@ -168,23 +173,22 @@ pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[
     let sine = found / found.hypot(1.0);
     let information = level(&sides, sine).1;
     let off = |side: &Side| side.value - sine;
-    let scatter = robust_sigma(sides.iter().map(|side| off(side) / side.sigma)).unwrap_or(1.0).max(1.0);
-    let (size, own) = (robust_sigma(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
+    let scatter = outer(sides.iter().map(|side| off(side) / side.sigma)).max(1.0);
+    let (size, own) = (outer(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
     let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
-    let spread = (size.unwrap_or(0.0).powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * tangent_by_sine;
+    let spread = (size.powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * tangent_by_sine;
     let way = |sides: &mut dyn Iterator<Item = &Side>| sides.map(|side| side.way).sum::<f64>();
     let backwards = |side: &&Side| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
     let all = way(&mut sides.iter());
     let against = if all > 0.0 && found != 0.0 { way(&mut sides.iter().filter(backwards)) / all } else { 0.0 };
-    Start {
-        mu: found,
-        sigma: tangent_by_sine / information.sqrt(),
-        scatter,
-        spread,
-        against,
-        likelihood,
-        without,
-    }
+    Start { mu: found, sigma: tangent_by_sine / information.sqrt(), scatter, spread, against, likelihood, without }
+}
+
+/// The standard deviation of normal variables about 0 of which [`INNER`] are no larger than those; 0 without values.
+fn outer(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = values.map(f64::abs).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes.get((INNER * sizes.len() as f64) as usize).map_or(0.0, |size| size / OF_INNER)
 }
 
 fn tangent(sine: f64) -> f64 {
@@ -204,7 +208,8 @@ fn judge<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) 
 fn level(sides: &[Side], peak: f64) -> (f64, f64) {
     let (mut sine, mut near) = (peak, NEAR);
     for _ in 0..TURNS {
-        let about: Vec<&Side> = sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(SIGMAS * side.sigma)).collect();
+        let about: Vec<&Side> =
+            sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(SIGMAS * side.sigma)).collect();
         let Some(middle) = median(about.iter().map(|side| side.value).collect()) else { break };
         sine = middle;
         near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);

@@ -102,8 +102,7 @@ impl Calibrated {
     fn settled(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
         let Self { track, noise, breaks, nodes, units, calibration, friction, .. } = &mut self;
         let plateau = track.friction;
-        if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known)
-        {
+        if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known) {
             if let Some(correction) = correction {
                 *track = correction.track(track);
                 *nodes = places(&Uniform, track, noise, breaks);

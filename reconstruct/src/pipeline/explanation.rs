@@ -2,8 +2,8 @@
 
 use super::calibrated::{ANY_FRICTION, Calibrated};
 use super::settings::Settings;
-use crate::friction::Friction;
 use crate::check::{Finding, Mistake, plausibility_with_friction};
+use crate::friction::Friction;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::passes;
 use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
@@ -144,10 +144,12 @@ fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Cal
     // a bias may look like a wrong sign
     let friction = track.friction;
     let corrected = || (calibration.rod(rod), calibration.corrected(rod, part));
-    if is_gross(rod, samples, friction) && (!calibration.is_applied() || {
-        let (rod, samples) = corrected();
-        is_gross(&rod, &samples, friction)
-    }) {
+    if is_gross(rod, samples, friction)
+        && (!calibration.is_applied() || {
+            let (rod, samples) = corrected();
+            is_gross(&rod, &samples, friction)
+        })
+    {
         return None;
     }
     calibration.log_likelihood.is_finite().then_some(calibration)

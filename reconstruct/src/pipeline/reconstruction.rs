@@ -1,8 +1,8 @@
 //! The result of a reconstruction.
 
 use super::reading::{Reading, Reason};
-use crate::friction::FrictionEstimate;
 use crate::contour::{Assembly, ContourEstimate, Gap, Measured, Trace, TraceKind};
+use crate::friction::FrictionEstimate;
 use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
 use crate::point::Touch;

@@ -204,11 +204,8 @@ mod tests {
         };
         let noise = Noise { variance: Vector3::repeat(1e-24), long_run: Vector3::repeat(1.0) };
         for (bend, widest) in [(0.0, 200), (1.0, 50)] {
-            let track = Track {
-                clamps: tau.iter().map(|&t| clamp(t, bend)).collect(),
-                tau: tau.clone(),
-                ..Track::default()
-            };
+            let track =
+                Track { clamps: tau.iter().map(|&t| clamp(t, bend)).collect(), tau: tau.clone(), ..Track::default() };
             let fit = LocalCubic::about(&track, 80, 0..200, &noise, 1000).unwrap();
             assert!(fit.window.len() <= widest && fit.window.len() >= widest / 2, "{:?}", fit.window);
             let at = fit.at(0.08);

@@ -91,8 +91,11 @@ impl Track {
     /// The samples whose poses go on in one direction.
     fn exact(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
         let mut intake = Intake::new(rod);
-        let mut track =
-            Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()), ..Self::default() };
+        let mut track = Self {
+            tau: Vec::with_capacity(samples.len()),
+            clamps: Vec::with_capacity(samples.len()),
+            ..Self::default()
+        };
         let places = samples
             .iter()
             .zip(frozen(samples).into_iter().zip(spikes(samples)))

@@ -250,8 +250,11 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
     }
     let free = |of: fn(Source) -> bool| std::array::from_fn(|k| of(Source::ALL[k]) && sigmas[k] > 0.0);
     // friction is known as a plateau tells it, and not exactly
-    let mut free: [bool; SOURCES] =
-        if sigmas[Source::Friction as usize] > 0.0 { free(|source| source == Source::Friction) } else { free(Source::is_of_scan) };
+    let mut free: [bool; SOURCES] = if sigmas[Source::Friction as usize] > 0.0 {
+        free(|source| source == Source::Friction)
+    } else {
+        free(Source::is_of_scan)
+    };
     loop {
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
         let only = Prior { sigmas: only, ..*prior };

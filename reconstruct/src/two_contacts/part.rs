@@ -67,14 +67,7 @@ impl Part {
         let pose = [&p, &d].map(|b| {
             Vector3::from_fn(|c, _| self.series.pose.column(c).iter().zip(b).map(|(m, b)| m * b).sum::<f64>())
         });
-        Local {
-            pose,
-            natural: self.series.natural,
-            friction: self.series.friction,
-            values,
-            rates,
-            basis: [p, d],
-        }
+        Local { pose, natural: self.series.natural, friction: self.series.friction, values, rates, basis: [p, d] }
     }
 
     /// Derivatives by the unknowns and their rates as derivatives by the coefficients, appended to a sparse row.

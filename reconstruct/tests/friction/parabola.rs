@@ -116,7 +116,8 @@ fn the_generator_agrees_with_the_reference() {
         (0.3, [-2.286466861642, 0.906727936128, 1.517548331101]),
         (0.0, [-3.754490854696, 5.418078824528, 3.485394405505]),
     ] {
-        let at = states.iter().min_by(|a, b| (a.sample.pose.x - x0).abs().total_cmp(&(b.sample.pose.x - x0).abs())).unwrap();
+        let at =
+            states.iter().min_by(|a, b| (a.sample.pose.x - x0).abs().total_cmp(&(b.sample.pose.x - x0).abs())).unwrap();
         let Reactions { f0x, f0y, m0z } = at.sample.reactions;
         for (found, expected) in [f0x, f0y, m0z].into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-10, "{x0}: {found} for {expected}");

@@ -42,8 +42,11 @@ pub fn rod() -> Rod {
 /// The recording with mu = 0.1.
 pub fn recording() -> Recording {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/friction/");
-    let rows: Vec<Row> =
-        csv::Reader::from_path(format!("{folder}O1_q40_mu0.1.csv")).unwrap().deserialize().map(Result::unwrap).collect();
+    let rows: Vec<Row> = csv::Reader::from_path(format!("{folder}O1_q40_mu0.1.csv"))
+        .unwrap()
+        .deserialize()
+        .map(Result::unwrap)
+        .collect();
     let contacts = csv::Reader::from_path(format!("{folder}O1_q40_mu0.1_contacts.csv"));
     let sample = |row: &Row| {
         let Row { x0, f0x, f0y, m0z, .. } = *row;
