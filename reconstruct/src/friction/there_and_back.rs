@@ -7,6 +7,8 @@ use std::ops::Range;
 /// Largest distance of the pose back from that there, in lengths of the rod, or in means of the spacing of the samples if that is more.
 const APART: f64 = 1e-3;
 const SPACINGS: f64 = 2.0;
+/// How far beyond the pass back a pose may be, in parts of the spacing: rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// The mean of two passes of a recording along one path.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,12 +74,11 @@ fn pair(rod: &Rod, samples: &[Sample], there: Range<usize>, back: Range<usize>) 
             next += 1;
         }
         let (Some(a), Some(b)) = (other.get(next), other.get(next + 1)) else { break };
-        let part = share(rod, sample, a, b);
-        let at = part.clamp(0.0, 1.0);
+        let at = share(rod, sample, a, b);
         let between = |of: fn(&Reactions) -> f64| of(&a.reactions) * (1.0 - at) + of(&b.reactions) * at;
         let beside = |of: fn(&Sample) -> f64| of(a) * (1.0 - at) + of(b) * at - of(sample);
         let off = beside(|s| s.pose.x).hypot(beside(|s| s.pose.y)).hypot(rod.length() * beside(|s| s.pose.phi));
-        if off > most {
+        if off > most || !(-ROUNDING..=1.0 + ROUNDING).contains(&at) {
             continue;
         }
         let r = sample.reactions;

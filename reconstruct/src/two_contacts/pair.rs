@@ -94,6 +94,10 @@ pub(super) fn answer(
         pairs.extend(tau.iter().map(|_| Pair { first: Err(error), second: Err(error) }));
         return;
     }
+    if !slides(part, x) {
+        pairs.extend(tau.iter().map(|_| Pair { first: Err(Unresolved::Sticks), second: Err(Unresolved::Sticks) }));
+        return;
+    }
     for &tau in tau {
         let t = part.series.interval.local(tau);
         let u = (0.5 * (t.clamp(-1.0, 1.0) + 1.0)) * (INSTANTS - 1) as f64;
@@ -109,9 +113,7 @@ pub(super) fn answer(
         let bend = [0, 1].map(|i| bends[k][i].max(bends[k + 1][i]));
         let shared = [0, 1].map(|i| spread[k][i] * (1.0 - w) + spread[k + 1][i] * w);
         let mut pair = pair(part, &local, &covariance, bend, limits);
-        if !slides(part, &local) {
-            pair = Pair { first: Err(Unresolved::Sticks), second: Err(Unresolved::Sticks) };
-        } else if local.values[Unknown::F1] * strongest.signum() < VANISHES * covariance[(F1, F1)].max(0.0).sqrt() {
+        if local.values[Unknown::F1] * strongest.signum() < VANISHES * covariance[(F1, F1)].max(0.0).sqrt() {
             pair.first = Err(Unresolved::FirstForceVanishes);
         }
         pairs.push(pair.with_systematic(shared));

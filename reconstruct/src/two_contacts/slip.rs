@@ -4,10 +4,11 @@
 //! missing. A contact sticks where the matter of the rod stands still there.
 
 use super::conditions::two;
+use super::pair::{INSTANTS, place};
 use super::part::{Local, Part};
-use super::unknowns::{Gradient, Unknown, Unknowns};
+use super::unknowns::{Unknown, Unknowns};
 use crate::point::Clamp;
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 use rod_core::{Dual, Section};
 
 /// Speed along the rod per way of the clamp, below which matter may stand still: the error of series at their ends. Larger: contacts that
@@ -17,35 +18,43 @@ const SLOW: f64 = 1e-3;
 /// passes for one that slides.
 const SIGMAS: f64 = 3.0;
 
-/// Whether both contacts slide against friction of this sign; always without friction.
-pub(super) fn slides(part: &Part, local: &Local) -> bool {
-    if local.friction == 0.0 {
+/// Whether both contacts slide against friction along a part, on the mean: between kinks a contact slides or sticks all the way. Always
+/// without friction.
+pub(super) fn slides(part: &Part, x: &DVector<f64>) -> bool {
+    if part.series.friction == 0.0 {
         return true;
     }
+    let against = -part.series.friction.signum();
+    let speeds = (0..INSTANTS).map(|k| along(&part.local(x, place(k))));
+    let sum = speeds.fold([0.0; 2], |sum, two| [0, 1].map(|i| sum[i] + against * two[i]));
+    let [first, second] = sum.map(|sum| sum / INSTANTS as f64);
+    first > SLOW + SIGMAS * sigma_of_first(part, &part.local(x, 0.0)) && second > SLOW
+}
+
+/// The speeds of the rod's matter along the rod at both contacts, per way of the clamp.
+fn along(local: &Local) -> [f64; 2] {
     // the one derivative is the rate along the scan
     let inputs = Unknowns::from_fn(|u| Dual::<f64, 1> { value: local.values[u], derivatives: [local.rates[u]] });
     let pose = std::array::from_fn(|i| Dual { value: local.pose[0][i], derivatives: [local.pose[1][i]] });
     let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &inputs);
     // contacts move along the rod besides
-    let along = |section: &Section<Dual<f64, 1>>, s: Unknown| {
+    [(&two.first, Unknown::S1), (&two.second, Unknown::S2)].map(|(section, s)| {
         let (sin, cos) = section.phi.value.sin_cos();
         cos * section.x.derivatives[0] + sin * section.y.derivatives[0] - local.rates[s]
-    };
-    let against = -local.friction.signum();
-    let first = against * along(&two.first, Unknown::S1) - SIGMAS * sigma_of_first(part, local);
-    first > SLOW && against * along(&two.second, Unknown::S2) > SLOW
+    })
 }
 
-/// Standard deviation of the first one's speed by the noise of the rates.
+/// Standard deviation of the first one's mean speed by the noise of the rates: the mean of a rate is the difference of the values at both
+/// ends, to which all odd polynomials contribute 1.
 fn sigma_of_first(part: &Part, local: &Local) -> f64 {
     let reactions = Vector3::from(Unknown::REACTIONS.map(|unknown| local.values[unknown]));
     let Local { natural, friction, .. } = *local;
     let clamp = Clamp { pose: local.pose[0], reactions, natural, friction };
     let (section, gradient) = clamp.gradient_at(local.values[Unknown::S1]);
     let (sin, cos) = section.phi.sin_cos();
-    let mut by_rate = Unknowns::ZERO;
-    for (c, unknown) in Unknown::REACTIONS.into_iter().enumerate() {
-        by_rate[unknown] = cos * gradient.by_reactions[(0, c)] + sin * gradient.by_reactions[(1, c)];
-    }
-    part.noise(local, &Gradient { by_value: Unknowns::ZERO, by_rate }).sqrt()
+    let series = &part.series;
+    let mean = DVector::from_fn(series.terms(), |j, _| if j % 2 == 1 { 1.0 / series.interval.half } else { 0.0 });
+    let spread = mean.dot(&(&series.inverse * &mean));
+    let by = |c: usize| cos * gradient.by_reactions[(0, c)] + sin * gradient.by_reactions[(1, c)];
+    (0..3).map(|c| by(c).powi(2) * series.variance[c] * spread).sum::<f64>().sqrt()
 }
