@@ -1,3 +1,7 @@
 //! Sweeps with Coulomb friction.
 
+mod judge;
+mod laws;
+mod limits;
+mod random;
 mod scans;
