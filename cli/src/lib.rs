@@ -56,7 +56,8 @@ pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transiti
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    AnyRod, AnyScene, KnownRod, Leg, LegPath, Scene, SceneRod, read_known_rod, read_mounted_rod, read_rod,
+    AnyRod, AnyScene, KnownRod, Leg, LegPath, Scene, SceneFriction, SceneRod, read_known_rod, read_mounted_rod,
+    read_rod,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use shapes::shapes_list;

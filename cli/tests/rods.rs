@@ -39,7 +39,7 @@ fn each_mistake_has_its_place() {
         ),
         (
             format!("{WIRE}natural_curvature = [[0.05, 1.0], [0.01, 2.0]]\n"),
-            ["rod.natural_curvature: ", "border at arc length 0.01"],
+            ["rod.natural_curvature: ", "has the arc length 0.01 m, expected more than that of the point before"],
         ),
         (format!("{WIRE}natural_curvature = []\n"), ["rod.natural_curvature: ", "number of points"]),
         (format!("{WIRE}natural_curvature = nan\n"), ["rod.natural_curvature: ", "NaN"]),

@@ -184,7 +184,7 @@ def test_what_a_rod_has() -> None:
         ({"diameter": 0.0, "youngs_modulus": 1e9, "tip_diameter": 1e-6}, "diameter is 0, expected a positive"),
         ({"bending_stiffness": 1.0, "natural_curvature": math.nan}, "natural_curvature is NaN"),
         ({"bending_stiffness": 1.0, "natural_curvature": [1.0, 2.0]}, r"shape \[2\], expected a number"),
-        ({"bending_stiffness": 1.0, "natural_curvature": [[0.0, 1.0], [0.0, 2.0]]}, "border at arc length 0"),
+        ({"bending_stiffness": 1.0, "natural_curvature": [[0.0, 1.0], [0.0, 2.0]]}, "point 2 of the natural curvature has the arc length 0"),
         ({"bending_stiffness": 1.0, "natural_curvature": 100.0}, "crosses itself"),
         ({"bending_stiffness": 1.0, "natural_curvature": 1e300}, "turns the rod by .* rad at rest, expected at most 100 rad"),
         ({"bending_stiffness": 1.0, "natural_curvature": 1.0, "yield_stress": 1e9}, "yield_stress is given for a rod"),

@@ -30,7 +30,7 @@ pub enum RodError {
     },
     /// A tapered wire whose ends differ too much in thickness.
     #[error(
-        "tip_diameter is {tip_diameter:?} m, expected between 0.01 and 100 times base_diameter, {base_diameter:?} m"
+        "tip_diameter is {tip_diameter:?} m, expected between 0.01 and 100 times the diameter at the clamp, {base_diameter:?} m"
     )]
     TooTapered {
         /// Diameter at the tip as given, m.
@@ -113,6 +113,16 @@ pub enum RodError {
         s: f64,
         /// The one before it, or 0.
         least: f64,
+    },
+    /// A point of the natural curvature is not on the rod, or not beyond the point before it.
+    #[error("point {number} of the natural curvature has the arc length {s} m, expected {expected}")]
+    CurvaturePoint {
+        /// Its number, from 1.
+        number: usize,
+        /// Its arc length as given, m.
+        s: f64,
+        /// What was expected.
+        expected: &'static str,
     },
     /// A rod crosses itself at rest.
     #[error(

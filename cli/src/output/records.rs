@@ -59,13 +59,22 @@ struct ContactRecord {
     y: f64,
     alpha: f64,
     force: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mode: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    friction: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slip: Option<f64>,
 }
 
 impl From<&Contact> for ContactRecord {
     fn from(contact: &Contact) -> Self {
         let kind = contact.kind.to_string();
         let Contact { object, piece, s, x, y, alpha, force, .. } = *contact;
-        Self { object: object + 1, piece: piece + 1, kind, s, x, y, alpha, force }
+        let rubs = contact.friction.as_ref();
+        let mode = rubs.map(|friction| friction.mode.to_string());
+        let (friction, slip) = (rubs.map(|friction| friction.force), rubs.map(|friction| friction.slip));
+        Self { object: object + 1, piece: piece + 1, kind, s, x, y, alpha, force, mode, friction, slip }
     }
 }
 
@@ -84,6 +93,9 @@ pub(super) struct EventRecord {
     contacts: Vec<ContactRecord>,
     after: StateRecord,
     leg: usize,
+    /// Work of friction since the sweep began, J.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dissipated: Option<f64>,
 }
 
 impl From<&Event> for EventRecord {
@@ -102,6 +114,7 @@ impl From<&Event> for EventRecord {
             contacts: event.before.contacts.iter().map(ContactRecord::from).collect(),
             after: StateRecord::from(&event.after),
             leg: event.leg(),
+            dissipated: event.dissipated,
         }
     }
 }
@@ -136,15 +149,17 @@ pub(super) fn state_row((index, state): (usize, &State)) -> impl Serialize {
 }
 
 /// The columns of contacts.csv.
-pub(super) const CONTACT_COLUMNS: [&str; 14] =
-    ["state", "x0", "y0", "phi0", "phase", "contact", "object", "piece", "kind", "s", "x", "y", "alpha", "force"];
+pub(super) const CONTACT_COLUMNS: [&str; 17] = [
+    "state", "x0", "y0", "phi0", "phase", "contact", "object", "piece", "kind", "s", "x", "y", "alpha", "force",
+    "mode", "friction", "slip",
+];
 
 /// The rows of contacts.csv for a state: one for each contact, from the clamp to the tip, the pose and the phase repeated.
 pub(super) fn contact_rows((index, state): (usize, &State)) -> impl Iterator<Item = impl Serialize> {
     state.contacts.iter().enumerate().map(move |(number, contact)| {
-        let ContactRecord { object, piece, kind, s, x, y, alpha, force } = contact.into();
+        let ContactRecord { object, piece, kind, s, x, y, alpha, force, mode, friction, slip } = contact.into();
         let vibrissa::Pose { x: x0, y: y0, phi: phi0 } = state.pose;
         let place = (index + 1, x0, y0, phi0, state.phase().to_string());
-        (place, (number + 1, object, piece, kind), (s, x, y, alpha, force))
+        (place, (number + 1, object, piece, kind), (s, x, y, alpha, force), (mode, friction, slip))
     })
 }

@@ -3,7 +3,7 @@
 use super::document::{Document, Point, SweepTable};
 use super::kind::AnyRod;
 use super::rod_table;
-use super::{AnyScene, Scene, files, leg, object, plausible};
+use super::{AnyScene, Scene, files, friction, leg, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
@@ -17,20 +17,21 @@ pub(crate) const MOST_STATES: f64 = 1e6;
 /// Files that the objects name are looked for in `directory`.
 pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<AnyScene, Fault> {
     let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
-    let Document { tables, contour, objects } = document;
+    let Document { tables, contour, objects: pieces } = document;
     let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
-    let objects = object::all(&tables, &contour, &objects, directory)?;
+    let objects = object::all(&tables, &contour, &pieces, directory)?;
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
     let legs = leg::all(tables.sweep.get_ref(), path.at(path.length()), rod.length())?;
-    let warnings =
-        plausible::rod(tables.rod.get_ref()).into_iter().map(|fault| source.place(fault).to_string()).collect();
+    let (friction, large) = friction::friction(&tables, &contour, &pieces, &objects)?;
+    let unlikely = plausible::rod(tables.rod.get_ref()).into_iter().chain(large);
+    let warnings = unlikely.map(|fault| source.place(fault).to_string()).collect();
     Ok(match rod {
         AnyRod::Uniform(rod) => {
-            AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, warnings, files, source })
+            AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
         }
         AnyRod::Mounted(rod) => {
-            AnyScene::Mounted(Scene { name, rod, objects, path, step, legs, warnings, files, source })
+            AnyScene::Mounted(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
         }
     })
 }

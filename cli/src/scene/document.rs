@@ -22,6 +22,7 @@ pub(super) struct Document {
 pub(super) struct Tables {
     pub rod: Spanned<RodTable>,
     pub clamp: Option<Spanned<ClampTable>>,
+    pub contact: Option<Spanned<ContactTable>>,
     pub contour: Option<Spanned<ObjectTable>>,
     #[serde(default)]
     pub object: Vec<Spanned<ObjectTable>>,
@@ -52,6 +53,14 @@ pub(super) struct ClampTable {
     pub stiffness_phi: Option<Spanned<f64>>,
 }
 
+/// `[contact]`: what holds for the contacts with all objects.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ContactTable {
+    /// A coefficient, or a table of two.
+    pub friction: Option<Spanned<toml::Value>>,
+}
+
 /// One `[[rod.section]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -76,6 +85,7 @@ pub(super) struct ObjectTable {
     pub reversed: bool,
     pub hollow: Option<Spanned<bool>>,
     pub file: Option<Spanned<PathBuf>>,
+    pub friction: Option<Spanned<toml::Value>>,
     /// Taken out and read before; named here for the list of fields in the message on an unknown one.
     #[serde(default, rename = "piece")]
     _piece: Vec<IgnoredAny>,

@@ -7,6 +7,7 @@
 mod check;
 mod document;
 mod files;
+mod friction;
 mod kind;
 mod known_rod;
 mod leg;
@@ -17,6 +18,7 @@ mod rod_table;
 mod shape;
 
 pub(crate) use check::MOST_STATES;
+pub use friction::SceneFriction;
 pub use kind::{AnyRod, AnyScene, SceneRod};
 pub(crate) use known_rod::written;
 pub use known_rod::{KnownRod, read_known_rod, read_mounted_rod};
@@ -50,6 +52,8 @@ pub struct Scene<R = Rod> {
     pub step: f64,
     /// Where the clamp goes after that, one leg after another.
     pub legs: Vec<Leg>,
+    /// Friction between the rod and the objects; none where there is none.
+    pub friction: Option<SceneFriction>,
     /// What may be a mistake in the file: a rod of implausible size or stiffness, angles that look like radians where degrees
     /// belong, or the other way round.
     pub warnings: Vec<String>,
@@ -119,12 +123,28 @@ impl<R: SceneRod> Scene<R> {
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
     pub fn sweep(&self) -> Result<Sweep<'_, R>, ContactError> {
         if self.legs.is_empty() {
-            return Sweep::new(&self.rod, &self.objects, self.path, self.step);
+            return self.sweep_by(self.step);
         }
         let first: Arc<dyn vibrissa::contact::Path> = Arc::new(self.path);
         let path = Chain::new(std::iter::once(first).chain(self.legs.iter().map(|leg| leg.path.path())).collect())?;
         let steps: Vec<_> = std::iter::once(self.step).chain(self.legs.iter().map(|leg| leg.step)).collect();
-        Sweep::with_steps(&self.rod, &self.objects, path, &steps)
+        self.rubbing(Sweep::with_steps(&self.rod, &self.objects, path, &steps)?)
+    }
+
+    /// The sweep along the first leg with states at another distance.
+    ///
+    /// # Errors
+    /// As [`Sweep::new`].
+    pub(crate) fn sweep_by(&self, step: f64) -> Result<Sweep<'_, R>, ContactError> {
+        self.rubbing(Sweep::new(&self.rod, &self.objects, self.path, step)?)
+    }
+
+    /// The sweep with the friction of the scene.
+    fn rubbing<'a>(&'a self, sweep: Sweep<'a, R>) -> Result<Sweep<'a, R>, ContactError> {
+        match &self.friction {
+            Some(friction) => Ok(sweep.with_friction(friction.clone())),
+            None => Ok(sweep),
+        }
     }
 
     /// How many steps the path is long.

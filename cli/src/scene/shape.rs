@@ -1,6 +1,8 @@
 //! The pieces of a contour: the library's shapes, whose fields are listed there, with their places in the file.
 
 use crate::toml_file::Fault;
+use serde::Deserialize;
+use std::cell::Cell;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -9,12 +11,18 @@ use vibrissa::contour::description::{Pieces, Shape};
 
 /// Name of the field that says which shape a piece is.
 const TAG: &str = "shape";
+/// Name of the field of a coefficient of friction, which is not the shape's.
+const FRICTION: &str = "friction";
 
 /// One `[[contour.piece]]` or `[[object.piece]]`.
 pub(super) struct Piece {
     pub span: Range<usize>,
+    /// Its coefficient of friction, if it has one of its own.
+    pub friction: Option<Spanned<toml::Value>>,
     shape: Shape,
     fields: Vec<Field>,
+    /// Of how many pieces of contour it consists, once these were made.
+    count: Cell<usize>,
 }
 
 /// Where a field stands, and its values where it is a list.
@@ -55,20 +63,31 @@ impl Piece {
             let known: Vec<String> = Shape::NAMES.iter().map(|name| format!("`{name}`")).collect();
             return Err(Fault::new(at, format!("the shape is `{name}`, expected one of {}", known.join(", "))));
         }
+        let friction = match table.remove(FRICTION) {
+            Some(value) => Some(Spanned::new(value.span(), toml::Value::deserialize(ValueDeserializer::from(value))?)),
+            None => None,
+        };
         let fields = fields(&table);
         let values = ValueDeserializer::from(Spanned::new(span.clone(), DeValue::Table(table)));
         let shape = Shape::from_fields(&name, values)?;
-        Ok(Self { span, shape, fields })
+        Ok(Self { span, friction, shape, fields, count: Cell::new(0) })
     }
 
     /// The pieces of contour it stands for. Relative files are looked for in `directory`.
     pub fn contours(&self, directory: &Path) -> Result<Pieces, Fault> {
-        self.shape.pieces(directory).map_err(|error| {
+        let pieces = self.shape.pieces(directory).map_err(|error| {
             let field = self.fields.iter().find(|field| Some(field.name.as_str()) == error.field);
             let point = || field?.items.get(error.point?.checked_sub(1)?).cloned();
             let span = point().or_else(|| field.map(|field| field.span.clone())).unwrap_or_else(|| self.span.clone());
             Fault::new(span, error.to_string())
-        })
+        })?;
+        self.count.set(pieces.len());
+        Ok(pieces)
+    }
+
+    /// Of how many pieces of contour it consists: 0 before [`contours`](Self::contours) has made them.
+    pub fn count(&self) -> usize {
+        self.count.get()
     }
 
     /// The file that it names.

@@ -39,7 +39,7 @@ impl<R: SceneRod> Simulation<R> {
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
     pub fn ticks(&self) -> Result<Ticks<'_, R>, Error> {
         let (step, sensor) = (self.step()?, self.noise.generator(self.seed)?);
-        let sweep = Sweep::new(&self.scene.rod, &self.scene.objects, self.scene.path, step)?;
+        let sweep = self.scene.sweep_by(step)?;
         Ok(Ticks { sweep, simulation: self, step, sensor, next: 0 })
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
+use crate::continuation::step::LEAST_COSINE;
 use rod_core::{PhysicalRod, RodModel, SolveReport};
 
 /// Arc length (L) behind a joint at which a contact counts as being on its other side.
@@ -15,10 +16,11 @@ pub(crate) struct Passed {
 }
 
 /// The first joint that a contact goes over between two points of a branch: the point where it is just behind it. None where there is no
-/// joint between them, or it cannot be located.
+/// joint between them, or it cannot be located; and where the branch, whose tangent at `from` is `start`, turns before it: there is a fold on
+/// the way, or another branch.
 pub(crate) fn passed<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
-    from: &Configuration,
+    (from, start): (&Configuration, &Tangent),
     to: &Configuration,
 ) -> Option<Passed> {
     let joints = corrector.setup.rod.model().joints();
@@ -35,19 +37,39 @@ pub(crate) fn passed<R: PhysicalRod>(
         }
     }
     let (share, j, value) = first?;
-    let unknown = Unknown::ArcLength(j);
-    let mut configuration = from.clone();
-    for (z, end) in configuration.z.iter_mut().zip(&to.z) {
+    let mut guess = from.clone();
+    for (z, end) in guess.z.iter_mut().zip(&to.z) {
         *z += share * (end - *z);
     }
-    let condition = Condition::Fixed { unknown, value };
+    let way = to.s(j) - from.s(j);
+    // just before the joint, where the branch is still smooth
+    let before = value - 2.0 * BEYOND.copysign(way);
+    if (before - from.s(j)) * way > 0.0 {
+        let Passed { tangent, .. } = at(corrector, guess.clone(), j, before, way)?;
+        if tangent.by_tau() <= 0.0 || tangent.cosine(&start.direction) < LEAST_COSINE {
+            return None;
+        }
+    }
+    at(corrector, guess, j, value, way)
+}
+
+/// The point of the branch near `guess` where contact j is at an arc length, and the branch from there on, by its own Jacobian, in the sense
+/// of `way`.
+fn at<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    mut configuration: Configuration,
+    j: usize,
+    value: f64,
+    way: f64,
+) -> Option<Passed> {
+    let condition = Condition::Fixed { unknown: Unknown::ArcLength(j), value };
     let report = corrector.correct(&mut configuration, condition);
     if !report.status.is_solved() {
         return None;
     }
-    // by its own Jacobian, on the other side; with the arc length fixed, the direction in which that grows
+    // with the arc length fixed, the direction in which that grows
     let (mut tangent, _) = corrector.inspect(&configuration, condition);
-    if to.s(j) < from.s(j) {
+    if way < 0.0 {
         tangent.direction.iter_mut().for_each(|rate| *rate = -*rate);
     }
     Some(Passed { configuration, tangent, report })

@@ -433,7 +433,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     /// The point just behind the first joint on the way to `next`, if that is as near as a step may go.
     fn over_joint(&mut self, from: &Point, next: &Configuration, target: f64, reach: f64) -> Option<Ahead> {
         let Passed { configuration: next, tangent, report } =
-            joint::passed(&mut self.corrector, &from.configuration, next)?;
+            joint::passed(&mut self.corrector, (&from.configuration, &from.tangent), next)?;
         let length = from.tangent.along(&next.z, &from.configuration.z);
         let near = next.tau() <= target && (0.0..=2.0 * reach).contains(&length);
         let solved = report.residual <= LARGEST_RESIDUAL && ordered(&self.corrector.setup.world, &next);

@@ -23,7 +23,7 @@ const MOST_CONTACTS: usize = 6;
 #[derive(Debug)]
 pub(crate) enum Motion {
     /// In each of these ways: none where no combination of modes is admissible.
-    Ways(SmallVec<[Configuration; 2]>),
+    Ways(Vec<Configuration>),
     /// The straight rod is pushed on along its axis and sticks: it cannot move.
     Jams,
     /// There are more contacts than can be tried.
@@ -52,7 +52,7 @@ pub(crate) fn anew<R: PhysicalRod>(
         (0..n).map(|j| choice(setup, configuration, j, stopped)).collect();
     let all = AllRates::new(setup, configuration);
     let first_contact = n == 1 && configuration.force(0).abs() < UNLOADED && setup.rod.model().is_straight();
-    let mut ways: SmallVec<[Configuration; 2]> = SmallVec::new();
+    let mut ways = Vec::new();
     let mut modes: SmallVec<[Mode; 6]> = SmallVec::new();
     for mut number in 0..choices.iter().map(SmallVec::len).product() {
         modes.clear();

@@ -13,7 +13,7 @@
 //! last contact the least value is zero. So Q > 0 for all variations if, and only if, the sum of these forms and of the contacts' own ones is positive definite in the shifts u_j along
 //! the contour and the turns eta_j: two unknowns a contact. A clamp on springs adds the ways p of its base, with their own p^2 / softness.
 
-use super::Form;
+use super::{Form, PENALTY};
 use crate::contact_set::Configuration;
 use crate::gap::shape::Shape;
 use crate::scene::rod::holds_between_ends;
@@ -56,7 +56,9 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
     }
     for j in 0..n {
         let support = supports.support(j, configuration.t(j));
-        let Form::Moves([uu, uv, vv]) = super::form(rod, configuration, shape, j, &support) else { return false };
+        let Form::Moves([uu, uv, vv]) = super::form(rod, configuration, shape, (j, PENALTY), &support) else {
+            return false;
+        };
         let (sin, cos) = support.alpha.sin_cos();
         let Some(stiffness) = stiffness(rod, shape, j) else { return false };
         (moves[known], moves[known + 1]) = ([0.0, 0.0, cos, sin], [0.0, 1.0, 0.0, 0.0]);

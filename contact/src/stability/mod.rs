@@ -26,20 +26,26 @@ use crate::scene::rod::{Segment, curvature_behind};
 use crate::scene::setup::Setup;
 use crate::scene::springs::{Spring, springs};
 use nalgebra::{DMatrix, SMatrix};
-use rod_core::{Clamp, Cut, Grip, Hold, PhysicalRod, RodModel, Support, Supports};
+use rod_core::{Clamp, Cut, Grip, Hold, PhysicalRod, RodModel, Station, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
 /// Number of modes beyond those that the contacts fix. Mode m has an energy of about (m pi)^2 / 2: a mode that is left out is
 /// unstable only under loads of hundreds of E I / L^2.
 const MODES: usize = 6;
-/// Stiffness of the penalty that keeps contacts closed, over that of the modes.
+/// Stiffness of the penalty that keeps contacts closed, over that of the modes. A rod that is soft somewhere has soft modes: with the same
+/// penalty for all, rounding would hide them.
 const PENALTY: f64 = 1e9;
 
 /// Square of the way (L per rad) by which the modes move a contact across the contour, below which the penalty grows no more. A nearly
 /// straight rod, pressed along its axis, moves across by little: with the same penalty for all, it would give way. Below the limit
 /// the way is one of rounding.
 const LEAST_WAY: f64 = 1e-6;
+
+/// Most that the phase of the modes grows over two intervals of Simpson's rule, rad: as much as on a uniform rod of 28 intervals.
+const MOST_PHASE: f64 = 2.0 * PI / 28.0;
+/// Halvings of two intervals at most: enough for a tip that is 1e8 times as soft as the clamp.
+const MOST_HALVINGS: u32 = 24;
 
 /// Curvature (1 / L) of a rod on a straight edge by rounding, with a condition number of 1e7.
 const FLAT: f64 = 1e-9;
@@ -93,6 +99,7 @@ impl Judge {
         let modes = MODES + 2 * n;
         let end = configuration.s(n - 1);
         let turns = Turns::new(rod, end, !springs.is_empty());
+        let penalty = PENALTY * (end / turns.softness);
         q.reset(modes + springs.len(), |m| match m.checked_sub(modes) {
             None => 0.5 / turns.softness * ((m as f64 + 0.5) * PI).powi(2),
             Some(k) => 1.0 / springs[k].softness,
@@ -103,21 +110,21 @@ impl Judge {
             let Segment { a, b, .. } = shape.segments[j];
             match turns.scale {
                 Some(scale) => integrals.add(shape.along(j), (a, b), scale),
-                None => integrals.add_at(shape.along(j), (a, b), |s| turns.phase(rod, s)),
+                None => integrals.add_at(rod, shape.along(j), (a, b), &|s| turns.phase(rod, s)),
             }
             let support = supports.support(j, configuration.t(j));
             integrals.shifts(support.alpha.sin_cos(), along, across);
             push_shifts(&springs, shape, &support, along, across);
-            let form = match form(rod, configuration, shape, j, &support) {
+            let form = match form(rod, configuration, shape, (j, penalty), &support) {
                 Form::Moves(form) => form,
-                Form::Held => [PENALTY, 0.0, 0.0],
-                Form::Flat => [0.0, 0.0, PENALTY],
+                Form::Held => [penalty, 0.0, 0.0],
+                Form::Flat => [0.0, 0.0, penalty],
                 Form::Slips => return false,
             };
             modes_at(turns.phase(rod, configuration.s(j)), modes, eta);
             eta.extend(springs.iter().map(|spring| spring.way[2]));
             q.add(form, along, eta);
-            let held = |ways: &[f64]| PENALTY / ways.iter().map(|way| way * way).sum::<f64>().clamp(LEAST_WAY, 1.0);
+            let held = |ways: &[f64]| penalty / ways.iter().map(|way| way * way).sum::<f64>().clamp(LEAST_WAY, 1.0);
             q.add([held(across), 0.0, 0.0], across, eta);
             if configuration.contacts[j].grip != Grip::SMOOTH {
                 q.add([held(along), 0.0, 0.0], along, eta);
@@ -153,10 +160,12 @@ impl Turns {
     }
 }
 
-/// int ds / EI from the clamp on: by how much more the rod turns under a moment of 1 than at rest.
+/// int ds / EI from the clamp on: by how much more the rod turns under a moment than at rest. Under a moment of 1 a thin tip would be wound
+/// up; under that of its least stiffness the rod turns by 1 rad at most.
 fn softness(rod: &impl RodModel, s: f64) -> f64 {
     let turned = |moment: f64| rod.carry(0.0, &Cut { x: 0.0, y: 0.0, phi: 0.0, moment }, 0.0, 0.0, s).phi;
-    turned(1.0) - turned(0.0)
+    let moment = rod.least_stiffness(0.0, s);
+    (turned(moment) - turned(0.0)) / moment
 }
 
 /// Appends how far the springs of the base move the rod at a contact, along the contour and across it.
@@ -182,7 +191,13 @@ enum Form {
     Slips,
 }
 
-fn form(rod: &impl RodModel, configuration: &Configuration, shape: &Shape, j: usize, support: &Support) -> Form {
+fn form(
+    rod: &impl RodModel,
+    configuration: &Configuration,
+    shape: &Shape,
+    (j, penalty): (usize, f64),
+    support: &Support,
+) -> Form {
     let (v, w, f) = (support.speed, support.turning, configuration.force(j));
     match configuration.contacts[j].hold {
         Hold::Tip if v == 0.0 && w < 0.0 => Form::Held,
@@ -195,7 +210,7 @@ fn form(rod: &impl RodModel, configuration: &Configuration, shape: &Shape, j: us
                 Form::Flat
             } else if divisor > 0.0 {
                 let scale = f / divisor;
-                Form::Moves([scale * w * kappa, -scale * w, (scale * v).min(PENALTY)])
+                Form::Moves([scale * w * kappa, -scale * w, (scale * v).min(penalty)])
             } else {
                 Form::Slips
             }
@@ -286,6 +301,14 @@ fn modes_at(x: f64, size: usize, modes: &mut Vec<f64>) {
     modes.extend((0..size).map(next));
 }
 
+/// A point of the rod, and the phase of the modes there.
+#[derive(Clone, Copy)]
+struct Point {
+    s: f64,
+    x: f64,
+    at: Station,
+}
+
 /// What is integrated along the rod for the modes eta_m = sin((m + 1/2) x), by Simpson's rule, lane by lane.
 #[derive(Debug, Default)]
 struct Integrals {
@@ -310,23 +333,46 @@ impl Integrals {
         self.load = 0.0;
     }
 
-    /// Goes on along the `nodes` of a segment under the force (A, B), with any x of the arc length.
-    fn add_at(&mut self, nodes: &[Node], (a, b): (f64, f64), x: impl Fn(f64) -> f64) {
-        let [first, .., last] = nodes else { return };
-        let intervals = nodes.len() - 1;
-        let h = (last.s - first.s) / intervals as f64;
+    /// Goes on along the `nodes` of a segment under the force (A, B), with any x of the arc length: where x grows fast, as at a soft tip, with
+    /// points in between.
+    fn add_at(&mut self, rod: &impl RodModel, nodes: &[Node], force: (f64, f64), x: &impl Fn(f64) -> f64) {
+        let points = |node: &Node| Point { s: node.s, x: x(node.s), at: node.at };
         let mut modes = Vec::new();
-        for (k, Node { s, at, .. }) in nodes.iter().enumerate() {
-            let times = if k == 0 || k == intervals {
-                1.0
-            } else if k % 2 == 1 {
-                4.0
-            } else {
-                2.0
+        let mut left = nodes.first().map(points);
+        for pair in nodes.get(1..).unwrap_or_default().chunks_exact(2) {
+            let (Some(first), [middle, last]) = (left, [points(&pair[0]), points(&pair[1])]) else { return };
+            self.add_panel(rod, [first, middle, last], force, (x, MOST_HALVINGS), &mut modes);
+            left = Some(last);
+        }
+    }
+
+    /// Two equal intervals by Simpson's rule, or by halves where x grows too much along them.
+    fn add_panel(
+        &mut self,
+        rod: &impl RodModel,
+        panel: [Point; 3],
+        (a, b): (f64, f64),
+        (x, halvings): (&impl Fn(f64) -> f64, u32),
+        modes: &mut Vec<f64>,
+    ) {
+        let [first, middle, last] = panel;
+        if last.x - first.x > MOST_PHASE && halvings > 0 {
+            let quarter = |from: Point, to: Point| {
+                let s = 0.5 * (from.s + to.s);
+                let Station { x: at_x, y, cos, sin, moment } = from.at;
+                let start = Cut { x: at_x, y, phi: sin.atan2(cos), moment };
+                Point { s, x: x(s), at: Station::from(&rod.carry(from.s, &start, a, b, s - from.s)) }
             };
-            let (weight, x) = (times * h / 3.0, x(*s));
-            modes_at(x, self.shifts.len(), &mut modes);
-            for ([by_x, by_y], mode) in self.shifts.iter_mut().zip(&modes) {
+            let [before, after] = [quarter(first, middle), quarter(middle, last)];
+            self.add_panel(rod, [first, before, middle], (a, b), (x, halvings - 1), modes);
+            self.add_panel(rod, [middle, after, last], (a, b), (x, halvings - 1), modes);
+            return;
+        }
+        let third = (last.s - first.s) / 6.0;
+        for (Point { x, at, .. }, times) in panel.into_iter().zip([1.0, 4.0, 1.0]) {
+            let weight = times * third;
+            modes_at(x, self.shifts.len(), modes);
+            for ([by_x, by_y], mode) in self.shifts.iter_mut().zip(&*modes) {
                 by_x[0] -= weight * at.sin * mode;
                 by_y[0] += weight * at.cos * mode;
             }
@@ -334,7 +380,7 @@ impl Integrals {
             for (m, moment) in self.moments.iter_mut().enumerate() {
                 moment[0] += 0.5 * load * (m as f64 * x).cos();
             }
-            for (turned, mode) in self.turned.iter_mut().zip(&modes) {
+            for (turned, mode) in self.turned.iter_mut().zip(&*modes) {
                 *turned += load * mode;
             }
             self.load += load;

@@ -12,6 +12,10 @@ use crate::segment::Segment;
 /// By how much the lengths of the sections of a rod of length 1 may miss it: rounding of some hundred lengths.
 const ADDING_UP: f64 = 1e-12;
 
+/// Largest ratio of the stiffness of two sections: that of the ends of a cone with 100 times the diameter. With more, rounding of the stiff
+/// section moves the soft one.
+const MOST_VARIED: f64 = 1e8;
+
 /// A section of a rod, uniform in itself. In SI units for [`Rod::sections`](crate::Rod::sections), dimensionless for [`Sections`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodSection {
@@ -97,6 +101,14 @@ pub(crate) fn check_sections(sections: &[RodSection]) -> Result<f64, RodError> {
         }
         if !(bending_stiffness > 0.0 && bending_stiffness.is_finite() && (1.0 / bending_stiffness).is_finite()) {
             return wrong("bending_stiffness", bending_stiffness, "a positive, finite number");
+        }
+        let ratio = bending_stiffness / sections[0].bending_stiffness;
+        if !(1.0 / MOST_VARIED..=MOST_VARIED).contains(&ratio) {
+            return wrong(
+                "bending_stiffness",
+                bending_stiffness,
+                "between 1e-8 and 1e8 times that of the first section",
+            );
         }
         if !natural_curvature.is_finite() {
             return wrong("natural_curvature", natural_curvature, "a finite number");

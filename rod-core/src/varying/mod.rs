@@ -71,7 +71,7 @@ impl Rod {
         tip_diameter: f64,
         youngs_modulus: f64,
     ) -> Result<VaryingRod, RodError> {
-        positive("base_diameter", base_diameter)?;
+        positive("diameter at the clamp", base_diameter)?;
         positive("tip_diameter", tip_diameter)?;
         let at_clamp = Self::from_diameter(length, base_diameter, youngs_modulus)?;
         if tip_diameter > length {
@@ -183,11 +183,13 @@ impl VaryingRod {
     ///
     /// # Errors
     /// [`RodError::NotFinite`] for a number and [`RodError::NaturalCurvature`] for a function that is not finite,
-    /// [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest, [`RodError::Coiled`]
+    /// [`RodError::CurvaturePoint`] for a point that is not on the rod, [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest, [`RodError::Coiled`]
     /// where it turns by more than 100 rad.
     pub fn with_natural_curvature(self, curvature: impl Into<NaturalCurvature>) -> Result<Self, RodError> {
         let length = self.length();
-        let curvature = curvature.into().0.over(length);
+        let curvature = curvature.into().0;
+        curvature.check(length)?;
+        let curvature = curvature.over(length);
         if let Curvature::Constant(curvature) = curvature {
             finite("natural_curvature", curvature)?;
         }

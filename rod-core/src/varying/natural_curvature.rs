@@ -3,6 +3,9 @@
 use crate::error::{RodError, finite};
 use std::sync::Arc;
 
+/// Relative rounding of an arc length at the tip.
+const ROUNDING: f64 = 1e-9;
+
 /// A function of the arc length.
 pub(super) type Function = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
@@ -29,6 +32,19 @@ impl Curvature {
                 let borders = points.iter().map(|[s, _]| *s).collect();
                 (Arc::new(move |s| between(&points, s)), borders)
             }
+        }
+    }
+
+    /// Whether its points, if it has some, are on a rod of this length.
+    pub fn check(&self, length: f64) -> Result<(), RodError> {
+        let Self::Points(points) = self else { return Ok(()) };
+        let on_rod = |s: f64| (-ROUNDING * length..=length * (1.0 + ROUNDING)).contains(&s);
+        match points.iter().position(|[s, _]| !on_rod(*s)) {
+            Some(k) => {
+                let expected = "a place on the rod, from 0 to its length";
+                Err(RodError::CurvaturePoint { number: k + 1, s: points[k][0], expected })
+            }
+            None => Ok(()),
         }
     }
 
@@ -64,12 +80,12 @@ impl NaturalCurvature {
     /// let measured = NaturalCurvature::points(&[[0.0, 5.0], [0.02, 20.0], [0.04, 25.0]])?;
     /// let whisker = Rod::tapered(0.04, 1e-4, 2e-5, 3e9)?.with_natural_curvature(measured)?;
     /// let message = NaturalCurvature::points(&[[0.02, 5.0], [0.0, 20.0]]).map(drop).unwrap_err().to_string();
-    /// assert_eq!(message, "border at arc length 0, expected more than 0.02 and less than the length of the rod");
+    /// assert_eq!(message, "point 2 of the natural curvature has the arc length 0 m, expected more than that of the point before");
     /// # Ok::<(), rod_core::RodError>(())
     /// ```
     ///
     /// # Errors
-    /// [`RodError::NotPositive`] without points, [`RodError::NotFinite`], [`RodError::Border`] for arc lengths that do not grow.
+    /// [`RodError::NotPositive`] without points, [`RodError::NotFinite`], [`RodError::CurvaturePoint`] for arc lengths that do not grow.
     pub fn points(points: &[[f64; 2]]) -> Result<Self, RodError> {
         if points.is_empty() {
             return Err(RodError::NotPositive { what: "the number of points of the natural curvature", value: 0.0 });
@@ -78,8 +94,9 @@ impl NaturalCurvature {
             finite("arc length of a point of the natural curvature", *s)?;
             finite("natural_curvature", *curvature)?;
         }
-        if let Some(pair) = points.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            return Err(RodError::Border { s: pair[1][0], least: pair[0][0] });
+        if let Some(k) = (1..points.len()).find(|&k| points[k][0] <= points[k - 1][0]) {
+            let expected = "more than that of the point before";
+            return Err(RodError::CurvaturePoint { number: k + 1, s: points[k][0], expected });
         }
         Ok(Self(Curvature::Points(points.into())))
     }

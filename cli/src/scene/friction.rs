@@ -1,0 +1,105 @@
+//! Friction of a scene: one coefficient for all, one of an object, one of a piece; the closest one counts.
+
+use super::document::Tables;
+use super::shape::Piece;
+use crate::toml_file::Fault;
+use std::ops::Range;
+use toml::{Spanned, Value};
+use vibrissa::Composite;
+use vibrissa::contact::{Coefficients, Friction};
+
+/// Coefficient above which a warning is due: rubber on rubber has 1 to 2, and 5 is most often a mistake.
+const LARGE: f64 = 5.0;
+
+/// The friction of each object of a scene: that of all its pieces, or one for each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneFriction(Vec<Vec<Coefficients>>);
+
+impl Friction for SceneFriction {
+    fn coefficients(&self, object: usize, piece: usize) -> Coefficients {
+        let of_object = self.0.get(object).map(Vec::as_slice).unwrap_or_default();
+        if let [only] = of_object { *only } else { of_object.get(piece).copied().unwrap_or(Coefficients::NONE) }
+    }
+}
+
+/// The friction of a scene, none where it is nowhere mentioned or 0, with warnings for values that may be mistakes.
+pub(super) fn friction(
+    tables: &Tables,
+    contour: &[Piece],
+    objects: &[Vec<Piece>],
+    shapes: &[Composite],
+) -> Result<(Option<SceneFriction>, Vec<Fault>), Fault> {
+    let mut warnings = Vec::new();
+    let mut read = |value: &Spanned<Value>| -> Result<Coefficients, Fault> {
+        let found = coefficients(value.span(), value.get_ref())?;
+        if found.at_rest > LARGE {
+            let message = format!("friction is {}, expected at most {LARGE}; is it a coefficient?", found.at_rest);
+            warnings.push(Fault::new(value.span(), message));
+        }
+        Ok(found)
+    };
+    let of_all = match tables.contact.as_ref().and_then(|contact| contact.get_ref().friction.as_ref()) {
+        Some(value) => read(value)?,
+        None => Coefficients::NONE,
+    };
+    let own = tables.contour.iter().map(|table| (table, contour));
+    let others = tables.object.iter().zip(objects.iter().map(Vec::as_slice));
+    let mut all = Vec::new();
+    for ((table, pieces), shape) in own.chain(others).zip(shapes) {
+        let table = table.get_ref();
+        let of_object = table.friction.as_ref().map_or(Ok(of_all), &mut read)?;
+        if pieces.iter().all(|piece| piece.friction.is_none()) {
+            all.push(vec![of_object]);
+            continue;
+        }
+        let mut of_pieces = Vec::new();
+        for piece in pieces {
+            let found = piece.friction.as_ref().map_or(Ok(of_object), &mut read)?;
+            of_pieces.extend(std::iter::repeat_n(found, piece.count()));
+        }
+        if of_pieces.len() != shape.pieces() || table.mirror || table.reversed {
+            let span = pieces.iter().find_map(|piece| piece.friction.as_ref()).map_or(0..0, Spanned::span);
+            let message = "friction of one piece of an object that is mirrored, reversed or cut, \
+                           where pieces change their numbers; expected friction of the whole object";
+            return Err(Fault::new(span, message));
+        }
+        all.push(of_pieces);
+    }
+    let rubs = all.iter().flatten().any(|found| found.at_rest > 0.0);
+    Ok((rubs.then_some(SceneFriction(all)), warnings))
+}
+
+/// A number, or a table of two.
+fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault> {
+    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|number| number as f64));
+    let found = match value {
+        Value::Table(table) => {
+            let field = |name: &str| {
+                table.get(name).and_then(number).ok_or_else(|| {
+                    let message =
+                        format!("the table has no number `{name}`, expected {{ at_rest = 0.5, slipping = 0.4 }}");
+                    Fault::new(span.clone(), message)
+                })
+            };
+            if let Some(unknown) = table.keys().find(|key| !["at_rest", "slipping"].contains(&key.as_str())) {
+                let message = format!("unknown field `{unknown}`, expected `at_rest` and `slipping`");
+                return Err(Fault::new(span, message));
+            }
+            Coefficients { at_rest: field("at_rest")?, slipping: field("slipping")? }
+        }
+        value => Coefficients::equal(number(value).ok_or_else(|| {
+            let message = format!("friction is of the type {}, expected a coefficient, such as 0.3", value.type_str());
+            Fault::new(span.clone(), message)
+        })?),
+    };
+    if found.are_valid() {
+        return Ok(found);
+    }
+    let Coefficients { at_rest, slipping } = found;
+    let message = if at_rest == slipping || (at_rest.is_nan() && slipping.is_nan()) {
+        format!("friction is {at_rest}, expected a finite coefficient, 0 or more")
+    } else {
+        format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 <= slipping <= at_rest")
+    };
+    Err(Fault::new(span, message))
+}
