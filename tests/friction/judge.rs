@@ -25,10 +25,19 @@ pub enum Shape {
     Polygon(Vec<[f64; 2]>),
     /// Vertices and coefficients.
     Parabolas(Vec<([f64; 2], f64)>),
+    /// y = c0 + c1 x + ... + c4 x^4, solid above.
+    Quartic([f64; 5]),
 }
 
 fn turned(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
+}
+
+/// A polynomial with its first two derivatives.
+fn quartic([c0, c1, c2, c3, c4]: [f64; 5], x: f64) -> [f64; 3] {
+    let value = c0 + x * (c1 + x * (c2 + x * (c3 + x * c4)));
+    let slope = c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * 4.0 * c4));
+    [value, slope, 2.0 * c2 + x * (6.0 * c3 + x * 12.0 * c4)]
 }
 
 impl Shape {
@@ -37,6 +46,10 @@ impl Shape {
         match self {
             Self::Disc([cx, cy], radius) => (x - cx).hypot(y - cy) - radius,
             Self::Polygon(points) => edges(points).map(|edge| off_edge(edge, x, y)).fold(f64::NEG_INFINITY, f64::max),
+            Self::Quartic(c) => {
+                let [value, slope, _] = quartic(*c, x);
+                (value - y) / 1.0_f64.hypot(slope)
+            }
             Self::Parabolas(all) => all
                 .iter()
                 .map(|([vx, vy], c)| (vy + c * (x - vx).powi(2) - y) / 1.0_f64.hypot(2.0 * c * (x - vx)))
@@ -51,6 +64,10 @@ impl Shape {
             Self::Polygon(points) => {
                 let near = edges(points).filter(|edge| off_edge(*edge, x, y).abs() < ERROR);
                 (near.map(|([ax, ay], [bx, by])| (by - ay).atan2(bx - ax)).collect(), 0.0)
+            }
+            Self::Quartic(c) => {
+                let [_, slope, bend] = quartic(*c, x);
+                (vec![slope.atan()], bend.abs())
             }
             Self::Parabolas(all) => {
                 let near = all.iter().filter(|([vx, vy], c)| (vy + c * (x - vx).powi(2) - y).abs() < ERROR * (1.0 + c));

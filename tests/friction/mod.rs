@@ -1,5 +1,6 @@
 //! Sweeps with Coulomb friction.
 
+mod hard;
 mod judge;
 mod laws;
 mod limits;

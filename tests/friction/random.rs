@@ -3,8 +3,9 @@
 use super::judge::{Counts, Judge, Shape};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use vibrissa::contact::{Chain, EventKind, Path};
+use vibrissa::contour::{Jet, Range};
 use vibrissa::rod::Pose;
-use vibrissa::{CircularArc, Composite, Parabola, Rod, Sweep};
+use vibrissa::{CircularArc, Composite, Graph, Parabola, Rod, Sweep};
 
 /// A sequence of numbers that is the same on every machine (splitmix64; Steele, Lea and Flood 2014).
 struct Numbers(u64);
@@ -35,12 +36,17 @@ struct Scene {
     steps: Vec<f64>,
 }
 
-fn composite(shape: &Shape) -> Composite {
+pub fn composite(shape: &Shape) -> Composite {
     match shape {
         Shape::Disc(centre, radius) => {
             Composite::single(CircularArc::new(*centre, *radius, 0.0, TAU).unwrap()).unwrap()
         }
         Shape::Polygon(points) => Composite::polygon(points).unwrap(),
+        Shape::Quartic([c0, c1, c2, c3, c4]) => {
+            let (c0, c1, c2, c3, c4) = (*c0, *c1, *c2, *c3, *c4);
+            let graph = move |x: Jet| x * x * x * (x * c4 + c3) + x * (x * c2 + c1) + c0;
+            Composite::single(Graph::new(Range { from: -2.0, to: 0.7 }, graph).unwrap()).unwrap()
+        }
         Shape::Parabolas(all) => {
             let parabola = |(vertex, c): &([f64; 2], f64)| Box::new(Parabola::new(*vertex, *c).unwrap()) as _;
             Composite::joined(all.iter().map(parabola).collect()).unwrap()

@@ -224,8 +224,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     ///
     /// Contacts then slip, stick or roll (Coulomb's law), which [`Contact::friction`](crate::Contact::friction) tells. The modes are chosen
     /// anew at every event, and where the path turns, by the motion that they allow. Where the rod has snapped its friction is an estimate: the
-    /// descent that finds where it lands knows no friction, and each contact is held back in the sense in which it came. A start in contact that was
-    /// not brought there by the path has no friction until the rod moves.
+    /// descent that finds where it lands knows no friction, and each contact is held back in the sense in which it came. A start in contact goes on from
+    /// the forces that it has as it was brought there, and, where it was let go there, without a force along the contour.
     ///
     /// ```
     /// use rod_contact::{ClampPath, SlipMode, Sweep};
