@@ -41,7 +41,7 @@ fn starts_in_contact_obey_coulomb() {
         }
     }
     println!("{all:?}");
-    assert!(all.slips > 500 && all.sticks + all.rolls > 50, "{all:?}");
+    assert!(all.slips > 500 && all.sticks + all.rolls > 8, "{all:?}");
     // none of them ends for a reason that the objects do not give
     assert!(all.stops.keys().all(|reason| ["jammed", "no-start"].contains(&reason.as_str())), "{all:?}");
 }
@@ -91,7 +91,7 @@ fn a_rod_wraps_around_a_disc() {
             let shapes = [Shape::Disc([0.3, radius + 0.01], radius)];
             let objects = [composite(&shapes[0])];
             let pose = |phi: f64| Pose { x: 0.0, y: 0.0, phi };
-            let (counts, wrong) = judged(&shapes, &objects, mu, &[pose(-0.3), pose(1.3), pose(1.28), pose(2.5)], 5e-3);
+            let (counts, wrong) = judged(&shapes, &objects, mu, &[pose(-0.3), pose(1.3), pose(1.28), pose(3.2)], 5e-3);
             assert!(wrong.is_empty(), "{mu} {radius}: {wrong:#?}");
             println!("{mu} {radius} {:?} {:?}", counts.events, counts.stops);
             all.add(counts);
@@ -128,7 +128,7 @@ fn more_contacts_than_can_be_tried_are_named() {
         let start = equilibrium(&uniform(), &objects, pose(0.0), &guess).unwrap().state;
         assert_eq!(start.contacts.len(), count);
         let path = Chain::polyline(&[pose(0.0), pose(2e-3), pose(0.0)]).unwrap();
-        let sweep = Sweep::from_state(&uniform(), &objects, &start, path, 1e-4).unwrap().with_friction(0.2).unwrap();
+        let sweep = Sweep::from_state(&uniform(), &objects, &start, path, 2e-5).unwrap().with_friction(0.2).unwrap();
         let coefficients = vec![0.2; count];
         let judge = Judge { law: &|_, m| m, compliance: [[0.0; 3]; 3], shapes: &shapes, mu: &coefficients };
         let items: Vec<_> = sweep.collect();

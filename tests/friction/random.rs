@@ -2,7 +2,7 @@
 
 use super::judge::{Counts, Judge, Shape};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use vibrissa::contact::{Chain, EventKind, Path};
+use vibrissa::contact::{Chain, EventKind, Item, Path, Stop};
 use vibrissa::contour::{Jet, Range};
 use vibrissa::rod::Pose;
 use vibrissa::{CircularArc, Composite, Graph, Parabola, Rod, Sweep};
@@ -63,10 +63,8 @@ fn polygon(numbers: &mut Numbers, [x, y]: [f64; 2], radius: f64) -> Shape {
     )
 }
 
-/// Step (L or rad) of the states.
-const STEP: f64 = 0.01;
-
-fn scene(seed: u64) -> Scene {
+/// The scene of a seed, with states at about this distance (L or rad).
+fn scene(seed: u64, distance: f64) -> Scene {
     let mut numbers = Numbers(seed);
     let rotates = numbers.below(3) == 0;
     let mut shapes = Vec::new();
@@ -132,7 +130,7 @@ fn scene(seed: u64) -> Scene {
     poses.dedup();
     let path = Chain::polyline(&poses).unwrap();
     // at least ten states a leg
-    let step = |leg: f64| leg / (leg / STEP).ceil().max(10.0);
+    let step = |leg: f64| leg / (leg / distance).ceil().max(10.0);
     let steps = path.legs().iter().map(|leg| step(leg.length())).collect();
     let objects = shapes.iter().map(composite).collect();
     Scene { shapes, objects, mu, path, steps }
@@ -144,12 +142,22 @@ type Told = (Vec<(usize, EventKind, [f64; 3], f64)>, String);
 fn told(scene: &Scene, share: f64) -> Told {
     let steps: Vec<f64> = scene.steps.iter().map(|step| step * share).collect();
     let sweep = Sweep::with_steps(&Rod::new(1.0, 1.0).unwrap(), &scene.objects, scene.path.clone(), &steps).unwrap();
-    let outcome = sweep.with_friction(scene.mu.clone()).unwrap().run();
-    let events = outcome.events.iter().map(|event| {
-        let pose = event.pose();
-        (event.leg(), event.kind, [pose.x, pose.y, pose.phi], event.dissipated.unwrap_or(f64::NAN))
-    });
-    (events.collect(), outcome.stop.map_or(String::new(), |stop| stop.reason.to_string()))
+    told_by(&sweep.with_friction(scene.mu.clone()).unwrap().collect::<Vec<_>>())
+}
+
+fn told_by(items: &[Result<Item, Stop>]) -> Told {
+    let (mut events, mut stop) = (Vec::new(), String::new());
+    for item in items {
+        match item {
+            Ok(Item::Event(event)) => {
+                let Pose { x, y, phi } = event.pose();
+                events.push((event.leg(), event.kind, [x, y, phi], event.dissipated.unwrap_or(f64::NAN)));
+            }
+            Ok(Item::State(_)) => {}
+            Err(why) => stop = why.reason.to_string(),
+        }
+    }
+    (events, stop)
 }
 
 fn differ(a: &Told, b: &Told) -> Option<String> {
@@ -164,18 +172,18 @@ fn differ(a: &Told, b: &Told) -> Option<String> {
     })
 }
 
-fn these(seeds: std::ops::Range<u64>) -> (Counts, Vec<String>) {
+fn these(seeds: std::ops::Range<u64>, distance: f64) -> (Counts, Vec<String>) {
     let (mut counts, mut wrong) = (Counts::default(), Vec::new());
     for seed in seeds {
-        let scene = scene(seed);
+        let scene = scene(seed, distance);
         let judge = Judge { law: &|_, m| m, compliance: [[0.0; 3]; 3], shapes: &scene.shapes, mu: &scene.mu };
         let sweep =
             Sweep::with_steps(&Rod::new(1.0, 1.0).unwrap(), &scene.objects, scene.path.clone(), &scene.steps).unwrap();
-        let mut sweep = sweep.with_friction(scene.mu.clone()).unwrap();
-        let (seen, faults) = judge.run(std::iter::from_fn(|| sweep.next()));
+        let items: Vec<_> = sweep.with_friction(scene.mu.clone()).unwrap().collect();
+        let once = told_by(&items);
+        let (seen, faults) = judge.run(items.into_iter());
         counts.add(seen);
         wrong.extend(faults.into_iter().take(4).map(|what| format!("{seed}: {what}")));
-        let once = told(&scene, 1.0);
         for share in [0.5, 1e3] {
             if let Some(difference) = differ(&once, &told(&scene, share)) {
                 wrong.push(format!("{seed}: with {share} of the step {difference}"));
@@ -190,9 +198,9 @@ fn these(seeds: std::ops::Range<u64>) -> (Counts, Vec<String>) {
 
 #[test]
 fn every_motion_obeys_coulomb() {
-    let (counts, wrong) = these(0..40);
+    let (counts, wrong) = these(0..40, 0.02);
     assert!(wrong.is_empty(), "{wrong:#?}");
-    assert!(counts.slips > 1000 && counts.sticks + counts.rolls > 300 && counts.balanced > 50, "{counts:?}");
+    assert!(counts.slips > 1000 && counts.sticks + counts.rolls > 150 && counts.balanced > 50, "{counts:?}");
     assert!(counts.events["stick"] > 2 && counts.events["slip"] > 10, "{counts:?}");
 }
 
@@ -202,7 +210,7 @@ fn every_motion_obeys_coulomb() {
 fn many() {
     let seeds = std::env::var("SEEDS").unwrap_or_else(|_| "0..400".into());
     let (from, to) = seeds.split_once("..").unwrap();
-    let (counts, wrong) = these(from.parse().unwrap()..to.parse().unwrap());
+    let (counts, wrong) = these(from.parse().unwrap()..to.parse().unwrap(), 0.01);
     println!("{counts:#?}");
     println!("wrong {}: {wrong:#?}", wrong.len());
     assert!(wrong.is_empty());
