@@ -1,6 +1,7 @@
 //! The linearisation against differences of the residual.
 
 use super::*;
+use crate::newton::System;
 use crate::clamp::{Elastic, Pivot};
 use crate::model::Uniform;
 use crate::multipoint::Support;
