@@ -1,10 +1,10 @@
 //! The linearisation against differences of the residual.
 
 use super::*;
-use crate::newton::System;
 use crate::clamp::{Elastic, Pivot};
 use crate::model::Uniform;
 use crate::multipoint::Support;
+use crate::newton::System;
 use proptest::prelude::*;
 
 /// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre.
