@@ -136,6 +136,16 @@ pub enum ContactError {
         /// Number of legs of the path.
         legs: usize,
     },
+    /// A coefficient of friction that cannot be, or one of an object that there is not.
+    #[error("object {object} has the coefficient of friction {value}, expected {expected}")]
+    Friction {
+        /// Number of the object, from 0.
+        object: usize,
+        /// The coefficient as given.
+        value: f64,
+        /// What was expected of it.
+        expected: String,
+    },
     /// The distance between reported states is no distance, or so small that the path has more than 1e15 of them.
     #[error("step is {value:?}, expected a positive, finite length, not below 1e-15 of the path")]
     Step {

@@ -7,4 +7,5 @@ mod random;
 mod restarts;
 mod roller;
 pub mod scans;
+mod stress;
 mod through_roller;

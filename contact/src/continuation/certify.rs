@@ -78,7 +78,7 @@ pub(crate) fn state<R: PhysicalRod>(
         reactions: shape.reactions(),
         roller: roller(setup, configuration),
         energy: stored(rod, &clamp, &shape),
-        max_stress: rod.bending_stress(shape.largest_curvature()),
+        max_stress: rod.largest_stress(&shape),
         certificate,
     }
 }

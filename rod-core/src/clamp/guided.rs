@@ -1,7 +1,9 @@
 //! A rod that runs through a roller ahead of its clamp.
 
 use super::{Clamp, Roller};
+use crate::elastica::Elastica;
 use crate::error::RodError;
+use crate::model::RodModel;
 use crate::physical::{PhysicalRod, RodParameter};
 use crate::pose::Pose;
 use crate::units::Units;
@@ -99,7 +101,7 @@ impl<R: PhysicalRod<Clamp = Pose>> PhysicalRod for Guided<R> {
         self.rod.curvature_rate(parameter, s, moment)
     }
 
-    fn bending_stress(&self, kappa: f64) -> Option<f64> {
-        self.rod.bending_stress(kappa)
+    fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
+        self.rod.largest_stress(shape)
     }
 }
