@@ -167,7 +167,8 @@ pub struct State {
     pub reactions: Reactions,
     /// Bending energy, and that of a clamp that gives way, J.
     pub energy: f64,
-    /// Largest bending stress, Pa; none where the rod's diameter is not known.
+    /// Largest bending stress at the surface, E d |kappa - kappa0| / 2, Pa; none where the diameter d of the rod, or of one of its sections, is
+    /// not known ([`PhysicalRod::largest_stress`]).
     pub max_stress: Option<f64>,
     /// How well it holds.
     pub certificate: Certificate,

@@ -27,6 +27,8 @@ mod contour;
 #[cfg(feature = "contact")]
 mod forward;
 #[cfg(feature = "std")]
+mod friction;
+#[cfg(feature = "std")]
 pub mod kink;
 #[cfg(feature = "std")]
 mod merge;
@@ -50,11 +52,13 @@ mod two_contacts;
 pub use nalgebra;
 
 #[cfg(feature = "std")]
-pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibility};
+pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibility, plausibility_with_friction};
 #[cfg(feature = "std")]
 pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
+#[cfg(feature = "std")]
+pub use friction::{Friction, FrictionEstimate, Pair, without_friction};
 #[cfg(feature = "std")]
 pub use merge::{Comparison, Disagreement, Offset, align, merge};
 pub use numeric::Number;
@@ -68,7 +72,7 @@ pub use pipeline::{
 };
 #[cfg(feature = "std")]
 pub use point::{GeneralError, OneSample, one_sample, single_general};
-pub use point::{NoContact, Touch, single};
+pub use point::{NoContact, Touch, single, single_with_friction};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]
 pub use scan::{FEWEST_SAMPLES, Fault, Halt, Travel, noise_estimate, passes};

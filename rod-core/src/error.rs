@@ -52,6 +52,14 @@ pub enum RodError {
         /// Length of the rod.
         most: f64,
     },
+    /// Diameters for another number of sections than the rod has.
+    #[error("diameters are given for {given} sections, expected one for each of the {sections} sections of the rod")]
+    SectionDiameters {
+        /// How many are given.
+        given: usize,
+        /// How many sections the rod has.
+        sections: usize,
+    },
     /// A quantity of a section of a rod is not what a rod can have.
     #[error("{what} of section {index} is {value}, expected {expected}")]
     Section {

@@ -8,8 +8,7 @@ mod bend;
 use crate::clamp::{Clamp, ClampLaw, product};
 use crate::linear::{invert, multiply};
 use crate::model::{CutSensitivities, RodModel};
-use crate::multipoint::{Hold, MultiPoint, Node, Supports, reactions};
-use crate::newton::System;
+use crate::multipoint::{Hold, MultiPoint, Node, Supports, friction_size, natural_sizes, reactions};
 use crate::pose::{Pose, Reactions};
 use crate::propagator::Cut;
 use smallvec::SmallVec;
@@ -136,7 +135,8 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// The problem to first order about the solution `u`: one Jacobian, one inverse.
     pub fn linearise(&self, u: &[f64]) -> Linearisation {
         let nodes = self.nodes(u);
-        let (count, size) = (nodes.len(), self.dimension());
+        // one more unknown for each that sticks
+        let (count, size) = (nodes.len(), u.len());
         let mut residual = Vector::from_elem(0.0, size);
         let mut jacobian = vec![0.0; size * size];
         let mut held = Vec::with_capacity(count);
@@ -150,8 +150,8 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             });
         }
         self.sticking_equations(&nodes, u, &mut residual, &mut jacobian, size);
-        let mut weights = Vector::from_elem(0.0, size);
-        self.weights(u, &mut weights);
+        let mut weights: Vector = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
+        weights.extend(u[3 * count..].iter().map(|friction| friction_size(*friction)));
         let mut inverse = vec![0.0; size * size];
         let regular = invert(size, &jacobian, &mut inverse);
         let (base, law) = (self.base_of(&nodes), self.clamp.law().map(Box::new));

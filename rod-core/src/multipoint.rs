@@ -153,6 +153,12 @@ pub(crate) fn natural_sizes(at: &Support, force: f64) -> [f64; 3] {
     [at.speed + at.turning.abs(), 0.25 / (1.0 + force.abs()), 1.0]
 }
 
+/// Weight of the tangential force of a contact that sticks: that of a normal force.
+#[inline(always)]
+pub(crate) fn friction_size(friction: f64) -> f64 {
+    0.25 / (1.0 + friction.abs())
+}
+
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
@@ -451,8 +457,7 @@ impl<S: Supports + ?Sized, C: Clamp> MultiPoint<'_, S, Uniform, C> {
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M, C> {
     fn dimension(&self) -> usize {
-        let n = self.supports.count();
-        3 * n + (0..n).filter(|j| self.supports.grip(*j).sticks()).count()
+        3 * self.supports.count() + self.sticking().count()
     }
 
     fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
@@ -466,7 +471,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
             w.copy_from_slice(&natural_sizes(&self.supports.support(j, u[3 * j]), u[3 * j + 1]));
         }
         for (w, friction) in of_sticking.iter_mut().zip(&u[of_all.len()..]) {
-            *w = 0.25 / (1.0 + friction.abs());
+            *w = friction_size(*friction);
         }
     }
 }

@@ -6,3 +6,4 @@ mod parameters;
 mod random;
 mod restarts;
 pub mod scans;
+mod stress;

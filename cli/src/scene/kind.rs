@@ -5,8 +5,8 @@ use super::rod_table::{NOT_RIGID, NOT_UNIFORM};
 use crate::SceneError;
 use crate::toml_file;
 use std::path::{Path, PathBuf};
-use vibrissa::Rod;
 use vibrissa::rod::{Mounted, PhysicalRod, VaryingRod};
+use vibrissa::{ClampPath, Composite, Rod};
 
 /// A rod of a scene.
 pub trait SceneRod: PhysicalRod {
@@ -110,15 +110,77 @@ impl AnyScene {
         }
     }
 
-    /// Takes the scene whose rod is uniform and straight at rest, on a rigid clamp.
+    /// What to call it, as [`Scene::name`].
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Uniform(scene) => &scene.name,
+            Self::Mounted(scene) => &scene.name,
+        }
+    }
+
+    /// The objects, as [`Scene::objects`].
+    pub fn objects(&self) -> &[Composite] {
+        match self {
+            Self::Uniform(scene) => &scene.objects,
+            Self::Mounted(scene) => &scene.objects,
+        }
+    }
+
+    /// The way of the clamp, as [`Scene::path`].
+    pub fn path(&self) -> &ClampPath {
+        match self {
+            Self::Uniform(scene) => &scene.path,
+            Self::Mounted(scene) => &scene.path,
+        }
+    }
+
+    /// Refuses a path of several legs, as [`Scene::check_single_leg`].
+    ///
+    /// # Errors
+    /// As [`Scene::check_single_leg`].
+    pub fn check_single_leg(&self) -> Result<(), SceneError> {
+        match self {
+            Self::Uniform(scene) => scene.check_single_leg(),
+            Self::Mounted(scene) => scene.check_single_leg(),
+        }
+    }
+
+    /// Whether the clamp is outside of all objects in its first pose, as [`Scene::check_start`].
+    ///
+    /// # Errors
+    /// As [`Scene::check_start`].
+    pub fn check_start(&self) -> Result<(), SceneError> {
+        match self {
+            Self::Uniform(scene) => scene.check_start(),
+            Self::Mounted(scene) => scene.check_start(),
+        }
+    }
+
+    /// Takes the scene whose rod is uniform and straight at rest, on a rigid clamp. `instead` ends the message where it is not: what the
+    /// user may do with it.
     ///
     /// # Errors
     /// [`SceneError::Invalid`] at the field `rod` of another one, or at `clamp`.
-    pub fn uniform(self) -> Result<Scene, SceneError> {
+    pub fn uniform(self, instead: &str) -> Result<Scene, SceneError> {
         match self {
             Self::Uniform(scene) => Ok(scene),
-            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => Err(scene.source.error("clamp", NOT_RIGID)),
-            Self::Mounted(scene) => Err(scene.source.error("rod", NOT_UNIFORM)),
+            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => {
+                Err(scene.source.error("clamp", &format!("{NOT_RIGID}; {instead}")))
+            }
+            Self::Mounted(scene) => Err(scene.source.error("rod", &format!("{NOT_UNIFORM}; {instead}"))),
+        }
+    }
+
+    /// Refuses a clamp that gives way, of whatever rod. `instead` ends the message: what the user may do with it.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `clamp`.
+    pub fn check_rigid(&self, instead: &str) -> Result<(), SceneError> {
+        match self {
+            Self::Mounted(scene) if !scene.rod.springs().is_rigid() => {
+                Err(scene.source.error("clamp", &format!("{NOT_RIGID}; {instead}")))
+            }
+            _ => Ok(()),
         }
     }
 }

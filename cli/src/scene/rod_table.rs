@@ -1,6 +1,7 @@
 //! The table `[rod]` as a rod.
 
 use super::document::{ClampTable, RodTable, SectionTable};
+use super::given_rod::GivenRod;
 use super::kind::AnyRod;
 use crate::toml_file::Fault;
 use std::ops::Range;
@@ -9,12 +10,11 @@ use vibrissa::Rod;
 use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
 
 /// What is said where another rod is given than a uniform, straight one.
-pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour`, `study` and \
-     `simulate` take, expected length with diameter and youngs_modulus, or with bending_stiffness";
+pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, expected length with diameter and youngs_modulus, or \
+     with bending_stiffness";
 
 /// What is said where a clamp gives way.
-pub(super) const NOT_RIGID: &str = "a clamp that gives way, which only `sweep`, `contour`, `study`, `simulate` and `reconstruct` take, \
-     expected no table [clamp]";
+pub(super) const NOT_RIGID: &str = "a clamp that gives way, expected no table [clamp]";
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
@@ -84,6 +84,17 @@ pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>
             Ok(AnyRod::Mounted(Mounted::new(straight, clamp)))
         }
         Alone::Varying(rod) => Ok(AnyRod::Mounted(Mounted::new(rod, clamp))),
+    }
+}
+
+/// The rod of a table `[rod]` on the springs of a table `[clamp]`, for recordings of it.
+pub(super) fn given(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<GivenRod, Fault> {
+    let clamp = springs(clamp)?;
+    match alone(table)? {
+        Alone::Uniform(rod) => Ok(GivenRod::Uniform(Mounted::new(rod, clamp))),
+        Alone::Varying(rod) => {
+            GivenRod::varying(Mounted::new(rod, clamp)).map_err(|error| Fault::new(table.span(), error.to_string()))
+        }
     }
 }
 
@@ -183,16 +194,18 @@ fn alone(table: &Spanned<RodTable>) -> Result<Alone, Fault> {
     rod.with_natural_curvature(curvature).map(Alone::Varying).map_err(wrong)
 }
 
-/// The rod of a table, if it is uniform and straight at rest.
-pub(super) fn uniform(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
+/// The rod of a table, if it is uniform and straight at rest; `instead` is what the user may do with another one.
+pub(super) fn uniform(table: &Spanned<RodTable>, instead: &str) -> Result<Rod, Fault> {
     match alone(table)? {
         Alone::Uniform(rod) => Ok(rod),
-        Alone::Varying(_) => Err(Fault::new(table.span(), NOT_UNIFORM)),
+        Alone::Varying(_) => Err(Fault::new(table.span(), format!("{NOT_UNIFORM}; {instead}"))),
     }
 }
 
 fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Result<VaryingRod, Fault> {
     let mut sections = Vec::with_capacity(tables.len());
+    // of all sections, or of none
+    let mut diameters = Some(Vec::with_capacity(tables.len()));
     for table in tables {
         let SectionTable { length, diameter, youngs_modulus, bending_stiffness, natural_curvature } = table.get_ref();
         let fields: [Field<'_>; 5] = [
@@ -206,8 +219,12 @@ fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Resul
         let long = *length.get_ref();
         let bending_stiffness =
             match written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))? {
-                Written::Stiffness(stiffness) => stiffness,
+                Written::Stiffness(stiffness) => {
+                    diameters = None;
+                    stiffness
+                }
                 Written::Wire { diameter, youngs_modulus } => {
+                    diameters.iter_mut().for_each(|all| all.push(diameter));
                     Rod::from_diameter(long, diameter, youngs_modulus).map_err(&at)?.bending_stiffness()
                 }
             };
@@ -218,7 +235,11 @@ fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Resul
         sections.push(section);
     }
     let wrong = |error: RodError| Fault::new(length.span(), error.to_string());
-    Rod::sections(*length.get_ref(), &sections).map_err(wrong)
+    let rod = Rod::sections(*length.get_ref(), &sections).map_err(wrong)?;
+    match diameters {
+        Some(diameters) => rod.with_section_diameters(&diameters).map_err(wrong),
+        None => Ok(rod),
+    }
 }
 
 /// A natural curvature as it is written: a number, or points.

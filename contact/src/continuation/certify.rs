@@ -75,7 +75,7 @@ pub(crate) fn state<R: PhysicalRod>(
         leg: 0,
         reactions: shape.reactions(),
         energy: stored(rod, &clamp, &shape),
-        max_stress: rod.bending_stress(shape.largest_curvature()),
+        max_stress: rod.largest_stress(&shape),
         certificate,
     }
 }
