@@ -58,11 +58,6 @@ impl<'a, M: RodModel> Bent<'a, M> {
         (end, columns, d.by_phi)
     }
 
-    /// Tangent angle of the contour.
-    pub fn alpha(&self) -> f64 {
-        self.b.atan2(self.a)
-    }
-
     /// How the moment changes along the rod.
     pub fn moment_rate(&self, at: &Cut) -> f64 {
         self.a * at.phi.cos() + self.b * at.phi.sin()
