@@ -142,7 +142,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
 
 /// The settings of a reconstruction.
 fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, Error> {
-    let Trust { as_is, noise, false_alarms, largest_sigma, .. } = trust;
+    let Trust { as_is, noise, friction, false_alarms, largest_sigma, .. } = trust;
     let noise = noise.as_deref().map(read_noise).transpose()?;
     let default = Settings::default();
     if *as_is && setup.errors.is_some() {
@@ -154,6 +154,7 @@ fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, 
         largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
         budget: if *as_is { Some(Budget::NONE) } else { budget(setup, &given.rod) },
         known: if *as_is { Known::NOTHING } else { given.known },
+        friction: *friction,
     })
 }
 

@@ -14,7 +14,7 @@ use pyo3::types::PyTuple;
 use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
-use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Reading, Source, SourceEstimate, TraceRow};
+use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Friction, Reading, Source, SourceEstimate, TraceRow};
 use vibrissa::{Label, Sample, Settings};
 use vibrissa_cli::{Reconstructed, Recording};
 
@@ -287,6 +287,9 @@ fn recording(samples: Samples) -> Recording {
 /// as_is : bool, optional
 ///     Take samples and rod for exact. Otherwise errors that all samples share (bias, gain, angles and so on, as large as in an
 ///     ordinary laboratory) are estimated and taken off.
+/// friction : float, tuple of two floats or str, optional
+///     Coulomb friction of rod and object: its coefficient, the coefficient and its standard deviation, or "estimate". Without it there
+///     is none.
 ///
 /// Returns
 /// -------
@@ -297,7 +300,8 @@ fn recording(samples: Samples) -> Recording {
 /// ValueError
 ///     Too few samples can be used, or an argument is not possible.
 #[pyfunction]
-#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false))]
+#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None))]
+#[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
 pub fn reconstruct(
     py: Python<'_>,
     rod: &PyRod,
@@ -306,6 +310,7 @@ pub fn reconstruct(
     false_alarms: Option<f64>,
     largest_sigma: Option<f64>,
     as_is: bool,
+    friction: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyReconstruction> {
     let default = Settings::default();
     let settings = Settings {
@@ -314,6 +319,7 @@ pub fn reconstruct(
         largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
         budget: as_is.then_some(Budget::NONE),
         known: default.known,
+        friction: friction.map_or(Ok(default.friction), friction_of)?,
     };
     let recording = match samples.downcast::<PyRecording>() {
         Ok(recording) => recording.get().recording.clone(),
@@ -330,4 +336,21 @@ pub fn reconstruct(
     }
     let rod = rod.clone();
     Ok(PyReconstruction { rod, found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
+}
+
+/// What is known of friction, from a coefficient, a coefficient with its standard deviation, or a word.
+fn friction_of(friction: &Bound<'_, PyAny>) -> PyResult<Friction> {
+    if let Ok(mu) = friction.extract::<f64>() {
+        return Ok(Friction::Known { mu, sigma: 0.0 });
+    }
+    if let Ok((mu, sigma)) = friction.extract::<(f64, f64)>() {
+        return Ok(Friction::Known { mu, sigma });
+    }
+    match friction.extract::<String>()?.as_str() {
+        "estimate" => Ok(Friction::Estimate),
+        "none" => Ok(Friction::None),
+        other => Err(errors::value(format!(
+            "friction is {other:?}, expected a number, a pair of numbers, \"estimate\" or \"none\""
+        ))),
+    }
 }

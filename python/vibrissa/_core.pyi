@@ -29,6 +29,8 @@ _Objects: TypeAlias = _Shape | Sequence[_Shape]
 _Noise: TypeAlias = Mapping[str, Any] | str | PathLike[str]
 _Samples: TypeAlias = Any  # a structured array, data frame, mapping, or array of shape (n, 6)
 _Step: TypeAlias = float | Sequence[float]
+_Coefficients: TypeAlias = float | tuple[float, float]
+_Friction: TypeAlias = _Coefficients | Sequence[_Coefficients | Sequence[_Coefficients]] | _Array
 
 @final
 class Rod:
@@ -248,6 +250,10 @@ class Contact:
         force: float,
         object: int = 0,
         piece: int = 0,
+        *,
+        mode: Literal["slip+", "slip-", "stick"] | None = None,
+        friction: float | None = None,
+        slip: float | None = None,
     ) -> Contact: ...
     @property
     def kind(self) -> str: ...
@@ -265,6 +271,12 @@ class Contact:
     def object(self) -> int: ...
     @property
     def piece(self) -> int: ...
+    @property
+    def mode(self) -> str | None: ...
+    @property
+    def friction(self) -> float | None: ...
+    @property
+    def slip(self) -> float | None: ...
     def __eq__(self, other: Any, /) -> bool: ...
     def __ne__(self, other: Any, /) -> bool: ...
 
@@ -313,6 +325,8 @@ class Event:
     def before(self) -> State: ...
     @property
     def after(self) -> State: ...
+    @property
+    def dissipated(self) -> float | None: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
 
@@ -331,6 +345,8 @@ class Scan:
     @property
     def contacts(self) -> Ragged: ...
     @property
+    def dissipated(self) -> float | None: ...
+    @property
     def stop(self) -> str | None: ...
     @property
     def phases(self) -> list[str]: ...
@@ -343,7 +359,16 @@ class Scan:
 
 @final
 class Scene:
-    def __new__(cls, rod: Rod, objects: _Objects, path: Path, step: _Step, *, name: str = "scene") -> Scene: ...
+    def __new__(
+        cls,
+        rod: Rod,
+        objects: _Objects,
+        path: Path,
+        step: _Step,
+        *,
+        name: str = "scene",
+        friction: _Friction | None = None,
+    ) -> Scene: ...
     @staticmethod
     def read(file: str | PathLike[str]) -> Scene: ...
     @staticmethod
@@ -357,6 +382,8 @@ class Scene:
     def path(self) -> Path: ...
     @property
     def steps(self) -> list[float]: ...
+    @property
+    def friction(self) -> list[_Coefficients | list[_Coefficients]] | None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -471,7 +498,15 @@ class Live:
 
 def _study_row(text: str, file: str | PathLike[str]) -> tuple[Any, ...]: ...
 def equilibrium(rod: Rod, objects: _Objects, pose: _Pose, guess: Sequence[Contact]) -> Equilibrium: ...
-def simulate(scene: Scene, *, rate: float, speed: float, noise: _Noise | None = None, seed: int = 0) -> _Rows: ...
+def simulate(
+    scene: Scene,
+    *,
+    rate: float,
+    speed: float,
+    noise: _Noise | None = None,
+    seed: int = 0,
+    friction: _Friction | None = None,
+) -> _Rows: ...
 def single(rod: Rod, samples: _Samples) -> _Rows: ...
 def reconstruct(
     rod: Rod,
@@ -481,6 +516,7 @@ def reconstruct(
     false_alarms: float | None = None,
     largest_sigma: float | None = None,
     as_is: bool = False,
+    friction: float | tuple[float, float] | str | None = None,
 ) -> Reconstruction: ...
 def sweep(
     rod: Rod,
@@ -489,6 +525,7 @@ def sweep(
     step: _Step,
     *,
     start: State | None = None,
+    friction: _Friction | None = None,
     most_steps: int | None = None,
 ) -> Scan: ...
 def check_contract(shape: _Shape, samples: Sequence[float] | None = None) -> None: ...

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
 use vibrissa::reconstruct::score::{Deviation, KinkScore};
-use vibrissa::reconstruct::{Calibration, Explanation, Gap, Shares};
+use vibrissa::reconstruct::{Calibration, Explanation, FrictionEstimate, Gap, Pass, Shares};
 use vibrissa::{Label, Pose};
 
 /// report.json.
@@ -24,6 +24,9 @@ pub(super) struct ReportRecord {
     kinks: Vec<KinkRecord>,
     gaps: Vec<GapRecord>,
     calibration: Option<Calibration>,
+    /// Of each pass, where friction was asked for or seems to be there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    friction: Vec<FrictionRecord>,
     physics: PhysicsRecord,
     truth: Option<TruthRecord>,
 }
@@ -124,6 +127,18 @@ struct GapRecord {
     rows: Option<[usize; 2]>,
     from: Option<[f64; 2]>,
     to: Option<[f64; 2]>,
+}
+
+/// Friction of a pass: the coefficient that was used, and what the pass tells of it, each positive where the rod is drawn back.
+#[derive(Serialize)]
+struct FrictionRecord {
+    /// First and last row.
+    rows: [usize; 2],
+    used: f64,
+    is_there: bool,
+    is_told_apart: bool,
+    #[serde(flatten)]
+    found: FrictionEstimate,
 }
 
 /// The check by the physics: m0z^2 = 2 EI (f0y sin phi0 + f0x cos phi0) in tangential contact.
@@ -353,6 +368,16 @@ impl ReportRecord {
             from: gap.from,
             to: gap.to,
         };
+        let friction = |pass: &Pass| {
+            let found = pass.friction?;
+            Some(FrictionRecord {
+                rows: [rows[pass.samples.start], rows[pass.samples.end - 1]],
+                used: pass.used_friction,
+                is_there: found.is_there(),
+                is_told_apart: found.is_told_apart(),
+                found,
+            })
+        };
         let answered = Answered::of(found);
         let [f0x, f0y, m0z] = result.noise.each_ref().map(ChannelRecord::from);
         Self {
@@ -382,6 +407,7 @@ impl ReportRecord {
             kinks: kinks.collect(),
             gaps: found.contour.gaps.iter().map(gap).collect(),
             calibration: result.calibration().cloned(),
+            friction: result.passes.iter().filter_map(friction).collect(),
             physics: PhysicsRecord::of(found),
             truth: found.comparison.as_ref().map(Into::into),
         }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
     Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, ReconstructError, Reconstruction, Travel,
-    explanations, plausibility, reconstruct_general, reconstruct_passes,
+    explanations, plausibility_with_friction, reconstruct_general, reconstruct_passes,
 };
 use vibrissa::rod::{Mounted, VaryingRod};
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
@@ -165,9 +165,11 @@ type Checked = Result<(Reconstruction, Plausibility), ReconstructError>;
 
 /// With the errors that all samples share taken off, unless gross mistakes leave no sense in them.
 fn uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
-    let raw = plausibility(rod, samples);
     let is_gross = |check: &Plausibility| check.findings.iter().any(Finding::is_gross);
     let mut found = reconstruct_passes(rod, samples, settings)?;
+    let friction = found.frictions();
+    let plausibility = |rod: &Rod, samples: &[Sample]| plausibility_with_friction(rod, samples, |k| friction[k]);
+    let raw = plausibility(rod, samples);
     // the physics of what is left after the corrections: a bias alone may look like a wrong sign
     let mut check = raw.clone();
     if found.is_corrected() {

@@ -5,8 +5,8 @@ use super::report::Answered;
 use super::result::Reconstructed;
 use crate::table::Table;
 use std::fmt::Write;
-use vibrissa::reconstruct::SourceEstimate;
 use vibrissa::reconstruct::score::Deviation;
+use vibrissa::reconstruct::{Source, SourceEstimate};
 
 impl Reconstructed {
     /// Rows, noise, labels, points and gaps, and the comparison with the truth where that is known.
@@ -32,7 +32,10 @@ impl Reconstructed {
         writeln!(text, "{} kinks, {} gaps", self.found.kinks.len(), self.contour.gaps.len())?;
         match self.missing() {
             Some(missing) => writeln!(text, "{missing}")?,
-            None => self.tell_calibration(text)?,
+            None => {
+                self.tell_friction(text)?;
+                self.tell_calibration(text)?;
+            }
         }
         self.tell_physics(text)?;
         text.push_str(&self.run_table().to_string());
@@ -40,6 +43,28 @@ impl Reconstructed {
             Some(comparison) => comparison.tell(text),
             None => Ok(()),
         }
+    }
+
+    /// Friction of each pass, where it was asked for.
+    fn tell_friction(&self, text: &mut String) -> std::fmt::Result {
+        for (number, pass) in self.found.passes.iter().enumerate() {
+            let Some(found) = pass.friction.filter(|_| pass.used_friction != 0.0) else { continue };
+            let of = if self.found.passes.len() > 1 { format!(" of pass {}", number + 1) } else { String::new() };
+            let way = if found.mu < 0.0 { "pushed on over" } else { "drawn back over" };
+            let told = match (found.is_there(), found.is_told_apart()) {
+                (true, true) => "",
+                (true, false) => "; errors that all samples share would explain a part of it",
+                (false, _) => "; the scan is explained as well without",
+            };
+            writeln!(
+                text,
+                "friction{of}: mu = {:.4} +- {:.1e} (by the noise alone {:.1e}), the rod {way} its contacts{told}",
+                found.mu.abs(),
+                found.sigma,
+                found.sigma_of_noise
+            )?;
+        }
+        Ok(())
     }
 
     /// What was taken off the samples, and what may be left.
@@ -51,7 +76,11 @@ impl Reconstructed {
                 if self.check.fits() { "none, as is" } else { "none, because the recording does not fit its rod" }
             );
         };
-        let taken: Vec<_> = calibration.sources.iter().filter(|estimate| estimate.taken != 0.0).collect();
+        let taken: Vec<_> = calibration
+            .sources
+            .iter()
+            .filter(|estimate| estimate.taken != 0.0 && estimate.source != Source::Friction)
+            .collect();
         if taken.is_empty() {
             let why =
                 if self.check.fits() { "none needed" } else { "none, because the recording does not fit its rod" };

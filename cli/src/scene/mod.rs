@@ -144,7 +144,7 @@ impl<R: SceneRod> Scene<R> {
     /// The sweep with the friction of the scene.
     fn rubbing<'a>(&'a self, sweep: Sweep<'a, R>) -> Result<Sweep<'a, R>, ContactError> {
         match &self.friction {
-            Some(friction) => Ok(sweep.with_friction(friction.clone())),
+            Some(friction) => sweep.with_friction(friction.clone()),
             None => Ok(sweep),
         }
     }
@@ -215,6 +215,7 @@ fn parse(file: &Path, text: &str) -> Result<AnyScene, SceneError> {
     match &mut scene {
         AnyScene::Uniform(scene) => scene.warnings.extend(warnings),
         AnyScene::Mounted(scene) => scene.warnings.extend(warnings),
+        AnyScene::Guided(scene) => scene.warnings.extend(warnings),
     }
     Ok(scene)
 }

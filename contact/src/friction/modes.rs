@@ -203,6 +203,10 @@ impl AllRates {
                 Mode::Sticks => {
                     let (limit, friction) = (self.limit[j] * self.force[j], self.friction[j]);
                     let inside = friction.abs() < limit * (1.0 - ON_CONE);
+                    // on a smoother piece than the one from which it comes it cannot stick with that force
+                    if friction.abs() > limit * (1.0 + ON_CONE) + UNLOADED {
+                        return false;
+                    }
                     // a coefficient at rest larger than that of slipping lets the rod stick as it stops
                     inside || 1.0_f64.copysign(friction) * friction_rate - self.limit[j] * force_rate <= RATE
                 }
