@@ -21,6 +21,9 @@ pub mod equilibria {}
 #[doc = include_str!("../docs/fits.md")]
 pub mod fits {}
 
+#[doc = include_str!("../docs/friction.md")]
+pub mod friction {}
+
 #[doc = include_str!("../docs/rods.md")]
 pub mod rods {}
 

@@ -129,6 +129,7 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     match read_any(file)? {
         AnyScene::Uniform(scene) => sweep_scene(scene, out),
         AnyScene::Mounted(scene) => sweep_scene(scene, out),
+        AnyScene::Guided(scene) => sweep_scene(scene, out),
     }
 }
 
@@ -163,6 +164,7 @@ fn contour(
     match read_any(file)? {
         AnyScene::Uniform(scene) => contour_of(scene, out, tolerance, object),
         AnyScene::Mounted(scene) => contour_of(scene, out, tolerance, object),
+        AnyScene::Guided(scene) => contour_of(scene, out, tolerance, object),
     }
 }
 
@@ -195,6 +197,7 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     match read_any(&arguments.scene)? {
         AnyScene::Uniform(scene) => simulate_scene(scene, arguments),
         AnyScene::Mounted(scene) => simulate_scene(scene, arguments),
+        AnyScene::Guided(scene) => simulate_scene(scene, arguments),
     }
 }
 
@@ -298,6 +301,7 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
             let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
             FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
         }
+        AnyScene::Guided(scene) => return Err(scene.no_roller().into()),
     };
     say(&format!("{sent} of {samples} samples sent\n"));
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))

@@ -53,6 +53,19 @@ fn each_mistake_has_its_place() {
         (format!("{WIRE}[clamp]\nstiffness_y = nan\n"), ["clamp.stiffness_y: ", "NaN"]),
         (format!("{WIRE}[clamp]\nstiffness = 3\n"), ["clamp.stiffness: ", "expected one of `stiffness_x`"]),
         (
+            format!("{WIRE}[clamp]\nroller = 0\n"),
+            ["scene.toml:6:10: clamp.roller: ", "is 0.0, expected a number above 0 and below 0.1"],
+        ),
+        (format!("{WIRE}[clamp]\nroller = -0.02\n"), ["clamp.roller: ", "is -0.02, expected"]),
+        (format!("{WIRE}[clamp]\nroller = 0.1\n"), ["clamp.roller: ", "is 0.1, expected"]),
+        (format!("{WIRE}[clamp]\nroller = nan\n"), ["clamp.roller: ", "is NaN, expected"]),
+        (format!("{WIRE}[clamp]\nroller = inf\n"), ["clamp.roller: ", "is inf, expected"]),
+        (format!("{WIRE}[clamp]\nroller = 0.02\nstiffness_x = 3\n"), ["clamp.stiffness_x: ", "springs or a roller"]),
+        (
+            format!("{WIRE}[clamp]\nroller = 0.02\n[contact]\nfriction = 0.2\n"),
+            ["clamp.roller: ", "expected one of the two"],
+        ),
+        (
             format!("{WIRE}yield_stress = 1e9\n[clamp]\nstiffness_x = 3\n"),
             ["rod.yield_stress: ", "expected it with a rigid clamp alone"],
         ),
@@ -105,6 +118,7 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
     let events = |text: &str| match AnyScene::parse("scene.toml".as_ref(), text).unwrap() {
         AnyScene::Uniform(scene) => Scan::run(scene).unwrap().outcome.events,
         AnyScene::Mounted(scene) => Scan::run(scene).unwrap().outcome.events,
+        AnyScene::Guided(scene) => Scan::run(scene).unwrap().outcome.events,
     };
     let (wire, section) = (events(&wire), events(&section));
     assert_eq!(wire.len(), section.len());
@@ -126,6 +140,41 @@ fn a_clamp_gives_way_by_its_springs() {
         let base = state.elastica(&scan.scene.rod).unwrap().at(0.0);
         assert!((base.phi - state.pose.phi + state.reactions.m0z / 0.2).abs() < 1e-12);
         assert_eq!((base.x, base.y), (state.pose.x, state.pose.y));
+    }
+}
+
+/// The reaction of a roller is written where the others are; what cannot take it says so.
+#[test]
+fn the_reaction_of_a_roller_is_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = with_rod(&format!("{WIRE}[clamp]\nroller = 0.02\n"));
+    std::fs::write(dir.path().join("roller.toml"), &scene).unwrap();
+    std::fs::write(dir.path().join("rigid.toml"), with_rod(WIRE)).unwrap();
+    assert!(vibrissa(dir.path(), &["sweep", "roller.toml"]).status.success());
+    let written = |name: &str| std::fs::read_to_string(dir.path().join("out/roller").join(name)).unwrap();
+    let header = written("states.csv").lines().next().unwrap().to_owned();
+    assert!(header.ends_with(",leg,roller,roller_s"), "{header}");
+    let AnyScene::Guided(scene) = AnyScene::parse("roller.toml".as_ref(), &scene).unwrap() else { panic!("no roller") };
+    let states = Scan::run(scene).unwrap().outcome.states;
+    assert!(states.iter().any(|state| state.roller.as_ref().unwrap().force.abs() > 1.0));
+    for (line, state) in written("states.jsonl").lines().zip(&states) {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        assert_eq!(line["roller"].as_f64().unwrap(), state.roller.as_ref().unwrap().force);
+    }
+    // a recording: one sample every millimetre, as the states are
+    assert!(vibrissa(dir.path(), &["simulate", "roller.toml", "--rate", "1", "--speed", "1e-3"]).status.success());
+    let recording = written("recording.csv");
+    let mut rows = recording.lines();
+    assert_eq!(rows.next().unwrap(), "t,x0,y0,phi0,f0x,f0y,m0z,roller");
+    let read: Vec<f64> = rows.map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert!(read.len() > 150 && read.iter().zip(&states).all(|(r, s)| *r == s.roller.as_ref().unwrap().force));
+    for arguments in [
+        ["reconstruct", "out/roller/recording.csv", "--rod", "roller.toml"],
+        ["reconstruct", "out/roller/recording.csv", "--rod", "rigid.toml"],
+    ] {
+        let refused = vibrissa(dir.path(), &arguments);
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert!(!refused.status.success() && said.contains("roller ahead of the clamp"), "{said}");
     }
 }
 

@@ -26,6 +26,7 @@ pub const EVENT: &[Column<Event>] = &[
     Column { name: "f0y_after", get: Get::Float(|event| event.after.reactions.f0y) },
     Column { name: "m0z_after", get: Get::Float(|event| event.after.reactions.m0z) },
     Column { name: "leg", get: Get::Int(|event| event.leg() as i64) },
+    Column { name: "dissipated", get: Get::Float(|event| event.dissipated.unwrap_or(f64::NAN)) },
 ];
 
 /// A transition between two phases.
@@ -37,8 +38,8 @@ pub struct PyEvent {
 
 #[pymethods]
 impl PyEvent {
-    /// What happened: "first-contact", "touch", "release", "tip-to-tangent", "tangent-to-tip", "piece", "slip", "snap" or
-    /// "snap-off".
+    /// What happened: "first-contact", "touch", "release", "tip-to-tangent", "tangent-to-tip", "piece", "slip-over", "stick",
+    /// "slip", "snap" or "snap-off".
     #[getter]
     fn kind(&self) -> String {
         self.event.kind.to_string()
@@ -60,6 +61,12 @@ impl PyEvent {
     #[getter]
     fn after(&self) -> PyState {
         PyState { state: self.event.after.clone() }
+    }
+
+    /// The work (J) that friction has taken since the sweep began; None without friction.
+    #[getter]
+    fn dissipated(&self) -> Option<f64> {
+        self.event.dissipated
     }
 
     /// An event from what pickling keeps of it.

@@ -14,6 +14,7 @@ mod equilibrium;
 mod errors;
 mod event;
 mod follower;
+mod friction;
 mod live;
 mod made;
 mod own_function;

@@ -84,16 +84,25 @@ impl PyScan {
     /// The transitions as a structured array.
     ///
     /// Fields: ``kind``; ``from``, ``to``: the phases; ``x0``, ``y0`` (m), ``phi0`` (rad), ``f0x``, ``f0y`` (N), ``m0z`` (N m) just
-    /// before; the same with ``_after`` just after; ``leg`` of the path.
+    /// before; the same with ``_after`` just after; ``leg`` of the path; ``dissipated``: work of friction since the sweep began (J, NaN
+    /// without friction).
     #[getter]
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.table(py, 1, || structured(py, EVENT, self.outcome.events.iter()))
     }
 
+    /// The work (J) that friction took; None without friction, and where it is not known. The jump of a snap is not in it.
+    #[getter]
+    fn dissipated(&self) -> Option<f64> {
+        self.outcome.dissipated
+    }
+
     /// The contacts of all states, in the list layout of Arrow.
     ///
     /// ``contacts[i]`` are those of state i from the clamp to the tip. Fields of ``contacts.values``: ``object``, ``piece``, from 0;
-    /// ``kind``; ``s``: arc length from the clamp (m); ``x``, ``y`` (m); ``alpha``: tangent angle of the contour (rad); ``force`` (N).
+    /// ``kind``; ``s``: arc length from the clamp (m); ``x``, ``y`` (m); ``alpha``: tangent angle of the contour (rad); ``force`` (N), the normal
+    /// one; ``mode``: "slip+", "slip-" or "stick" with friction, empty without; ``friction``: force on the rod along the contour (N), and
+    /// ``slip``: slip coordinate (m), both NaN without friction.
     #[getter]
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.table(py, 2, || {

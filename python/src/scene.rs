@@ -1,14 +1,15 @@
 //! Scenes from and to TOML.
 
 use crate::array::whole_or_none;
-use crate::composite::PyComposite;
+use crate::composite::{PyComposite, contours};
 use crate::errors;
+use crate::friction::{self, Given};
 use crate::made::{Reduced, made};
 use crate::path::{Leg, PyPath};
 use crate::rod::PyRod;
 use crate::scan::PyScan;
 use crate::shape::objects;
-use crate::sweep::{Steps, run};
+use crate::sweep::{Options, Steps, run};
 use crate::written::{Object, degrees, number, point, two};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -18,7 +19,7 @@ use toml::{Table, Value};
 use vibrissa::contact::Chain;
 use vibrissa::contour::Motion;
 use vibrissa::{ClampPath, Pose};
-use vibrissa_cli::{AnyScene, LegPath, Scene};
+use vibrissa_cli::{AnyScene, LegPath, Scene, SceneFriction};
 
 /// A rod, objects and the path of the clamp.
 ///
@@ -34,6 +35,8 @@ use vibrissa_cli::{AnyScene, LegPath, Scene};
 ///     Distance of reported states: m, or rad where the clamp only turns; one for all legs, or one for each.
 /// name : str, optional
 ///     What to call it.
+/// friction : float, tuple of float, or list, optional
+///     Coulomb friction between rod and objects, as in :func:`vibrissa.sweep`.
 ///
 /// Examples
 /// --------
@@ -46,6 +49,8 @@ pub struct PyScene {
     pub objects: Vec<Py<PyComposite>>,
     pub path: Py<PyPath>,
     steps: Vec<f64>,
+    /// None where there is none.
+    pub friction: Option<SceneFriction>,
     name: String,
     warnings: Vec<String>,
 }
@@ -55,19 +60,23 @@ impl PyScene {
         match scene {
             AnyScene::Uniform(scene) => Self::of_scene(py, scene, text, directory),
             AnyScene::Mounted(scene) => Self::of_scene(py, scene, text, directory),
+            AnyScene::Guided(_) => Err(errors::value(
+                "clamp.roller is a roller ahead of the clamp, which is not known in Python, expected no field roller",
+            )),
         }
     }
 
     fn of_scene<R>(py: Python<'_>, scene: Scene<R>, text: &str, directory: &Path) -> PyResult<Self> {
         let tables: Table = text.parse().map_err(errors::value)?;
-        let Scene { name, objects, path, step, legs, warnings, .. } = scene;
+        let Scene { name, objects, path, step, legs, friction, warnings, .. } = scene;
         let mut written = written_objects(&tables, directory).into_iter();
         let with = |composite| Py::new(py, PyComposite::read(composite, written.next()));
         let objects = objects.into_iter().map(with).collect::<PyResult<_>>()?;
         let rod = PyRod::of_tables(&tables)?;
         let mut steps = vec![step];
         steps.extend(legs.iter().map(|leg| leg.step));
-        Ok(Self { rod: Py::new(py, rod)?, objects, path: path_of(py, path, &legs, &tables)?, steps, name, warnings })
+        let path = path_of(py, path, &legs, &tables)?;
+        Ok(Self { rod: Py::new(py, rod)?, objects, path, steps, friction, name, warnings })
     }
 
     fn directory(file: &Path) -> PathBuf {
@@ -85,7 +94,11 @@ impl PyScene {
                      expected Parabola, Line, CircularArc, EllipticArc, Spline or polygons"
                 ))
             };
-            list.push(Value::Table(object.as_ref().ok_or_else(none)?.table(composite.is_cavity())));
+            let mut table = object.as_ref().ok_or_else(none)?.table(composite.is_cavity());
+            if let Some(found) = self.friction.as_ref().and_then(|friction| friction.objects().get(number)) {
+                friction::write(&mut table, found)?;
+            }
+            list.push(Value::Table(table));
         }
         let rod = self.rod.get();
         let clamp = rod.springs().map(|springs| ("clamp".to_owned(), Value::Table(springs.table())));
@@ -197,6 +210,11 @@ fn written_objects(tables: &Table, directory: &Path) -> Vec<Object> {
             .map(|(k, v)| (k.clone(), v.clone()))
             .collect();
         absolute(&mut made_of, directory);
+        // friction belongs to the scene, not to the shape
+        let pieces = made_of.get_mut("piece").and_then(Value::as_array_mut).into_iter().flatten();
+        for piece in pieces.filter_map(Value::as_table_mut) {
+            piece.remove("friction");
+        }
         Object { made_of, motion, reversed: flag("reversed") }
     })
     .collect()
@@ -218,11 +236,20 @@ fn absolute(table: &mut Table, directory: &Path) {
 impl PyScene {
     #[new]
     #[pyo3(
-        signature = (rod, objects, path, step, *, name="scene".to_owned()),
-        text_signature = "(rod, objects, path, step, *, name='scene')"
+        signature = (rod, objects, path, step, *, name="scene".to_owned(), friction=None),
+        text_signature = "(rod, objects, path, step, *, name='scene', friction=None)"
     )]
-    fn new(rod: Py<PyRod>, objects: &Bound<'_, PyAny>, path: Py<PyPath>, step: Steps, name: String) -> PyResult<Self> {
-        let objects = self::objects(objects)?.into_iter().map(Bound::unbind).collect();
+    fn new(
+        rod: Py<PyRod>,
+        objects: &Bound<'_, PyAny>,
+        path: Py<PyPath>,
+        step: Steps,
+        name: String,
+        friction: Option<Given>,
+    ) -> PyResult<Self> {
+        let objects = self::objects(objects)?;
+        let friction = friction.map(|given| given.of(&contours(&objects))).transpose()?.flatten();
+        let objects = objects.into_iter().map(Bound::unbind).collect();
         let legs = path.get().count();
         let steps = match step {
             Steps::One(step) => vec![step; legs],
@@ -234,7 +261,7 @@ impl PyScene {
                 )));
             }
         };
-        Ok(Self { rod, objects, path, steps, name, warnings: Vec::new() })
+        Ok(Self { rod, objects, path, steps, friction, name, warnings: Vec::new() })
     }
 
     /// A scene from a TOML file.
@@ -325,6 +352,13 @@ impl PyScene {
         self.steps.clone()
     }
 
+    /// Coefficients of friction as :func:`vibrissa.sweep` takes them, a list with an item for each object: a number, ``(at_rest,
+    /// slipping)``, or a list of these with one for each piece. None without friction.
+    #[getter]
+    fn friction<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyList>>> {
+        self.friction.as_ref().map(|friction| friction::listed(py, friction)).transpose()
+    }
+
     /// What it is called: the name of its file.
     #[getter]
     fn name(&self) -> &str {
@@ -363,7 +397,8 @@ impl PyScene {
             [step] => Steps::One(step),
             _ => Steps::Each(self.steps.clone()),
         };
-        run(self.rod.bind(py), &objects, self.path.bind(py), &steps, None, most_steps)
+        let options = Options { start: None, friction: self.friction.as_ref(), most_steps };
+        run(self.rod.bind(py), &objects, self.path.bind(py), &steps, &options)
     }
 
     fn __repr__(&self) -> String {
@@ -373,7 +408,7 @@ impl PyScene {
     /// For `pickle` and `copy`: a function and its arguments.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let (rod, objects, path) = (self.rod.bind(py), self.objects(py), self.path.bind(py));
-        let (objects, step, name) = (PyList::new(py, objects)?, &self.steps, &self.name);
-        Ok(made!(py, "Scene", rod, objects, path, step, name).reduced(py))
+        let (objects, step, name, friction) = (PyList::new(py, objects)?, &self.steps, &self.name, self.friction(py)?);
+        Ok(made!(py, "Scene", rod, objects, path, step, name, friction).reduced(py))
     }
 }

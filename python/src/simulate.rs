@@ -2,6 +2,7 @@
 
 use crate::array::{structured, whole};
 use crate::composite::contours;
+use crate::friction::{Given, rubbing};
 use crate::rod::for_rod;
 use crate::running::Watch;
 use crate::samples::SAMPLE;
@@ -80,6 +81,8 @@ impl<R: PhysicalRod> Recorder<'_, R> {
 ///     the file. Without it the sensor reads the truth.
 /// seed : int, optional
 ///     Of the noise.
+/// friction : float, tuple of float, or list, optional
+///     Coulomb friction, as in :func:`vibrissa.sweep`, instead of that of the scene.
 ///
 /// Returns
 /// -------
@@ -94,7 +97,7 @@ impl<R: PhysicalRod> Recorder<'_, R> {
 /// SweepStopped
 ///     The sweep could not go on.
 #[pyfunction]
-#[pyo3(signature = (scene, *, rate, speed, noise=None, seed=0))]
+#[pyo3(signature = (scene, *, rate, speed, noise=None, seed=0, friction=None))]
 pub fn simulate<'py>(
     py: Python<'py>,
     scene: &PyScene,
@@ -102,6 +105,7 @@ pub fn simulate<'py>(
     speed: f64,
     noise: Option<&Bound<'py, PyAny>>,
     #[pyo3(from_py_with = whole)] seed: u64,
+    friction: Option<Given>,
 ) -> PyResult<Bound<'py, PyAny>> {
     for (what, value) in [("rate", rate), ("speed", speed)] {
         if !(value.is_finite() && value > 0.0) {
@@ -113,10 +117,14 @@ pub fn simulate<'py>(
     let noise = noise.map(model).transpose()?.unwrap_or_default();
     let objects: Vec<_> = scene.objects.iter().map(|object| object.bind(py).clone()).collect();
     let (objects, step, rod) = (contours(&objects), speed / rate, &scene.rod.get().rod);
+    let friction = match friction {
+        Some(given) => given.of(&objects)?,
+        None => scene.friction.clone(),
+    };
     let made = running::run(py, || {
         let sensor = noise.generator(seed).map_err(errors::value)?;
         for_rod!(rod, rod => {
-            let sweep = Sweep::new(rod, &objects[..], path, step).map_err(errors::value)?;
+            let sweep = Sweep::new(rod, &objects[..], path, step).and_then(|sweep| rubbing(sweep, friction.as_ref())).map_err(errors::value)?;
             Ok::<_, PyErr>(Recorder { sweep, path, sensor, step, rate }.run())
         })
     })?;

@@ -9,7 +9,7 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 use vibrissa::State;
-use vibrissa::contact::{Contact, ContactKind};
+use vibrissa::contact::{Contact, ContactFriction, ContactKind, SlipMode};
 use vibrissa_cli::AnyRod;
 
 /// Columns of a state: those of the command's `states.csv`, and how the solve went.
@@ -45,6 +45,12 @@ pub const CONTACT: &[Column<Contact>] = &[
     Column { name: "y", get: Get::Float(|contact| contact.y) },
     Column { name: "alpha", get: Get::Float(|contact| contact.alpha) },
     Column { name: "force", get: Get::Float(|contact| contact.force) },
+    Column {
+        name: "mode",
+        get: Get::Text(|contact| contact.friction.map_or("".into(), |one| one.mode.to_string().into())),
+    },
+    Column { name: "friction", get: Get::Float(|contact| contact.friction.map_or(f64::NAN, |one| one.force)) },
+    Column { name: "slip", get: Get::Float(|contact| contact.friction.map_or(f64::NAN, |one| one.slip)) },
 ];
 
 /// Largest number of points of a shape: 240 MB.
@@ -80,16 +86,24 @@ pub fn points<'py>(py: Python<'py>, state: &State, rod: &AnyRod, n: usize) -> Py
 /// x, y : float
 ///     Position in m.
 /// alpha : float
-///     Tangent angle of the contour in rad; the force on the rod is ``force (sin alpha, -cos alpha)``.
+///     Tangent angle of the contour in rad; the force on the rod is ``force (sin alpha, -cos alpha)``, and with friction
+///     ``friction (cos alpha, sin alpha)`` more.
 /// force : float
-///     Contact force in N, not negative.
+///     Contact force in N, not negative: the normal one where there is friction.
 /// object, piece : int, optional
 ///     Number of the object, and of its piece, from 0; for a corner or notch of the piece before it.
+/// mode : {"slip+", "slip-", "stick"}, optional
+///     How the rod moves along the contour, with friction: in its sense, against it, or not (the tip sticks, the side rolls).
+/// friction : float, optional
+///     Force on the rod along the contour's direction in N.
+/// slip : float, optional
+///     Slip coordinate in m: arc length of the contour less that of the rod in the contour's sense. Only its differences between
+///     states on one piece mean anything.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     There is no such kind.
+///     There is no such kind or mode, or ``mode``, ``friction`` and ``slip`` are not given together.
 #[pyclass(frozen, eq, get_all, name = "Contact", module = "vibrissa")]
 #[derive(Clone, PartialEq)]
 pub struct PyContact {
@@ -109,17 +123,46 @@ pub struct PyContact {
     object: usize,
     /// Number of the object's piece, from 0.
     piece: usize,
+    /// How the rod moves along the contour: "slip+", "slip-" or "stick"; None without friction.
+    mode: Option<String>,
+    /// Force on the rod along the contour's direction in N; None without friction.
+    friction: Option<f64>,
+    /// Slip coordinate in m; None without friction.
+    slip: Option<f64>,
 }
 
 impl PyContact {
     pub fn of(contact: &Contact) -> Self {
-        let Contact { object, piece, kind, s, x, y, alpha, force, .. } = *contact;
-        Self { kind: kind.to_string(), s, x, y, alpha, force, object, piece }
+        let Contact { object, piece, kind, s, x, y, alpha, force, friction, .. } = *contact;
+        let mode = friction.map(|one| one.mode.to_string());
+        let (friction, slip) = (friction.map(|one| one.force), friction.map(|one| one.slip));
+        Self { kind: kind.to_string(), s, x, y, alpha, force, object, piece, mode, friction, slip }
     }
 
     pub fn contact(&self) -> PyResult<Contact> {
         let Self { s, x, y, alpha, force, object, piece, .. } = *self;
-        Ok(Contact { object, piece, kind: kind(&self.kind)?, s, x, y, alpha, force, friction: None })
+        let friction = rubs(self.mode.as_deref(), self.friction, self.slip)?;
+        Ok(Contact { object, piece, kind: kind(&self.kind)?, s, x, y, alpha, force, friction })
+    }
+}
+
+/// What friction does at a contact: all of it is given, or nothing.
+fn rubs(mode: Option<&str>, force: Option<f64>, slip: Option<f64>) -> PyResult<Option<ContactFriction>> {
+    match (mode, force, slip) {
+        (None, None, None) => Ok(None),
+        (Some(name), Some(force), Some(slip)) => {
+            let modes = [SlipMode::Forward, SlipMode::Backward, SlipMode::Stick];
+            let none = || errors::value(format!("mode is {name:?}, expected \"slip+\", \"slip-\" or \"stick\""));
+            let mode = modes.into_iter().find(|mode| mode.to_string() == name).ok_or_else(none)?;
+            Ok(Some(ContactFriction { mode, force, slip }))
+        }
+        _ => {
+            let number = |value: Option<f64>| value.map_or("None".to_owned(), |value| format!("{value:?}"));
+            let (mode, force, slip) = (mode.unwrap_or("None"), number(force), number(slip));
+            Err(errors::value(format!(
+                "mode is {mode}, friction {force} and slip {slip}, expected all three, or none of them without friction"
+            )))
+        }
     }
 }
 
@@ -132,7 +175,7 @@ fn kind(name: &str) -> PyResult<ContactKind> {
 #[pymethods]
 impl PyContact {
     #[new]
-    #[pyo3(signature = (kind, s, x, y, alpha, force, object=0, piece=0))]
+    #[pyo3(signature = (kind, s, x, y, alpha, force, object=0, piece=0, *, mode=None, friction=None, slip=None))]
     #[expect(clippy::too_many_arguments, reason = "the fields of a contact")]
     fn new(
         kind: String,
@@ -143,20 +186,30 @@ impl PyContact {
         force: f64,
         #[pyo3(from_py_with = whole)] object: usize,
         #[pyo3(from_py_with = whole)] piece: usize,
+        mode: Option<String>,
+        friction: Option<f64>,
+        slip: Option<f64>,
     ) -> PyResult<Self> {
         self::kind(&kind)?;
-        Ok(Self { kind, s, x, y, alpha, force, object, piece })
+        rubs(mode.as_deref(), friction, slip)?;
+        Ok(Self { kind, s, x, y, alpha, force, object, piece, mode, friction, slip })
     }
 
     fn __repr__(&self) -> String {
-        let Self { kind, s, x, y, alpha, force, object, piece } = self;
-        format!("Contact({kind:?}, {s:?}, {x:?}, {y:?}, {alpha:?}, {force:?}, {object}, {piece})")
+        let Self { kind, s, x, y, alpha, force, object, piece, .. } = self;
+        let rubs = match (&self.mode, self.friction, self.slip) {
+            (Some(mode), Some(friction), Some(slip)) => {
+                format!(", mode={mode:?}, friction={friction:?}, slip={slip:?}")
+            }
+            _ => String::new(),
+        };
+        format!("Contact({kind:?}, {s:?}, {x:?}, {y:?}, {alpha:?}, {force:?}, {object}, {piece}{rubs})")
     }
 
     /// For `pickle` and `copy`: a function and its arguments.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        let Self { kind, s, x, y, alpha, force, object, piece } = self;
-        Ok(made!(py, "Contact", kind, s, x, y, alpha, force, object, piece).reduced(py))
+        let Self { kind, s, x, y, alpha, force, object, piece, mode, friction, slip } = self;
+        Ok(made!(py, "Contact", kind, s, x, y, alpha, force, object, piece, mode, friction, slip).reduced(py))
     }
 }
 

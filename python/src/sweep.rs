@@ -3,6 +3,7 @@
 use crate::array::whole_or_none;
 use crate::composite::{PyComposite, contours};
 use crate::errors;
+use crate::friction::{Given, rubbing};
 use crate::path::PyPath;
 use crate::rod::{PyRod, for_rod};
 use crate::running::{self, Watch};
@@ -14,6 +15,7 @@ use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Item, Outcome};
 use vibrissa::rod::PhysicalRod;
 use vibrissa::{Composite, State, Sweep};
+use vibrissa_cli::SceneFriction;
 
 /// Largest number of states of a sweep, which are all kept: some 6 GB.
 const MOST_STATES: f64 = 2e7;
@@ -44,6 +46,7 @@ struct Task<'a, R> {
     path: &'a PyPath,
     steps: &'a Steps,
     start: Option<&'a State>,
+    friction: Option<&'a SceneFriction>,
     most_steps: Option<u64>,
 }
 
@@ -55,12 +58,13 @@ impl<R: PhysicalRod> Task<'_, R> {
             (Steps::One(step), Some(state)) => Sweep::from_state(rod, objects, state, path.shared(), *step)?,
             (Steps::Each(steps), _) => Sweep::with_steps(rod, objects, path.shared(), steps)?,
         };
-        let sweep = match self.most_steps {
+        let sweep = rubbing(sweep, self.friction)?;
+        let mut sweep = match self.most_steps {
             Some(most) => sweep.with_most_steps(most),
             None => sweep,
         };
         let (mut outcome, mut watch) = (Outcome::default(), Watch::new());
-        for item in sweep {
+        for item in sweep.by_ref() {
             match item {
                 Ok(Item::State(state)) => outcome.states.push(state),
                 Ok(Item::Event(event)) => outcome.events.push(event),
@@ -70,6 +74,7 @@ impl<R: PhysicalRod> Task<'_, R> {
                 break;
             }
         }
+        outcome.dissipated = sweep.dissipated();
         Ok(outcome)
     }
 }
@@ -92,6 +97,10 @@ impl<R: PhysicalRod> Task<'_, R> {
 /// start : State, optional
 ///     The equilibrium at the first pose, from which the sweep goes on. Without it, a start in contact has the shape that a
 ///     sweep from further back would have brought.
+/// friction : float, tuple of float, or list, optional
+///     Coulomb friction between rod and objects (``docs/friction.md``): one coefficient for all objects, ``(at_rest, slipping)``, or a
+///     list with one of these for each object; an item of the list may itself be a list, with one for each piece. Without it, and where
+///     all coefficients are 0, there is none.
 /// most_steps : int, optional
 ///     Steps along branches of equilibria after which the sweep stops; by default 2 million.
 ///
@@ -117,17 +126,26 @@ impl<R: PhysicalRod> Task<'_, R> {
 /// >>> scan.phases
 /// ['free', 'A', 'B', 'BB', 'BA', 'B', 'A', 'free']
 #[pyfunction]
-#[pyo3(signature = (rod, objects, path, step, *, start=None, most_steps=None))]
+#[pyo3(signature = (rod, objects, path, step, *, start=None, friction=None, most_steps=None))]
 pub fn sweep<'py>(
     rod: &Bound<'py, PyRod>,
     objects: &Bound<'py, PyAny>,
     path: &Bound<'py, PyPath>,
     step: Steps,
     start: Option<&Bound<'py, PyState>>,
+    friction: Option<Given>,
     #[pyo3(from_py_with = whole_or_none)] most_steps: Option<u64>,
 ) -> PyResult<Bound<'py, PyScan>> {
     let objects = self::objects(objects)?;
-    run(rod, &objects, path, &step, start, most_steps)
+    let friction = friction.map(|given| given.of(&contours(&objects))).transpose()?.flatten();
+    run(rod, &objects, path, &step, &Options { start, friction: friction.as_ref(), most_steps })
+}
+
+/// What a sweep may be given beside what it needs.
+pub struct Options<'a, 'py> {
+    pub start: Option<&'a Bound<'py, PyState>>,
+    pub friction: Option<&'a SceneFriction>,
+    pub most_steps: Option<u64>,
 }
 
 /// The sweep of objects that are made already.
@@ -136,9 +154,9 @@ pub fn run<'py>(
     objects: &[Bound<'py, PyComposite>],
     path: &Bound<'py, PyPath>,
     steps: &Steps,
-    start: Option<&Bound<'py, PyState>>,
-    most_steps: Option<u64>,
+    options: &Options<'_, 'py>,
 ) -> PyResult<Bound<'py, PyScan>> {
+    let Options { start, friction, most_steps } = *options;
     if matches!((steps, start), (Steps::Each(_), Some(_))) {
         return Err(errors::value("step has a number for each leg, expected one number beside start"));
     }
@@ -162,7 +180,8 @@ pub fn run<'py>(
         )));
     }
     let any = &rod.get().rod;
-    let run = || for_rod!(any, rod => Task { rod, objects: &contours, path: way, steps, start, most_steps }.run());
+    let run =
+        || for_rod!(any, rod => Task { rod, objects: &contours, path: way, steps, start, friction, most_steps }.run());
     let outcome = running::run(py, run)?.map_err(errors::value)?;
     let objects = objects.iter().map(|object| object.clone().unbind()).collect();
     let given = (rod.clone().unbind(), objects, path.clone().unbind());

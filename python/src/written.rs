@@ -1,5 +1,6 @@
 //! Scene files as they are written: angles in degrees, tables of TOML.
 
+use std::path::Path;
 use toml::{Table, Value};
 use vibrissa::contour::Motion;
 use vibrissa::contour::description::Shape;
@@ -17,6 +18,16 @@ pub fn degrees(radians: f64) -> f64 {
 /// A shape of the library's description as a table.
 pub fn piece(shape: &Shape) -> Option<Table> {
     Table::try_from(shape).ok()
+}
+
+/// Of how many pieces of contour a `[[object.piece]]` consists; none where it is no shape.
+pub fn piece_count(table: &Table) -> Option<usize> {
+    let mut fields = table.clone();
+    let name = fields.remove("shape")?;
+    fields.remove("friction");
+    let shape = Shape::from_fields(name.as_str()?, Value::Table(fields)).ok()?;
+    // files are written with absolute paths
+    shape.pieces(Path::new("")).ok().map(|pieces| pieces.len())
 }
 
 /// Two coordinates.

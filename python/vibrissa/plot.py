@@ -6,6 +6,7 @@ Matplotlib is an optional dependency: ``pip install vibrissa[plot]``.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +23,7 @@ __all__ = [
     "animate",
     "contour",
     "criterion",
+    "hysteresis",
     "notches",
     "object_outline",
     "phase_color",
@@ -42,6 +44,9 @@ _COLORS = {
     (3, False): "#56b4e9",
 }
 _TRANSITION = "#332288"
+# Of the legs of a path, in turn.
+_LEGS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7"]
+_QUANTITIES = [("f0x", 1.0, "$f_{0x}$ in N"), ("f0y", 1.0, "$f_{0y}$ in N"), ("m0z", 1e3, "$m_{0z}$ in N mm")]
 _KINDS = {"single": "#0072b2", "first": "#882255", "second": "#999933"}
 
 _Rows = npt.NDArray[np.void]
@@ -88,11 +93,17 @@ def _way(rows: _Rows, length: float) -> tuple[npt.NDArray[np.float64], str]:
         x, y, phi = (np.diff(rows[name], prepend=rows[name][0]) for name in ("x0", "y0", "phi0"))
         moved = np.hypot(x, y)
         return 1e3 * np.cumsum(np.where(moved > 0.0, moved, length * np.abs(phi))), "way of the clamp in mm"
+    name, factor, label = _coordinate(rows, length)
+    return factor * rows[name], label
+
+
+def _coordinate(rows: _Rows, length: float) -> tuple[str, float, str]:
+    """The coordinate of the clamp that changes most, the factor for its unit in figures, and its label."""
     spans = {"x0": np.ptp(rows["x0"]), "y0": np.ptp(rows["y0"]), "phi0": length * np.ptp(rows["phi0"])}
     name = max(spans, key=lambda name: float(spans[name]))
     if name == "phi0":
-        return np.degrees(rows["phi0"]), r"$\varphi_0$ in degrees"
-    return 1e3 * rows[name], f"${name[0]}_0$ in mm"
+        return name, math.degrees(1.0), r"$\varphi_0$ in degrees"
+    return name, 1e3, f"${name[0]}_0$ in mm"
 
 
 def object_outline(
@@ -194,6 +205,18 @@ def reactions(scan: Scan, axes: npt.NDArray[Any] | list[Axes] | None = None) -> 
     -------
     list of matplotlib.axes.Axes
     """
+    axes = _three(axes)
+    along, label = _way(scan.states, scan.rod.length)
+    for ax, (name, factor, text) in zip(axes, _QUANTITIES):
+        _by_phase(ax, along, factor * scan.states[name], scan.states["phase"])
+        ax.set_ylabel(text)
+    _name_phases(axes[0], along, scan.states["phase"])
+    axes[-1].set_xlabel(label)
+    return axes
+
+
+def _three(axes: npt.NDArray[Any] | list[Axes] | None) -> list[Axes]:
+    """The axes that are given, or new ones, for f0x, f0y and m0z."""
     if axes is None:
         plt = _pyplot()
 
@@ -201,14 +224,96 @@ def reactions(scan: Scan, axes: npt.NDArray[Any] | list[Axes] | None = None) -> 
     axes = list(axes)
     if len(axes) != 3:
         raise ValueError(f"there are {len(axes)} axes, expected three: for f0x, f0y and m0z")
-    along, label = _way(scan.states, scan.rod.length)
-    quantities = [("f0x", 1.0, "$f_{0x}$ in N"), ("f0y", 1.0, "$f_{0y}$ in N"), ("m0z", 1e3, "$m_{0z}$ in N mm")]
-    for ax, (name, factor, text) in zip(axes, quantities):
-        _by_phase(ax, along, factor * scan.states[name], scan.states["phase"])
+    return axes
+
+
+def hysteresis(scan: Scan, axes: npt.NDArray[Any] | list[Axes] | None = None) -> list[Axes]:
+    """Draw f0x, f0y and m0z over the position of the clamp, each leg of its path in a colour of its own.
+
+    Where the clamp goes there and back, the area between the lines of f0x is the work that friction and snaps take. Wide, pale lines:
+    a contact sticks (at the tip) or rolls (along the side). Dotted: the rod jumps.
+
+    Parameters
+    ----------
+    scan : Scan
+        What to draw, of a path with two or more legs.
+    axes : sequence of three matplotlib.axes.Axes, optional
+        Where.
+
+    Returns
+    -------
+    list of matplotlib.axes.Axes
+    """
+    axes = _three(axes)
+    coordinate, unit, label = _coordinate(scan.states, scan.rod.length)
+    legs = _legs(scan, coordinate)
+    for ax, (name, factor, text) in zip(axes, _QUANTITIES):
+        for number, rows in legs:
+            color = _LEGS[number % len(_LEGS)]
+            arrow = "\u2192" if rows[coordinate][-1] > rows[coordinate][0] else "\u2190"
+            x, y = unit * rows[coordinate], factor * rows[name]
+            # a line is broken before the first row after a jump
+            starts = [0, *np.flatnonzero(rows["jumped"]).tolist(), len(rows)]
+            for k, (a, b) in enumerate(zip(starts[:-1], starts[1:])):
+                ax.plot(x[a:b], y[a:b], color=color, linewidth=1.2, label=None if k else f"leg {number} {arrow}")
+                if a > 0:
+                    ax.plot(x[a - 1 : a + 1], y[a - 1 : a + 1], color=color, linewidth=0.8, linestyle="dotted")
+            for a, b, sticks in _runs(rows["sticks"].astype(str)):
+                if sticks == "True":
+                    ax.plot(x[a:b], y[a:b], color=color, linewidth=6.0, alpha=0.35, solid_capstyle="butt", marker=None)
+        ax.axhline(0.0, color="#cdcdcd", linewidth=0.6, zorder=0)
         ax.set_ylabel(text)
-    _name_phases(axes[0], along, scan.states["phase"])
+    if any(rows["sticks"].any() for _, rows in legs):
+        axes[0].plot([], [], color="#7a7a7a", linewidth=6.0, alpha=0.35, label="a contact sticks or rolls")
+    axes[0].legend(frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.2)
     axes[-1].set_xlabel(label)
     return axes
+
+
+def _legs(scan: Scan, coordinate: str) -> list[tuple[int, _Rows]]:
+    """The states of each leg with those at its transitions, from the last state of the leg before on, in order.
+
+    ``sticks``: a contact does; ``jumped``: the rod has, just before.
+    """
+    names = [coordinate, "f0x", "f0y", "m0z"]
+    columns = [*((name, float) for name in names), ("leg", int), ("sticks", bool), ("jumped", bool)]
+
+    def rows(count: int) -> _Rows:
+        return np.zeros(count, dtype=columns)
+
+    states = rows(len(scan))
+    for name in (*names, "leg"):
+        states[name] = scan.states[name]
+    contacts = scan.contacts
+    states["sticks"][contacts.parents()[contacts.values["mode"] == "stick"]] = True
+    before, after = rows(len(scan.events)), rows(len(scan.events))
+    for name in names:
+        before[name], after[name] = scan.events[name], scan.events[f"{name}_after"]
+    after["jumped"] = np.isin(scan.events["kind"], ["snap", "snap-off", "slip-over"])
+    for k in range(len(scan.events)):
+        event = scan.event(k)
+        for row, state in ((before, event.before), (after, event.after)):
+            row["sticks"][k] = any(contact.mode == "stick" for contact in state.contacts)
+            row["leg"][k] = scan.events["leg"][k]
+    made, last = [], rows(0)
+    for number in np.unique(states["leg"]).tolist():
+        reported = states[states["leg"] == number]
+        on_way = np.diff(np.concatenate([last, reported])[coordinate])
+        own = scan.events["leg"] == number
+        moments = np.stack([before[own], after[own]], axis=1).ravel()
+        if np.all(on_way > 0.0) or np.all(on_way < 0.0):
+            # a pose of the leg tells when it is; transitions come before a state at their pose
+            sense = math.copysign(1.0, on_way[0]) if len(on_way) else 1.0
+            both = np.concatenate([moments, reported])
+            both = both[np.argsort(sense * both[coordinate], kind="stable")]
+        else:
+            both = reported
+        # where the path turns, the modes of the contacts are chosen anew
+        last["sticks"] = both["sticks"][:1]
+        made.append((int(number), np.concatenate([last, both])))
+        last = both[-1:].copy()
+        last["jumped"] = False
+    return made
 
 
 def _by_phase(

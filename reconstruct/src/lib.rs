@@ -2,6 +2,8 @@
 //!
 //! - [`single`]: the contact point of one contact from one [`Sample`] (pose of the clamp and reactions), in closed form, and
 //!   [`one_sample`] for any rod, with the kind of contact; [`single_general`] through any integrator. [`NoContact`]: why there is none.
+//!   [`through_roller`]: the same of a rod that runs through a roller ahead of its clamp, with a check of stiffness and gain;
+//!   [`beyond_roller`]: the sample without the roller.
 //! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
 //!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
 //! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them; [`reconstruct_general`] for
@@ -71,7 +73,9 @@ pub use pipeline::{
     explanations, reconstruct, reconstruct_general, reconstruct_passes,
 };
 #[cfg(feature = "std")]
-pub use point::{GeneralError, OneSample, one_sample, single_general};
+pub use point::{
+    Estimate, GeneralError, OneSample, ThroughRoller, beyond_roller, one_sample, single_general, through_roller,
+};
 pub use point::{NoContact, Touch, single, single_with_friction};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]

@@ -90,6 +90,14 @@ pub enum RodError {
         /// What it should be.
         expected: &'static str,
     },
+    /// A roller that is not between the clamp and the tip.
+    #[error("clamp.roller is {value:?}, expected a number above 0 and below {length:?}, the length of the rod")]
+    Roller {
+        /// Arc length from the clamp as given.
+        value: f64,
+        /// The length of the rod.
+        length: f64,
+    },
     /// The bending stiffness of a rod is not a positive, finite number somewhere.
     #[error("stiffness is {value} at arc length {s}, expected a positive, finite number")]
     Stiffness {

@@ -163,11 +163,11 @@ fn a_cone_and_springs_obey_coulomb_too() {
         let items: Vec<Result<Item, _>> = match k {
             0 => Sweep::new(&cone(0.5), &object, path(), 2e-3).unwrap().with_friction(0.3).unwrap().collect(),
             1 => {
-                let rod = Mounted::new(uniform(), clamp.clone());
+                let rod = Mounted::new(uniform(), clamp);
                 Sweep::new(&rod, &object, path(), 2e-3).unwrap().with_friction(0.3).unwrap().collect()
             }
             _ => {
-                let rod = Mounted::new(cone(0.5), clamp.clone());
+                let rod = Mounted::new(cone(0.5), clamp);
                 Sweep::new(&rod, &object, path(), 2e-3).unwrap().with_friction(0.3).unwrap().collect()
             }
         };

@@ -244,9 +244,9 @@ mod tests {
         let played: Vec<[f64; 6]> = receiver.into_iter().collect();
         assert_eq!(maker.join().unwrap(), (felt.len() as u64, None));
         assert!(enough.recv().is_err(), "what is made in advance is at hand");
-        // Fx, Fy and Tz of a sensor whose axes are those of the scene
+        // Fx, Fy and Tz of a sensor whose axes are those of the scene, and which feels what acts on it
         for (channels, Reactions { f0x, f0y, m0z }) in played.iter().zip(&felt) {
-            let off = [channels[0] - f0x, channels[1] - f0y, channels[5] - m0z];
+            let off = [channels[0] + f0x, channels[1] + f0y, channels[5] + m0z];
             assert!(off.iter().all(|off| off.abs() < 1e-15), "{channels:?} {f0x} {f0y} {m0z}");
         }
         assert_eq!(played.len(), felt.len());

@@ -22,11 +22,12 @@ impl Reconstructed {
     /// Compares with the scene that the recording is of, which is swept for it.
     ///
     /// # Errors
-    /// [`Error::Contact`], [`Error::Truth`].
+    /// [`Error::Contact`], [`Error::Truth`]; [`Error::Scene`] for a scene with a roller.
     pub fn compare(&mut self, scene: AnyScene) -> Result<(), Error> {
         self.comparison = Some(match scene {
             AnyScene::Uniform(scene) => Comparison::of(self, scene, AnyScene::Uniform)?,
             AnyScene::Mounted(scene) => Comparison::of(self, scene, AnyScene::Mounted)?,
+            AnyScene::Guided(scene) => return Err(scene.no_roller().into()),
         });
         Ok(())
     }

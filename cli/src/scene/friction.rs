@@ -15,6 +15,23 @@ const LARGE: f64 = 5.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneFriction(Vec<Vec<Coefficients>>);
 
+impl SceneFriction {
+    /// The friction of objects of which each has one item for all its pieces, or one for each. Objects beyond the last have none.
+    pub fn new(objects: Vec<Vec<Coefficients>>) -> Self {
+        Self(objects)
+    }
+
+    /// The friction of each object: one item for all its pieces, or one for each.
+    pub fn objects(&self) -> &[Vec<Coefficients>] {
+        &self.0
+    }
+
+    /// Whether there is any.
+    pub fn rubs(&self) -> bool {
+        self.0.iter().flatten().any(|found| found.at_rest > 0.0)
+    }
+}
+
 impl Friction for SceneFriction {
     fn coefficients(&self, object: usize, piece: usize) -> Coefficients {
         let of_object = self.0.get(object).map(Vec::as_slice).unwrap_or_default();
@@ -65,8 +82,7 @@ pub(super) fn friction(
         }
         all.push(of_pieces);
     }
-    let rubs = all.iter().flatten().any(|found| found.at_rest > 0.0);
-    Ok((rubs.then_some(SceneFriction(all)), warnings))
+    Ok((Some(SceneFriction(all)).filter(SceneFriction::rubs), warnings))
 }
 
 /// A number, or a table of two.

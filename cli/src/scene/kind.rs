@@ -1,17 +1,22 @@
 //! The rods that a scene may have.
 
 use super::Scene;
-use super::rod_table::{NOT_RIGID, NOT_UNIFORM};
+use super::rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
 use crate::SceneError;
 use crate::toml_file;
 use std::path::{Path, PathBuf};
-use vibrissa::rod::{Mounted, PhysicalRod, VaryingRod};
+use vibrissa::rod::{Guided, Mounted, PhysicalRod, VaryingRod};
 use vibrissa::{ClampPath, Composite, Rod};
 
 /// A rod of a scene.
 pub trait SceneRod: PhysicalRod {
     /// The rod, if it is uniform and straight at rest and its clamp is rigid: only of such a rod contacts are found from reactions.
     fn uniform(&self) -> Option<&Rod>;
+
+    /// Whether it runs through a roller, whose reaction is measured as well.
+    fn has_roller(&self) -> bool {
+        false
+    }
 }
 
 impl SceneRod for Rod {
@@ -23,6 +28,16 @@ impl SceneRod for Rod {
 impl SceneRod for Mounted<VaryingRod> {
     fn uniform(&self) -> Option<&Rod> {
         None
+    }
+}
+
+impl SceneRod for Guided<VaryingRod> {
+    fn uniform(&self) -> Option<&Rod> {
+        None
+    }
+
+    fn has_roller(&self) -> bool {
+        true
     }
 }
 
@@ -45,6 +60,13 @@ impl AnyRod {
     }
 }
 
+impl Scene<Guided<VaryingRod>> {
+    /// The error of what does not take a roller.
+    pub fn no_roller(&self) -> SceneError {
+        self.source.error("clamp.roller", NO_ROLLER)
+    }
+}
+
 /// A scene with any rod.
 #[derive(Debug)]
 pub enum AnyScene {
@@ -52,6 +74,8 @@ pub enum AnyScene {
     Uniform(Scene),
     /// Its stiffness varies, it is bent at rest, or its clamp gives way.
     Mounted(Scene<Mounted<VaryingRod>>),
+    /// Any rod that runs through a roller ahead of a rigid clamp.
+    Guided(Scene<Guided<VaryingRod>>),
 }
 
 impl AnyScene {
@@ -99,6 +123,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.warnings,
             Self::Mounted(scene) => &scene.warnings,
+            Self::Guided(scene) => &scene.warnings,
         }
     }
 
@@ -107,6 +132,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.files,
             Self::Mounted(scene) => &scene.files,
+            Self::Guided(scene) => &scene.files,
         }
     }
 
@@ -115,6 +141,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.name,
             Self::Mounted(scene) => &scene.name,
+            Self::Guided(scene) => &scene.name,
         }
     }
 
@@ -123,6 +150,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.objects,
             Self::Mounted(scene) => &scene.objects,
+            Self::Guided(scene) => &scene.objects,
         }
     }
 
@@ -131,6 +159,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => &scene.path,
             Self::Mounted(scene) => &scene.path,
+            Self::Guided(scene) => &scene.path,
         }
     }
 
@@ -142,6 +171,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => scene.check_single_leg(),
             Self::Mounted(scene) => scene.check_single_leg(),
+            Self::Guided(scene) => scene.check_single_leg(),
         }
     }
 
@@ -153,6 +183,7 @@ impl AnyScene {
         match self {
             Self::Uniform(scene) => scene.check_start(),
             Self::Mounted(scene) => scene.check_start(),
+            Self::Guided(scene) => scene.check_start(),
         }
     }
 
@@ -160,7 +191,7 @@ impl AnyScene {
     /// user may do with it.
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] at the field `rod` of another one, or at `clamp`.
+    /// [`SceneError::Invalid`] at the field `rod` of another one, at `clamp` or at `clamp.roller`.
     pub fn uniform(self, instead: &str) -> Result<Scene, SceneError> {
         match self {
             Self::Uniform(scene) => Ok(scene),
@@ -168,18 +199,20 @@ impl AnyScene {
                 Err(scene.source.error("clamp", &format!("{NOT_RIGID}; {instead}")))
             }
             Self::Mounted(scene) => Err(scene.source.error("rod", &format!("{NOT_UNIFORM}; {instead}"))),
+            Self::Guided(scene) => Err(scene.no_roller()),
         }
     }
 
-    /// Refuses a clamp that gives way, of whatever rod. `instead` ends the message: what the user may do with it.
+    /// Refuses a clamp that gives way or has a roller, of whatever rod. `instead` ends the message: what the user may do with it.
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] at the field `clamp`.
+    /// [`SceneError::Invalid`] at the field `clamp` or `clamp.roller`.
     pub fn check_rigid(&self, instead: &str) -> Result<(), SceneError> {
         match self {
             Self::Mounted(scene) if !scene.rod.springs().is_rigid() => {
                 Err(scene.source.error("clamp", &format!("{NOT_RIGID}; {instead}")))
             }
+            Self::Guided(scene) => Err(scene.no_roller()),
             _ => Ok(()),
         }
     }

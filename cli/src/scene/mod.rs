@@ -215,6 +215,7 @@ fn parse(file: &Path, text: &str) -> Result<AnyScene, SceneError> {
     match &mut scene {
         AnyScene::Uniform(scene) => scene.warnings.extend(warnings),
         AnyScene::Mounted(scene) => scene.warnings.extend(warnings),
+        AnyScene::Guided(scene) => scene.warnings.extend(warnings),
     }
     Ok(scene)
 }

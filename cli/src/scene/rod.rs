@@ -38,7 +38,10 @@ impl RodFile {
     pub fn uniform(&self, instead: &str) -> Result<Rod, Fault> {
         match (rod_table::uniform(&self.rod, instead)?, &self.clamp) {
             (rod, None) => Ok(rod),
-            (_, Some(clamp)) => Err(Fault::new(clamp.span(), format!("{}; {instead}", rod_table::NOT_RIGID))),
+            (_, Some(clamp)) => Err(match &clamp.get_ref().roller {
+                Some(roller) => Fault::new(roller.span(), rod_table::NO_ROLLER),
+                None => Fault::new(clamp.span(), format!("{}; {instead}", rod_table::NOT_RIGID)),
+            }),
         }
     }
 

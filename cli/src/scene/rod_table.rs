@@ -7,7 +7,7 @@ use crate::toml_file::Fault;
 use std::ops::Range;
 use toml::{Spanned, Value};
 use vibrissa::Rod;
-use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Guided, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
 
 /// What is said where another rod is given than a uniform, straight one.
 pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, expected length with diameter and youngs_modulus, or \
@@ -15,6 +15,10 @@ pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight 
 
 /// What is said where a clamp gives way.
 pub(super) const NOT_RIGID: &str = "a clamp that gives way, expected no table [clamp]";
+
+/// What is said where the rod runs through a roller.
+pub(super) const NO_ROLLER: &str = "a roller ahead of the clamp, which only `sweep`, `contour`, `study` and `simulate` take, expected no \
+     field roller";
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
@@ -69,21 +73,61 @@ fn written(table: Range<usize>, [stiffness, diameter, modulus]: [Option<&Spanned
     }
 }
 
-/// The rod of a table `[rod]`, on the springs of a table `[clamp]`.
-pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<AnyRod, Fault> {
+/// A rod with what holds it.
+pub(super) enum Held {
+    Clamped(AnyRod),
+    Guided(Guided<VaryingRod>),
+}
+
+impl Held {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Clamped(rod) => rod.length(),
+            Self::Guided(rod) => rod.rod().length(),
+        }
+    }
+}
+
+/// The rod of a table `[rod]`, on the springs or through the roller of a table `[clamp]`.
+pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<Held, Fault> {
+    if let Some(roller) = clamp.and_then(|clamp| clamp.get_ref().roller.as_ref()) {
+        return guided(table, clamp, roller).map(Held::Guided);
+    }
     let clamp = springs(clamp)?;
     match alone(table)? {
-        Alone::Uniform(rod) if clamp.is_rigid() => Ok(AnyRod::Uniform(rod)),
+        Alone::Uniform(rod) if clamp.is_rigid() => Ok(Held::Clamped(AnyRod::Uniform(rod))),
+        rod => Ok(Held::Clamped(AnyRod::Mounted(Mounted::new(varying(table, rod)?, clamp)))),
+    }
+}
+
+/// The rod of a table that runs through a roller ahead of its clamp.
+fn guided(
+    table: &Spanned<RodTable>,
+    clamp: Option<&Spanned<ClampTable>>,
+    roller: &Spanned<f64>,
+) -> Result<Guided<VaryingRod>, Fault> {
+    if let Some(ClampTable { stiffness_x, stiffness_y, stiffness_phi, .. }) = clamp.map(Spanned::get_ref)
+        && let Some(stiffness) = [stiffness_x, stiffness_y, stiffness_phi].into_iter().flatten().next()
+    {
+        return Err(Fault::new(stiffness.span(), "given beside roller, expected springs or a roller"));
+    }
+    let rod = varying(table, alone(table)?)?;
+    Guided::new(rod, *roller.get_ref()).map_err(|error| Fault::new(roller.span(), error.to_string()))
+}
+
+/// The rod of a table as one of any kind.
+fn varying(table: &Spanned<RodTable>, rod: Alone) -> Result<VaryingRod, Fault> {
+    match rod {
         Alone::Uniform(rod) => {
             if let Some(stress) = &table.get_ref().yield_stress {
-                let message = "given for a rod whose clamp gives way, expected it with a rigid clamp alone";
+                let message =
+                    "given for a rod whose clamp gives way or has a roller, expected it with a rigid clamp alone";
                 return Err(Fault::new(stress.span(), message));
             }
-            let straight =
-                rod.with_natural_curvature(0.0).map_err(|error| Fault::new(table.span(), error.to_string()))?;
-            Ok(AnyRod::Mounted(Mounted::new(straight, clamp)))
+            rod.with_natural_curvature(0.0).map_err(|error| Fault::new(table.span(), error.to_string()))
         }
-        Alone::Varying(rod) => Ok(AnyRod::Mounted(Mounted::new(rod, clamp))),
+        Alone::Varying(rod) => Ok(rod),
     }
 }
 
@@ -101,7 +145,10 @@ pub(super) fn given(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable
 /// The clamp of a table `[clamp]`, rigid without one.
 pub(super) fn springs(table: Option<&Spanned<ClampTable>>) -> Result<ElasticClamp, Fault> {
     let Some(table) = table else { return Ok(ElasticClamp::default()) };
-    let ClampTable { stiffness_x, stiffness_y, stiffness_phi } = table.get_ref();
+    let ClampTable { stiffness_x, stiffness_y, stiffness_phi, roller } = table.get_ref();
+    if let Some(roller) = roller {
+        return Err(Fault::new(roller.span(), NO_ROLLER));
+    }
     let fields = [("stiffness_x", stiffness_x), ("stiffness_y", stiffness_y), ("stiffness_phi", stiffness_phi)];
     let [x, y, phi] = fields.map(|(_, field)| field.as_ref().map(|field| *field.get_ref()));
     ElasticClamp::springs(x, y, phi).map_err(|error| {

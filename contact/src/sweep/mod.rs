@@ -31,7 +31,7 @@ use crate::state::State;
 use crowd::Crowd;
 use leg::{Leg, legs};
 use rod_contours::Composite;
-use rod_core::{PhysicalRod, Rod};
+use rod_core::{Clamp, PhysicalRod, Rod};
 use rubbing::stopped;
 use std::collections::VecDeque;
 
@@ -279,6 +279,10 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     /// them and have no part in where a step ends.
     fn advance(&mut self) -> Result<(), StopReason> {
         let Some(point) = self.at.take() else {
+            let Setup { world, path, rod } = self.setup();
+            if world.rubs() && rod.clamp(path.at(0.0)).roller().is_some() {
+                return Err(StopReason::RollerFriction);
+            }
             let start = Box::new(match self.given.take() {
                 Some(given) => self.resume(given)?,
                 None => self.begin()?,

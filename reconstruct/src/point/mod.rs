@@ -17,6 +17,8 @@ mod one_sample;
 mod single;
 #[cfg(feature = "std")]
 mod single_general;
+#[cfg(feature = "std")]
+mod through_roller;
 mod touch;
 
 #[cfg(feature = "std")]
@@ -33,4 +35,6 @@ pub use one_sample::{OneSample, one_sample};
 pub use single::{single, single_with_friction};
 #[cfg(feature = "std")]
 pub use single_general::{GeneralError, single_general};
+#[cfg(feature = "std")]
+pub use through_roller::{Estimate, ThroughRoller, beyond_roller, through_roller};
 pub use touch::Touch;

@@ -148,10 +148,10 @@ fn scanned(beyond: &Beyond) -> f64 {
         let here = beyond.tip(force(k)).0.kappa;
         if here * before <= 0.0
             && let Some(f) = beyond.force_of_tip(0.5 * (force(k) + force(k - 1)))
+            && beyond.pushes(f, 0.0)
+            && best.is_none_or(|b| f.abs() < b.abs())
         {
-            if beyond.pushes(f, 0.0) && best.is_none_or(|b| f.abs() < b.abs()) {
-                best = Some(f);
-            }
+            best = Some(f);
         }
         before = here;
     }

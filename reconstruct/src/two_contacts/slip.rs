@@ -9,7 +9,7 @@ use super::part::{Local, Part};
 use super::unknowns::{Unknown, Unknowns};
 use crate::point::Clamp;
 use nalgebra::{DVector, Vector3};
-use rod_core::{Dual, Section};
+use rod_core::Dual;
 
 /// Speed along the rod per way of the clamp, below which matter may stand still: the error of series at their ends. Larger: contacts that
 /// slide slowly are given up.

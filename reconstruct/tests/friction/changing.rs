@@ -13,14 +13,14 @@ const COARSE: f64 = 4e-4;
 /// The samples as an industrial sensor reads them, 2.5 mN and 0.06 mN m for a wire of 100 mm and 6.32e-4 N m^2.
 fn noisy(states: &[State], seed: u64) -> Vec<Sample> {
     let mut noise = Noise::new(seed, 0.0);
-    let mut sample = |state: &State| {
+    let sample = |state: &State| {
         let mut sample = state.sample;
         sample.reactions.f0x += 2.5 / 63.2 * noise.sample();
         sample.reactions.f0y += 2.5 / 63.2 * noise.sample();
         sample.reactions.m0z += 0.06 / 6.32 * noise.sample();
         sample
     };
-    states.iter().map(|state| sample(state)).collect()
+    states.iter().map(sample).collect()
 }
 
 fn found(samples: &[Sample], friction: Friction, budget: Option<Budget>) -> Reconstruction {

@@ -39,7 +39,7 @@ impl Clean {
         let scene = Scene::read(file)?;
         let (mut samples, mut labels, mut transitions) = (Vec::new(), Vec::new(), Vec::new());
         let sweep = Sweep::new(&scene.rod, &scene.objects, scene.path, STEP)?;
-        for item in if friction == 0.0 { sweep } else { sweep.with_friction(friction) } {
+        for item in if friction == 0.0 { sweep } else { sweep.with_friction(friction)? } {
             match item? {
                 Item::State(state) => {
                     let phase = state.phase();
