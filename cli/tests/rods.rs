@@ -167,7 +167,9 @@ fn the_reaction_of_a_roller_is_written() {
     let mut rows = recording.lines();
     assert_eq!(rows.next().unwrap(), "t,x0,y0,phi0,f0x,f0y,m0z,roller");
     let read: Vec<f64> = rows.map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
-    assert!(read.len() == states.len() && read.iter().zip(&states).all(|(r, s)| *r == s.roller.as_ref().unwrap().force));
+    assert!(
+        read.len() == states.len() && read.iter().zip(&states).all(|(r, s)| *r == s.roller.as_ref().unwrap().force)
+    );
     for arguments in [
         ["reconstruct", "out/roller/recording.csv", "--rod", "roller.toml"],
         ["reconstruct", "out/roller/recording.csv", "--rod", "rigid.toml"],
