@@ -301,6 +301,7 @@ fn recording(samples: Samples) -> Recording {
 ///     Too few samples can be used, or an argument is not possible.
 #[pyfunction]
 #[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None))]
+#[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
 pub fn reconstruct(
     py: Python<'_>,
     rod: &PyRod,
@@ -348,6 +349,8 @@ fn friction_of(friction: &Bound<'_, PyAny>) -> PyResult<Friction> {
     match friction.extract::<String>()?.as_str() {
         "estimate" => Ok(Friction::Estimate),
         "none" => Ok(Friction::None),
-        other => Err(errors::value(format!("friction is {other:?}, expected a number, a pair of numbers, \"estimate\" or \"none\""))),
+        other => Err(errors::value(format!(
+            "friction is {other:?}, expected a number, a pair of numbers, \"estimate\" or \"none\""
+        ))),
     }
 }

@@ -342,7 +342,8 @@ impl Judge<'_> {
             let (rest, by_friction) = self.balance(nodes[pair[0]..=pair[1]].iter());
             let (rough, less) = self.balance([&nodes[pair[0]], &nodes[pair[1]]].into_iter());
             (fine, taken) = (fine + rest, taken + by_friction);
-            error = [error[0] + (rest - rough).abs(), error[1] + (by_friction - less).abs()];
+            // next to a fold forces go with a root of the way, and the quadrature loses half of its order
+            error = [error[0] + 2.0 * (rest - rough).abs(), error[1] + 2.0 * (by_friction - less).abs()];
         }
         counts.balanced += 1;
         if fine.abs() > error[0] {

@@ -204,6 +204,14 @@ fn every_motion_obeys_coulomb() {
     assert!(counts.events["stick"] > 2 && counts.events["slip"] > 10, "{counts:?}");
 }
 
+/// A straight rod that turns upon a corner is drawn over it: it cannot stick there, whatever the friction.
+#[test]
+fn a_turning_rod_slips_over_a_corner() {
+    let (counts, wrong) = these(191..192, 0.01);
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(counts.stops.is_empty() && counts.events["first-contact"] == 1 && counts.slips > 20, "{counts:?}");
+}
+
 /// `SEEDS=0..400 cargo test -p vibrissa --test suite friction::random::many -- --ignored --nocapture`; with `EACH=1` the events of each scene.
 #[test]
 #[ignore = "takes minutes"]

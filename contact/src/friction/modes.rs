@@ -199,6 +199,8 @@ impl AllRates {
                     }
                     ratio.signum() * slip <= RATE
                 }
+                // a straight rod cannot stretch: its axial force is not determined, and what the equations give for it is rounding
+                Mode::Sticks if first_contact => false,
                 Mode::Sticks if is_new => friction_rate.abs() <= self.limit[j] * force_rate,
                 Mode::Sticks => {
                     let (limit, friction) = (self.limit[j] * self.force[j], self.friction[j]);
