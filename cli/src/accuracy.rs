@@ -2,7 +2,7 @@
 
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::reconstruction::{budget, read};
-use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, stopped, warn};
+use crate::{UNFINISHED, read_any, read_setup, say, scan_of, signals, stopped, warn};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::Settings;
@@ -10,13 +10,21 @@ use vibrissa_cli::{
     BudgetStudy, Error, OutputError, Recording, RodCalibration, Setup, Staged, read_known_rod, read_noise,
 };
 
+/// What may be done with a rod that `calibrate` does not take.
+const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa reconstruct --rod` takes any \
+     rod, as it is";
+
+/// What may be done with a scene that `budget` does not take.
+const NOT_EXPECTED: &str = "`budget` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa simulate --noise` and `vibrissa \
+     reconstruct --truth` show what noise does to the contacts of any rod";
+
 pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
     let Calibrate { recordings, rod, setup, noise, free, out, moved, written } = arguments;
     signals::end();
     if crate::is_standard(&out) {
         return Err(OutputError::NoFile { file: out }.into());
     }
-    let given = read_known_rod(&rod)?;
+    let given = read_known_rod(&rod, NOT_CALIBRATED)?;
     let setup = setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
     let mut scan = scan_of(&given, rod, moved, setup, written.into())?;
     scan.inputs.extend(recordings.iter().chain(&noise).cloned());
@@ -44,7 +52,7 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
 pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     let Expect { scene, setup, noise, rate, speed, runs, seed, out } = arguments;
     signals::end();
-    let scene = read_scene(&scene)?;
+    let scene = read_any(&scene)?.uniform(NOT_EXPECTED)?;
     scene.check_single_leg()?;
     scene.check_start()?;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(&setup).chain(&noise).cloned().collect();

@@ -2,12 +2,13 @@
 
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
-use crate::values::{degrees, directory, meaning, no_quiet, number, pair, positive, seed};
+use crate::values::{degrees, directory, friction, meaning, no_quiet, number, pair, positive, seed};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
+use vibrissa::reconstruct::Friction;
 use vibrissa_cli::{FakeProtocol, ReadOptions, SensorAddress, StageSpec};
 
 /// Simulates a flexible whisker that is dragged past an object, and reconstructs the object from the forces and the moment at
@@ -234,6 +235,10 @@ pub struct Trust {
     /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recording]
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
+    /// Coulomb friction of rod and object: its coefficient as 0.1, with a standard deviation as 0.1+-0.02, `estimate` to find it from each
+    /// pass of the recording, or `none`
+    #[arg(long, value_name = "MU", value_parser = friction, default_value = "none")]
+    pub friction: Friction,
     /// Most kinks of the reactions to be expected by chance, per scan
     #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     pub false_alarms: Option<f64>,

@@ -7,6 +7,16 @@ use crate::{
 use vibrissa::contact::ContactError;
 use vibrissa::reconstruct::NoiseError;
 
+/// An option that the rod or the scene does not allow.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{option}: {why}")]
+pub struct OptionError {
+    /// Its name, as `--setup`.
+    pub option: &'static str,
+    /// Why, and what is expected instead.
+    pub why: String,
+}
+
 /// Why a command fails.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[non_exhaustive]
@@ -45,6 +55,9 @@ pub enum Error {
     /// The scene that a recording is said to be of.
     #[error(transparent)]
     Truth(#[from] TruthError),
+    /// An option that does not apply.
+    #[error(transparent)]
+    Option(#[from] OptionError),
     /// The accuracy that a scene allows.
     #[error(transparent)]
     Budget(#[from] BudgetError),
@@ -68,6 +81,7 @@ impl Error {
         matches!(
             self,
             Self::Profile(_)
+                | Self::Option(_)
                 | Self::Simulation(_)
                 | Self::Study(StudyError::NoScene { .. })
                 | Self::Fake(FakeError::Pace { .. } | FakeError::NoPty { .. })

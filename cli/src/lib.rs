@@ -36,7 +36,7 @@ mod toml_file;
 pub use budget::{BudgetError, BudgetStudy, Expected};
 pub use calibrate::{CalibrateError, Freed, RodCalibration};
 pub use cycle::Cycle;
-pub use error::Error;
+pub use error::{Error, OptionError};
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;
 pub use init::{FIRST_SCENE, write_first_scene};
@@ -56,7 +56,7 @@ pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transiti
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    AnyRod, AnyScene, KnownRod, Leg, LegPath, Scene, SceneFriction, SceneRod, read_known_rod, read_mounted_rod,
+    AnyRod, AnyScene, GivenRod, KnownRod, Leg, LegPath, Scene, SceneFriction, SceneRod, read_given_rod, read_known_rod,
     read_rod,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};

@@ -119,11 +119,6 @@ fn read_any(file: &Path) -> Result<AnyScene, SceneError> {
     Ok(scene)
 }
 
-/// The same for what takes uniform rods alone.
-fn read_scene(file: &Path) -> Result<Scene, SceneError> {
-    read_any(file)?.uniform()
-}
-
 fn read_setup(file: &Path) -> Result<Setup, SceneError> {
     let setup = Setup::read(file)?;
     setup.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
@@ -134,6 +129,7 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     match read_any(file)? {
         AnyScene::Uniform(scene) => sweep_scene(scene, out),
         AnyScene::Mounted(scene) => sweep_scene(scene, out),
+        AnyScene::Guided(scene) => sweep_scene(scene, out),
     }
 }
 
@@ -168,6 +164,7 @@ fn contour(
     match read_any(file)? {
         AnyScene::Uniform(scene) => contour_of(scene, out, tolerance, object),
         AnyScene::Mounted(scene) => contour_of(scene, out, tolerance, object),
+        AnyScene::Guided(scene) => contour_of(scene, out, tolerance, object),
     }
 }
 
@@ -200,6 +197,7 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
     match read_any(&arguments.scene)? {
         AnyScene::Uniform(scene) => simulate_scene(scene, arguments),
         AnyScene::Mounted(scene) => simulate_scene(scene, arguments),
+        AnyScene::Guided(scene) => simulate_scene(scene, arguments),
     }
 }
 
@@ -236,10 +234,18 @@ fn simulate_scene<R: SceneRod>(scene: Scene<R>, arguments: Simulate) -> Result<E
     })
 }
 
+/// What may be done with a rod that `live` does not take.
+const NOT_LIVE: &str = "`live` answers for a uniform, straight rod on a rigid clamp alone: record what the sensor sends, and give the recording to \
+     `vibrissa reconstruct --rod`, which takes any rod on any clamp";
+
+/// What may be done with a clamp that `fake-sensor` does not take.
+const NOT_PLAYED: &str = "a sensor feels the moment about a point of the support, and the base moves against that: write the reactions at the base by \
+     `vibrissa simulate`, which takes any clamp, and give them to `vibrissa reconstruct`";
+
 fn live(arguments: Live) -> Result<ExitCode, Error> {
     let Live { sensor: address, rod, moved, setup, as_is, out, written } = arguments;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let mut scan = scan_of(&read_known_rod(&rod)?, rod, moved, setup, written.into())?;
+    let mut scan = scan_of(&read_known_rod(&rod, NOT_LIVE)?, rod, moved, setup, written.into())?;
     if as_is {
         (scan.budget, scan.known) = (Budget::NONE, Known::NOTHING);
     }
@@ -259,12 +265,12 @@ fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: Re
     let Moved { stage, path } = moved;
     let told = match (&path, &stage) {
         (Some(scene), _) => {
-            let scene = read_scene(scene)?;
+            let scene = read_any(scene)?;
             scene.check_single_leg()?;
-            Some(scene.path)
+            Some(*scene.path())
         }
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
-        (None, Some(StageSpec::Constant(_))) => read_scene(&file).ok().map(|scene| scene.path),
+        (None, Some(StageSpec::Constant(_))) => read_any(&file).ok().map(|scene| *scene.path()),
         (None, _) => None,
     };
     let table = if let Some(StageSpec::Table(table)) = &stage { Some(table.clone()) } else { None };
@@ -276,16 +282,27 @@ fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: Re
 
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
-    let scene = read_scene(&scene)?;
+    let scene = read_any(&scene)?;
+    scene.check_rigid(NOT_PLAYED)?;
     scene.check_single_leg()?;
     scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let name = scene.name.clone();
-    let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
+    let name = scene.name().to_owned();
     let interrupt = signals::ask().interrupt;
-    let scan = FakeScan { simulation, setup, protocol, faster, port, scaling_port };
-    let Played { samples, sent, stop } = scan.run(&mut |line| say(&format!("{line}\n")), &|| interrupt.is_raised())?;
+    let tell: &mut dyn FnMut(&str) = &mut |line| say(&format!("{line}\n"));
+    let is_over = || interrupt.is_raised();
+    let Played { samples, sent, stop } = match scene {
+        AnyScene::Uniform(scene) => {
+            let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
+            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
+        }
+        AnyScene::Mounted(scene) => {
+            let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
+            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
+        }
+        AnyScene::Guided(scene) => return Err(scene.no_roller().into()),
+    };
     say(&format!("{sent} of {samples} samples sent\n"));
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
 }

@@ -2,30 +2,32 @@
 
 use crate::arguments::{Reconstruct, Trust};
 use crate::progress::stage;
-use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
+use crate::{UNFINISHED, complain, read_any, read_setup, say, scan_of, signals, warn};
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::{Budget, Known};
-use vibrissa::rod::Mounted;
 use vibrissa::{Rod, Settings};
 use vibrissa_cli::{
-    Error, KnownRod, LiveScan, Merged, Reconstructed, Recording, Scene, Setup, Staged, read_mounted_rod, read_noise,
+    AnyScene, Error, GivenRod, KnownRod, LiveScan, Merged, OptionError, Reconstructed, Recording, Setup, Staged,
+    read_given_rod, read_noise,
 };
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let Reconstruct { recordings, rod, truth, out, align, moved, trust, written } = arguments;
     signals::end();
-    let (given, clamp) = read_mounted_rod(&rod)?;
-    let mounted = Mounted::new(given.rod, clamp);
+    let (given, on_clamp) = read_given_rod(&rod)?;
     let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
+    if on_clamp.uniform().is_none() && !trust.as_is {
+        refuse_errors(&setup)?;
+    }
     let settings = settings(&trust, &given, &setup)?;
     let mut scan = scan_of(&given, rod, moved, setup, written.into())?;
     scan.inputs.extend(recordings.iter().chain(&trust.noise).cloned());
     if let Some(file) = &truth {
-        let scene = read_scene(file)?;
+        let scene = read_any(file)?;
         scene.check_single_leg()?;
         scene.check_start()?;
-        scan.inputs.extend(scene.files);
+        scan.inputs.extend(scene.files().iter().cloned());
     }
     if align.is_some() && recordings.len() == 1 {
         warn("warning: --align is for several recordings: it is not used\n");
@@ -33,7 +35,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let mut found = Vec::with_capacity(recordings.len());
     let mut left_out = Vec::new();
     for file in &recordings {
-        match one(file, &scan, &mounted, &settings, truth.as_deref()) {
+        match one(file, &scan, &on_clamp, &settings, truth.as_deref()) {
             Ok(one) => found.push(one),
             Err(error) => left_out.push(error),
         }
@@ -75,26 +77,39 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     Ok(verdict(&found))
 }
 
+/// Refuses the options that say something of errors that all samples share, of which nothing is known for such a rod.
+fn refuse_errors(setup: &Setup) -> Result<(), Error> {
+    if setup.errors.is_none() {
+        return Ok(());
+    }
+    let file = setup.files.first().map(|file| file.display().to_string()).unwrap_or_default();
+    let why = format!(
+        "{file} has the table [errors], but of a rod that is not uniform or not straight at rest errors that all samples share are not \
+         estimated; expected a setup without [errors]"
+    );
+    Err(OptionError { option: "--setup", why }.into())
+}
+
 /// Reads and reconstructs one recording.
 fn one(
     file: &Path,
     scan: &LiveScan,
-    rod: &Mounted<Rod>,
+    rod: &GivenRod,
     settings: &Settings,
     truth: Option<&Path>,
 ) -> Result<Reconstructed, Error> {
     let name = file.display();
     stage(&format!("{name}: reading"));
-    let recording = read(file, scan)?.at_base(rod);
+    let recording = read(file, scan)?;
     stage(&format!("{name}: kinks, phases, errors and contact points of {} samples", recording.samples().count()));
-    let mut found = Reconstructed::new(recording, scan.rod, settings)?;
+    let mut found = Reconstructed::new(recording, rod.clone(), settings)?;
     if !found.check.fits() {
         stage(&format!("{name}: looking for what explains it"));
         found.explain(settings);
     }
     if let Some(scene) = truth {
         stage(&format!("{name}: comparing with the scene"));
-        found.compare(Scene::read(scene)?)?;
+        found.compare(AnyScene::read(scene)?)?;
     }
     Ok(found)
 }
@@ -127,7 +142,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
 
 /// The settings of a reconstruction.
 fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, Error> {
-    let Trust { as_is, noise, false_alarms, largest_sigma, .. } = trust;
+    let Trust { as_is, noise, friction, false_alarms, largest_sigma, .. } = trust;
     let noise = noise.as_deref().map(read_noise).transpose()?;
     let default = Settings::default();
     if *as_is && setup.errors.is_some() {
@@ -139,6 +154,7 @@ fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, 
         largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
         budget: if *as_is { Some(Budget::NONE) } else { budget(setup, &given.rod) },
         known: if *as_is { Known::NOTHING } else { given.known },
+        friction: *friction,
     })
 }
 

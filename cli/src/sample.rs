@@ -35,6 +35,7 @@ pub(crate) fn state(x: f64, phase: &str) -> State {
         pose: pose(x),
         contacts: phase.chars().filter(|_| phase != "free").map(contact).collect(),
         leg: 0,
+        roller: None,
         reactions: Reactions::default(),
         energy: 0.0,
         max_stress: None,

@@ -3,6 +3,7 @@
 use clap::{Arg, ArgAction};
 use std::path::PathBuf;
 use vibrissa::hw::recording::Role;
+use vibrissa::reconstruct::Friction;
 
 /// In place of the global `--quiet` where there is no report: taken, not listed.
 pub fn no_quiet() -> Arg {
@@ -23,6 +24,22 @@ pub fn number(text: &str) -> Result<usize, String> {
 pub fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| "expected a number greater than 0".to_owned())
+}
+
+/// What is known of friction: none, estimate, a coefficient, or a coefficient with its standard deviation.
+pub fn friction(text: &str) -> Result<Friction, String> {
+    let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    match text {
+        "none" => Ok(Friction::None),
+        "estimate" => Ok(Friction::Estimate),
+        _ => {
+            let (mu, sigma) = text.split_once("+-").unwrap_or((text, "0"));
+            let known = number(mu).zip(number(sigma)).map(|(mu, sigma)| Friction::Known { mu, sigma });
+            known.ok_or_else(|| {
+                "expected a coefficient, 0 or larger, as 0.1 or 0.1+-0.02, `estimate` or `none`".to_owned()
+            })
+        }
+    }
 }
 
 /// An angle.

@@ -19,6 +19,7 @@ fn every_scene_can_be_read_and_drawn() {
         let profiles = match AnyScene::read(&file).unwrap_or_else(|error| panic!("{error}")) {
             AnyScene::Uniform(scene) => scene.profiles(None, None),
             AnyScene::Mounted(scene) => scene.profiles(None, None),
+            AnyScene::Guided(scene) => scene.profiles(None, None),
         };
         assert!(!profiles.unwrap().is_empty(), "{}", file.display());
     }

@@ -9,7 +9,7 @@ const SEEDS: u64 = 1;
 /// The nine scans by an industrial sensor, 2.5 mN and 0.06 mN m: what the reconstruction must give.
 #[test]
 fn an_industrial_sensor_gives_kinks_phases_and_both_contacts() {
-    let scans = sweep(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes")), &scans()).unwrap();
+    let scans = sweep(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes")), &scans(), 0.0).unwrap();
     for noise in &NOISES {
         let mut score = Score::default();
         judge(&scans, &LEVELS[1], noise, SEEDS, None, &|| ()).unwrap().into_iter().for_each(|scan| score.merge(scan));

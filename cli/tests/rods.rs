@@ -1,6 +1,6 @@
 //! Scenes whose rod is not uniform or not straight at rest, or whose clamp gives way.
 
-use crate::common::{SCENE, edited, refused_beside, vibrissa};
+use crate::common::{edited, refused_beside, vibrissa};
 use vibrissa_cli::{AnyScene, Scan};
 
 /// The scene with another table `[rod]`.
@@ -52,6 +52,19 @@ fn each_mistake_has_its_place() {
         (format!("{WIRE}[clamp]\nstiffness_x = -4.0\n"), ["clamp.stiffness_x: ", "-4.0, expected a positive number"]),
         (format!("{WIRE}[clamp]\nstiffness_y = nan\n"), ["clamp.stiffness_y: ", "NaN"]),
         (format!("{WIRE}[clamp]\nstiffness = 3\n"), ["clamp.stiffness: ", "expected one of `stiffness_x`"]),
+        (
+            format!("{WIRE}[clamp]\nroller = 0\n"),
+            ["scene.toml:6:10: clamp.roller: ", "is 0.0, expected a number above 0 and below 0.1"],
+        ),
+        (format!("{WIRE}[clamp]\nroller = -0.02\n"), ["clamp.roller: ", "is -0.02, expected"]),
+        (format!("{WIRE}[clamp]\nroller = 0.1\n"), ["clamp.roller: ", "is 0.1, expected"]),
+        (format!("{WIRE}[clamp]\nroller = nan\n"), ["clamp.roller: ", "is NaN, expected"]),
+        (format!("{WIRE}[clamp]\nroller = inf\n"), ["clamp.roller: ", "is inf, expected"]),
+        (format!("{WIRE}[clamp]\nroller = 0.02\nstiffness_x = 3\n"), ["clamp.stiffness_x: ", "springs or a roller"]),
+        (
+            format!("{WIRE}[clamp]\nroller = 0.02\n[contact]\nfriction = 0.2\n"),
+            ["clamp.roller: ", "expected one of the two"],
+        ),
         (
             format!("{WIRE}yield_stress = 1e9\n[clamp]\nstiffness_x = 3\n"),
             ["rod.yield_stress: ", "expected it with a rigid clamp alone"],
@@ -105,6 +118,7 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
     let events = |text: &str| match AnyScene::parse("scene.toml".as_ref(), text).unwrap() {
         AnyScene::Uniform(scene) => Scan::run(scene).unwrap().outcome.events,
         AnyScene::Mounted(scene) => Scan::run(scene).unwrap().outcome.events,
+        AnyScene::Guided(scene) => Scan::run(scene).unwrap().outcome.events,
     };
     let (wire, section) = (events(&wire), events(&section));
     assert_eq!(wire.len(), section.len());
@@ -129,6 +143,41 @@ fn a_clamp_gives_way_by_its_springs() {
     }
 }
 
+/// The reaction of a roller is written where the others are; what cannot take it says so.
+#[test]
+fn the_reaction_of_a_roller_is_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = with_rod(&format!("{WIRE}[clamp]\nroller = 0.02\n"));
+    std::fs::write(dir.path().join("roller.toml"), &scene).unwrap();
+    std::fs::write(dir.path().join("rigid.toml"), with_rod(WIRE)).unwrap();
+    assert!(vibrissa(dir.path(), &["sweep", "roller.toml"]).status.success());
+    let written = |name: &str| std::fs::read_to_string(dir.path().join("out/roller").join(name)).unwrap();
+    let header = written("states.csv").lines().next().unwrap().to_owned();
+    assert!(header.ends_with(",leg,roller,roller_s"), "{header}");
+    let AnyScene::Guided(scene) = AnyScene::parse("roller.toml".as_ref(), &scene).unwrap() else { panic!("no roller") };
+    let states = Scan::run(scene).unwrap().outcome.states;
+    assert!(states.iter().any(|state| state.roller.as_ref().unwrap().force.abs() > 1.0));
+    for (line, state) in written("states.jsonl").lines().zip(&states) {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        assert_eq!(line["roller"].as_f64().unwrap(), state.roller.as_ref().unwrap().force);
+    }
+    // a recording: one sample every millimetre, as the states are
+    assert!(vibrissa(dir.path(), &["simulate", "roller.toml", "--rate", "1", "--speed", "1e-3"]).status.success());
+    let recording = written("recording.csv");
+    let mut rows = recording.lines();
+    assert_eq!(rows.next().unwrap(), "t,x0,y0,phi0,f0x,f0y,m0z,roller");
+    let read: Vec<f64> = rows.map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert!(read.len() > 150 && read.iter().zip(&states).all(|(r, s)| *r == s.roller.as_ref().unwrap().force));
+    for arguments in [
+        ["reconstruct", "out/roller/recording.csv", "--rod", "roller.toml"],
+        ["reconstruct", "out/roller/recording.csv", "--rod", "rigid.toml"],
+    ] {
+        let refused = vibrissa(dir.path(), &arguments);
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert!(!refused.status.success() && said.contains("roller ahead of the clamp"), "{said}");
+    }
+}
+
 /// What was felt on a clamp that gives way is reconstructed with the springs of the file of the rod.
 #[test]
 fn a_scan_on_springs_is_reconstructed() {
@@ -149,26 +198,192 @@ fn a_scan_on_springs_is_reconstructed() {
     assert!(!of("rigid.toml").contains(&wanted));
 }
 
+/// A scan of O1 by a rod of any kind: how the wire of the paper is written instead.
+const O1: &str = "[[contour.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0\n\
+                  [[contour.piece]]\nshape = \"parabola\"\nvertex = [0.03, 0.0]\ncoefficient = 50.0\n\
+                  [sweep]\nfrom = [0.08, -0.04]\nto = [-0.09, -0.04]\nangle = 90.0\nstep = 5e-5\n";
+
+/// One line of points.jsonl beside the state in which it was felt.
+struct Answer {
+    label: String,
+    truth: String,
+    /// Distance (m) of a point of one contact from the true contact, and its standard deviation across the contour.
+    off: Option<(f64, f64)>,
+}
+
+/// What `vibrissa simulate` and `vibrissa reconstruct` make of a scan of O1, beside a sweep, with report.json and what was said.
+fn there_and_back(rod: &str, noise: Option<&str>) -> (Vec<Answer>, serde_json::Value, String) {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = format!("[rod]\n{rod}{O1}");
+    std::fs::write(dir.path().join("scene.toml"), &scene).unwrap();
+    std::fs::write(dir.path().join("noise.toml"), noise.unwrap_or_default()).unwrap();
+    let said = |arguments: &[&str]| {
+        let output = vibrissa(dir.path(), arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let simulate =
+        ["simulate", "scene.toml", "--rate", "200", "--speed", "0.01", "--noise", "noise.toml", "--out", "felt.csv"];
+    said(&simulate);
+    let with_noise = ["--noise", "noise.toml"];
+    let told: &[&str] = if noise.is_none() { &with_noise } else { &[] };
+    let reconstruct = ["reconstruct", "felt.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "found"];
+    let text = said(&[&reconstruct, told].concat());
+    for file in ["points.jsonl", "contour.csv", "report.json", "contour.svg", "phases.svg"] {
+        assert!(dir.path().join("found").join(file).metadata().unwrap().len() > 100, "{file}");
+    }
+    let read = |file: &str| std::fs::read_to_string(dir.path().join("found").join(file)).unwrap();
+    let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), &scene).unwrap() else { panic!("uniform") };
+    let mut states = Scan::run(scene).unwrap().outcome.states.into_iter().peekable();
+    let several = |label: &str| if label.len() == 2 { "several".to_owned() } else { label.to_owned() };
+    let answer = |line: &str| {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        let number = |name: &str| line[name].as_f64();
+        // the sensor feels what the rod carries at its pose
+        let state = std::iter::from_fn(|| states.next())
+            .find(|state| (state.pose.x - number("x0").unwrap()).abs() < 1e-9)
+            .expect("each sample has its state");
+        let touch = number("x").zip(number("y")).filter(|_| state.contacts.len() == 1);
+        let off = touch.map(|(x, y)| {
+            let contact = state.contacts[0];
+            let [sx, sy] = ["sigma_x", "sigma_y"].map(|name| number(name).unwrap());
+            ((x - contact.x).hypot(y - contact.y), sx.hypot(sy))
+        });
+        Answer { label: several(line["label"].as_str().unwrap()), truth: several(&state.phase().to_string()), off }
+    };
+    let answers = read("points.jsonl").lines().map(answer).collect();
+    (answers, serde_json::from_str(&read("report.json")).unwrap(), text)
+}
+
+const CONE: &str = "length = 0.1\ndiameter = 0.5e-3\ntip_diameter = 0.1e-3\nyoungs_modulus = 206e9\n";
+const CURVED: &str = "length = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\nnatural_curvature = 5.0\n";
+
+/// What was felt with a rod that is not uniform, or not straight at rest, is reconstructed by the command, and compared with the truth.
 #[test]
-fn other_commands_refuse_it() {
-    let soft = with_rod(&format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"));
-    let scenes = [(with_rod(TWO), "not uniform or not straight at rest"), (soft, "clamp: a clamp that gives way")];
-    for (scene, why) in scenes {
-        refuse(&scene, why);
+fn a_scan_of_any_rod_is_reconstructed() {
+    for rod in [CONE, CURVED] {
+        let (answers, report, text) = there_and_back(rod, None);
+        let wrong = answers.iter().filter(|answer| answer.label != answer.truth).count();
+        let points: Vec<f64> = answers.iter().filter_map(|answer| answer.off).map(|off| off.0).collect();
+        let worst = points.iter().copied().fold(0.0, f64::max);
+        let several = answers.iter().filter(|answer| answer.truth == "several").count();
+        println!(
+            "{} samples, {wrong} labels wrong, {several} several, {} points within {worst:.1e} m",
+            answers.len(),
+            points.len()
+        );
+        assert!(wrong == 0 && several > 20 && points.len() > 1500 && worst < 1e-10, "{text}");
+        // the command says the same of itself
+        let truth = &report["truth"];
+        assert_eq!(truth["accuracy"].as_f64(), Some(1.0), "{text}");
+        assert!(truth["single"]["largest"].as_f64().unwrap() < 1e-10);
+        assert_eq!(truth["single"]["points"].as_u64(), Some(points.len() as u64));
+        assert_eq!(report["rod"]["uniform"].as_bool(), Some(false));
+        assert!(report["calibration"].is_null() && report["physics"]["explained"].is_null());
+        for part in ["which of BA and BB it is", "contact points of samples with several contacts", "bias"] {
+            assert!(text.contains(part) && report["missing"].as_str().unwrap().contains(part), "{part}: {text}");
+        }
+        assert!(text.contains("BA counts as BB") && text.contains("accuracy 100 %"), "{text}");
     }
 }
 
-fn refuse(scene: &str, why: &str) {
-    assert!(scene != SCENE);
+/// The same of a sensor with noise.
+#[test]
+fn a_noisy_scan_of_a_cone_is_reconstructed() {
+    let (answers, report, text) = there_and_back(CONE, Some("white = { force = 1e-4, m0z = 3e-6 }\n"));
+    let wrong = answers.iter().filter(|answer| answer.label != answer.truth).count();
+    let points: Vec<(f64, f64)> = answers.iter().filter_map(|answer| answer.off).collect();
+    let far = points.iter().filter(|(off, sigma)| *off > 6.0 * sigma + 1e-8).count();
+    println!("{} samples, {wrong} labels wrong, {} points, {far} of them beyond 6 sigma", answers.len(), points.len());
+    assert!(100 * wrong < 2 * answers.len() && points.len() > 1400 && 100 * far < points.len(), "{text}");
+    assert!(report["truth"]["accuracy"].as_f64().unwrap() > 0.98);
+    assert!(points.iter().any(|(off, _)| *off > 1e-8), "there is noise");
+}
+
+/// What says something of errors that all samples share is refused by name; what describes the recording or its noise is not.
+#[test]
+fn options_that_do_not_apply_to_such_rods_are_refused() {
     let dir = tempfile::tempdir().unwrap();
-    std::fs::write(dir.path().join("scene.toml"), scene).unwrap();
-    for arguments in [
-        &["live", "--sensor", "file:nowhere", "--rod", "scene.toml"][..],
-        &["fake-sensor", "scene.toml", "--protocol", "rdt"],
-        &["budget", "scene.toml"],
-    ] {
-        let output = vibrissa(dir.path(), arguments);
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!output.status.success() && message.contains(why), "{message}");
+    let write = |file: &str, text: &str| std::fs::write(dir.path().join(file), text).unwrap();
+    write("scene.toml", &format!("[rod]\n{CONE}{O1}"));
+    write("known.toml", &format!("[rod]\n{CONE}[calibration]\nstiffness = {{ value = 0.0, sigma = 0.01 }}\n"));
+    write("errors.toml", "[errors]\nclamp_angle = 1.0\n");
+    write("sensor.toml", "[tare]\nseconds = 0\n");
+    write("felt.csv", "x0,y0,phi0,f0x,f0y,m0z\n0,0,1.5,0,0,0\n");
+    let message = |arguments: &[&str]| {
+        let output = vibrissa(dir.path(), &[&["reconstruct", "felt.csv", "--out", "found"], arguments].concat());
+        assert!(!output.status.success() && !dir.path().join("found").exists());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let said = message(&["--rod", "scene.toml", "--setup", "errors.toml"]);
+    assert!(said.starts_with("error: --setup: errors.toml has the table [errors], but of a rod"), "{said}");
+    let said = message(&["--rod", "known.toml"]);
+    assert!(said.starts_with("error: known.toml:6:1: calibration: given for a rod that is not uniform"), "{said}");
+    let said = message(&["--rod", "scene.toml", "--setup", "sensor.toml"]);
+    assert!(said.contains("felt.csv: ") && said.contains("expected at least"), "{said}");
+}
+
+/// The poses of the files are those of the support, and a scan on springs is compared with its scene.
+#[test]
+fn a_scan_on_springs_is_compared_with_its_scene() {
+    let springs = "[clamp]\nstiffness_x = 400\nstiffness_y = 300\nstiffness_phi = 0.13\n";
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("soft.toml"), format!("[rod]\n{WIRE}{springs}{O1}")).unwrap();
+    let run = |arguments: &[&str]| assert!(vibrissa(dir.path(), arguments).status.success());
+    run(&["simulate", "soft.toml", "--rate", "200", "--speed", "0.01", "--out", "felt.csv"]);
+    let reconstruct =
+        ["reconstruct", "felt.csv", "--rod", "soft.toml", "--truth", "soft.toml", "--as-is", "--out", "found"];
+    run(&reconstruct);
+    let report = std::fs::read_to_string(dir.path().join("found/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let truth = &report["truth"];
+    println!("{truth:#}");
+    assert_eq!((truth["off_path"].as_u64(), truth["accuracy"].as_f64()), (Some(0), Some(1.0)));
+    let points = std::fs::read_to_string(dir.path().join("found/points.jsonl")).unwrap();
+    let felt = std::fs::read_to_string(dir.path().join("felt.csv")).unwrap();
+    for (line, row) in points.lines().zip(felt.lines().skip(1)) {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        let row: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let off = ["x0", "y0", "phi0"].iter().zip(&row[1..]).map(|(name, value)| line[*name].as_f64().unwrap() - value);
+        assert!(off.map(f64::abs).fold(0.0, f64::max) < 1e-14, "{line} {row:?}");
+    }
+}
+
+/// What takes a uniform rod on a rigid clamp alone names the field, and says what to use instead.
+#[test]
+fn other_commands_refuse_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let write = |file: &str, scene: &str| std::fs::write(dir.path().join(file), scene).unwrap();
+    write("rod.toml", &with_rod(TWO));
+    write("clamp.toml", &with_rod(&format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n")));
+    let parts = [
+        ("rod", "rod.toml:1:1: rod: a rod that is not uniform or not straight at rest, expected length with diameter"),
+        ("clamp", "clamp.toml:5:1: clamp: a clamp that gives way, expected no table [clamp]"),
+    ];
+    for (name, why) in parts {
+        let file = format!("{name}.toml");
+        for (arguments, instead) in [
+            (
+                &["live", "--sensor", "file:nowhere", "--rod", &file][..],
+                "`vibrissa reconstruct --rod`, which takes any rod",
+            ),
+            (
+                &["calibrate", "nowhere.csv", "--rod", &file, "--out", "o.toml"],
+                "`vibrissa reconstruct --rod` takes any rod",
+            ),
+            (&["budget", &file], "`vibrissa simulate --noise` and `vibrissa reconstruct --truth` show"),
+            (
+                &["fake-sensor", &file, "--protocol", "rdt", "--rate", "-1"],
+                "by `vibrissa simulate`, which takes any clamp",
+            ),
+        ] {
+            let output = vibrissa(dir.path(), arguments);
+            let message = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(!output.status.success());
+            // a sensor is played with any rod on a rigid clamp: the next mistake is told
+            let refused = arguments[0] != "fake-sensor" || name == "clamp";
+            let expected: &[&str] = if refused { &[why, instead] } else { &["--rate is -1"] };
+            assert!(expected.iter().all(|part| message.contains(part)), "{expected:?} is not in: {message}");
+        }
     }
 }

@@ -88,6 +88,9 @@ pub enum ContactError {
         /// Condition number of the equations.
         condition: f64,
     },
+    /// A rod that runs through a roller, of which there are no derivatives by quantities.
+    #[error("there are no derivatives of a rod that runs through a roller, expected a rod on a clamp without one")]
+    Roller,
     /// Derivatives of a state in which a contact sticks.
     #[error(
         "contact {index} sticks: where it is depends on how it came there, so that it has no derivatives; \
@@ -133,6 +136,16 @@ pub enum ContactError {
         /// Number of legs of the path.
         legs: usize,
     },
+    /// A coefficient of friction that cannot be, or one of an object that there is not.
+    #[error("object {object} has the coefficient of friction {value}, expected {expected}")]
+    Friction {
+        /// Number of the object, from 0.
+        object: usize,
+        /// The coefficient as given.
+        value: f64,
+        /// What was expected of it.
+        expected: String,
+    },
     /// The distance between reported states is no distance, or so small that the path has more than 1e15 of them.
     #[error("step is {value:?}, expected a positive, finite length, not below 1e-15 of the path")]
     Step {
@@ -172,6 +185,10 @@ pub enum StopReason {
     BetweenObjects,
     /// The clamp itself runs into the object, or is inside it in the first pose.
     ClampInside,
+    /// The rod comes upon an object between its clamp and the roller ahead of that, or a contact slides to there.
+    BeforeRoller,
+    /// The objects have friction, and the rod runs through a roller: this is not computed.
+    RollerFriction,
     /// More events at one pose than a rod can have.
     Chatter,
     /// The pose to go to has a number that is not finite, or an angle beyond [`LARGEST_ANGLE`].
@@ -241,6 +258,8 @@ impl std::fmt::Display for StopReason {
             Self::LineContact => "line-contact",
             Self::BetweenObjects => "between-objects",
             Self::ClampInside => "clamp-inside",
+            Self::BeforeRoller => "before-roller",
+            Self::RollerFriction => "roller-friction",
             Self::Chatter => "chatter",
             Self::NoPose => "no-pose",
             Self::Jammed => "jammed",
@@ -277,6 +296,12 @@ impl std::fmt::Display for Stop {
                 "the clamp is inside an object in the first pose; start with the clamp outside of all objects"
             }
             StopReason::ClampInside => "the clamp itself runs into the object; end the path before it",
+            StopReason::BeforeRoller => {
+                "the rod comes upon an object between the clamp and its roller; end the path before it, or put the roller nearer to the clamp"
+            }
+            StopReason::RollerFriction => {
+                "the friction of a rod that runs through a roller is not computed; take away the friction or the roller"
+            }
             StopReason::NoPose => {
                 "the pose to go to has a number that is not finite, or an angle beyond 100 rad; give m, m and rad"
             }

@@ -108,6 +108,22 @@ impl Contact {
     }
 }
 
+/// Where the rod runs through the roller ahead of its clamp, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RollerContact {
+    /// Arc length along the rod, m.
+    pub s: f64,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Slope angle of the rod there, radians: the force on the rod is force (sin alpha, -cos alpha).
+    pub alpha: f64,
+    /// The reaction R of the roller, N, of either sign.
+    pub force: f64,
+}
+
 /// Bounds of the smallest gap between the whole rod and all objects, m. About zero wherever there is a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -163,11 +179,15 @@ pub struct State {
     /// The leg of the path, from 0 ([`Chain`](crate::Chain)).
     #[cfg_attr(feature = "serde", serde(default))]
     pub leg: usize,
-    /// What the clamp feels: forces on the rod at its base, and the moment about the base.
+    /// What the clamp feels: forces on the rod at its base, and the moment about the base. What a roller feels is not in them.
     pub reactions: Reactions,
+    /// The roller ahead of the clamp; none without one ([`Guided`](rod_core::Guided)).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub roller: Option<Box<RollerContact>>,
     /// Bending energy, and that of a clamp that gives way, J.
     pub energy: f64,
-    /// Largest bending stress, Pa; none where the rod's diameter is not known.
+    /// Largest bending stress at the surface, E d |kappa - kappa0| / 2, Pa; none where the diameter d of the rod, or of one of its sections, is
+    /// not known ([`PhysicalRod::largest_stress`]).
     pub max_stress: Option<f64>,
     /// How well it holds.
     pub certificate: Certificate,
@@ -185,7 +205,10 @@ impl State {
     /// # Errors
     /// [`RodError`] where the state's numbers are not those of a rod as long as `rod`.
     pub fn elastica<R: PhysicalRod>(&self, rod: &R) -> Result<Elastica<R::Model>, RodError> {
-        let loads: Vec<_> = self.contacts.iter().map(Contact::load).collect();
+        let of_roller =
+            self.roller.as_deref().map(|roller| Load { s: roller.s, force: roller.force, alpha: roller.alpha });
+        let of_contacts = self.contacts.iter().map(Contact::load);
+        let loads: Vec<_> = of_roller.into_iter().chain(of_contacts).collect();
         let base = rod.base(self.pose, &self.reactions);
         Elastica::of_rod(rod.model().clone(), rod.units(), base, self.reactions.m0z, &loads)
     }

@@ -104,7 +104,7 @@ pub fn rubbing<'a, R: PhysicalRod>(
     friction: Option<&SceneFriction>,
 ) -> Result<Sweep<'a, R>, ContactError> {
     match friction {
-        Some(friction) => Ok(sweep.with_friction(friction.clone())),
+        Some(friction) => sweep.with_friction(friction.clone()),
         None => Ok(sweep),
     }
 }

@@ -14,8 +14,8 @@ use pyo3::types::PyTuple;
 use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
-use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Reading, Source, SourceEstimate, TraceRow};
-use vibrissa::{Label, Settings};
+use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Friction, Reading, Source, SourceEstimate, TraceRow};
+use vibrissa::{Label, Sample, Settings};
 use vibrissa_cli::{Reconstructed, Recording};
 
 const TRACE: &[Column<TraceRow>] = &[
@@ -59,6 +59,7 @@ fn name(source: Source) -> String {
 /// A reconstruction: a phase and contact points for each sample, and the contour.
 #[pyclass(frozen, name = "Reconstruction", module = "vibrissa")]
 pub struct PyReconstruction {
+    rod: PyRod,
     found: Reconstructed,
     settings: Settings,
     readings: PyOnceLock<Py<PyAny>>,
@@ -70,13 +71,15 @@ impl PyReconstruction {
     /// The rod that was assumed.
     #[getter]
     fn rod(&self) -> PyRod {
-        PyRod::of_rod(self.found.rod)
+        self.rod.clone()
     }
 
     /// The samples, as the fields of ``Recording.samples``.
     #[getter]
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        structured(py, SAMPLE, self.found.samples.iter())
+        let given = |(number, sample): (usize, &Sample)| Sample { pose: self.found.pose(number), ..*sample };
+        let samples: Vec<Sample> = self.found.samples.iter().enumerate().map(given).collect();
+        structured(py, SAMPLE, samples.iter())
     }
 
     /// The answers as a structured array, one row for each sample.
@@ -169,12 +172,11 @@ impl PyReconstruction {
     /// Returns
     /// -------
     /// list of tuple
-    ///     Explanations in words with their likelihoods, which add up to 1, the likeliest first; empty where everything fits.
+    ///     Explanations in words with their likelihoods, which add up to 1, the likeliest first; empty where everything fits, and of a rod
+    ///     that is not uniform or not straight at rest.
     fn explain(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
         let Reconstructed { rod, samples, check, .. } = &self.found;
-        if check.fits() {
-            return Ok(Vec::new());
-        }
+        let Some(rod) = rod.uniform().filter(|_| !check.fits()) else { return Ok(Vec::new()) };
         let tried =
             running::run(py, || vibrissa::reconstruct::explanations(rod, samples, &self.settings, &check.findings))?;
         Ok(tried.into_iter().map(|(what, share)| (what.to_string(), share)).collect())
@@ -224,7 +226,7 @@ impl PyReconstruction {
 
 impl PyReconstruction {
     fn answers(&self) -> Vec<Answer> {
-        let (samples, found) = (&self.found.samples, &self.found.found);
+        let found = &self.found.found;
         let mut last: Option<(&Evidence, Label, Basis)> = None;
         let mut basis = |number: usize, label: Label| {
             let evidence = found.evidence(number)?;
@@ -235,7 +237,7 @@ impl PyReconstruction {
             Some(basis)
         };
         let answer = |(number, reading): (usize, &Reading)| Answer {
-            pose: samples[number].pose,
+            pose: self.found.pose(number),
             reading: Some(*reading),
             basis: basis(number, reading.label),
         };
@@ -270,7 +272,8 @@ fn recording(samples: Samples) -> Recording {
 /// Parameters
 /// ----------
 /// rod : Rod
-///     The rod.
+///     The rod, on any clamp. For a rod that is not uniform or not straight at rest BA and BB are not told apart, their contact points are
+///     not computed, and samples and rod are taken for exact, as with ``as_is``.
 /// samples : Recording or table
 ///     A recording; or a table with the columns ``x0``, ``y0`` (m), ``phi0`` (rad), ``f0x``, ``f0y`` (N), ``m0z`` (N m), perhaps ``t``
 ///     (s) and ``sigma_f0x``, ``sigma_f0y``, ``sigma_m0z``: a structured array (``Scan.states``), a data frame, a mapping; or an array
@@ -284,6 +287,9 @@ fn recording(samples: Samples) -> Recording {
 /// as_is : bool, optional
 ///     Take samples and rod for exact. Otherwise errors that all samples share (bias, gain, angles and so on, as large as in an
 ///     ordinary laboratory) are estimated and taken off.
+/// friction : float, tuple of two floats or str, optional
+///     Coulomb friction of rod and object: its coefficient, the coefficient and its standard deviation, or "estimate". Without it there
+///     is none.
 ///
 /// Returns
 /// -------
@@ -294,7 +300,8 @@ fn recording(samples: Samples) -> Recording {
 /// ValueError
 ///     Too few samples can be used, or an argument is not possible.
 #[pyfunction]
-#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false))]
+#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None))]
+#[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
 pub fn reconstruct(
     py: Python<'_>,
     rod: &PyRod,
@@ -303,6 +310,7 @@ pub fn reconstruct(
     false_alarms: Option<f64>,
     largest_sigma: Option<f64>,
     as_is: bool,
+    friction: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyReconstruction> {
     let default = Settings::default();
     let settings = Settings {
@@ -311,13 +319,14 @@ pub fn reconstruct(
         largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
         budget: as_is.then_some(Budget::NONE),
         known: default.known,
+        friction: friction.map_or(Ok(default.friction), friction_of)?,
     };
     let recording = match samples.downcast::<PyRecording>() {
         Ok(recording) => recording.get().recording.clone(),
         Err(_) => recording(samples.extract()?),
     };
-    let mounted = rod.uniform_mounted()?;
-    let reconstructed = || Reconstructed::new(recording.at_base(&mounted), *mounted.rod(), &settings);
+    let given = rod.given()?;
+    let reconstructed = || Reconstructed::new(recording, given, &settings);
     let found = running::run(py, reconstructed)?.map_err(errors::value)?;
     if !found.check.fits() {
         let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();
@@ -325,5 +334,23 @@ pub fn reconstruct(
         let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }
-    Ok(PyReconstruction { found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
+    let rod = rod.clone();
+    Ok(PyReconstruction { rod, found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
+}
+
+/// What is known of friction, from a coefficient, a coefficient with its standard deviation, or a word.
+fn friction_of(friction: &Bound<'_, PyAny>) -> PyResult<Friction> {
+    if let Ok(mu) = friction.extract::<f64>() {
+        return Ok(Friction::Known { mu, sigma: 0.0 });
+    }
+    if let Ok((mu, sigma)) = friction.extract::<(f64, f64)>() {
+        return Ok(Friction::Known { mu, sigma });
+    }
+    match friction.extract::<String>()?.as_str() {
+        "estimate" => Ok(Friction::Estimate),
+        "none" => Ok(Friction::None),
+        other => Err(errors::value(format!(
+            "friction is {other:?}, expected a number, a pair of numbers, \"estimate\" or \"none\""
+        ))),
+    }
 }

@@ -11,7 +11,7 @@ use pyo3::types::IntoPyDict;
 use toml::{Table, Value};
 use vibrissa::Rod;
 use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodSection, VaryingRod};
-use vibrissa_cli::AnyRod;
+use vibrissa_cli::{AnyRod, GivenRod};
 
 /// Something that is computed for a rod of either kind.
 macro_rules! for_rod {
@@ -236,8 +236,8 @@ fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
 ///
 /// Notes
 /// -----
-/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``simulate``, ``single`` and studies take any rod. ``Recording``,
-/// ``reconstruct`` and ``Live`` take uniform rods that are straight at rest, on any clamp.
+/// ``sweep``, ``Scene``, ``Follower``, ``equilibrium``, ``Derivatives``, ``simulate``, ``single``, ``Recording``,
+/// ``reconstruct`` and studies take any rod. ``Live`` takes uniform rods that are straight at rest, on any clamp.
 ///
 /// Examples
 /// --------
@@ -272,20 +272,6 @@ impl PartialEq for PyRod {
 }
 
 impl PyRod {
-    /// A uniform rod.
-    pub fn of_rod(rod: Rod) -> Self {
-        Self {
-            length: rod.length(),
-            stiffness: [Some(rod.bending_stiffness()), None, None],
-            tip_diameter: None,
-            natural_curvature: None,
-            sections: Vec::new(),
-            yield_stress: rod.yield_stress(),
-            clamp: None,
-            rod: AnyRod::Uniform(rod),
-        }
-    }
-
     /// The rod of the tables `[rod]` and `[clamp]`.
     pub fn of_tables(tables: &Table) -> PyResult<Self> {
         let none = Table::new();
@@ -336,6 +322,16 @@ impl PyRod {
         }
     }
 
+    /// The rod on its clamp for recordings of it.
+    pub fn given(&self) -> PyResult<GivenRod> {
+        match &self.rod {
+            AnyRod::Mounted(mounted) if self.varying()?.is_some() => {
+                GivenRod::varying(mounted.clone()).map_err(errors::value)
+            }
+            _ => Ok(self.uniform_mounted()?.into()),
+        }
+    }
+
     fn varying(&self) -> PyResult<Option<VaryingRod>> {
         let Self { length, stiffness, tip_diameter, ref natural_curvature, ref sections, .. } = *self;
         let [_, diameter, modulus] = stiffness;
@@ -350,8 +346,14 @@ impl PyRod {
                     "natural_curvature is given beside that of a section, expected one of the two",
                 ));
             }
+            let diameters: Option<Vec<f64>> = sections.iter().map(|section| section.diameter).collect();
             let sections: Vec<_> = sections.iter().map(PySection::section).collect();
-            return Rod::sections(length, &sections).map(Some).map_err(errors::value);
+            let rod = Rod::sections(length, &sections);
+            let rod = match diameters {
+                Some(diameters) => rod.and_then(|rod| rod.with_section_diameters(&diameters)),
+                None => rod,
+            };
+            return rod.map(Some).map_err(errors::value);
         }
         let rod = stiff(length, stiffness)?;
         match (tip_diameter, diameter.zip(modulus)) {

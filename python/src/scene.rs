@@ -60,6 +60,9 @@ impl PyScene {
         match scene {
             AnyScene::Uniform(scene) => Self::of_scene(py, scene, text, directory),
             AnyScene::Mounted(scene) => Self::of_scene(py, scene, text, directory),
+            AnyScene::Guided(_) => Err(errors::value(
+                "clamp.roller is a roller ahead of the clamp, which is not known in Python, expected no field roller",
+            )),
         }
     }
 

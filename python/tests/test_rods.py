@@ -93,16 +93,31 @@ class TestAnyRod:
         fits = points["fits"]
         np.testing.assert_allclose(np.hypot(points["x"][fits], points["y"][fits] - 0.06), 0.02, atol=1e-11)
 
-    def test_recordings_are_of_uniform_rods(self, rod: vibrissa.Rod) -> None:
+    def test_recordings_are_reconstructed(self, rod: vibrissa.Rod) -> None:
         scan = vibrissa.sweep(rod, DISC, PATH, 1e-3)
         felt = vibrissa.simulate(vibrissa.Scene(rod, DISC, PATH, 1e-3), rate=10.0, speed=0.01)
         for field in ("x0", "f0x", "f0y", "m0z"):
             np.testing.assert_array_equal(felt[field], scan.states[field][: len(felt)])
         if rod is SOFT:
             return
-        for refused in (lambda: vibrissa.reconstruct(rod, scan.states), lambda: vibrissa.Live(rod, scan.states)):
-            with pytest.raises(ValueError, match="rod is Rod.*expected a uniform, straight one"):
-                refused()
+        with pytest.raises(ValueError, match="rod is Rod.*expected a uniform, straight one"):
+            vibrissa.Live(rod, scan.states)
+        dense = vibrissa.sweep(rod, DISC, PATH, 5e-5)
+        found = vibrissa.reconstruct(rod, dense.states)
+        kinds = {"BA": "several", "BB": "several"}
+        labels, phases = ([kinds.get(one, one) for one in many] for many in (found.readings["label"], dense.states["phase"]))
+        assert np.mean(np.array(labels) == np.array(phases)) > 0.99 and len(found.calibration) == 0
+        np.testing.assert_array_equal(found.readings["x0"], dense.states["x0"])
+        single = np.isin(found.readings["label"], ["A", "B"]) & np.isfinite(found.readings["x"])
+        distance = np.hypot(found.readings["x"][single], found.readings["y"][single] - 0.06)
+        # where the reactions change fast, exact ones look noisy, and points have standard deviations
+        sigma = np.hypot(found.readings["sigma_x"][single], found.readings["sigma_y"][single])
+        off = np.abs(distance - 0.02)
+        assert single.sum() > 500 and np.all(off < 1e-12 + 3.0 * sigma) and np.median(off) < 1e-12 and off.max() < 1e-7
+
+    def test_the_stress_is_known_where_the_diameter_is(self, rod: vibrissa.Rod) -> None:
+        known = np.isfinite(vibrissa.sweep(rod, DISC, PATH, 1e-3).states["max_stress"])
+        assert known.all() if rod in (TAPERED, MEASURED, TAPERED_SOFT) else not known.any()
 
 
 def test_scans_of_a_clamp_on_springs_are_reconstructed() -> None:

@@ -516,6 +516,7 @@ def reconstruct(
     false_alarms: float | None = None,
     largest_sigma: float | None = None,
     as_is: bool = False,
+    friction: float | tuple[float, float] | str | None = None,
 ) -> Reconstruction: ...
 def sweep(
     rod: Rod,

@@ -16,7 +16,7 @@ use rod_contours::{Composite, Contour, StretchKind};
 /// use rod_reconstruct::{nalgebra::Matrix3, single};
 /// let (rod, object) = (Rod::new(0.1, 6.3e-4)?, Composite::single(Parabola::new([0.0, 0.0], 50.0)?)?); // m, N m^2; m, 1/m
 /// let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
-/// let rough = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.06, x: 0.025, y: 0.03, alpha: 1.2, force: 0.06 };
+/// let rough = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.06, x: 0.025, y: 0.03, alpha: 1.2, force: 0.06, friction: None };
 /// let felt = equilibrium(&rod, &object, clamp(0.01), &[rough])?.state.reactions;
 ///
 /// // from the reactions to the contact, and from there to the reactions at the next pose

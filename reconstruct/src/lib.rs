@@ -2,6 +2,8 @@
 //!
 //! - [`single`]: the contact point of one contact from one [`Sample`] (pose of the clamp and reactions), in closed form, and
 //!   [`one_sample`] for any rod, with the kind of contact; [`single_general`] through any integrator. [`NoContact`]: why there is none.
+//!   [`through_roller`]: the same of a rod that runs through a roller ahead of its clamp, with a check of stiffness and gain;
+//!   [`beyond_roller`]: the sample without the roller.
 //! - [`reconstruct`]: a whole scan. Each sample gets its [`Label`] and its contacts ([`Touch`]), both of them where there are two,
 //!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
 //! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them; [`reconstruct_general`] for
@@ -27,6 +29,8 @@ mod contour;
 #[cfg(feature = "contact")]
 mod forward;
 #[cfg(feature = "std")]
+mod friction;
+#[cfg(feature = "std")]
 pub mod kink;
 #[cfg(feature = "std")]
 mod merge;
@@ -50,11 +54,13 @@ mod two_contacts;
 pub use nalgebra;
 
 #[cfg(feature = "std")]
-pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibility};
+pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibility, plausibility_with_friction};
 #[cfg(feature = "std")]
 pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
+#[cfg(feature = "std")]
+pub use friction::{Friction, FrictionEstimate, Pair, without_friction};
 #[cfg(feature = "std")]
 pub use merge::{Comparison, Disagreement, Offset, align, merge};
 pub use numeric::Number;
@@ -67,8 +73,10 @@ pub use pipeline::{
     explanations, reconstruct, reconstruct_general, reconstruct_passes,
 };
 #[cfg(feature = "std")]
-pub use point::{GeneralError, OneSample, one_sample, single_general};
-pub use point::{NoContact, Touch, single};
+pub use point::{
+    Estimate, GeneralError, OneSample, ThroughRoller, beyond_roller, one_sample, single_general, through_roller,
+};
+pub use point::{NoContact, Touch, single, single_with_friction};
 pub use rod_core::Sample;
 #[cfg(feature = "std")]
 pub use scan::{FEWEST_SAMPLES, Fault, Halt, Travel, noise_estimate, passes};

@@ -4,6 +4,7 @@
 mod clean;
 mod common;
 mod free_rod;
+mod friction;
 mod kink_filter;
 mod kinks;
 mod kinks_of_the_paper;

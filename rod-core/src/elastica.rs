@@ -160,6 +160,11 @@ impl<M: RodModel> Elastica<M> {
         loaded.fold(free, f64::max) * self.units.curvature
     }
 
+    /// The segments, the last one beyond the last load.
+    pub(crate) fn segments(&self) -> &[Segment<Cut>] {
+        &self.segments
+    }
+
     /// Every segment under load with the arc length and the cut where it ends: the start of the next.
     fn loaded(&self) -> impl Iterator<Item = (&Segment<Cut>, f64, &Cut)> {
         self.segments.iter().zip(&self.segments[1..]).map(|(segment, next)| (segment, next.s, &next.start))

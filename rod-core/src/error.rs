@@ -52,6 +52,14 @@ pub enum RodError {
         /// Length of the rod.
         most: f64,
     },
+    /// Diameters for another number of sections than the rod has.
+    #[error("diameters are given for {given} sections, expected one for each of the {sections} sections of the rod")]
+    SectionDiameters {
+        /// How many are given.
+        given: usize,
+        /// How many sections the rod has.
+        sections: usize,
+    },
     /// A quantity of a section of a rod is not what a rod can have.
     #[error("{what} of section {index} is {value}, expected {expected}")]
     Section {
@@ -81,6 +89,14 @@ pub enum RodError {
         value: f64,
         /// What it should be.
         expected: &'static str,
+    },
+    /// A roller that is not between the clamp and the tip.
+    #[error("clamp.roller is {value:?}, expected a number above 0 and below {length:?}, the length of the rod")]
+    Roller {
+        /// Arc length from the clamp as given.
+        value: f64,
+        /// The length of the rod.
+        length: f64,
     },
     /// The bending stiffness of a rod is not a positive, finite number somewhere.
     #[error("stiffness is {value} at arc length {s}, expected a positive, finite number")]

@@ -86,11 +86,13 @@ fn halved(speed: &impl Fn(f64) -> f64, from: f64, to: f64, whole: f64, halvings:
     let middle = 0.5 * (from + to);
     let [left, right] = [gauss(speed, from, middle), gauss(speed, middle, to)];
     let both = left + right;
+    let off = (both - whole).abs() > CONVERGED * both.abs();
     // what is not finite stays so
-    if halvings == 0 || !((both - whole).abs() > CONVERGED * both.abs()) {
-        return both;
+    if off && halvings > 0 {
+        halved(speed, from, middle, left, halvings - 1) + halved(speed, middle, to, right, halvings - 1)
+    } else {
+        both
     }
-    halved(speed, from, middle, left, halvings - 1) + halved(speed, middle, to, right, halvings - 1)
 }
 
 fn gauss(speed: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {

@@ -80,7 +80,7 @@ pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
 pub use brent::{Root, find_root};
 #[cfg(feature = "std")]
-pub use clamp::{Clamp, ClampLaw, Elastic, ElasticClamp, Mounted, Pivot};
+pub use clamp::{Clamp, ClampLaw, Elastic, ElasticClamp, Guided, Mounted, Pivot, Roller, RollerClamp, RollerHold};
 pub use dual::Dual;
 #[cfg(feature = "std")]
 pub use elastica::Elastica;

@@ -5,11 +5,10 @@
 
 mod bend;
 
-use crate::clamp::{Clamp, ClampLaw, product};
+use crate::clamp::{Clamp, ClampLaw, Passage, product};
 use crate::linear::{invert, multiply};
 use crate::model::{CutSensitivities, RodModel};
-use crate::multipoint::{Hold, MultiPoint, Node, Supports, reactions};
-use crate::newton::System;
+use crate::multipoint::{Hold, MultiPoint, Node, Supports, friction_size, natural_sizes, reactions};
 use crate::pose::{Pose, Reactions};
 use crate::propagator::Cut;
 use smallvec::SmallVec;
@@ -93,6 +92,8 @@ pub struct Linearisation {
     // On the heap: what is this large and moved costs more to copy than to allocate.
     /// How the base gives way.
     law: Option<Box<ClampLaw>>,
+    /// How the rod runs through the roller of its clamp.
+    passage: Option<Box<Passage>>,
     held: Vec<Held>,
     residual: Vector,
     jacobian: Vec<f64>,
@@ -136,7 +137,8 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// The problem to first order about the solution `u`: one Jacobian, one inverse.
     pub fn linearise(&self, u: &[f64]) -> Linearisation {
         let nodes = self.nodes(u);
-        let (count, size) = (nodes.len(), self.dimension());
+        // one more unknown for each that sticks
+        let (count, size) = (nodes.len(), u.len());
         let mut residual = Vector::from_elem(0.0, size);
         let mut jacobian = vec![0.0; size * size];
         let mut held = Vec::with_capacity(count);
@@ -150,13 +152,13 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             });
         }
         self.sticking_equations(&nodes, u, &mut residual, &mut jacobian, size);
-        let mut weights = Vector::from_elem(0.0, size);
-        self.weights(u, &mut weights);
+        let mut weights: Vector = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
+        weights.extend(u[3 * count..].iter().map(|friction| friction_size(*friction)));
         let mut inverse = vec![0.0; size * size];
         let regular = invert(size, &jacobian, &mut inverse);
         let (base, law) = (self.base_of(&nodes), self.clamp.law().map(Box::new));
-        let mut linear =
-            Linearisation { base, law, held, residual, jacobian, inverse, condition: f64::INFINITY, weights };
+        let (passage, condition) = (self.passage(&nodes).map(Box::new), f64::INFINITY);
+        let mut linear = Linearisation { base, law, passage, held, residual, jacobian, inverse, condition, weights };
         if regular {
             linear.condition = weighted_condition(&linear.jacobian, &linear.inverse, &linear.weights);
         }
@@ -188,8 +190,11 @@ impl Linearisation {
     }
 
     /// The change of the equilibrium per unit of a change of the compliance of the clamp ([`ClampLaw`]; of a rigid one, from 0), with
-    /// clamp and supports at rest. None where the Jacobian has no inverse.
+    /// clamp and supports at rest. None where the Jacobian has no inverse, and for a clamp with a roller.
     pub fn response_to_compliance(&self, change: &[[f64; 3]; 3]) -> Option<Response> {
+        if self.passage.is_some() {
+            return None;
+        }
         let first = self.held.first()?;
         let mut rows = product(change, &reactions(&first.node, &self.base));
         if self.law.as_ref().is_some_and(|law| law.torque.is_some()) {
@@ -252,6 +257,11 @@ impl Linearisation {
 
     /// The change of the reactions where the base moves like this.
     fn reactions_of(&self, first: &NodeRate, x: f64, y: f64) -> Reactions {
+        if let Some(passage) = &self.passage {
+            let NodeRate { contact, a, b, moment } = first;
+            let [a, b, moment] = passage.felt([contact.phi, *moment, *a, *b, contact.s]);
+            return Reactions { f0x: -b, f0y: a, m0z: -moment };
+        }
         let (node, moves) = (&self.held[0].node, first.contact);
         let (dx, dy) = (self.base.x - node.at.x, self.base.y - node.at.y);
         let moment = first.moment + first.a * dx + node.a * (x - moves.x) + first.b * dy + node.b * (y - moves.y);

@@ -19,10 +19,12 @@
 //! Where the rod slips f_t is a given part of f. Where it sticks or rolls f_t is one more unknown, and one more equation holds: the contact
 //! goes as far along the curve as along the rod. These unknowns and equations follow those of all supports, in their order.
 //!
+//! A roller ahead of the clamp is in the way of segment 0 alone: its two unknowns are eliminated there ([`Roller`](crate::Roller)).
+//!
 //! A clamp that gives way ([`ClampLaw`]) changes the three equations of segment 0. The moment in them is that at the end of the segment,
 //! which is the base of the rod: m0z has the lever of the displaced base.
 
-use crate::clamp::{Clamp, ClampLaw};
+use crate::clamp::{Clamp, ClampLaw, Passage, RollerHold};
 use crate::elastica::Elastica;
 use crate::grip::{Grip, arc_length};
 use crate::model::{CutSensitivities, RodModel, Uniform, uniform};
@@ -153,6 +155,12 @@ pub(crate) fn natural_sizes(at: &Support, force: f64) -> [f64; 3] {
     [at.speed + at.turning.abs(), 0.25 / (1.0 + force.abs()), 1.0]
 }
 
+/// Weight of the tangential force of a contact that sticks: that of a normal force.
+#[inline(always)]
+pub(crate) fn friction_size(friction: f64) -> f64 {
+    0.25 / (1.0 + friction.abs())
+}
+
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
@@ -201,7 +209,10 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             None => {
                 for j in 0..nodes.len() {
                     let (node, s) = (&nodes[j], self.s_before(&nodes, j));
-                    let end = self.rod.carry(node.s, &node.cut(), node.a, node.b, s - node.s);
+                    let end = match self.clamp.roller() {
+                        Some(_) if j == 0 => through_roller(self.passage(&nodes)).0,
+                        _ => self.rod.carry(node.s, &node.cut(), node.a, node.b, s - node.s),
+                    };
                     self.residual_of(&nodes, j, &end, residual);
                 }
                 if u.len() > 3 * nodes.len() {
@@ -248,7 +259,10 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     ) -> CutSensitivities {
         let node = &nodes[j];
         let length = self.s_before(nodes, j) - node.s;
-        let (end, d) = self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length);
+        let (end, d) = match self.clamp.roller() {
+            Some(_) if j == 0 => through_roller(self.passage(nodes)),
+            _ => self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length),
+        };
         self.residual_of(nodes, j, &end, residual);
         let mut put = |column: usize, v: [f64; 3]| matrix[column * stride + 3 * j..][..3].copy_from_slice(&v);
         let three = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
@@ -298,6 +312,20 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             give_way(&law, nodes, &end, matrix, stride);
         }
         d
+    }
+
+    /// How the rod comes from its first contact through the roller of its clamp. None without a roller or a contact, and where it does not
+    /// run through the roller.
+    pub(crate) fn passage(&self, nodes: &Nodes) -> Option<Passage> {
+        let (roller, first) = (self.clamp.roller()?, nodes.first()?);
+        roller.pass(&self.rod, self.clamp.pose(), (first.s, &first.cut()), [first.a, first.b])
+    }
+
+    /// The rod at the roller of its clamp. None without one, and where the rod that the unknowns define does not run through it.
+    pub fn roller(&self, u: &[f64]) -> Option<RollerHold> {
+        let nodes = self.nodes(u);
+        let roller = self.clamp.roller()?;
+        if nodes.is_empty() { Some(roller.at_rest(self.clamp.pose())) } else { Some(self.passage(&nodes)?.hold) }
     }
 
     /// The supports that stick, in order.
@@ -352,7 +380,10 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                 let node = &nodes[j];
                 let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
                 let length = self.s_before(nodes, j) - node.s;
-                let (end, d) = self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length);
+                let (end, d) = match self.clamp.roller() {
+                    Some(_) if j == 0 => through_roller(self.passage(nodes)),
+                    _ => self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length),
+                };
                 let by_moment = dx * sin - dy * cos;
                 for (i, row) in rows.iter_mut().enumerate() {
                     *row = cos * d.by_b[i] - sin * d.by_a[i] + by_moment * d.by_moment[i];
@@ -388,6 +419,9 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         match (nodes.first(), self.clamp.law()) {
             (None, Some(ClampLaw { torque: Some(torque), .. })) => Cut { x, y, phi: f64::NAN, moment: -torque },
             (None, _) => Cut { x, y, phi, moment: 0.0 },
+            (Some(_), None) if self.clamp.roller().is_some() => {
+                Cut { x, y, phi, moment: through_roller(self.passage(nodes)).0.moment }
+            }
             (Some(first), None) => {
                 let moment = first.moment + first.a * (x - first.at.x) + first.b * (y - first.at.y);
                 Cut { x, y, phi, moment }
@@ -396,10 +430,15 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         }
     }
 
-    /// The segments from the clamp to the last support, and the rod beyond that, which is free of force and moment.
+    /// The segments from the clamp to the last support, and the rod beyond that, which is free of force and moment. A roller, where a
+    /// contact holds the rod, parts the first one in two.
     pub fn cuts(&self, u: &[f64], mut visit: impl FnMut(Segment<Cut>)) {
         let nodes = self.nodes(u);
         let (mut s, mut start) = (0.0, self.base_of(&nodes));
+        if let Some(Passage { hold: RollerHold { s: roller, at, .. }, force: [a, b], .. }) = self.passage(&nodes) {
+            visit(Segment { s, start, a, b });
+            (s, start) = (roller, at);
+        }
         for node in &nodes {
             visit(Segment { s, start, a: node.a, b: node.b });
             (s, start) = (node.s, node.cut());
@@ -451,8 +490,7 @@ impl<S: Supports + ?Sized, C: Clamp> MultiPoint<'_, S, Uniform, C> {
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M, C> {
     fn dimension(&self) -> usize {
-        let n = self.supports.count();
-        3 * n + (0..n).filter(|j| self.supports.grip(*j).sticks()).count()
+        3 * self.supports.count() + self.sticking().count()
     }
 
     fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
@@ -466,9 +504,17 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
             w.copy_from_slice(&natural_sizes(&self.supports.support(j, u[3 * j]), u[3 * j + 1]));
         }
         for (w, friction) in of_sticking.iter_mut().zip(&u[of_all.len()..]) {
-            *w = 0.25 / (1.0 + friction.abs());
+            *w = friction_size(*friction);
         }
     }
+}
+
+/// The base of the rod beyond a roller, with its derivatives; NaN where the rod does not run through that.
+fn through_roller(passage: Option<Passage>) -> (Cut, CutSensitivities) {
+    let no = [f64::NAN; 4];
+    let none = Cut { x: f64::NAN, y: f64::NAN, phi: f64::NAN, moment: f64::NAN };
+    let unknown = CutSensitivities { by_phi: no, by_moment: no, by_a: no, by_b: no, by_from: no, by_to: no };
+    passage.map_or((none, unknown), |passage| (passage.base, passage.sensitivities))
 }
 
 /// What the clamp feels where the first segment ends.

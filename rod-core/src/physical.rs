@@ -1,6 +1,7 @@
 //! A rod in SI units, and the model that computes it.
 
 use crate::clamp::Clamp;
+use crate::elastica::Elastica;
 use crate::model::{RodModel, Uniform};
 use crate::pose::{Pose, Reactions};
 use crate::rod::Rod;
@@ -55,8 +56,9 @@ pub trait PhysicalRod: Clone {
         None
     }
 
-    /// Bending stress (Pa) where the curvature is `kappa` (1/m); none where the thickness is not known.
-    fn bending_stress(&self, _kappa: f64) -> Option<f64> {
+    /// The largest bending stress (Pa) at the surface of this rod, bent to `shape`: E d |kappa - kappa0| / 2, none where the diameter d is
+    /// not known.
+    fn largest_stress<M: RodModel>(&self, _shape: &Elastica<M>) -> Option<f64> {
         None
     }
 }
@@ -109,8 +111,9 @@ impl PhysicalRod for Rod {
         (parameter == RodParameter::NaturalCurvature).then(|| self.length())
     }
 
-    fn bending_stress(&self, kappa: f64) -> Option<f64> {
-        Self::bending_stress(self, kappa)
+    fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
+        self.diameter()?;
+        self.bending_stress(shape.largest_curvature())
     }
 }
 
@@ -132,5 +135,9 @@ impl PhysicalRod for VaryingRod {
 
     fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
         Self::curvature_rate(self, parameter, s, moment)
+    }
+
+    fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
+        Self::largest_stress(self, shape)
     }
 }

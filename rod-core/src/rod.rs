@@ -105,6 +105,11 @@ impl<T: Scalar> Rod<T> {
         self.bending_stiffness
     }
 
+    /// Diameter, m, where it was given.
+    pub fn diameter(&self) -> Option<T> {
+        self.wire.map(|wire| wire.diameter)
+    }
+
     /// Yield stress, Pa, where it was given.
     pub fn yield_stress(&self) -> Option<T> {
         self.yield_stress

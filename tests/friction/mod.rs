@@ -1,3 +1,8 @@
 //! Sweeps with Coulomb friction.
 
+mod hard;
+mod judge;
+mod laws;
+mod limits;
+mod random;
 mod scans;

@@ -51,7 +51,8 @@ fn known_name(value: &Value) -> String {
 fn a_scan() {
     let (file, object) = (file("forward_mu0.1.json"), o1());
     let path = ClampPath::new(at(1.0), at(-1.0)).unwrap();
-    let outcome = Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &object, path, 0.05).unwrap().with_friction(0.1).run();
+    let outcome =
+        Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &object, path, 0.05).unwrap().with_friction(0.1).unwrap().run();
     assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
     let events = file["events"].as_array().unwrap();
     assert_eq!(outcome.events.len(), events.len());
@@ -85,7 +86,8 @@ fn a_scan() {
 fn energy_is_balanced() {
     let (file, object) = (file("forward_mu0.1.json"), o1());
     let path = ClampPath::new(at(1.0), at(-1.0)).unwrap();
-    let outcome = Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &object, path, 1.0).unwrap().with_friction(0.1).run();
+    let outcome =
+        Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &object, path, 1.0).unwrap().with_friction(0.1).unwrap().run();
     let balance = file["energy_balance"].as_array().unwrap();
     for (pair, known) in outcome.events.windows(2).zip(balance) {
         let energy = pair[1].before.energy - pair[0].after.energy;
@@ -111,7 +113,7 @@ fn there_and_back(x_r: f64) -> Outcome {
     let there = ClampPath::new(at(1.0), at(x_r)).unwrap();
     let back = ClampPath::new(at(x_r), at(x_r + 0.1)).unwrap();
     let path = Chain::new(vec![std::sync::Arc::new(there) as _, std::sync::Arc::new(back) as _]).unwrap();
-    Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &object, path, 5e-4).unwrap().with_friction(0.1).run()
+    Sweep::new(&Rod::new(1.0, 1.0).unwrap(), &object, path, 5e-4).unwrap().with_friction(0.1).unwrap().run()
 }
 
 #[test]

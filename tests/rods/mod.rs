@@ -5,4 +5,7 @@ mod inversion;
 mod parameters;
 mod random;
 mod restarts;
+mod roller;
 pub mod scans;
+mod stress;
+mod through_roller;

@@ -1,8 +1,8 @@
 //! Random rods past random discs, judged by an integrator of its own: DOP853 along E I(s) and kappa0(s), written down here once more.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use vibrissa::contact::ContactKind;
-use vibrissa::rod::{Cut, ElasticClamp, Method, Mounted, Ode, Pose, Propagator, RodSection, VaryingRod};
+use vibrissa::contact::{ContactKind, RollerContact};
+use vibrissa::rod::{Cut, ElasticClamp, Guided, Method, Mounted, Ode, Pose, Propagator, RodSection, VaryingRod};
 use vibrissa::{CircularArc, ClampPath, Composite, Rod, State, Sweep};
 
 /// Points of a segment at which the gap is measured.
@@ -105,9 +105,11 @@ fn judge(
     let (mut a, mut b, mut from) = (state.reactions.f0y, -state.reactions.f0x, 0.0);
     let scale = 1.0 + state.contacts.iter().map(|contact| contact.force).sum::<f64>();
     let mut least = f64::INFINITY;
-    let ends = state.contacts.iter().map(Some).chain([None]);
-    for contact in ends {
-        let to = contact.map_or(1.0, |contact| contact.s);
+    // a roller is judged on its own; here it is a force across the rod
+    let roller = state.roller.as_ref().map(|roller| Some((roller.s, None)));
+    let ends = state.contacts.iter().map(|contact| Some((contact.s, Some(contact))));
+    for end in roller.into_iter().chain(ends).chain([None]) {
+        let to = end.map_or(1.0, |(s, _)| s);
         // in small steps, none of them over a jump
         let mut stops: Vec<f64> = (1..=SAMPLES).map(|k| from + (to - from) * k as f64 / SAMPLES as f64).collect();
         stops.extend(jumps.iter().filter(|jump| (from..to).contains(*jump)));
@@ -122,7 +124,12 @@ fn judge(
                 least = least.min((cut.x - x).hypot(cut.y - y) - radius);
             }
         }
-        let Some(contact) = contact else { break };
+        let Some((_, contact)) = end else { break };
+        let Some(contact) = contact else {
+            let force = state.roller.as_ref().map_or(0.0, |roller| roller.force);
+            (a, b, from) = (a - force * cut.phi.cos(), b - force * cut.phi.sin(), to);
+            continue;
+        };
         let off = (cut.x - contact.x).hypot(cut.y - contact.y);
         if off > ERROR * scale {
             return Err(format!("misses a contact by {off:e}"));
@@ -148,8 +155,46 @@ fn judge(
     Ok(())
 }
 
-/// Scenes with such seeds, their clamps rigid or on springs: how many states and events were judged, what was wrong, and why sweeps stopped.
-fn these(seeds: std::ops::Range<u64>, springs: bool) -> (usize, usize, Vec<String>, Vec<String>) {
+/// Whether the rod, bent by what the clamp feels, runs through the roller, which is where the rod at rest is `distance` from the clamp.
+fn judge_roller(
+    state: &State,
+    at: &RollerContact,
+    (stiffness, natural, jumps): (&Function, &Function, &[f64]),
+    distance: f64,
+) -> Result<(), String> {
+    let ode = Ode::with_law(|s, m| m / stiffness(s) + natural(s), Method::Dop853, 1e-12).unwrap();
+    let walked = |moment: f64, a: f64, b: f64, to: f64| {
+        let mut cut = Cut { x: state.pose.x, y: state.pose.y, phi: state.pose.phi, moment };
+        let mut from = 0.0;
+        for stop in jumps.iter().copied().filter(|jump| *jump < to).chain([to]) {
+            let inside = 1e-13 * f64::from(u8::from(from > 0.0));
+            cut = ode.advance(from + inside, &cut, a, b, stop - from - inside).unwrap();
+            from = stop;
+        }
+        cut
+    };
+    let (rest, bent) = (
+        walked(0.0, 0.0, 0.0, distance),
+        walked(-state.reactions.m0z, state.reactions.f0y, -state.reactions.f0x, at.s),
+    );
+    let off = (rest.x - bent.x).hypot(rest.y - bent.y).max((at.x - rest.x).hypot(at.y - rest.y));
+    let scale = 1.0 + at.force.abs();
+    if off > ERROR * scale || (bent.phi - at.alpha).abs() > ERROR * scale {
+        return Err(format!("misses the roller by {off:e}, {:e} rad", bent.phi - at.alpha));
+    }
+    Ok(())
+}
+
+/// What holds the rods.
+#[derive(Clone, Copy, PartialEq)]
+enum Clamp {
+    Rigid,
+    Springs,
+    Roller,
+}
+
+/// Scenes with such seeds, their clamps of one kind: how many states and events were judged, what was wrong, and why sweeps stopped.
+fn these(seeds: std::ops::Range<u64>, clamp: Clamp) -> (usize, usize, Vec<String>, Vec<String>) {
     let (mut states, mut events, mut wrong, mut stops) = (0, 0, Vec::new(), Vec::new());
     for seed in seeds {
         let mut numbers = Numbers(seed);
@@ -172,23 +217,34 @@ fn these(seeds: std::ops::Range<u64>, springs: bool) -> (usize, usize, Vec<Strin
         let lean = numbers.within(-0.4, 0.4);
         let at = |x: f64| Pose { x, y: 0.0, phi: FRAC_PI_2 + lean };
         let path = ClampPath::new(at(1.6 * sign), at(-1.6 * sign)).unwrap();
-        let compliance = if springs { compliance(&mut numbers) } else { [[0.0; 3]; 3] };
-        let outcome = if springs {
-            let clamp = ElasticClamp::stiffness(inverse(compliance)).unwrap();
-            Sweep::new(&Mounted::new(rod, clamp), &objects, path, 0.05).unwrap().run()
-        } else {
-            Sweep::new(&rod, &objects, path, 0.05).unwrap().run()
+        let compliance = if clamp == Clamp::Springs { compliance(&mut numbers) } else { [[0.0; 3]; 3] };
+        let roller = numbers.within(0.03, 0.3);
+        let outcome = match clamp {
+            Clamp::Springs => {
+                let clamp = ElasticClamp::stiffness(inverse(compliance)).unwrap();
+                Sweep::new(&Mounted::new(rod, clamp), &objects, path, 0.05).unwrap().run()
+            }
+            Clamp::Rigid => Sweep::new(&rod, &objects, path, 0.05).unwrap().run(),
+            Clamp::Roller => Sweep::new(&Guided::new(rod, roller).unwrap(), &objects, path, 0.05).unwrap().run(),
         };
         let at_events = outcome.events.iter().flat_map(|event| [&event.before, &event.after]);
         for state in outcome.states.iter().chain(at_events) {
-            if let Err(what) = judge(state, &compliance, (&stiffness, &natural, &jumps), &discs) {
+            let law = (&stiffness, &natural, &jumps[..]);
+            assert_eq!(state.roller.is_some(), clamp == Clamp::Roller);
+            let through = state.roller.as_deref().map_or(Ok(()), |at| judge_roller(state, at, law, roller));
+            if let Err(what) = through.and_then(|()| judge(state, &compliance, law, &discs)) {
                 wrong.push(format!("{seed}: {what} in {} at {:?}", state.phase(), state.pose));
             }
         }
         states += outcome.states.len();
         events += outcome.events.len();
         if let Some(stop) = outcome.stop {
-            stops.push(format!("{seed}: {stop}"));
+            let last = outcome.states.last();
+            let (s, through) = (
+                last.map(|last| last.contacts.iter().map(|c| (c.s, c.force)).collect::<Vec<_>>()),
+                last.and_then(|last| last.roller.clone()),
+            );
+            stops.push(format!("{seed}: {stop}, after contacts {s:?}, roller {through:?}"));
         }
     }
     (states, events, wrong, stops)
@@ -196,22 +252,32 @@ fn these(seeds: std::ops::Range<u64>, springs: bool) -> (usize, usize, Vec<Strin
 
 #[test]
 fn every_state_is_an_equilibrium() {
-    for springs in [false, true] {
-        let (states, events, wrong, stops) = these(0..60, springs);
+    for clamp in [Clamp::Rigid, Clamp::Springs, Clamp::Roller] {
+        let (states, events, wrong, mut stops) = these(0..60, clamp);
         assert!(states > 3000 && events > 150, "{states} {events}");
         assert!(wrong.is_empty(), "{wrong:#?}");
+        // with a roller a disc may come between it and the clamp
+        stops.retain(|stop| !stop.contains("between the clamp and its roller"));
         assert!(stops.len() <= 1, "{stops:#?}");
     }
 }
 
+/// `ROLLER=1` in place of `SPRINGS=1` puts a roller ahead of the clamp.
 /// `SEEDS=0..2000 SPRINGS=1 cargo test -p vibrissa --test suite rods::random::many -- --ignored --nocapture`
 #[test]
 #[ignore = "takes minutes"]
 fn many() {
     let seeds = std::env::var("SEEDS").unwrap_or_else(|_| "0..2000".into());
     let (from, to) = seeds.split_once("..").unwrap();
-    let springs = std::env::var("SPRINGS").is_ok();
-    let (states, events, wrong, stops) = these(from.parse().unwrap()..to.parse().unwrap(), springs);
+    let asked = |what: &str| std::env::var(what).is_ok();
+    let clamp = if asked("ROLLER") {
+        Clamp::Roller
+    } else if asked("SPRINGS") {
+        Clamp::Springs
+    } else {
+        Clamp::Rigid
+    };
+    let (states, events, wrong, stops) = these(from.parse().unwrap()..to.parse().unwrap(), clamp);
     println!("{states} states, {events} events, wrong {}: {wrong:#?}", wrong.len());
     println!("stopped {}: {stops:#?}", stops.len());
     assert!(wrong.is_empty());

@@ -17,6 +17,7 @@ from scipy.integrate import solve_bvp, solve_ivp
 from scipy.optimize import fsolve
 
 import vibrissa
+from mujoco_cable import Cable
 
 MOVED = 1e-3
 # A point is repeated until this has passed, seconds, and at least so often.
@@ -198,7 +199,7 @@ def main():
     for phase, name in (("A", "cone-a-parabola"), ("B", "cone-b-parabola")):
         problem, ours = Problem(folder / f"{name}.json"), None
         x, y, phi = problem.clamp
-        for solver in (Vibrissa(), Collocation(), Shooting(), Nodes()):
+        for solver in (Vibrissa(), Collocation(), Shooting(), Nodes(), Cable()):
             for setting in solver.settings:
                 beside = solver.solve(problem, (x + MOVED, y, phi), solver.first(problem, setting), setting)
                 start = beside[:3] if isinstance(beside, tuple) else beside

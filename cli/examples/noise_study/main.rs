@@ -22,6 +22,9 @@ struct Arguments {
     /// Only these levels: clean, 0.2mN, 2.5mN, 10mN.
     #[arg(long, num_args = 1.., value_parser = ["clean", "0.2mN", "2.5mN", "10mN"])]
     level: Vec<String>,
+    /// Coefficient of friction of rod and objects; it is estimated from each recording, unless it is 0.
+    #[arg(long, default_value_t = 0.0)]
+    friction: f64,
     /// Only these scans: O1_q20 and so on.
     #[arg(long, num_args = 1..)]
     scan: Vec<String>,
@@ -40,7 +43,7 @@ fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
     let names = if arguments.scan.is_empty() { study::scans() } else { arguments.scan.clone() };
     let wanted = |level: &Level| arguments.level.is_empty() || arguments.level.iter().any(|only| only == level.name);
-    let scans = study::sweep(&arguments.scenes, &names)?;
+    let scans = study::sweep(&arguments.scenes, &names, arguments.friction)?;
     let keep = arguments.write.as_deref().map(Recordings::new).transpose()?;
 
     let noisy = LEVELS.iter().flat_map(|level| NOISES.iter().map(move |noise| (level, noise)));
@@ -69,6 +72,9 @@ fn main() -> Outcome<()> {
     }
     println!("{} scans, {} seeds\n", scans.len(), arguments.seeds);
     println!("{}", study::tables(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
+    if arguments.friction != 0.0 {
+        println!("{}", study::frictions(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
+    }
     println!("Least changes of slope that stand out by 5 standard deviations, forces in mN/mm / moment in mN m/mm:\n");
     println!("{}", study::limits(noisy.iter().copied()));
     println!(

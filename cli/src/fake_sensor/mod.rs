@@ -2,13 +2,14 @@
 
 mod pty;
 
-use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
+use crate::{Error, SceneRod, SensorCalibration, Setup, Simulation, Tick};
 use pty::play_pty;
 use rod_fake_sensor::{FakeBota, FakeGsv8, FakeRdt, FakeRdtSettings};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
+use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::hw::device::rdt::{RdtRecord, RdtScaling};
 use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit};
@@ -32,9 +33,9 @@ pub enum FakeProtocol {
 
 /// A sensor to be played.
 #[derive(Debug)]
-pub struct FakeScan {
-    /// What it feels, and at which rate it is asked.
-    pub simulation: Simulation,
+pub struct FakeScan<R = Rod> {
+    /// What it feels, and at which rate it is asked. The clamp is rigid: on springs the base would move against the sensor.
+    pub simulation: Simulation<R>,
     /// How it is mounted, and what its counts are.
     pub setup: Setup,
     /// What it speaks.
@@ -95,7 +96,7 @@ pub enum FakeError {
 /// One million counts a unit, as ATI's devices are delivered.
 const COUNTS: f64 = 1e6;
 
-impl FakeScan {
+impl<R: SceneRod + Send + 'static> FakeScan<R> {
     /// Makes the first 4096 samples, then plays until all samples are sent or `stopped` says so; a sensor that waits to be started waits. `tell` is handed lines to
     /// show, the first of them the address.
     ///
@@ -163,8 +164,8 @@ fn unit(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
 }
 
 /// Makes the channels of all samples, in order, and closes `begun` once [`AHEAD`] or all are made. How many, and why no more.
-fn make(
-    simulation: &Simulation,
+fn make<R: SceneRod>(
+    simulation: &Simulation<R>,
     setup: &Setup,
     scale: Scale,
     sender: &SyncSender<[f64; 6]>,
@@ -216,4 +217,38 @@ fn play_rdt(
         thread::sleep(LOOK);
     }
     Ok(fake.account().records)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AnyScene;
+    use vibrissa::reconstruct::NoiseModel;
+
+    /// A rod that tapers is felt as `simulate` says.
+    #[test]
+    fn a_cone_is_played() {
+        let scene = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\ntip_diameter = 0.2e-3\nyoungs_modulus = 206e9\n\
+                     [[contour.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0\n\
+                     [sweep]\nfrom = [0.06, -0.04]\nto = [0.03, -0.04]\nangle = 90.0\nstep = 1e-3\n";
+        let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), scene).unwrap() else {
+            panic!("uniform")
+        };
+        let simulation =
+            Simulation { scene, noise: NoiseModel::default(), rate: 100.0, speed: 0.01, seed: 0, sigmas: false };
+        let felt: Vec<Reactions> = simulation.ticks().unwrap().map(|tick| tick.unwrap().reactions.unwrap()).collect();
+        assert!(felt.iter().any(|reactions| reactions.m0z.abs() > 1e-5));
+        let (sender, receiver) = sync_channel(AHEAD);
+        let (begun, enough) = sync_channel(0);
+        let maker = thread::spawn(move || make(&simulation, &Setup::default(), Scale::si(), &sender, begun));
+        let played: Vec<[f64; 6]> = receiver.into_iter().collect();
+        assert_eq!(maker.join().unwrap(), (felt.len() as u64, None));
+        assert!(enough.recv().is_err(), "what is made in advance is at hand");
+        // Fx, Fy and Tz of a sensor whose axes are those of the scene, and which feels what acts on it
+        for (channels, Reactions { f0x, f0y, m0z }) in played.iter().zip(&felt) {
+            let off = [channels[0] + f0x, channels[1] + f0y, channels[5] + m0z];
+            assert!(off.iter().all(|off| off.abs() < 1e-15), "{channels:?} {f0x} {f0y} {m0z}");
+        }
+        assert_eq!(played.len(), felt.len());
+    }
 }

@@ -6,8 +6,7 @@ use super::palette::{INK, MUTED, label_colour};
 use super::trace::{self, Along, Part, Trace};
 use crate::Reconstructed;
 use std::ops::Range;
-use vibrissa::reconstruct::Reading;
-use vibrissa::{ClampPath, Pose, Sample};
+use vibrissa::{ClampPath, Pose, Rod};
 
 const WIDTH: u32 = PAGE;
 /// Height of a plot, and of the title.
@@ -16,18 +15,26 @@ const HEAD: u32 = 110;
 /// Least and largest value of each of so many columns: no more can be seen.
 const COLUMNS: f64 = 1600.0;
 
-/// A number that a sample and its reading have.
-type Quantity<'a> = &'a dyn Fn(&Sample, &Reading) -> f64;
+/// A number that each sample has; NaN where it has none.
+type Quantity<'a> = &'a dyn Fn(usize) -> f64;
 
 /// Draws reactions, criterion and margin above each other, coloured by label, with the kinks as vertical lines.
 pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
-    let stiffness = found.rod.bending_stiffness();
+    let reactions = |sample: usize| &found.samples[sample].reactions;
+    let phase_criterion = |rod: &Rod, sample: usize| {
+        1e6 * reactions(sample).phase_criterion(found.samples[sample].pose.phi, rod.bending_stiffness())
+    };
+    let angle = |sample: usize| found.found.evidence(sample).map_or(f64::NAN, |evidence| evidence.criterion.value);
+    let uniform = found.rod.uniform();
     let quantities: [(&str, Quantity<'_>); 5] = [
-        ("f_{0x} in N", &|sample, _| sample.reactions.f0x),
-        ("f_{0y} in N", &|sample, _| sample.reactions.f0y),
-        ("m_{0z} in N mm", &|sample, _| 1e3 * sample.reactions.m0z),
-        ("K in (N mm)²", &|sample, _| 1e6 * sample.reactions.phase_criterion(sample.pose.phi, stiffness)),
-        ("probability", &|_, reading| reading.probability),
+        ("f_{0x} in N", &|sample| reactions(sample).f0x),
+        ("f_{0y} in N", &|sample| reactions(sample).f0y),
+        ("m_{0z} in N mm", &|sample| 1e3 * reactions(sample).m0z),
+        match uniform {
+            Some(_) => ("K in (N mm)²", &|sample| uniform.map_or(f64::NAN, |rod| phase_criterion(rod, sample))),
+            None => ("K L²/EI", &angle),
+        },
+        ("probability", &|sample| found.found.readings[sample].probability),
     ];
     let last = quantities.len() - 1;
     let row = |index: usize| PLOT + trace::trimmings(index == 0, index == last);
@@ -54,11 +61,10 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
 
 /// The straight way from the first pose to the last; where they are the same, to the one farthest from it.
 fn path(found: &Reconstructed) -> Option<ClampPath> {
-    let first = found.samples.first()?.pose;
-    let off =
-        |pose: &Pose| (pose.x - first.x).hypot(pose.y - first.y).hypot(found.rod.length() * (pose.phi - first.phi));
+    let (first, length) = (found.samples.first()?.pose, found.rod.alike().length());
+    let off = |pose: &Pose| (pose.x - first.x).hypot(pose.y - first.y).hypot(length * (pose.phi - first.phi));
     let poses = || found.samples.iter().map(|sample| sample.pose);
-    let last = poses().next_back().filter(|pose| off(pose) > 0.1 * found.rod.length());
+    let last = poses().next_back().filter(|pose| off(pose) > 0.1 * length);
     ClampPath::new(first, last.or_else(|| poses().max_by(|a, b| off(a).total_cmp(&off(b))))?).ok()
 }
 
@@ -77,9 +83,8 @@ fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
 fn parts(found: &Reconstructed, abscissa: Abscissa, across: &Range<f64>, quantity: Quantity<'_>) -> Vec<Part> {
     let width = (across.end - across.start) / COLUMNS;
     let part = |(samples, label): (Range<usize>, _)| {
-        let both = found.samples[samples.clone()].iter().zip(&found.found.readings[samples]);
-        let points = both.map(|(sample, reading)| (abscissa.value(sample.pose), quantity(sample, reading)));
-        Part { points: columns(points, width), colour: label_colour(label) }
+        let points = samples.map(|sample| (abscissa.value(found.samples[sample].pose), quantity(sample)));
+        Part { points: columns(points.filter(|point| point.1.is_finite()), width), colour: label_colour(label) }
     };
     found.runs().map(part).collect()
 }

@@ -13,7 +13,7 @@ pub use staged::{OutputError, Staged};
 pub use stages::abandon;
 
 use crate::{Error, Scan, SceneRod, figure};
-use records::{CONTACT_COLUMNS, EventRecord, STATE_COLUMNS, StateRecord, contact_rows, state_row};
+use records::{CONTACT_COLUMNS, EventRecord, ROLLER_COLUMNS, STATE_COLUMNS, StateRecord, contact_rows, state_row};
 use std::io::{self, Write};
 use std::path::Path;
 use sweep::SweepRecord;
@@ -55,7 +55,11 @@ impl<R: SceneRod> Scan<R> {
     /// # Errors
     /// Those of `out`.
     pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
-        write_csv(out, &STATE_COLUMNS, self.outcome.states.iter().enumerate().map(state_row))
+        let mut columns = STATE_COLUMNS.to_vec();
+        if self.scene.rod.has_roller() {
+            columns.extend(ROLLER_COLUMNS);
+        }
+        write_csv(out, &columns, self.outcome.states.iter().enumerate().map(state_row))
     }
 
     /// The contacts of all states, one a row, as CSV.

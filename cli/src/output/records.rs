@@ -24,6 +24,11 @@ pub(super) struct StateRecord {
     min_gap_bound: Option<f64>,
     gap_proven: bool,
     leg: usize,
+    /// The reaction of a roller ahead of the clamp, and the arc length there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roller: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roller_s: Option<f64>,
 }
 
 impl From<&State> for StateRecord {
@@ -45,6 +50,8 @@ impl From<&State> for StateRecord {
             min_gap_bound: Some(state.certificate.min_gap.lower).filter(|bound| bound.is_finite()),
             gap_proven: state.certificate.min_gap.proven,
             leg: state.leg,
+            roller: state.roller.as_ref().map(|roller| roller.force),
+            roller_s: state.roller.as_ref().map(|roller| roller.s),
         }
     }
 }
@@ -96,6 +103,8 @@ pub(super) struct EventRecord {
     /// Work of friction since the sweep began, J.
     #[serde(skip_serializing_if = "Option::is_none")]
     dissipated: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roller: Option<f64>,
 }
 
 impl From<&Event> for EventRecord {
@@ -115,6 +124,7 @@ impl From<&Event> for EventRecord {
             after: StateRecord::from(&event.after),
             leg: event.leg(),
             dissipated: event.dissipated,
+            roller: event.before.roller.as_ref().map(|roller| roller.force),
         }
     }
 }
@@ -139,13 +149,18 @@ pub(super) const STATE_COLUMNS: [&str; 16] = [
     "leg",
 ];
 
+/// Those that follow where the rod runs through a roller.
+pub(super) const ROLLER_COLUMNS: [&str; 2] = ["roller", "roller_s"];
+
 /// A row of states.csv: the state of this number, from 1.
 pub(super) fn state_row((index, state): (usize, &State)) -> impl Serialize {
     let r = StateRecord::from(state);
     let place = (index + 1, r.x0, r.y0, r.phi0, r.phase);
     let forces = (r.f0x, r.f0y, r.m0z);
     let checks = (r.residual, r.min_gap, r.stable);
-    (place, forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven, r.leg))
+    // two columns more where there is a roller
+    let roller: Vec<f64> = [r.roller, r.roller_s].into_iter().flatten().collect();
+    (place, forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven, r.leg), roller)
 }
 
 /// The columns of contacts.csv.

@@ -1,6 +1,6 @@
 //! The result of a comparison with the truth.
 
-use crate::Scene;
+use crate::AnyScene;
 use std::path::PathBuf;
 use vibrissa::contact::{EventKind, Stop};
 use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore};
@@ -36,13 +36,16 @@ pub struct Transition {
 #[derive(Debug)]
 pub struct Comparison {
     /// The scene.
-    pub scene: Scene,
+    pub scene: AnyScene,
     /// Why its sweep stopped before the end of the path, if it did. Samples beyond are not compared.
     pub stop: Option<Stop>,
     /// Samples that are not on the path of the scene.
     pub off_path: usize,
-    /// The phases of the samples on the path.
+    /// The phases of the samples on the path. Where the reactions do not tell BA from BB, the rod being not uniform or not straight at rest, BA
+    /// counts as BB.
     pub confusion: Confusion,
+    /// Whether BA and BB are told apart.
+    pub told_apart: bool,
     /// Wrong labels within 1e-4 rod lengths of a transition, where they may be either.
     pub either: u64,
     /// Distance from the contour of the points of samples with a single contact.

@@ -24,7 +24,7 @@ pub(crate) struct PointRecord {
 impl PointRecord {
     /// The answer to a usable row.
     pub fn of_sample(found: &Reconstructed, sample: usize) -> Self {
-        let (reading, pose) = (&found.found.readings[sample], found.samples[sample].pose);
+        let (reading, pose) = (&found.found.readings[sample], found.pose(sample));
         let basis = found.found.evidence(sample).map(|evidence| evidence.basis(reading.label));
         Self { basis, ..Self::of_reading(pose, reading) }
     }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::reconstruct::noise_estimate::ChannelNoise;
 use vibrissa::reconstruct::score::{Deviation, KinkScore};
-use vibrissa::reconstruct::{Calibration, Explanation, Gap, Shares};
+use vibrissa::reconstruct::{Calibration, Explanation, FrictionEstimate, Gap, Pass, Shares};
 use vibrissa::{Label, Pose};
 
 /// report.json.
@@ -16,12 +16,17 @@ pub(super) struct ReportRecord {
     recording: String,
     rows: RowsRecord,
     rod: RodRecord,
+    /// What is not computed for this rod, in words.
+    missing: Option<&'static str>,
     noise: NoiseRecord,
     answered: AnsweredRecord,
     runs: Vec<RunRecord>,
     kinks: Vec<KinkRecord>,
     gaps: Vec<GapRecord>,
     calibration: Option<Calibration>,
+    /// Of each pass, where friction was asked for or seems to be there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    friction: Vec<FrictionRecord>,
     physics: PhysicsRecord,
     truth: Option<TruthRecord>,
 }
@@ -38,7 +43,10 @@ struct RowsRecord {
 #[derive(Serialize)]
 struct RodRecord {
     length: f64,
+    /// At the clamp, where the rod is not uniform.
     bending_stiffness: f64,
+    /// Uniform and straight at rest.
+    uniform: bool,
 }
 
 #[derive(Serialize)]
@@ -121,17 +129,29 @@ struct GapRecord {
     to: Option<[f64; 2]>,
 }
 
+/// Friction of a pass: the coefficient that was used, and what the pass tells of it, each positive where the rod is drawn back.
+#[derive(Serialize)]
+struct FrictionRecord {
+    /// First and last row.
+    rows: [usize; 2],
+    used: f64,
+    is_there: bool,
+    is_told_apart: bool,
+    #[serde(flatten)]
+    found: FrictionEstimate,
+}
+
 /// The check by the physics: m0z^2 = 2 EI (f0y sin phi0 + f0x cos phi0) in tangential contact.
 #[derive(Serialize)]
 struct PhysicsRecord {
     fits: bool,
     /// The line of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0).
     line: Option<LineRecord>,
-    /// Shares of the scan in contact by what a single contact makes of them.
-    explained: f64,
-    beyond_tip: f64,
-    pulling: f64,
-    no_moment_zero: f64,
+    /// Shares of the scan in contact by what a single contact makes of them; null where the rod is not uniform or not straight.
+    explained: Option<f64>,
+    beyond_tip: Option<f64>,
+    pulling: Option<f64>,
+    no_moment_zero: Option<f64>,
     findings: Vec<String>,
     /// What explains a recording that does not fit.
     causes: Vec<CauseRecord>,
@@ -159,12 +179,14 @@ impl PhysicsRecord {
         let line = check.line.map(|line| LineRecord {
             slope: line.slope,
             slope_sigma: line.slope_sigma,
-            slope_by_bending_stiffness: line.slope / rod.bending_stiffness(),
+            slope_by_bending_stiffness: line.slope / rod.alike().bending_stiffness(),
             intercept: line.intercept,
             intercept_sigma: line.intercept_sigma,
             share: line.share,
         });
         let Shares { explained, beyond_tip, pulling, no_moment_zero } = check.shares;
+        let [explained, beyond_tip, pulling, no_moment_zero] =
+            [explained, beyond_tip, pulling, no_moment_zero].map(|share| rod.uniform().map(|_| share));
         let findings = check.findings.iter().map(ToString::to_string).collect();
         let cause =
             |(what, likelihood): &(Explanation, f64)| CauseRecord { cause: what.to_string(), likelihood: *likelihood };
@@ -257,7 +279,7 @@ impl From<&Comparison> for TruthRecord {
         let confusion = &truth.confusion;
         let counts = Label::ALL.map(|of| Label::ALL.map(|found| confusion.count(of, found)).to_vec()).to_vec();
         Self {
-            scene: truth.scene.name.clone(),
+            scene: truth.scene.name().to_owned(),
             stopped: truth.stop.as_ref().map(ToString::to_string),
             compared: confusion.total(),
             off_path: truth.off_path,
@@ -318,7 +340,8 @@ impl Answered {
 
 impl ReportRecord {
     pub fn of(found: &Reconstructed) -> Self {
-        let Reconstructed { recording, rod, samples, rows, found: result, .. } = found;
+        let Reconstructed { recording, rod, rows, found: result, .. } = found;
+        let rod = rod.alike();
         let mut faults = BTreeMap::new();
         for fault in recording.faults() {
             *faults.entry(fault.problem.name()).or_insert(0) += 1;
@@ -327,8 +350,8 @@ impl ReportRecord {
             label,
             from: rows[run.start],
             to: rows[run.end - 1],
-            from_pose: samples[run.start].pose.into(),
-            to_pose: samples[run.end - 1].pose.into(),
+            from_pose: found.pose(run.start).into(),
+            to_pose: found.pose(run.end - 1).into(),
         });
         let kinks = result.kinks.iter().zip(found.kink_poses()).map(|(kink, pose)| KinkRecord {
             pose: pose.into(),
@@ -345,6 +368,16 @@ impl ReportRecord {
             from: gap.from,
             to: gap.to,
         };
+        let friction = |pass: &Pass| {
+            let found = pass.friction?;
+            Some(FrictionRecord {
+                rows: [rows[pass.samples.start], rows[pass.samples.end - 1]],
+                used: pass.used_friction,
+                is_there: found.is_there(),
+                is_told_apart: found.is_told_apart(),
+                found,
+            })
+        };
         let answered = Answered::of(found);
         let [f0x, f0y, m0z] = result.noise.each_ref().map(ChannelRecord::from);
         Self {
@@ -355,7 +388,12 @@ impl ReportRecord {
                 faults,
                 warnings: recording.warnings(),
             },
-            rod: RodRecord { length: rod.length(), bending_stiffness: rod.bending_stiffness() },
+            rod: RodRecord {
+                length: rod.length(),
+                bending_stiffness: rod.bending_stiffness(),
+                uniform: found.rod.uniform().is_some(),
+            },
+            missing: found.missing(),
             noise: NoiseRecord { f0x, f0y, m0z },
             answered: AnsweredRecord {
                 single: answered.single,
@@ -369,6 +407,7 @@ impl ReportRecord {
             kinks: kinks.collect(),
             gaps: found.contour.gaps.iter().map(gap).collect(),
             calibration: result.calibration().cloned(),
+            friction: result.passes.iter().filter_map(friction).collect(),
             physics: PhysicsRecord::of(found),
             truth: found.comparison.as_ref().map(Into::into),
         }

@@ -1,14 +1,15 @@
 //! The reconstruction of a recording.
 
 use super::comparison::Comparison;
-use crate::{Error, Recording};
+use crate::{Error, GivenRod, Recording};
 use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
-    Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, Travel, explanations, plausibility,
-    reconstruct_passes,
+    Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, ReconstructError, Reconstruction, Travel,
+    explanations, plausibility_with_friction, reconstruct_general, reconstruct_passes,
 };
+use vibrissa::rod::{Mounted, VaryingRod};
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
 
 /// Most explanations that are told, and the least likelihood of one.
@@ -22,7 +23,7 @@ pub struct ReconstructionError {
     /// Which recording.
     pub file: PathBuf,
     /// Why.
-    pub source: vibrissa::reconstruct::ReconstructError,
+    pub source: ReconstructError,
 }
 
 /// The reconstruction of a recording.
@@ -33,16 +34,17 @@ pub struct Reconstructed {
     /// The recording.
     pub recording: Recording,
     /// The rod that is assumed.
-    pub rod: Rod,
-    /// The samples of its usable rows.
+    pub rod: GivenRod,
+    /// The samples of its usable rows. Of a uniform rod on springs the poses are those of its base.
     pub samples: Vec<Sample>,
     /// Numbers of those rows, from 0.
     pub rows: Vec<usize>,
     /// The result, one reading per sample.
-    pub found: vibrissa::reconstruct::Reconstruction,
+    pub found: Reconstruction,
     /// The contour. Its samples are numbered as `samples`.
     pub contour: ContourEstimate,
-    /// The check of the recording by the physics.
+    /// The check of the recording by the physics. Of a rod that is not uniform or not straight at rest it has no line and no shares, only
+    /// findings.
     pub check: Plausibility,
     /// What explains a recording that does not fit, the most likely first, with likelihoods that add up to 1.
     pub explanations: Vec<(Explanation, f64)>,
@@ -54,32 +56,24 @@ pub struct Reconstructed {
 const UNEXPLAINED: f64 = 0.5;
 
 impl Reconstructed {
-    /// Reconstructs a recording of this rod.
+    /// Reconstructs a recording of this rod, whose poses are those of the support of its clamp.
     ///
     /// # Errors
     /// [`Error::Reconstruction`]: too few samples are of use, or a setting is not possible.
-    pub fn new(recording: Recording, rod: Rod, settings: &Settings) -> Result<Self, Error> {
+    pub fn new(recording: Recording, rod: impl Into<GivenRod>, settings: &Settings) -> Result<Self, Error> {
+        let rod = rod.into();
+        let recording = match &rod {
+            GivenRod::Uniform(rod) if !rod.springs().is_rigid() => recording.at_base(rod),
+            _ => recording,
+        };
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
-        let raw = plausibility(&rod, &samples);
-        let of = |settings: &Settings| {
-            reconstruct_passes(&rod, &samples, settings)
-                .map_err(|source| ReconstructionError { file: recording.file.clone(), source })
+        let found = match &rod {
+            GivenRod::Uniform(rod) => uniform(rod.rod(), &samples, settings),
+            GivenRod::Varying { rod, .. } => varying(rod, &samples, settings),
         };
-        let is_gross = |check: &Plausibility| check.findings.iter().any(Finding::is_gross);
-        let mut found = of(settings)?;
-        // the physics of what is left after the corrections: a bias alone may look like a wrong sign
-        let mut check = raw.clone();
-        if found.is_corrected() {
-            let (corrected, used) = found.corrected(&rod, &samples);
-            check = plausibility(&corrected, &used);
-        }
-        if is_gross(&check) || is_gross(&raw) && found.findings().iter().any(Finding::is_misfit) {
-            // small errors mean nothing where units, signs or rod are wrong
-            (found, check) = (of(&Settings { budget: Some(Budget::NONE), ..*settings })?, raw);
-        }
+        let (found, check) = found.map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
         let contour = found.contour(&Assembly::default());
-        check.findings.extend(found.findings());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self {
             name,
@@ -95,15 +89,25 @@ impl Reconstructed {
         })
     }
 
-    /// Looks for what explains the recording, where it does not fit for reasons that mistakes or errors may have. `settings` are those
-    /// of the reconstruction.
+    /// What is not there because the rod is not uniform or not straight at rest, in words; none for one that is.
+    pub fn missing(&self) -> Option<&'static str> {
+        self.rod.uniform().is_none().then_some(
+            "not computed for a rod that is not uniform or not straight at rest: which of BA and BB it is, contact points of samples \
+             with several contacts, corrections and standard deviations of errors that all samples share (bias, drift, gain, clamp \
+             angle), the check by the physics, and what explains a recording that does not fit",
+        )
+    }
+
+    /// Looks for what explains the recording, where it does not fit for reasons that mistakes or errors may have; nothing where the rod is
+    /// not uniform or not straight at rest. `settings` are those of the reconstruction.
     pub fn explain(&mut self, settings: &Settings) {
+        let Some(rod) = self.rod.uniform() else { return };
         let may_be = |finding: &Finding| {
             finding.is_misfit()
                 && !matches!(finding, Finding::Coarse { .. } | Finding::NoFreeStretch | Finding::Frozen { .. })
         };
         if self.check.findings.iter().any(may_be) {
-            self.explanations = explanations(&self.rod, &self.samples, settings, &self.check.findings);
+            self.explanations = explanations(rod, &self.samples, settings, &self.check.findings);
         }
     }
 
@@ -134,13 +138,19 @@ impl Reconstructed {
         runs.iter().zip(ends).map(|(&(first, label), end)| (first..end, label))
     }
 
-    /// The poses of the clamp at the kinks, interpolated between the samples on either side.
+    /// The pose of the support of the clamp at a sample, as it was recorded.
+    pub fn pose(&self, sample: usize) -> Pose {
+        let sample = &self.samples[sample];
+        self.rod.support(sample.pose, &sample.reactions)
+    }
+
+    /// The poses of the support of the clamp at the kinks, interpolated between the samples on either side.
     pub(crate) fn kink_poses(&self) -> Vec<Pose> {
-        let mut travel = Travel::new(&self.rod);
+        let mut travel = Travel::new(self.rod.alike());
         let ways: Vec<f64> = self.samples.iter().map(|s| travel.go(&s.pose).unwrap_or(f64::NAN)).collect();
         let pose = |kink: &Kink| {
             let after = kink.next.clamp(1, self.samples.len() - 1);
-            let [a, b] = [after - 1, after].map(|k| self.samples[k].pose);
+            let [a, b] = [after - 1, after].map(|k| self.pose(k));
             let part = (kink.tau - ways[after - 1]) / (ways[after] - ways[after - 1]);
             let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
             let between = |a: f64, b: f64| a + part * (b - a);
@@ -148,4 +158,36 @@ impl Reconstructed {
         };
         self.found.kinks.iter().map(pose).collect()
     }
+}
+
+/// A reconstruction, and the check of it.
+type Checked = Result<(Reconstruction, Plausibility), ReconstructError>;
+
+/// With the errors that all samples share taken off, unless gross mistakes leave no sense in them.
+fn uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
+    let is_gross = |check: &Plausibility| check.findings.iter().any(Finding::is_gross);
+    let mut found = reconstruct_passes(rod, samples, settings)?;
+    let friction = found.frictions();
+    let plausibility = |rod: &Rod, samples: &[Sample]| plausibility_with_friction(rod, samples, |k| friction[k]);
+    let raw = plausibility(rod, samples);
+    // the physics of what is left after the corrections: a bias alone may look like a wrong sign
+    let mut check = raw.clone();
+    if found.is_corrected() {
+        let (corrected, used) = found.corrected(rod, samples);
+        check = plausibility(&corrected, &used);
+    }
+    if is_gross(&check) || is_gross(&raw) && found.findings().iter().any(Finding::is_misfit) {
+        // small errors mean nothing where units, signs or rod are wrong
+        let as_is = Settings { budget: Some(Budget::NONE), ..*settings };
+        (found, check) = (reconstruct_passes(rod, samples, &as_is)?, raw);
+    }
+    check.findings.extend(found.findings());
+    Ok((found, check))
+}
+
+/// With the samples as they are.
+fn varying(rod: &Mounted<VaryingRod>, samples: &[Sample], settings: &Settings) -> Checked {
+    let found = reconstruct_general(rod, samples, settings)?;
+    let check = Plausibility { findings: found.findings(), ..Plausibility::default() };
+    Ok((found, check))
 }

@@ -5,8 +5,8 @@ use super::report::Answered;
 use super::result::Reconstructed;
 use crate::table::Table;
 use std::fmt::Write;
-use vibrissa::reconstruct::SourceEstimate;
 use vibrissa::reconstruct::score::Deviation;
+use vibrissa::reconstruct::{Source, SourceEstimate};
 
 impl Reconstructed {
     /// Rows, noise, labels, points and gaps, and the comparison with the truth where that is known.
@@ -30,13 +30,41 @@ impl Reconstructed {
              {first_answered}, the second of {second_answered}"
         )?;
         writeln!(text, "{} kinks, {} gaps", self.found.kinks.len(), self.contour.gaps.len())?;
-        self.tell_calibration(text)?;
+        match self.missing() {
+            Some(missing) => writeln!(text, "{missing}")?,
+            None => {
+                self.tell_friction(text)?;
+                self.tell_calibration(text)?;
+            }
+        }
         self.tell_physics(text)?;
         text.push_str(&self.run_table().to_string());
         match &self.comparison {
             Some(comparison) => comparison.tell(text),
             None => Ok(()),
         }
+    }
+
+    /// Friction of each pass, where it was asked for.
+    fn tell_friction(&self, text: &mut String) -> std::fmt::Result {
+        for (number, pass) in self.found.passes.iter().enumerate() {
+            let Some(found) = pass.friction.filter(|_| pass.used_friction != 0.0) else { continue };
+            let of = if self.found.passes.len() > 1 { format!(" of pass {}", number + 1) } else { String::new() };
+            let way = if found.mu < 0.0 { "pushed on over" } else { "drawn back over" };
+            let told = match (found.is_there(), found.is_told_apart()) {
+                (true, true) => "",
+                (true, false) => "; errors that all samples share would explain a part of it",
+                (false, _) => "; the scan is explained as well without",
+            };
+            writeln!(
+                text,
+                "friction{of}: mu = {:.4} +- {:.1e} (by the noise alone {:.1e}), the rod {way} its contacts{told}",
+                found.mu.abs(),
+                found.sigma,
+                found.sigma_of_noise
+            )?;
+        }
+        Ok(())
     }
 
     /// What was taken off the samples, and what may be left.
@@ -48,7 +76,11 @@ impl Reconstructed {
                 if self.check.fits() { "none, as is" } else { "none, because the recording does not fit its rod" }
             );
         };
-        let taken: Vec<_> = calibration.sources.iter().filter(|estimate| estimate.taken != 0.0).collect();
+        let taken: Vec<_> = calibration
+            .sources
+            .iter()
+            .filter(|estimate| estimate.taken != 0.0 && estimate.source != Source::Friction)
+            .collect();
         if taken.is_empty() {
             let why =
                 if self.check.fits() { "none needed" } else { "none, because the recording does not fit its rod" };
@@ -74,7 +106,7 @@ impl Reconstructed {
 
     fn tell_physics(&self, text: &mut String) -> std::fmt::Result {
         if let Some(line) = &self.check.line {
-            let stiffness = self.rod.bending_stiffness();
+            let stiffness = self.rod.alike().bending_stiffness();
             writeln!(
                 text,
                 "physics: m0z^2 = {:.4e} +- {:.1e} N^2 m^2 + 2 ({:.4} +- {:.4}) EI (f0y sin phi0 + f0x cos phi0) in {:.0} % \
@@ -112,7 +144,10 @@ impl Reconstructed {
 impl Comparison {
     fn tell(&self, text: &mut String) -> std::fmt::Result {
         let Self { scene, confusion, either, off_path, kinks, .. } = self;
-        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name, confusion.total())?;
+        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name(), confusion.total())?;
+        if !self.told_apart {
+            writeln!(text, "BA counts as BB, because the reactions of this rod do not tell one from the other")?;
+        }
         if let Some(stop) = &self.stop {
             writeln!(text, "its sweep stopped early, samples beyond are not compared: {stop}")?;
         }
@@ -139,7 +174,7 @@ impl Comparison {
             kinks.found,
             kinks.found - real.min(kinks.found)
         )?;
-        let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
+        let unit = if scene.path().turns_only() { "error mrad" } else { "error mm" };
         let mut table = Table::new(["transition", "kind", "x0 mm", "y0 mm", "phi0 deg", unit]);
         for Transition { from, to, kind, pose, error } in &self.transitions {
             table.row([

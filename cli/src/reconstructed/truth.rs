@@ -1,14 +1,13 @@
 //! The comparison of a reconstruction with the scene that the recording is of.
 
 use super::comparison::{Comparison, Transition, TruthError};
-use super::naive::naive_touch;
 use super::result::Reconstructed;
-use crate::{Error, Scan, Scene, interval};
+use crate::{AnyScene, Error, Scan, Scene, SceneRod, interval};
 use rayon::prelude::*;
 use vibrissa::contact::EventKind;
 use vibrissa::reconstruct::Touch;
 use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore, signed_distance};
-use vibrissa::{Composite, Event, Label, Pose, Rod};
+use vibrissa::{Composite, Event, Label, Pose};
 
 /// Largest distance, rod lengths, of a pose from the path of the scene at which it is compared.
 const OFF_PATH: f64 = 1e-3;
@@ -23,18 +22,27 @@ impl Reconstructed {
     /// Compares with the scene that the recording is of, which is swept for it.
     ///
     /// # Errors
-    /// [`Error::Contact`], [`Error::Truth`].
-    pub fn compare(&mut self, scene: Scene) -> Result<(), Error> {
-        self.comparison = Some(Comparison::of(self, scene)?);
+    /// [`Error::Contact`], [`Error::Truth`]; [`Error::Scene`] for a scene with a roller.
+    pub fn compare(&mut self, scene: AnyScene) -> Result<(), Error> {
+        self.comparison = Some(match scene {
+            AnyScene::Uniform(scene) => Comparison::of(self, scene, AnyScene::Uniform)?,
+            AnyScene::Mounted(scene) => Comparison::of(self, scene, AnyScene::Mounted)?,
+            AnyScene::Guided(scene) => return Err(scene.no_roller().into()),
+        });
         Ok(())
     }
 }
 
 impl Comparison {
-    fn of(found: &Reconstructed, scene: Scene) -> Result<Self, Error> {
+    fn of<R: SceneRod>(
+        found: &Reconstructed,
+        scene: Scene<R>,
+        any: impl FnOnce(Scene<R>) -> AnyScene,
+    ) -> Result<Self, Error> {
         let scan = Scan::run(scene)?;
-        let truth = Truth::of(&scan, &found.rod);
-        let ways: Vec<Option<f64>> = found.samples.iter().map(|sample| truth.way(sample.pose)).collect();
+        let told_apart = found.rod.uniform().is_some();
+        let truth = Truth::of(&scan, told_apart);
+        let ways: Vec<Option<f64>> = (0..found.samples.len()).map(|sample| truth.way(found.pose(sample))).collect();
         let off_path = ways.iter().filter(|way| way.is_none()).count();
         if off_path == ways.len() {
             return Err(TruthError { file: found.recording.file.clone(), scene: scan.scene.name }.into());
@@ -43,8 +51,9 @@ impl Comparison {
         for (reading, way) in found.found.readings.iter().zip(&ways) {
             let Some(way) = way else { continue };
             let label = truth.label(*way);
-            confusion.add(label, reading.label);
-            either += u64::from(label != reading.label && truth.is_either(*way));
+            let read = truth.told(reading.label);
+            confusion.add(label, read);
+            either += u64::from(label != read && truth.is_either(*way));
         }
         let readings = || found.found.readings.par_iter().filter(|reading| reading.label != Label::Free);
         let objects = &scan.scene.objects;
@@ -53,13 +62,14 @@ impl Comparison {
         });
         let second = deviation(objects, readings().filter_map(|reading| reading.second?.ok()));
         let several = found.samples.par_iter().zip(&found.found.readings).filter(|(_, r)| r.label.several());
-        let naive = deviation(objects, several.filter_map(|(sample, _)| naive_touch(&found.rod, sample)));
+        let naive = deviation(objects, several.filter_map(|(sample, _)| found.rod.naive_touch(sample)));
         let kinks: Vec<f64> = found.kink_poses().into_iter().filter_map(|pose| truth.way(pose)).collect();
         let kinked: Vec<f64> = truth.events.iter().filter(|event| event.kinks).map(|event| event.way).collect();
         let all: Vec<f64> = truth.events.iter().map(|event| event.way).collect();
         Ok(Self {
             off_path,
             confusion,
+            told_apart,
             either,
             single,
             first,
@@ -69,7 +79,7 @@ impl Comparison {
             kinks_of_events: KinkScore::of(&kinks, &all, MARGIN),
             transitions: truth.transitions(found),
             stop: scan.outcome.stop.clone(),
-            scene: scan.scene,
+            scene: any(scan.scene),
         })
     }
 }
@@ -79,11 +89,18 @@ fn deviation(objects: &[Composite], touches: impl ParallelIterator<Item = Touch>
     Deviation::of(distances?)
 }
 
+/// A label, BA as BB where they are not told apart.
+fn told(label: Label, told_apart: bool) -> Label {
+    if label == Label::BA && !told_apart { Label::BB } else { label }
+}
+
 /// What happened along the path.
-struct Truth<'a> {
-    scan: &'a Scan,
+struct Truth<'a, R> {
+    scan: &'a Scan<R>,
     /// Length of the rod, m.
     length: f64,
+    /// Whether BA and BB are told apart; otherwise all labels here are without BA.
+    told_apart: bool,
     start: Label,
     events: Vec<Happening<'a>>,
 }
@@ -98,17 +115,24 @@ struct Happening<'a> {
     kinks: bool,
 }
 
-impl<'a> Truth<'a> {
-    fn of(scan: &'a Scan, rod: &Rod) -> Self {
+impl<'a, R: SceneRod> Truth<'a, R> {
+    fn of(scan: &'a Scan<R>, told_apart: bool) -> Self {
+        let told = |label| told(label, told_apart);
         let happening = |event: &'a Event| {
-            let [from, to] = [event.from(), event.to()].map(|phase| Label::of(phase.contacts, phase.tip));
+            let [from, to] = [event.from(), event.to()].map(|phase| told(Label::of(phase.contacts, phase.tip)));
             let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
             let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
             Happening { event, way: interval::way(&scan.scene.path, event.pose()), from, to, kinks }
         };
         let events: Vec<Happening<'a>> = scan.outcome.events.iter().map(happening).collect();
         let phase = scan.outcome.states.first().map(|state| state.phase()).unwrap_or_default();
-        Self { scan, length: rod.length(), start: Label::of(phase.contacts, phase.tip), events }
+        let start = told(Label::of(phase.contacts, phase.tip));
+        Self { scan, length: scan.scene.rod.units().length, told_apart, start, events }
+    }
+
+    /// A label as far as the reactions tell it.
+    fn told(&self, label: Label) -> Label {
+        told(label, self.told_apart)
     }
 
     /// How far along the path a pose is, if it is on it and the sweep came so far.
@@ -141,8 +165,8 @@ impl<'a> Truth<'a> {
         let borders: Vec<(Label, Label, f64)> = runs
             .windows(2)
             .filter_map(|pair| {
-                let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| self.way(found.samples[k].pose));
-                Some((pair[0].1, pair[1].1, 0.5 * (before? + after?)))
+                let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| self.way(found.pose(k)));
+                Some((self.told(pair[0].1), self.told(pair[1].1), 0.5 * (before? + after?)))
             })
             .collect();
         let far = FAR * if self.scan.scene.path.turns_only() { 1.0 } else { self.length };

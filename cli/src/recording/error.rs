@@ -46,6 +46,16 @@ pub enum RecordingError {
         /// Which file.
         file: PathBuf,
     },
+    /// There is the reaction of a roller ahead of the clamp, which the others do not tell without.
+    #[error(
+        "{}: the column roller is the reaction of a roller ahead of the clamp, expected a recording without one; \
+         `vibrissa::reconstruct::through_roller` takes single samples",
+        file.display()
+    )]
+    Roller {
+        /// Which file.
+        file: PathBuf,
+    },
     /// Most rows cannot be used.
     #[error(
         "{}: {} of {rows} rows cannot be used, expected at most half of them; {}",

@@ -9,6 +9,9 @@ use vibrissa::Rod;
 use vibrissa::hw::recording::{RowProblem as CellProblem, Table, TableError, TableProblem};
 use vibrissa::reconstruct::{FEWEST_SAMPLES, Halt, Travel};
 
+/// The column of a roller's reaction, perhaps with a unit behind its name.
+const ROLLER: &str = "roller";
+
 /// At most one row in so many may be left out because the clamp repeats a pose or turns back there.
 const HALTS: usize = 20;
 
@@ -58,6 +61,9 @@ impl Recording {
             problem => RecordingError::Table(TableError { problem, ..error }),
         })?;
         let columns = find(&file, &table, &how.columns)?;
+        if columns.ignored(&table).any(|name| name.split_whitespace().next() == Some(ROLLER)) {
+            return Err(RecordingError::Roller { file });
+        }
         let rows = table.rows().map(|row| {
             let place = Place::Line(row.line());
             (place, sample(&row, &columns).map_err(|(pose, problem)| RowFault { place, pose, problem }))

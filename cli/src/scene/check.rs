@@ -2,7 +2,7 @@
 
 use super::document::{Document, Point, SweepTable};
 use super::kind::AnyRod;
-use super::rod_table;
+use super::rod_table::{self, Held};
 use super::{AnyScene, Scene, files, friction, leg, object, plausible};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
@@ -27,11 +27,19 @@ pub(super) fn scene(name: String, source: Source, document: Document, directory:
     let unlikely = plausible::rod(tables.rod.get_ref()).into_iter().chain(large);
     let warnings = unlikely.map(|fault| source.place(fault).to_string()).collect();
     Ok(match rod {
-        AnyRod::Uniform(rod) => {
+        Held::Clamped(AnyRod::Uniform(rod)) => {
             AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
         }
-        AnyRod::Mounted(rod) => {
+        Held::Clamped(AnyRod::Mounted(rod)) => {
             AnyScene::Mounted(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
+        }
+        Held::Guided(_) if friction.is_some() => {
+            let roller = tables.clamp.as_ref().and_then(|clamp| clamp.get_ref().roller.as_ref());
+            let span = roller.map_or(0..0, Spanned::span);
+            return Err(Fault::new(span, "a roller ahead of the clamp beside friction, expected one of the two"));
+        }
+        Held::Guided(rod) => {
+            AnyScene::Guided(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
         }
     })
 }

@@ -44,13 +44,14 @@ pub(super) struct RodTable {
     pub section: Vec<Spanned<SectionTable>>,
 }
 
-/// `[clamp]`: springs between support and rod.
+/// `[clamp]`: springs between support and rod, or a roller ahead of a rigid clamp.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ClampTable {
     pub stiffness_x: Option<Spanned<f64>>,
     pub stiffness_y: Option<Spanned<f64>>,
     pub stiffness_phi: Option<Spanned<f64>>,
+    pub roller: Option<Spanned<f64>>,
 }
 
 /// `[contact]`: what holds for the contacts with all objects.

@@ -1,5 +1,6 @@
 //! A rod with what a calibration knows of it and of its sensor.
 
+use super::given_rod::GivenRod;
 use super::rod::RodFile;
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
@@ -10,7 +11,6 @@ use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
 use vibrissa::reconstruct::{Known, Source};
-use vibrissa::rod::ElasticClamp;
 
 /// A rod, and what `vibrissa calibrate` found of the errors of rod, sensor, clamp and stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,10 @@ pub struct KnownRod {
 
 /// `[calibration]`: what is known of each source of errors that all samples of a scan share.
 pub(super) type CalibrationTable = BTreeMap<Source, Spanned<EstimateTable>>;
+
+/// What is said of a calibration of a rod of which there is none.
+const NO_CALIBRATION: &str = "given for a rod that is not uniform or not straight at rest, of which errors that all samples share are \
+     not estimated, expected no table [calibration]";
 
 /// What is known of a source.
 #[derive(Deserialize)]
@@ -43,38 +47,47 @@ pub(crate) fn written(source: Source, rod: &Rod) -> (&'static str, f64) {
     }
 }
 
-/// The rod in a TOML file as for [`read_known_rod`], and the springs of its table `[clamp]`.
+/// The rod of any kind in a TOML file, on the springs of its table `[clamp]`, and what its table `[calibration]` knows; only of a uniform
+/// rod that is straight at rest there is such a table. The [`KnownRod`] of another one is [`GivenRod::alike`].
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, holds no rod, or its calibration or its clamp is wrong.
-pub fn read_mounted_rod(file: &Path) -> Result<(KnownRod, ElasticClamp), SceneError> {
-    let text = toml_file::text("the rod", file)?;
-    toml_file::parse(file, &text, |table| {
+pub fn read_given_rod(file: &Path) -> Result<(KnownRod, GivenRod), SceneError> {
+    parse_given(file, &toml_file::text("the rod", file)?)
+}
+
+fn parse_given(file: &Path, text: &str) -> Result<(KnownRod, GivenRod), SceneError> {
+    toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        let mounted = file.mounted()?;
-        Ok((file.known(*mounted.rod())?, *mounted.springs()))
+        let given = file.given()?;
+        match (&given, &file.calibration) {
+            (GivenRod::Varying { .. }, Some(table)) => Err(Fault::new(table.span(), NO_CALIBRATION)),
+            _ => Ok((file.known(*given.alike())?, given)),
+        }
     })
 }
 
-/// The rod in a TOML file as for [`read_rod`](super::read_rod), with its table `[calibration]`.
+/// The rod in a TOML file as for [`read_rod`](super::read_rod), with its table `[calibration]`. `instead` ends the message where the rod is
+/// not uniform, not straight at rest or not on a rigid clamp: what the user may do with it.
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, holds no rod, or its calibration is wrong.
-pub fn read_known_rod(file: &Path) -> Result<KnownRod, SceneError> {
-    parse(file, &toml_file::text("the rod", file)?)
+pub fn read_known_rod(file: &Path, instead: &str) -> Result<KnownRod, SceneError> {
+    parse(file, &toml_file::text("the rod", file)?, instead)
 }
 
-pub(super) fn parse(file: &Path, text: &str) -> Result<KnownRod, SceneError> {
+fn parse(file: &Path, text: &str, instead: &str) -> Result<KnownRod, SceneError> {
     toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        file.known(file.uniform()?)
+        file.known(file.uniform(instead)?)
     })
 }
 
 impl RodFile {
     /// A rod with the calibration of the file.
     fn known(&self, rod: Rod) -> Result<KnownRod, Fault> {
-        let known = self.calibration.as_ref().map_or_else(|| Ok(Known::NOTHING), |table| known(table, &rod))?;
+        let known =
+            self.calibration.as_ref().map_or_else(|| Ok(Known::NOTHING), |table| known(table.get_ref(), &rod))?;
         Ok(KnownRod { rod, known })
     }
 }
@@ -106,8 +119,20 @@ mod tests {
     const ROD: &str = "[rod]\nlength = 0.1\nbending_stiffness = 1e-3\n";
 
     #[test]
+    fn only_a_uniform_rod_has_a_calibration() {
+        let cone = "[rod]\nlength = 0.1\ndiameter = 1e-3\ntip_diameter = 5e-4\nyoungs_modulus = 2e11\n";
+        let (known, given) = parse_given("rod.toml".as_ref(), cone).unwrap();
+        assert!(matches!(given, GivenRod::Varying { .. }) && given.uniform().is_none() && known.known.is_nothing());
+        let at_clamp = Rod::from_diameter(0.1, 1e-3, 2e11).unwrap().bending_stiffness();
+        assert!((known.rod.bending_stiffness() / at_clamp - 1.0).abs() < 1e-14 && known.rod.length() == 0.1);
+        let table = format!("{cone}[calibration]\nlag = {{ value = 1e-3, sigma = 1e-4 }}\n");
+        let error = parse_given("rod.toml".as_ref(), &table).unwrap_err().to_string();
+        assert!(error.starts_with("rod.toml:6:1: calibration: ") && error.contains("not estimated"), "{error}");
+    }
+
+    #[test]
     fn a_calibration_is_read_in_its_units() {
-        let read = |table: &str| parse("rod.toml".as_ref(), &format!("{ROD}{table}"));
+        let read = |table: &str| parse("rod.toml".as_ref(), &format!("{ROD}{table}"), "take another");
         let plain = read("").unwrap();
         assert!(plain.known.is_nothing());
         let table = "[calibration]\nclamp_angle = { value = 8e-3, sigma = 1e-4, unit = \"rad\" }\n\

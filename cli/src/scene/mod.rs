@@ -8,6 +8,7 @@ mod check;
 mod document;
 mod files;
 mod friction;
+mod given_rod;
 mod kind;
 mod known_rod;
 mod leg;
@@ -19,9 +20,10 @@ mod shape;
 
 pub(crate) use check::MOST_STATES;
 pub use friction::SceneFriction;
+pub use given_rod::GivenRod;
 pub use kind::{AnyRod, AnyScene, SceneRod};
 pub(crate) use known_rod::written;
-pub use known_rod::{KnownRod, read_known_rod, read_mounted_rod};
+pub use known_rod::{KnownRod, read_given_rod, read_known_rod};
 pub use leg::{Leg, LegPath};
 pub use rod::read_rod;
 
@@ -97,7 +99,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        parse(file, text)?.uniform()
+        parse(file, text)?.uniform("`AnyScene` reads any")
     }
 }
 
@@ -142,7 +144,7 @@ impl<R: SceneRod> Scene<R> {
     /// The sweep with the friction of the scene.
     fn rubbing<'a>(&'a self, sweep: Sweep<'a, R>) -> Result<Sweep<'a, R>, ContactError> {
         match &self.friction {
-            Some(friction) => Ok(sweep.with_friction(friction.clone())),
+            Some(friction) => sweep.with_friction(friction.clone()),
             None => Ok(sweep),
         }
     }
@@ -213,6 +215,7 @@ fn parse(file: &Path, text: &str) -> Result<AnyScene, SceneError> {
     match &mut scene {
         AnyScene::Uniform(scene) => scene.warnings.extend(warnings),
         AnyScene::Mounted(scene) => scene.warnings.extend(warnings),
+        AnyScene::Guided(scene) => scene.warnings.extend(warnings),
     }
     Ok(scene)
 }

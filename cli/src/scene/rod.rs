@@ -1,6 +1,7 @@
 //! A rod on its own.
 
 use super::document::{ClampTable, RodTable};
+use super::given_rod::GivenRod;
 use super::known_rod::CalibrationTable;
 use super::rod_table;
 use crate::toml_file::Fault;
@@ -11,7 +12,9 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
-use vibrissa::rod::Mounted;
+
+/// What a program may do with another rod than a uniform, straight one.
+const INSTEAD: &str = "`read_given_rod` reads any";
 
 /// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
@@ -19,7 +22,9 @@ use vibrissa::rod::Mounted;
 pub(super) struct RodFile {
     pub rod: Spanned<RodTable>,
     pub clamp: Option<Spanned<ClampTable>>,
-    pub calibration: Option<CalibrationTable>,
+    pub calibration: Option<Spanned<CalibrationTable>>,
+    #[serde(rename = "contact")]
+    _contact: Option<IgnoredAny>,
     #[serde(rename = "contour")]
     _contour: Option<IgnoredAny>,
     #[serde(rename = "object")]
@@ -29,17 +34,20 @@ pub(super) struct RodFile {
 }
 
 impl RodFile {
-    /// The rod, if it is uniform and straight at rest and its clamp is rigid.
-    pub fn uniform(&self) -> Result<Rod, Fault> {
-        match (rod_table::uniform(&self.rod)?, &self.clamp) {
+    /// The rod, if it is uniform and straight at rest and its clamp is rigid; `instead` is what the user may do with another one.
+    pub fn uniform(&self, instead: &str) -> Result<Rod, Fault> {
+        match (rod_table::uniform(&self.rod, instead)?, &self.clamp) {
             (rod, None) => Ok(rod),
-            (_, Some(clamp)) => Err(Fault::new(clamp.span(), rod_table::NOT_RIGID)),
+            (_, Some(clamp)) => Err(match &clamp.get_ref().roller {
+                Some(roller) => Fault::new(roller.span(), rod_table::NO_ROLLER),
+                None => Fault::new(clamp.span(), format!("{}; {instead}", rod_table::NOT_RIGID)),
+            }),
         }
     }
 
-    /// The rod on its clamp, if it is uniform and straight at rest.
-    pub fn mounted(&self) -> Result<Mounted<Rod>, Fault> {
-        Ok(Mounted::new(rod_table::uniform(&self.rod)?, rod_table::springs(self.clamp.as_ref())?))
+    /// The rod of any kind on its clamp.
+    pub fn given(&self) -> Result<GivenRod, Fault> {
+        rod_table::given(&self.rod, self.clamp.as_ref())
     }
 }
 
@@ -52,7 +60,7 @@ pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
 }
 
 fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
-    toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform())
+    toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform(INSTEAD))
 }
 
 #[cfg(test)]
@@ -67,7 +75,8 @@ mod tests {
         let rod = read_rod(&scene).unwrap();
         assert!((rod.bending_stiffness() - 6.32e-4).abs() < 1e-6);
         // Of a scene only the rod is looked at.
-        let scene = "[rod]\nlength = 0.1\nbending_stiffness = 1\n[sweep]\nfrom = 3\n[[object]]\n";
+        let scene =
+            "[rod]\nlength = 0.1\nbending_stiffness = 1\n[contact]\nfriction = 1\n[sweep]\nfrom = 3\n[[object]]\n";
         assert!(parse("scene.toml".as_ref(), scene).is_ok());
     }
 

@@ -1,20 +1,24 @@
 //! The table `[rod]` as a rod.
 
 use super::document::{ClampTable, RodTable, SectionTable};
+use super::given_rod::GivenRod;
 use super::kind::AnyRod;
 use crate::toml_file::Fault;
 use std::ops::Range;
 use toml::{Spanned, Value};
 use vibrissa::Rod;
-use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Guided, Mounted, NaturalCurvature, RodError, RodSection, VaryingRod};
 
 /// What is said where another rod is given than a uniform, straight one.
-pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, which only `sweep`, `contour`, `study` and \
-     `simulate` take, expected length with diameter and youngs_modulus, or with bending_stiffness";
+pub(super) const NOT_UNIFORM: &str = "a rod that is not uniform or not straight at rest, expected length with diameter and youngs_modulus, or \
+     with bending_stiffness";
 
 /// What is said where a clamp gives way.
-pub(super) const NOT_RIGID: &str = "a clamp that gives way, which only `sweep`, `contour`, `study`, `simulate` and `reconstruct` take, \
-     expected no table [clamp]";
+pub(super) const NOT_RIGID: &str = "a clamp that gives way, expected no table [clamp]";
+
+/// What is said where the rod runs through a roller.
+pub(super) const NO_ROLLER: &str = "a roller ahead of the clamp, which only `sweep`, `contour`, `study` and `simulate` take, expected no \
+     field roller";
 
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
@@ -69,28 +73,82 @@ fn written(table: Range<usize>, [stiffness, diameter, modulus]: [Option<&Spanned
     }
 }
 
-/// The rod of a table `[rod]`, on the springs of a table `[clamp]`.
-pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<AnyRod, Fault> {
+/// A rod with what holds it.
+pub(super) enum Held {
+    Clamped(AnyRod),
+    Guided(Guided<VaryingRod>),
+}
+
+impl Held {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Clamped(rod) => rod.length(),
+            Self::Guided(rod) => rod.rod().length(),
+        }
+    }
+}
+
+/// The rod of a table `[rod]`, on the springs or through the roller of a table `[clamp]`.
+pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<Held, Fault> {
+    if let Some(roller) = clamp.and_then(|clamp| clamp.get_ref().roller.as_ref()) {
+        return guided(table, clamp, roller).map(Held::Guided);
+    }
     let clamp = springs(clamp)?;
     match alone(table)? {
-        Alone::Uniform(rod) if clamp.is_rigid() => Ok(AnyRod::Uniform(rod)),
+        Alone::Uniform(rod) if clamp.is_rigid() => Ok(Held::Clamped(AnyRod::Uniform(rod))),
+        rod => Ok(Held::Clamped(AnyRod::Mounted(Mounted::new(varying(table, rod)?, clamp)))),
+    }
+}
+
+/// The rod of a table that runs through a roller ahead of its clamp.
+fn guided(
+    table: &Spanned<RodTable>,
+    clamp: Option<&Spanned<ClampTable>>,
+    roller: &Spanned<f64>,
+) -> Result<Guided<VaryingRod>, Fault> {
+    if let Some(ClampTable { stiffness_x, stiffness_y, stiffness_phi, .. }) = clamp.map(Spanned::get_ref)
+        && let Some(stiffness) = [stiffness_x, stiffness_y, stiffness_phi].into_iter().flatten().next()
+    {
+        return Err(Fault::new(stiffness.span(), "given beside roller, expected springs or a roller"));
+    }
+    let rod = varying(table, alone(table)?)?;
+    Guided::new(rod, *roller.get_ref()).map_err(|error| Fault::new(roller.span(), error.to_string()))
+}
+
+/// The rod of a table as one of any kind.
+fn varying(table: &Spanned<RodTable>, rod: Alone) -> Result<VaryingRod, Fault> {
+    match rod {
         Alone::Uniform(rod) => {
             if let Some(stress) = &table.get_ref().yield_stress {
-                let message = "given for a rod whose clamp gives way, expected it with a rigid clamp alone";
+                let message =
+                    "given for a rod whose clamp gives way or has a roller, expected it with a rigid clamp alone";
                 return Err(Fault::new(stress.span(), message));
             }
-            let straight =
-                rod.with_natural_curvature(0.0).map_err(|error| Fault::new(table.span(), error.to_string()))?;
-            Ok(AnyRod::Mounted(Mounted::new(straight, clamp)))
+            rod.with_natural_curvature(0.0).map_err(|error| Fault::new(table.span(), error.to_string()))
         }
-        Alone::Varying(rod) => Ok(AnyRod::Mounted(Mounted::new(rod, clamp))),
+        Alone::Varying(rod) => Ok(rod),
+    }
+}
+
+/// The rod of a table `[rod]` on the springs of a table `[clamp]`, for recordings of it.
+pub(super) fn given(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<GivenRod, Fault> {
+    let clamp = springs(clamp)?;
+    match alone(table)? {
+        Alone::Uniform(rod) => Ok(GivenRod::Uniform(Mounted::new(rod, clamp))),
+        Alone::Varying(rod) => {
+            GivenRod::varying(Mounted::new(rod, clamp)).map_err(|error| Fault::new(table.span(), error.to_string()))
+        }
     }
 }
 
 /// The clamp of a table `[clamp]`, rigid without one.
 pub(super) fn springs(table: Option<&Spanned<ClampTable>>) -> Result<ElasticClamp, Fault> {
     let Some(table) = table else { return Ok(ElasticClamp::default()) };
-    let ClampTable { stiffness_x, stiffness_y, stiffness_phi } = table.get_ref();
+    let ClampTable { stiffness_x, stiffness_y, stiffness_phi, roller } = table.get_ref();
+    if let Some(roller) = roller {
+        return Err(Fault::new(roller.span(), NO_ROLLER));
+    }
     let fields = [("stiffness_x", stiffness_x), ("stiffness_y", stiffness_y), ("stiffness_phi", stiffness_phi)];
     let [x, y, phi] = fields.map(|(_, field)| field.as_ref().map(|field| *field.get_ref()));
     ElasticClamp::springs(x, y, phi).map_err(|error| {
@@ -183,16 +241,18 @@ fn alone(table: &Spanned<RodTable>) -> Result<Alone, Fault> {
     rod.with_natural_curvature(curvature).map(Alone::Varying).map_err(wrong)
 }
 
-/// The rod of a table, if it is uniform and straight at rest.
-pub(super) fn uniform(table: &Spanned<RodTable>) -> Result<Rod, Fault> {
+/// The rod of a table, if it is uniform and straight at rest; `instead` is what the user may do with another one.
+pub(super) fn uniform(table: &Spanned<RodTable>, instead: &str) -> Result<Rod, Fault> {
     match alone(table)? {
         Alone::Uniform(rod) => Ok(rod),
-        Alone::Varying(_) => Err(Fault::new(table.span(), NOT_UNIFORM)),
+        Alone::Varying(_) => Err(Fault::new(table.span(), format!("{NOT_UNIFORM}; {instead}"))),
     }
 }
 
 fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Result<VaryingRod, Fault> {
     let mut sections = Vec::with_capacity(tables.len());
+    // of all sections, or of none
+    let mut diameters = Some(Vec::with_capacity(tables.len()));
     for table in tables {
         let SectionTable { length, diameter, youngs_modulus, bending_stiffness, natural_curvature } = table.get_ref();
         let fields: [Field<'_>; 5] = [
@@ -206,8 +266,12 @@ fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Resul
         let long = *length.get_ref();
         let bending_stiffness =
             match written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))? {
-                Written::Stiffness(stiffness) => stiffness,
+                Written::Stiffness(stiffness) => {
+                    diameters = None;
+                    stiffness
+                }
                 Written::Wire { diameter, youngs_modulus } => {
+                    diameters.iter_mut().for_each(|all| all.push(diameter));
                     Rod::from_diameter(long, diameter, youngs_modulus).map_err(&at)?.bending_stiffness()
                 }
             };
@@ -218,7 +282,11 @@ fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Resul
         sections.push(section);
     }
     let wrong = |error: RodError| Fault::new(length.span(), error.to_string());
-    Rod::sections(*length.get_ref(), &sections).map_err(wrong)
+    let rod = Rod::sections(*length.get_ref(), &sections).map_err(wrong)?;
+    match diameters {
+        Some(diameters) => rod.with_section_diameters(&diameters).map_err(wrong),
+        None => Ok(rod),
+    }
 }
 
 /// A natural curvature as it is written: a number, or points.

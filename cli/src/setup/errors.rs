@@ -64,6 +64,7 @@ impl SharedErrors {
             clamp_compliance: self.clamp_compliance.map_or(usual.clamp_compliance, |compliance| compliance * moment),
             lag: self.lag.unwrap_or(usual.lag),
             stage_scale: self.stage_scale.unwrap_or(usual.stage_scale),
+            friction: usual.friction,
         }
     }
 }

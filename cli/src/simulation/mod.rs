@@ -19,6 +19,8 @@ use vibrissa::{Pose, Rod};
 /// The columns, those of the standard deviations last.
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
 const WITHOUT_SIGMAS: usize = 7;
+/// The columns of a roller ahead of the clamp, behind the others: what its sensor read (N), and the standard deviation.
+const ROLLER_COLUMNS: [&str; 2] = ["roller", "sigma_roller"];
 
 /// What the comment is called that ends a recording which was interrupted, or whose sweep stopped early.
 pub(crate) const INCOMPLETE: &str = "incomplete";
@@ -103,7 +105,8 @@ impl<R: SceneRod> Simulation<R> {
     /// The memory it takes does not grow with the number of samples.
     ///
     /// Interrupted, or where the sweep stops early, it ends the file with the comment `# incomplete: ` and where that was; [`Recording`](crate::Recording)
-    /// reads it. Before the first sample it writes no file. It replaces none of the files of the scene.
+    /// reads it. A roller ahead of the clamp has a column `roller` (N), with the noise of the channel f0x but for crosstalk, independent of
+    /// that, and a column `sigma_roller`. Before the first sample it writes no file. It replaces none of the files of the scene.
     ///
     /// # Errors
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Output`]. A sweep that stops early is none: what there is, is
@@ -186,14 +189,19 @@ impl<R: SceneRod> Samples<'_, R> {
         let mut last = None;
         let columns = if self.sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
         let mut table = csv_writer(out);
-        table.write_record(&COLUMNS[..columns])?;
+        let of_roller = match (self.simulation.scene.rod.has_roller(), self.sigma) {
+            (false, _) => 0,
+            (true, None) => 1,
+            (true, Some(_)) => 2,
+        };
+        table.write_record(COLUMNS[..columns].iter().chain(&ROLLER_COLUMNS[..of_roller]))?;
         loop {
             if interrupt.is_raised() {
                 recorded.interrupted = Some(Interrupted { pose: last });
                 break;
             }
             match self.ticks.next() {
-                Some(Ok(Tick { number, pose, reactions, .. })) => {
+                Some(Ok(Tick { number, pose, reactions, roller, .. })) => {
                     last = Some(pose);
                     let Simulation { rate, speed, scene, .. } = self.simulation;
                     interrupt.pass(number as f64 * speed / rate / scene.path.length());
@@ -201,8 +209,10 @@ impl<R: SceneRod> Samples<'_, R> {
                         recorded.lost += 1;
                         continue;
                     };
-                    let row = self.simulation.row(number, pose, reactions, self.sigma.unwrap_or_default());
-                    table.serialize(&row[..columns])?;
+                    let sigma = self.sigma.unwrap_or_default();
+                    let row = self.simulation.row(number, pose, reactions, sigma);
+                    let roller = [roller.unwrap_or(f64::NAN), sigma.f0x];
+                    table.serialize((&row[..columns], &roller[..of_roller]))?;
                     recorded.samples += 1;
                 }
                 Some(Err(stop)) => recorded.stop = Some(stop),

@@ -2,8 +2,8 @@
 
 use super::Simulation;
 use crate::{Error, SceneRod};
-use vibrissa::contact::{Item, Stop};
-use vibrissa::reconstruct::NoiseGenerator;
+use vibrissa::contact::{Item, RollerContact, Stop};
+use vibrissa::reconstruct::{Dropout, NoiseGenerator, NoiseModel};
 use vibrissa::rod::Reactions;
 use vibrissa::{Label, Pose, Rod, State, Sweep};
 
@@ -18,6 +18,8 @@ pub struct Tick {
     pub label: Label,
     /// What the sensor read; none where that was lost.
     pub reactions: Option<Reactions>,
+    /// What the sensor of a roller read, N; none without a roller.
+    pub roller: Option<f64>,
 }
 
 /// The samples along a scene, in order; an error where the sweep stops early, and nothing after it. Poses that a snap jumps
@@ -28,6 +30,8 @@ pub struct Ticks<'a, R = Rod> {
     simulation: &'a Simulation<R>,
     step: f64,
     sensor: NoiseGenerator,
+    /// That of a roller, which has one channel.
+    roller: NoiseGenerator,
     /// Number of the next sample.
     next: usize,
 }
@@ -39,10 +43,16 @@ impl<R: SceneRod> Simulation<R> {
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
     pub fn ticks(&self) -> Result<Ticks<'_, R>, Error> {
         let (step, sensor) = (self.step()?, self.noise.generator(self.seed)?);
+        // a sample is lost as a whole
+        let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..self.noise };
+        let roller = of_roller.generator(self.seed ^ ROLLER_SEED)?;
         let sweep = self.scene.sweep_by(step)?;
-        Ok(Ticks { sweep, simulation: self, step, sensor, next: 0 })
+        Ok(Ticks { sweep, simulation: self, step, sensor, roller, next: 0 })
     }
 }
+
+/// Makes the noise of a roller's sensor another one than that of the clamp's.
+const ROLLER_SEED: u64 = 0x726f_6c6c_6572_0001;
 
 /// Share of a step by which a state may be off its sample by rounding.
 const ROUNDING: f64 = 1e-6;
@@ -62,11 +72,14 @@ impl<R: SceneRod> Ticks<'_, R> {
         // The sensor goes on where the sweep has nothing to report.
         for _ in self.next..number {
             self.sensor.sample(Reactions::default());
+            self.roller.sample(Reactions::default());
         }
         self.next = number + 1;
         let phase = state.phase();
         let label = Label::of(phase.contacts, phase.tip);
-        Some(Tick { number, pose: state.pose, label, reactions: self.sensor.sample(state.reactions) })
+        let force = |roller: &RollerContact| Reactions { f0x: roller.force, ..Reactions::default() };
+        let roller = state.roller.as_deref().and_then(|roller| self.roller.sample(force(roller))).map(|read| read.f0x);
+        Some(Tick { number, pose: state.pose, label, reactions: self.sensor.sample(state.reactions), roller })
     }
 }
 

@@ -66,6 +66,7 @@ impl StudyRow {
         match AnyScene::parse(file, text) {
             Ok(AnyScene::Uniform(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
             Ok(AnyScene::Mounted(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
+            Ok(AnyScene::Guided(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
             Err(error) => Self::refused(scene, values, error.without_place()),
         }
     }

@@ -67,6 +67,9 @@ pub(crate) fn along_chords(clamp: Pose, supposed: &[Supposed]) -> SmallVec<[Supp
 
 /// The rod's slope angles at the contacts by the shape that the forces would give it.
 pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Supposed]) -> Slopes {
+    if let Some(mut rod) = beyond_roller(rod, clamp, supposed) {
+        return supposed.iter().map(|contact| rod.to(contact.s, contact.push())).collect();
+    }
     let (mut base, mut felt) = (clamp.pose(), felt(clamp.pose(), supposed));
     if clamp.law().is_some() {
         for _ in 0..GIVING_WAY {
@@ -76,6 +79,15 @@ pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Sup
     }
     let mut rod = Walk::new(rod, at_clamp(base, felt.m0z), (felt.f0y, -felt.f0x));
     supposed.iter().map(|contact| rod.to(contact.s, contact.push())).collect()
+}
+
+/// The rod from the roller of its clamp on, under the forces. None without a roller, and where it is not held there.
+fn beyond_roller<'a, M: RodModel>(rod: &'a M, clamp: &impl Clamp, supposed: &[Supposed]) -> Option<Walk<'a, M>> {
+    let roller = clamp.roller()?;
+    let [x, y] = roller.point(clamp.pose());
+    let Reactions { f0x, f0y, m0z } = felt(Pose { x, y, phi: 0.0 }, supposed);
+    let hold = roller.under(rod, clamp.pose(), -m0z, f0y, -f0x)?;
+    Some(Walk::beyond(rod, hold.s, hold.at, (f0y, -f0x)))
 }
 
 /// The reactions of the clamp to the forces, with its moment about the base.

@@ -5,8 +5,10 @@ use crate::friction::slip_coordinate;
 use crate::gap::scan::Scan;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
-use crate::state::{Certificate, Contact, ContactFriction, GapBounds, SlipMode, State};
-use rod_core::{Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RodModel, SolveReport, Supports, Units};
+use crate::state::{Certificate, Contact, ContactFriction, GapBounds, RollerContact, SlipMode, State};
+use rod_core::{
+    Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RodModel, RollerHold, SolveReport, Supports, Units,
+};
 
 /// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
@@ -74,10 +76,26 @@ pub(crate) fn state<R: PhysicalRod>(
         contacts,
         leg: 0,
         reactions: shape.reactions(),
+        roller: roller(setup, configuration),
         energy: stored(rod, &clamp, &shape),
-        max_stress: rod.bending_stress(shape.largest_curvature()),
+        max_stress: rod.largest_stress(&shape),
         certificate,
     }
+}
+
+/// The roller ahead of the clamp, if there is one.
+fn roller<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> Option<Box<RollerContact>> {
+    let supports = configuration.supports(&setup.world);
+    let RollerHold { s, force, at } =
+        setup.problem(&supports, configuration.tau()).roller(configuration.of_contacts())?;
+    let units = setup.rod.units();
+    Some(Box::new(RollerContact {
+        s: s * units.length,
+        x: at.x * units.length,
+        y: at.y * units.length,
+        alpha: at.phi,
+        force: force * units.force,
+    }))
 }
 
 /// What friction does at contact j, in these units of length and force.

@@ -15,7 +15,7 @@ use crate::gap::passing::Passing;
 use crate::gap::scan::{Scan, Scanner};
 use crate::scene::world::World;
 use crate::stability::wraps;
-use rod_core::{Grip, PhysicalRod, Rod, RodModel, SolveReport};
+use rod_core::{Clamp, Grip, PhysicalRod, Rod, RodModel, SolveReport};
 use smallvec::SmallVec;
 
 /// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
@@ -51,6 +51,10 @@ const DEEPEST: f64 = 1e-9;
 pub(crate) const LARGEST_RESIDUAL: f64 = 1e-9;
 /// Arc length (L) below which a contact counts as at the clamp, where its force has no lever.
 const AT_CLAMP: f64 = 1e-4;
+/// The same beyond a roller, whose force grows with the inverse of it; and what counts as at the roller where the branch cannot be followed
+/// any more.
+const AT_ROLLER: f64 = 1e-2;
+const NEAR_ROLLER: f64 = 6e-2;
 /// Arclength within which transitions coincide. The one next to the clamp is taken.
 const AT_ONCE: f64 = 1e-12;
 /// Arclength by which a touch may lie before the start of the step. The proof at the start leaves a depth of 1e-12 L open, which
@@ -207,6 +211,9 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         if from.scan.is_by_an_end() {
             return Err(StopReason::EndOfContour);
         }
+        if self.is_before_roller(&from.configuration, &from.scan, NEAR_ROLLER) {
+            return Err(StopReason::BeforeRoller);
+        }
         // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
         if touches {
             return Ok(from.ends());
@@ -246,6 +253,9 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         };
         if scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP) {
             return Err(ends_if_short(StopReason::ClampInside));
+        }
+        if self.is_before_roller(&next, &scan, AT_ROLLER) {
+            return Err(ends_if_short(StopReason::BeforeRoller));
         }
         // No point of a free rod has gone further than the smallest gap was: it came around an end.
         let is_open = !self.corrector.setup.world.open_ends().is_empty();
@@ -292,6 +302,17 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         }
         let quality = Quality::new(&report, true);
         Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })))
+    }
+
+    /// Whether the rod goes through an object, or has a contact, between its clamp and the roller ahead, or `beyond` that.
+    fn is_before_roller(&self, next: &Configuration, scan: &Scan, beyond: f64) -> bool {
+        let setup = &self.corrector.setup;
+        setup.clamp(next.tau()).roller().is_some_and(|roller| {
+            let supports = next.supports(&setup.world);
+            let hold = setup.problem(&supports, next.tau()).roller(next.of_contacts());
+            let s = hold.map_or(roller.at, |hold| hold.s) + beyond;
+            scan.crossings.iter().any(|crossing| crossing.s < s) || (next.count() > 0 && next.s(0) < s)
+        })
     }
 
     /// What the rod, on its way to where it is seen `now`, has gone through and is beside.

@@ -29,9 +29,12 @@ impl Restored {
         if let Some(index) = state.contacts.iter().position(|contact| contact.friction.is_some_and(sticks)) {
             return Err(ContactError::Sticks { index });
         }
-        let configuration = configuration(rod, world, state)?;
         let length = rod.units().length;
         let clamp = Pose { x: state.pose.x / length, y: state.pose.y / length, phi: state.pose.phi };
+        if rod.clamp(clamp).roller().is_some() {
+            return Err(ContactError::Roller);
+        }
+        let configuration = configuration(rod, world, state)?;
         let linear = {
             let supports = configuration.supports(world);
             let problem = MultiPoint { rod: rod.model(), clamp: rod.clamp(clamp), supports: &supports };

@@ -1,5 +1,6 @@
 //! Coefficients of friction of the objects.
 
+use crate::error::ContactError;
 use std::fmt;
 
 /// Coulomb's law at a contact: a rod that sticks holds |f_t| up to `at_rest` f, one that slips is held back by `slipping` f, where f is the
@@ -25,12 +26,27 @@ impl Coefficients {
     pub fn are_valid(&self) -> bool {
         self.at_rest.is_finite() && 0.0 <= self.slipping && self.slipping <= self.at_rest
     }
+
+    /// The same as an error of the coefficients of an object.
+    pub(crate) fn check(&self, object: usize) -> Result<(), ContactError> {
+        if self.are_valid() {
+            return Ok(());
+        }
+        let Self { at_rest, slipping } = *self;
+        let is_one = slipping.is_finite() && slipping >= 0.0;
+        let (value, expected) = if !is_one {
+            (slipping, "a finite kinetic coefficient >= 0".to_owned())
+        } else {
+            (at_rest, format!("a finite static coefficient not below the kinetic one, {slipping}"))
+        };
+        Err(ContactError::Friction { object, value, expected })
+    }
 }
 
 /// The friction between the rod and the objects, for [`Sweep::with_friction`](crate::Sweep::with_friction).
 ///
 /// A number is one coefficient for all objects, a list one for each object (and none for those beyond its end). A closure is a law of its
-/// own. The law is asked where a contact begins, changes its piece or its mode; it depends on nothing else.
+/// own. [`Sweep::with_friction`](crate::Sweep::with_friction) asks it once for each piece and refuses coefficients that are not valid.
 ///
 /// ```
 /// use rod_contact::{Coefficients, Friction};
@@ -45,6 +61,14 @@ impl Coefficients {
 pub trait Friction: Send + Sync {
     /// The coefficients of a piece of an object. A convex corner has those of the piece before it.
     fn coefficients(&self, object: usize, piece: usize) -> Coefficients;
+
+    /// Whether the law is one for so many objects. By default any law is; a list is not where it is longer than that.
+    ///
+    /// # Errors
+    /// [`ContactError::Friction`] with the first object that there is not.
+    fn fits(&self, _objects: usize) -> Result<(), ContactError> {
+        Ok(())
+    }
 }
 
 impl Friction for f64 {
@@ -56,6 +80,13 @@ impl Friction for f64 {
 impl Friction for Vec<f64> {
     fn coefficients(&self, object: usize, _piece: usize) -> Coefficients {
         Coefficients::equal(self.get(object).copied().unwrap_or(0.0))
+    }
+
+    fn fits(&self, objects: usize) -> Result<(), ContactError> {
+        self.get(objects).map_or(Ok(()), |value| {
+            let expected = format!("no coefficient beyond those of the {objects} objects");
+            Err(ContactError::Friction { object: objects, value: *value, expected })
+        })
     }
 }
 

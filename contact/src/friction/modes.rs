@@ -23,7 +23,7 @@ const MOST_CONTACTS: usize = 6;
 #[derive(Debug)]
 pub(crate) enum Motion {
     /// In each of these ways: none where no combination of modes is admissible.
-    Ways(SmallVec<[Configuration; 2]>),
+    Ways(Vec<Configuration>),
     /// The straight rod is pushed on along its axis and sticks: it cannot move.
     Jams,
     /// There are more contacts than can be tried.
@@ -52,7 +52,7 @@ pub(crate) fn anew<R: PhysicalRod>(
         (0..n).map(|j| choice(setup, configuration, j, stopped)).collect();
     let all = AllRates::new(setup, configuration);
     let first_contact = n == 1 && configuration.force(0).abs() < UNLOADED && setup.rod.model().is_straight();
-    let mut ways: SmallVec<[Configuration; 2]> = SmallVec::new();
+    let mut ways = Vec::new();
     let mut modes: SmallVec<[Mode; 6]> = SmallVec::new();
     for mut number in 0..choices.iter().map(SmallVec::len).product() {
         modes.clear();
@@ -203,6 +203,10 @@ impl AllRates {
                 Mode::Sticks => {
                     let (limit, friction) = (self.limit[j] * self.force[j], self.friction[j]);
                     let inside = friction.abs() < limit * (1.0 - ON_CONE);
+                    // on a smoother piece than the one from which it comes it cannot stick with that force
+                    if friction.abs() > limit * (1.0 + ON_CONE) + UNLOADED {
+                        return false;
+                    }
                     // a coefficient at rest larger than that of slipping lets the rod stick as it stops
                     inside || 1.0_f64.copysign(friction) * friction_rate - self.limit[j] * force_rate <= RATE
                 }

@@ -1,7 +1,7 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
 use crate::contact_set::{Configuration, Segments};
-use crate::scene::rod::{self, Segment};
+use crate::scene::rod::{self, Segment, lead};
 use crate::scene::setup::Setup;
 use rod_contours::Bounds;
 use rod_core::{Cut, PhysicalRod, RodModel, Station};
@@ -56,6 +56,8 @@ pub(crate) struct Shape {
     firsts: SmallVec<[usize; 9]>,
     /// Size of the force on each segment.
     forces: SmallVec<[f64; 9]>,
+    /// Number of segments between the clamp and a roller: 1 where a rod under load runs through one, else 0.
+    lead: usize,
 }
 
 impl Shape {
@@ -70,13 +72,16 @@ impl Shape {
             nodes: vec![node(0.0, at), node(length, end)],
             firsts: smallvec![0],
             forces: smallvec![0.0],
+            lead: 0,
         }
     }
 
     /// The shape of the rod in `configuration`.
     pub fn of<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> Self {
         let rod = setup.rod.model();
-        Self::through(rod, configuration.segments(setup), |from, to, force, _| {
+        let segments = configuration.segments(setup);
+        let lead = lead(&segments, configuration.count());
+        Self::through(rod, segments, lead, |from, to, force, _| {
             (((to - from) / spacing(rod, (from, to), force, SPACING)).ceil() as usize).max(1)
         })
     }
@@ -84,7 +89,7 @@ impl Shape {
     /// The same with points so close that the chords between them, or an integral by Simpson's rule, may stand for the rod: an odd
     /// number of them on each segment.
     pub fn refined(&self, rod: &impl RodModel) -> Self {
-        Self::through(rod, self.segments.clone(), |from, to, force, loaded| {
+        Self::through(rod, self.segments.clone(), self.lead, |from, to, force, loaded| {
             let spacing = spacing(rod, (from, to), force, FINE).min(if from < loaded { loaded / LOADED } else { FINE });
             2 * ((0.5 * (to - from) / spacing).ceil() as usize).max(FEWEST / 2)
         })
@@ -92,7 +97,12 @@ impl Shape {
 
     /// Points along `segments`: on each one, by its arc lengths, its force and the arc length of the last contact, so many steps. The
     /// free end of a rod that is straight at rest is one.
-    fn through(rod: &impl RodModel, segments: Segments, steps: impl Fn(f64, f64, f64, f64) -> usize) -> Self {
+    fn through(
+        rod: &impl RodModel,
+        segments: Segments,
+        lead: usize,
+        steps: impl Fn(f64, f64, f64, f64) -> usize,
+    ) -> Self {
         let mut nodes = Vec::with_capacity(USUAL);
         let mut firsts = SmallVec::new();
         let forces: SmallVec<[f64; 9]> = segments.iter().map(|segment| segment.a.hypot(segment.b)).collect();
@@ -125,7 +135,7 @@ impl Shape {
             });
         }
         bulge(rod, &forces, &mut nodes, &firsts);
-        Self { segments, nodes, firsts, forces }
+        Self { segments, nodes, firsts, forces, lead }
     }
 
     /// Where the clamp and the tip are.
@@ -152,7 +162,12 @@ impl Shape {
 
     /// The point that is at contact number `j`.
     pub fn node_of(&self, j: usize) -> usize {
-        self.firsts[j + 1]
+        self.firsts[j + 1 + self.lead]
+    }
+
+    /// Number of segments between the clamp and a roller: so many come before the one that leads to the first contact.
+    pub fn lead(&self) -> usize {
+        self.lead
     }
 
     /// The points of segment number `i` with both its ends.

@@ -39,7 +39,12 @@ pub(crate) struct Walk<'a, M> {
 impl<'a, M: RodModel> Walk<'a, M> {
     /// From the clamp with the force (A, B) on the first segment.
     pub fn new(rod: &'a M, clamp: Cut, force: (f64, f64)) -> Self {
-        Self { rod, s: 0.0, at: clamp, force }
+        Self::beyond(rod, 0.0, clamp, force)
+    }
+
+    /// From the cut at arc length `s`, on a segment that carries the force (A, B).
+    pub fn beyond(rod: &'a M, s: f64, at: Cut, force: (f64, f64)) -> Self {
+        Self { rod, s, at, force }
     }
 
     /// Goes on to a contact at arc length `s`, that adds `push` to (A, B): the slope angle of the rod there.
@@ -80,9 +85,15 @@ pub(crate) fn holds_between_ends(rod: &impl RodModel, from: f64, to: f64, force:
     length > 0.0 && force * length * length < PI * PI * rod.least_stiffness(from, to)
 }
 
-/// Curvature of the rod right behind a contact.
+/// Number of segments before the one that leads to the first of so many contacts: 1 where the rod runs through a roller.
 #[inline(always)]
-pub(crate) fn curvature_behind(rod: &impl RodModel, segments: &[Segment], j: usize) -> f64 {
-    let behind = &segments[j + 1];
+pub(crate) fn lead(segments: &[Segment], contacts: usize) -> usize {
+    segments.len() - 1 - contacts
+}
+
+/// Curvature of the rod right behind contact `j` of so many.
+#[inline(always)]
+pub(crate) fn curvature_behind(rod: &impl RodModel, segments: &[Segment], (j, contacts): (usize, usize)) -> f64 {
+    let behind = &segments[j + 1 + lead(segments, contacts)];
     rod.curvature_at(behind.s, behind.start.moment)
 }

@@ -1,5 +1,6 @@
 //! The objects as the rod sees them: in lengths of the rod.
 
+use crate::error::ContactError;
 use crate::friction::{Coefficients, Friction};
 use rod_contours::{
     Bounds, Closest, Composite, Contour, Frame, FrameRate, Index, Part, Range, Run, RunClosest, RunEnd, StretchKind,
@@ -40,8 +41,8 @@ pub(crate) struct World<'a> {
     skin: f64,
     /// Length of the rod in the contours' unit.
     length: f64,
-    /// Friction of the objects, if there is any.
-    friction: Option<Arc<dyn Friction>>,
+    /// Coefficients of friction by stretch, if there is any.
+    friction: Option<Arc<[Coefficients]>>,
 }
 
 /// The point of one part of the contour that is closest to a given point.
@@ -120,9 +121,17 @@ impl<'a> World<'a> {
         Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length, friction: None }
     }
 
-    /// Gives the objects this friction.
-    pub fn rub(&mut self, friction: Arc<dyn Friction>) {
-        self.friction = Some(friction);
+    /// Gives the objects this friction, which is asked once for each piece.
+    pub fn rub(&mut self, friction: &dyn Friction) -> Result<(), ContactError> {
+        friction.fits(self.objects.len())?;
+        let of = |stretch| friction.coefficients(self.object(stretch), self.piece(stretch));
+        let count: usize = self.objects.iter().map(|object| object.stretches().len()).sum();
+        let all: Vec<Coefficients> = (0..count).map(of).collect();
+        for (stretch, coefficients) in all.iter().enumerate() {
+            coefficients.check(self.object(stretch))?;
+        }
+        self.friction = Some(all.into());
+        Ok(())
     }
 
     /// Whether the objects have friction.
@@ -133,8 +142,7 @@ impl<'a> World<'a> {
 
     /// The coefficients of friction of a stretch: of a corner or notch those of the piece before it.
     pub fn coefficients(&self, stretch: usize) -> Coefficients {
-        let of = |friction: &Arc<dyn Friction>| friction.coefficients(self.object(stretch), self.piece(stretch));
-        self.friction.as_ref().map_or(Coefficients::NONE, of)
+        self.friction.as_ref().map_or(Coefficients::NONE, |friction| friction[stretch])
     }
 
     /// Makes solid all that is behind an open contour.

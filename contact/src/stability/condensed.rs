@@ -12,8 +12,9 @@
 //! q is at most P, and the least eigenvalue of -(EI eta')' at least EI (pi / l)^2 with the least EI. Behind the
 //! last contact the least value is zero. So Q > 0 for all variations if, and only if, the sum of these forms and of the contacts' own ones is positive definite in the shifts u_j along
 //! the contour and the turns eta_j: two unknowns a contact. A clamp on springs adds the ways p of its base, with their own p^2 / softness.
+//! A roller counts as the first contact.
 
-use super::{Form, PENALTY};
+use super::{Form, PENALTY, roller};
 use crate::contact_set::Configuration;
 use crate::gap::shape::Shape;
 use crate::scene::rod::holds_between_ends;
@@ -39,7 +40,7 @@ type Ends = [f64; 4];
 /// between its ends, nothing is said.
 pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, shape: &Shape) -> bool {
     let rod = setup.rod.model();
-    let n = configuration.count();
+    let (n, lead) = (configuration.count() + shape.lead(), shape.lead());
     let supports = configuration.supports(&setup.world);
     let springs = springs(setup.clamp(configuration.tau()).law());
     let base = springs.len();
@@ -55,10 +56,14 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
         *own = [*phi, 0.0, -x, -y];
     }
     for j in 0..n {
-        let support = supports.support(j, configuration.t(j));
-        let Form::Moves([uu, uv, vv]) = super::form(rod, configuration, shape, (j, PENALTY), &support) else {
-            return false;
+        let (support, form) = match j.checked_sub(lead) {
+            None => (roller::support(shape), roller::form(rod, shape)),
+            Some(j) => {
+                let support = supports.support(j, configuration.t(j));
+                (support, super::form(rod, configuration, shape, (j, PENALTY), &support))
+            }
         };
+        let Form::Moves([uu, uv, vv]) = form else { return false };
         let (sin, cos) = support.alpha.sin_cos();
         let Some(stiffness) = stiffness(rod, shape, j) else { return false };
         (moves[known], moves[known + 1]) = ([0.0, 0.0, cos, sin], [0.0, 1.0, 0.0, 0.0]);

@@ -13,11 +13,13 @@
 //! d alpha/dt = w). Where the straight end of the rod lies on a straight edge (w = kappa' = 0) g_j is of the order
 //! -|eta|^(3/2), so that eta is held. p_k is the way of the base along its spring k. The equilibrium is stable if Q > 0 for all such
 //! eta and p. eta is expanded in the first modes of a free cantilever and the turn of the base, the constraints enter by a large penalty, and Q is positive exactly if its matrix has a
-//! Cholesky factor. With friction the contacts are held along the contour too (u = 0): the energy of a rod that sticks. Then friction must
+//! Cholesky factor. A [`roller`] holds the rod like a vertex that it slides over, v = 0, with a force of either sign.
+//! With friction the contacts are held along the contour too (u = 0): the energy of a rod that sticks. Then friction must
 //! also resist slips (`friction::resists`). Mostly that is not needed: [`condensed`] proves it from the derivatives of the segments, and where it does
 //! not, the modes decide.
 
 mod condensed;
+mod roller;
 
 use crate::contact_set::Configuration;
 use crate::friction::resists;
@@ -96,7 +98,8 @@ impl Judge {
         let Self { integrals, quadratic: q, along, across, eta } = self;
         let shape = &shape.refined(rod);
         let springs = springs(setup.clamp(configuration.tau()).law());
-        let modes = MODES + 2 * n;
+        let lead = shape.lead();
+        let modes = MODES + 2 * (n + lead);
         let end = configuration.s(n - 1);
         let turns = Turns::new(rod, end, !springs.is_empty());
         let penalty = PENALTY * (end / turns.softness);
@@ -106,27 +109,33 @@ impl Judge {
         });
         integrals.reset(modes);
         let supports = configuration.supports(world);
-        for j in 0..n {
-            let Segment { a, b, .. } = shape.segments[j];
+        for i in 0..lead + n {
+            let Segment { a, b, .. } = shape.segments[i];
             match turns.scale {
-                Some(scale) => integrals.add(shape.along(j), (a, b), scale),
-                None => integrals.add_at(rod, shape.along(j), (a, b), &|s| turns.phase(rod, s)),
+                Some(scale) => integrals.add(shape.along(i), (a, b), scale),
+                None => integrals.add_at(rod, shape.along(i), (a, b), &|s| turns.phase(rod, s)),
             }
-            let support = supports.support(j, configuration.t(j));
+            let (support, form, s) = match i.checked_sub(lead) {
+                None => (roller::support(shape), roller::form(rod, shape), shape.segments[1].s),
+                Some(j) => {
+                    let support = supports.support(j, configuration.t(j));
+                    (support, form(rod, configuration, shape, (j, penalty), &support), configuration.s(j))
+                }
+            };
             integrals.shifts(support.alpha.sin_cos(), along, across);
             push_shifts(&springs, shape, &support, along, across);
-            let form = match form(rod, configuration, shape, (j, penalty), &support) {
+            let form = match form {
                 Form::Moves(form) => form,
                 Form::Held => [penalty, 0.0, 0.0],
                 Form::Flat => [0.0, 0.0, penalty],
                 Form::Slips => return false,
             };
-            modes_at(turns.phase(rod, configuration.s(j)), modes, eta);
+            modes_at(turns.phase(rod, s), modes, eta);
             eta.extend(springs.iter().map(|spring| spring.way[2]));
             q.add(form, along, eta);
             let held = |ways: &[f64]| penalty / ways.iter().map(|way| way * way).sum::<f64>().clamp(LEAST_WAY, 1.0);
             q.add([held(across), 0.0, 0.0], across, eta);
-            if configuration.contacts[j].grip != Grip::SMOOTH {
+            if i.checked_sub(lead).is_some_and(|j| configuration.contacts[j].grip != Grip::SMOOTH) {
                 q.add([held(along), 0.0, 0.0], along, eta);
             }
         }
@@ -204,7 +213,7 @@ fn form(
         Hold::Tip if v == 0.0 => Form::Slips,
         Hold::Tip => Form::Moves([-f * w / v, 0.0, 0.0]),
         Hold::Tangent { offset } => {
-            let kappa = offset.cos() * curvature_behind(rod, &shape.segments, j);
+            let kappa = offset.cos() * curvature_behind(rod, &shape.segments, (j, configuration.count()));
             let divisor = w - v * kappa;
             if lies_flat(w, kappa) {
                 Form::Flat
@@ -460,7 +469,7 @@ pub(crate) fn wraps<R: PhysicalRod>(
     configuration.contacts.iter().enumerate().position(|(j, contact)| match contact.hold {
         Hold::Tangent { offset } => {
             let support = supports.support(j, configuration.t(j));
-            let kappa = offset.cos() * curvature_behind(setup.rod.model(), segments, j);
+            let kappa = offset.cos() * curvature_behind(setup.rod.model(), segments, (j, configuration.count()));
             support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
         }
         Hold::Tip => false,
@@ -487,7 +496,7 @@ mod tests {
     }
 
     /// Another rod that stands so, by all that judges it.
-    fn held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
+    pub(super) fn held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
         let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap()).unwrap();
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let setup = Setup::new(rod, contour.as_ref(), path);

@@ -69,7 +69,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
         found.insert(0, best);
         self.start = Some(Start::InContact(found.iter().map(Candidate::told).collect()));
-        Ok(self.at_rest(found.swap_remove(0).configuration))
+        let start = found.swap_remove(0).configuration;
+        // it may have come there another way than it goes on
+        if self.setup().world.rubs() {
+            return self.resume_rubbing(start);
+        }
+        Ok(self.at_rest(start))
     }
 
     /// Keeps what an approach came to, if it holds and is not known yet.

@@ -4,6 +4,7 @@ use super::{Item, MOST_STEPS_TAKEN, Sweep};
 use crate::contact_set::Configuration;
 use crate::continuation::step::{Point, SAME_POSE};
 use crate::error::{ContactError, Stop, StopReason};
+use crate::friction::Friction;
 use crate::path::{ClampPath, check};
 use crate::scene::setup::Setup;
 use crate::state::State;
@@ -82,6 +83,35 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         let recalled = sweep.recalled(state)?;
         let at = sweep.at_rest(recalled);
         Ok(Self::at_rest(sweep, at))
+    }
+
+    /// Gives the objects friction, as [`Sweep::with_friction`] does: of a rod that is free, or in an equilibrium with friction that was
+    /// given to [`from_state`](Self::from_state). One that [`new`](Self::new) has found in contact knows no friction: its contacts begin at the
+    /// next move as those of a rod that was laid there, without a force along the contour.
+    ///
+    /// ```
+    /// use rod_contact::{Follower, SlipMode};
+    /// use rod_contours::{Composite, Parabola};
+    /// use rod_core::{Pose, Rod};
+    /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
+    /// let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+    /// let mut rod = Follower::new(&rod, &object, clamp(0.9))?.with_friction(0.3)?;
+    /// let mode = |rod: &Follower<'_>| rod.state().contacts[0].friction.map(|friction| friction.mode);
+    /// rod.to(clamp(0.2))?;
+    /// assert_eq!(mode(&rod), Some(SlipMode::Backward));
+    /// // it turns back, and the rod rolls on the object before it slips the other way
+    /// rod.to(clamp(0.2001))?;
+    /// assert_eq!(mode(&rod), Some(SlipMode::Stick));
+    /// rod.to(clamp(0.25))?;
+    /// assert_eq!(mode(&rod), Some(SlipMode::Forward));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Friction`].
+    pub fn with_friction(mut self, friction: impl Friction) -> Result<Self, ContactError> {
+        self.sweep = self.sweep.with_friction(friction)?;
+        Ok(self)
     }
 
     /// The rod at the first pose of the path of `sweep`.

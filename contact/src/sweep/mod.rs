@@ -22,6 +22,7 @@ use crate::contact_set::edit::beside_corner;
 use crate::continuation::branch::Corrector;
 use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
 use crate::error::{ContactError, Stop, StopReason};
+use crate::event::EventKind;
 use crate::friction::Friction;
 use crate::path::Path;
 use crate::scene::setup::Setup;
@@ -30,10 +31,9 @@ use crate::state::State;
 use crowd::Crowd;
 use leg::{Leg, legs};
 use rod_contours::Composite;
-use rod_core::{PhysicalRod, Rod};
+use rod_core::{Clamp, PhysicalRod, Rod};
 use rubbing::stopped;
 use std::collections::VecDeque;
-use std::sync::Arc;
 
 /// A sweep of a rod past a contour: an iterator of states and events in the order in which they come. After an `Err` it is
 /// over; all items before stand.
@@ -224,8 +224,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     ///
     /// Contacts then slip, stick or roll (Coulomb's law), which [`Contact::friction`](crate::Contact::friction) tells. The modes are chosen
     /// anew at every event, and where the path turns, by the motion that they allow. Where the rod has snapped its friction is an estimate: the
-    /// descent that finds where it lands knows no friction, and each contact is held back in the sense in which it came. A start in contact that was
-    /// not brought there by the path has no friction until the rod moves.
+    /// descent that finds where it lands knows no friction, and each contact is held back in the sense in which it came. A start in contact goes on from
+    /// the forces that it has as it was brought there, and, where it was let go there, without a force along the contour.
     ///
     /// ```
     /// use rod_contact::{ClampPath, SlipMode, Sweep};
@@ -234,17 +234,20 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
     /// let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
     /// let path = ClampPath::new(clamp(0.5), clamp(0.1))?;
-    /// let state = Sweep::new(&rod, &object, path, 0.1)?.with_friction(0.3).run().states.pop().ok_or("no state")?;
+    /// let state = Sweep::new(&rod, &object, path, 0.1)?.with_friction(0.3)?.run().states.pop().ok_or("no state")?;
     /// let (contact, friction) = (&state.contacts[0], state.contacts[0].friction.ok_or("no friction")?);
     /// // the clamp moves to the left, and draws the rod back along the contour
     /// assert_eq!(friction.mode, SlipMode::Backward);
     /// assert!((friction.force - 0.3 * contact.force).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub fn with_friction(mut self, friction: impl Friction + 'static) -> Self {
-        self.stepper.corrector.setup.world.rub(Arc::new(friction));
-        self
+    ///
+    /// # Errors
+    /// [`ContactError::Friction`] where a coefficient is negative or not finite, where a static one is below the kinetic one, and where a list
+    /// is longer than that of the objects.
+    pub fn with_friction(mut self, friction: impl Friction) -> Result<Self, ContactError> {
+        self.stepper.corrector.setup.world.rub(&friction)?;
+        Ok(self)
     }
 
     /// The work (J) that friction has taken so far: the integral of |f_t dg| over all contacts that slip. None without friction, and where it is
@@ -276,6 +279,10 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     /// them and have no part in where a step ends.
     fn advance(&mut self) -> Result<(), StopReason> {
         let Some(point) = self.at.take() else {
+            let Setup { world, path, rod } = self.setup();
+            if world.rubs() && rod.clamp(path.at(0.0)).roller().is_some() {
+                return Err(StopReason::RollerFriction);
+            }
             let start = Box::new(match self.given.take() {
                 Some(given) => self.resume(given)?,
                 None => self.begin()?,
@@ -364,6 +371,10 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
                 let stopped = stopped(kind, &before, &after.configuration);
+                let roughness =
+                    |here: &Configuration, j: usize| self.setup().world.coefficients(here.contacts[j].stretch);
+                let is_rougher = kind == EventKind::Piece
+                    && (0..before.count()).any(|j| roughness(&before, j) != roughness(&after.configuration, j));
                 let before = self.stepper.look(before);
                 let next = if self.setup().world.rubs() {
                     self.goes_on_rubbing(after, stopped)?
@@ -376,6 +387,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
                     }
+                    // on the border between pieces it neither slips on nor rolls on: it stays there, held by what lies between their coefficients
+                    None if is_rougher => Err(StopReason::Undetermined),
                     None => self.snap(before).map(Box::new),
                 }
             }

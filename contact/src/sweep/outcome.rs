@@ -8,6 +8,7 @@ use crate::state::State;
 /// What a sweep comes to next.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[expect(clippy::large_enum_variant, reason = "items are handed out one by one, not kept")]
 pub enum Item {
     /// The equilibrium at a pose that is reported.
     State(State),

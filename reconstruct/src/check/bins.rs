@@ -16,8 +16,10 @@ const NOTHING: f64 = 1e-6;
 pub(super) struct Bin {
     pub pose: Pose,
     pub reactions: Reactions,
-    /// 2 (f0y sin phi0 + f0x cos phi0)
+    /// 2 (f0y sin phi0 + f0x cos phi0), and 2 |F| sin rho with friction
     pub load: f64,
+    /// Tangent of the angle of friction.
+    pub friction: f64,
     /// m0z^2, less the variance of the noise.
     pub square: f64,
     /// Standard deviations of both.
@@ -27,11 +29,11 @@ pub(super) struct Bin {
     pub covariance: Matrix3<f64>,
 }
 
-/// The bins in which the rod is in contact.
-pub(super) fn bins(samples: &[Sample]) -> Vec<Bin> {
-    let usable: Vec<&Sample> = samples.iter().filter(|sample| is_finite(sample)).collect();
+/// The bins in which the rod is in contact. `friction` is the coefficient of each sample.
+pub(super) fn bins(samples: &[Sample], friction: impl Fn(usize) -> f64) -> Vec<Bin> {
+    let usable: Vec<(usize, &Sample)> = samples.iter().enumerate().filter(|(_, sample)| is_finite(sample)).collect();
     let count: Vec<f64> = (0..usable.len()).map(|k| k as f64).collect();
-    let channel = |of: fn(&Reactions) -> f64| -> Vec<f64> { usable.iter().map(|s| of(&s.reactions)).collect() };
+    let channel = |of: fn(&Reactions) -> f64| -> Vec<f64> { usable.iter().map(|(_, s)| of(&s.reactions)).collect() };
     let channels = [channel(|r| r.f0x), channel(|r| r.f0y), channel(|r| r.m0z)];
     // spaced by number, not by path length, which may be in a wrong unit, too
     let noise = channels.each_ref().map(|channel| estimate(&count, channel));
@@ -40,7 +42,7 @@ pub(super) fn bins(samples: &[Sample]) -> Vec<Bin> {
     let mut bins = Vec::with_capacity(usable.len() / length + 1);
     for part in usable.chunks(length) {
         let n = part.len() as f64;
-        let mean = |of: &dyn Fn(&Sample) -> f64| part.iter().map(|sample| of(sample)).sum::<f64>() / n;
+        let mean = |of: &dyn Fn(&Sample) -> f64| part.iter().map(|(_, sample)| of(sample)).sum::<f64>() / n;
         let reactions = Reactions {
             f0x: mean(&|s| s.reactions.f0x),
             f0y: mean(&|s| s.reactions.f0y),
@@ -54,11 +56,14 @@ pub(super) fn bins(samples: &[Sample]) -> Vec<Bin> {
         if (0..3).all(|c| r[c].abs() <= SIGMAS * variance[c].sqrt() + nothing[c]) {
             continue;
         }
+        let friction = part.first().map_or(0.0, |(number, _)| friction(*number));
+        let rubbing = 2.0 * reactions.f0x.hypot(reactions.f0y) * friction / friction.hypot(1.0);
         let pose = Pose { x: mean(&|s| s.pose.x), y: mean(&|s| s.pose.y), phi: mean(&|s| s.pose.phi) };
         bins.push(Bin {
             pose,
             reactions,
-            load: mean(&|s| load(s)),
+            load: mean(&|s| load(s)) + rubbing,
+            friction,
             square: mean(&|s| s.reactions.m0z.powi(2)) - noise[2].sigma.powi(2),
             sigma_load: 2.0 * variance[0].max(variance[1]).sqrt(),
             sigma_square: (4.0 * r[2].powi(2) * variance[2] + 2.0 * noise[2].sigma.powi(2) * variance[2]).sqrt(),

@@ -97,6 +97,31 @@ pub enum Finding {
         /// In lengths of the rod.
         lengths: f64,
     },
+    /// There is friction that was not asked for.
+    Friction {
+        /// Its coefficient, negative where the rod is pushed on.
+        mu: f64,
+        /// Its standard deviation.
+        sigma: f64,
+        /// Logarithm of the likelihood of the scan with friction over that without.
+        gain: f64,
+    },
+    /// K / (2 |F|) along tangential contacts has not one value: friction changes along the scan, or contacts stick.
+    FrictionChanges {
+        /// The coefficient that was used.
+        mu: f64,
+        /// How far the values are from one, in standard deviations of the noise.
+        scatter: f64,
+        /// In terms of the coefficient.
+        spread: f64,
+    },
+    /// The rod slides the other way than its friction asks for: what looks like friction is another error, or contacts stick.
+    FrictionAgainst {
+        /// The coefficient that was used.
+        mu: f64,
+        /// Share of the tangential path.
+        share: f64,
+    },
     /// No stretch of the scan is of a free rod, and nothing else tells the bias of the sensor.
     NoFreeStretch,
     /// The scan contradicts what is known of a source of error: the estimate is beyond three standard deviations of its budget.
@@ -191,6 +216,9 @@ impl Finding {
             | Self::Units { .. }
             | Self::MomentSign
             | Self::NoFreeStretch
+            | Self::Friction { .. }
+            | Self::FrictionChanges { .. }
+            | Self::FrictionAgainst { .. }
             | Self::Budget { .. } => true,
             Self::Misfit { .. } | Self::Unanswered { .. } | Self::Lost { .. } | Self::Coarse { .. } => true,
             Self::Uncertain { share, .. } => *share > MISFIT_LABELS,
@@ -243,6 +271,27 @@ impl fmt::Display for Finding {
             Self::Length { given, suggested } => write!(
                 f,
                 "the rod is {given:.5} m long, but contacts of its tip are {suggested:.5} m from the clamp"
+            ),
+            Self::Friction { mu, sigma, gain } => write!(
+                f,
+                "the contacts seem to rub: with friction mu = {:.4} +- {sigma:.1e} the scan is likelier by a factor of 10^{:.0}; K over 2 |F| \
+                 along tangential contacts is {:.4} in place of 0; reconstruct with friction",
+                mu.abs(),
+                (gain / std::f64::consts::LN_10).min(999.0),
+                mu / mu.hypot(1.0)
+            ),
+            Self::FrictionChanges { mu, scatter, spread } => write!(
+                f,
+                "K over 2 |F| along tangential contacts varies by {scatter:.1} times its noise, as if mu = {:.4} changed by {spread:.1e}: friction \
+                 that changes along the scan, contacts that stick, or another error",
+                mu.abs()
+            ),
+            Self::FrictionAgainst { mu, share } => write!(
+                f,
+                "along {:.0} % of the tangential contacts the rod slides the other way than the friction found there (mu = {:.4}) lets it: this is \
+                 another error than friction, or friction that changes its direction",
+                100.0 * share,
+                mu.abs()
             ),
             Self::NoFreeStretch => f.write_str(
                 "no stretch of the scan is of a free rod, so that the bias of the sensor is not known: begin and end scans without \

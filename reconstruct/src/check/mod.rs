@@ -16,5 +16,5 @@ mod shares;
 pub use finding::Finding;
 pub use line::TangentialLine;
 pub use mistake::Mistake;
-pub use plausibility::{Plausibility, plausibility};
+pub use plausibility::{Plausibility, plausibility, plausibility_with_friction};
 pub use shares::Shares;

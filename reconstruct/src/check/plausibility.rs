@@ -28,7 +28,7 @@ impl Plausibility {
 /// Checks by the physics whether the samples can be of this rod. Samples that are not finite are left out.
 ///
 /// No contact phase is needed, so that the check works where wrong units make all phases wrong. Nothing is corrected: friction bends
-/// the line, too.
+/// the line, too, unless it is given ([`plausibility_with_friction`]).
 ///
 /// Accuracy: on noise-free scans the slope is EI to rounding. On the paper's nine scans, which were used during development, with noise
 /// of 2.5 mN and 0.06 mN m (85,000 samples each), it is EI to 0.02 %. With a tenth of the samples it is too large by 0.3 %, because
@@ -53,7 +53,14 @@ impl Plausibility {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn plausibility(rod: &Rod, samples: &[Sample]) -> Plausibility {
-    let bins = bins(samples);
+    plausibility_with_friction(rod, samples, |_| 0.0)
+}
+
+/// [`plausibility`] of a rod that slides over the object. `friction` is the coefficient of each sample by its number, as
+/// [`Reconstruction::frictions`](crate::Reconstruction::frictions) has it: positive where friction draws the rod from its clamp towards its tip.
+/// The line is that of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) + 2 |F| sin rho.
+pub fn plausibility_with_friction(rod: &Rod, samples: &[Sample], friction: impl Fn(usize) -> f64) -> Plausibility {
+    let bins = bins(samples, friction);
     if bins.is_empty() {
         return Plausibility { findings: vec![Finding::NoContact], ..Plausibility::default() };
     }

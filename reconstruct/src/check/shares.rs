@@ -1,7 +1,7 @@
 //! The samples that a single contact explains.
 
 use super::bins::Bin;
-use crate::point::{NoContact, Touch, single};
+use crate::point::{NoContact, Touch, single_with_friction};
 use rod_core::{Reactions, Rod};
 
 /// Error of the rod's length that is allowed beyond the tip, relative, and of the phase criterion above 0, relative to m0z^2.
@@ -40,10 +40,12 @@ impl Shares {
 
 /// The single contact of a bin with these reactions, if a rod of about this length and stiffness has one.
 pub(super) fn contact(rod: &Rod, bin: &Bin, reactions: Reactions) -> Result<Touch, NoContact> {
-    match single(rod, bin.pose, reactions, &bin.covariance) {
+    match single_with_friction(rod, bin.pose, reactions, &bin.covariance, bin.friction) {
         Err(NoContact::BeyondTip(touch)) if touch.s <= (1.0 + SLACK) * rod.length() => Ok(touch),
         Err(NoContact::Pulling(touch)) => {
-            let excess = reactions.phase_criterion(bin.pose.phi, rod.bending_stiffness());
+            let stiffness = rod.bending_stiffness();
+            let rubbing = reactions.f0x.hypot(reactions.f0y) * bin.friction / bin.friction.hypot(1.0);
+            let excess = reactions.phase_criterion(bin.pose.phi, stiffness) - 2.0 * stiffness * rubbing;
             if excess <= SLACK * bin.square { Ok(touch) } else { Err(NoContact::Pulling(touch)) }
         }
         other => other,

@@ -53,7 +53,8 @@ impl Mean {
         let sum = track.clamps[part.clone()]
             .iter()
             .fold((Vector3::zeros(), Vector3::zeros()), |sum, clamp| (sum.0 + clamp.pose, sum.1 + clamp.reactions));
-        let clamp = Clamp { pose: sum.0 / count, reactions: sum.1 / count, natural: track.natural };
+        let Track { natural, friction, .. } = *track;
+        let clamp = Clamp { pose: sum.0 / count, reactions: sum.1 / count, natural, friction };
         let evidence = Evidence::of_sample(rod, &clamp, variance);
         let weighted = |value: f64, sigma: f64| if value.is_finite() { (value, sigma.powi(-2)) } else { (0.0, 0.0) };
         Self {

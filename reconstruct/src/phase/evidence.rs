@@ -31,6 +31,10 @@ const MOST_STILL: f64 = 30.0;
 const SPREAD: [f64; 4] = [5.0, 1.0, 0.3, 0.1];
 /// Size of the phase criterion over that of the force, where it does not vanish. Larger: weak contacts at the tip are called tangential.
 const MOST_CRITERION: f64 = 2.0;
+/// Of several contacts that rub, K is 2 sin rho times the sum of the sizes of their forces, and not times the size of their sum. The
+/// difference in parts of that: half of the square of half the angle between two forces, here up to 50 degrees. Larger: the criterion
+/// tells BB from BA less well; smaller: BB in deep notches contradicts it.
+const DIVERGENT: f64 = 0.1;
 /// Standard deviations of a force that counts as strong: a contact may begin as gently as this. Larger: a contact that has just begun is
 /// taken for noise of the free rod.
 const STRONG: f64 = 100.0;
@@ -59,7 +63,7 @@ pub struct Evidence {
     /// The reactions f0x, f0y, m0z: all 0 where the rod is free.
     pub force: [Quantity; 3],
     /// Phase criterion K = m0z^2 - 2 (f0y sin phi0 + f0x cos phi0): 0 where the last contact is tangential (Merker et al.
-    /// 2020, eq. 20), negative where it is at the tip. Of a rod that is not uniform it is what K is with a single contact,
+    /// 2020, eq. 20), negative where it is at the tip; with friction less 2 |F| sin rho. Of a rod that is not uniform it is what K is with a single contact,
     /// -2 force sin(angle from contour to rod).
     pub criterion: Quantity,
     /// Length criterion: arc length at which the moment vanishes, less 1: 0 where the tip alone is in contact.
@@ -77,6 +81,8 @@ pub struct Evidence {
     weak: bool,
     /// Whether the criterion tells of the last of several contacts, too.
     uniform: bool,
+    /// What the criterion may be where several contacts rub, positive or negative; 0 without friction.
+    rubbing: f64,
 }
 
 impl Evidence {
@@ -127,6 +133,7 @@ impl Evidence {
             trust: [1.0; 4],
             weak: false,
             uniform: I::UNIFORM,
+            rubbing: DIVERGENT * clamp.rubbing().0,
         };
         let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
         let size = force.norm();
@@ -153,6 +160,12 @@ impl Evidence {
             across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
         };
         let last = |of_criterion: f64| if self.uniform { of_criterion } else { 0.0 };
+        let (tip_of_several, touch_of_several) = if self.rubbing * self.criterion.value > 0.0 {
+            let wide = Quantity { sigma: self.criterion.sigma.hypot(self.rubbing), ..self.criterion };
+            (wide.not_positive(), wide.vanishes(criterion))
+        } else {
+            (tip, touch)
+        };
         let [free, k, s, v] = match label {
             Label::Free => [self.force.iter().map(of_force).sum::<f64>(), 0.0, 0.0, 0.0],
             Label::A => {
@@ -160,8 +173,8 @@ impl Evidence {
                 [0.0, tip, s.vanishes(length), single(&v, &along)]
             }
             Label::B => [0.0, touch, self.length.not_positive(), single(&self.tangent, &self.motion)],
-            Label::BA => [0.0, last(tip), 0.0, 0.0],
-            Label::BB => [0.0, last(touch), 0.0, 0.0],
+            Label::BA => [0.0, last(tip_of_several), 0.0, 0.0],
+            Label::BB => [0.0, last(touch_of_several), 0.0, 0.0],
         };
         let [force, criterion, length, tangent] = self.trust;
         [
@@ -182,6 +195,11 @@ impl Evidence {
         let [f0x, f0y, m0z] = self.force;
         let [length, tangent, motion] = self.again.unwrap_or([Quantity::UNKNOWN; 3]);
         [f0x, f0y, m0z, self.criterion, self.length, self.tangent, self.motion, length, tangent, motion]
+    }
+
+    /// Whether the contacts rub: then the criterion need not vanish where there are several.
+    pub(crate) fn rubs(&self) -> bool {
+        self.rubbing != 0.0
     }
 
     /// Whether there is a zero of the moment nearer to the tip than the first.

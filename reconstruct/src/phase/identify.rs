@@ -100,9 +100,10 @@ pub(crate) fn places<I: Inverse>(rod: &I, track: &Track, noise: &Noise, breaks: 
     nodes
 }
 
-/// The label of each place and its probability.
-pub(crate) fn labels(nodes: &[Node]) -> Vec<(Label, f64)> {
-    Trellis::default().run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec()
+/// The label of each place and its probability, of several contacts that of BA and BB together where they are `alike`.
+pub(crate) fn labels(nodes: &[Node], alike: bool) -> Vec<(Label, f64)> {
+    let mut trellis = if alike { Trellis::alike() } else { Trellis::default() };
+    trellis.run(&[0.0; 5], nodes.iter().map(|node| node.place)).to_vec()
 }
 
 /// Log of the likelihood of the most likely labels.
@@ -113,7 +114,7 @@ pub(crate) fn likelihood(nodes: &[Node]) -> f64 {
 
 /// The phases of a scan with these places.
 pub(crate) fn identify<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: Vec<Node>) -> Identified {
-    let labels = labels(&nodes);
+    let labels = labels(&nodes, !I::UNIFORM);
     let runs = runs(rod, track, noise, &nodes, &labels);
     Identified { nodes, runs, labels }
 }

@@ -22,9 +22,16 @@ pub(crate) struct Trellis {
     steps: Vec<[u8; 5]>,
     ahead: Vec<[f64; 5]>,
     labels: Vec<(Label, f64)>,
+    /// Whether the probabilities of BA and BB are that of several contacts, because nothing tells one from the other.
+    alike: bool,
 }
 
 impl Trellis {
+    /// For a rod of which nothing tells BA from BB: the probability of either is that of several contacts.
+    pub fn alike() -> Self {
+        Self { alike: true, ..Self::default() }
+    }
+
     /// With memory for this many places.
     pub fn with_capacity(places: usize) -> Self {
         let mut trellis = Self::default();
@@ -101,7 +108,9 @@ impl Trellis {
             behind = std::array::from_fn(|i| behind[i] + own[i]);
             let both: [f64; 5] = std::array::from_fn(|i| behind[i] + ahead[i]);
             let total = sum(both);
-            found.1 = (both[found.0 as usize] - total).exp();
+            let of = |label: Label| (both[label as usize] - total).exp();
+            let either = self.alike && found.0.several();
+            found.1 = if either { (of(Label::BA) + of(Label::BB)).min(1.0) } else { of(found.0) };
         }
     }
 }
@@ -177,6 +186,16 @@ mod tests {
         assert_eq!(trellis.run(&[0.0; 5], places.iter().copied())[1].0, Label::B);
         let places = [place(Label::A, 9.0, None), place(Label::BB, 9.0, jump)];
         assert_eq!(trellis.run(&[0.0; 5], places.iter().copied())[1].0, Label::BB);
+    }
+
+    #[test]
+    fn two_labels_that_nothing_tells_apart_are_as_likely_together_as_one_of_them_alone() {
+        // BA and BB are equally likely, against B
+        let places = vec![Place { scores: [0.0, 0.0, 0.0, 30.0, 30.0], between: None }; 8];
+        let of = |mut trellis: Trellis| trellis.run(&[0.0; 5], places.iter().copied()).to_vec();
+        let (told, alike) = (of(Trellis::default()), of(Trellis::alike()));
+        assert!(told.iter().zip(&alike).all(|(one, other)| one.0 == other.0 && one.0.several()));
+        assert!(told.iter().all(|found| found.1 < 0.6) && alike.iter().all(|found| found.1 > 0.999 && found.1 <= 1.0));
     }
 
     #[test]

@@ -1,18 +1,23 @@
 //! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
 
 use super::settings::{ReconstructError, Settings, positive, possible};
+use crate::friction::{Friction, FrictionEstimate, Start, rubs, start};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Node, places};
 use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
-use crate::systematic::{Budget, Calibration, Errors, Shared, calibrate};
+use crate::systematic::{Budget, Calibration, Errors, Known, Shared, Source, calibrate};
 use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
 const COARSE: f64 = 0.02;
 
+/// Standard deviation of the coefficient of friction about that of the plateau, where nothing is known of it: as good as anything.
+pub(super) const ANY_FRICTION: f64 = 0.3;
+
 /// A scan with the errors that its samples share taken off.
+#[derive(Clone)]
 pub(super) struct Calibrated {
     pub track: Track,
     /// For each sample its number in the track, or why it is not there.
@@ -28,17 +33,76 @@ pub(super) struct Calibrated {
     /// The units of the rod, as it was found.
     pub units: Units,
     pub calibration: Option<(Shared, Calibration)>,
+    /// What the scan tells of friction, where that was asked for or seems to be there.
+    pub friction: Option<FrictionEstimate>,
 }
 
 impl Calibrated {
     /// From the samples of one path of the clamp.
     pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
-        let mut scan = Self::measured(&Uniform, rod, samples, settings)?;
+        let scan = Self::measured(&Uniform, rod, samples, settings)?;
+        if settings.friction == Friction::None && !rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes) {
+            return scan.smooth(rod, settings);
+        }
+        let rough = scan.clone().rough(rod, settings)?;
+        let smooth = scan.smooth(rod, settings)?.compared(&rough);
+        if settings.friction == Friction::None {
+            return Ok(smooth);
+        }
+        Ok(Self { friction: smooth.friction, ..rough })
+    }
+
+    /// Without friction, and without the errors that all samples share.
+    pub fn smooth(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
         let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
         possible(&budget, &settings.known)?;
-        let Self { track, noise, breaks, nodes, units, calibration, .. } = &mut scan;
-        if let Some((correction, shared, told)) = calibrate(rod, track, noise, breaks, nodes, &budget, &settings.known)
-        {
+        Ok(self.settled(rod, &budget, &settings.known))
+    }
+
+    /// With friction that is known or estimated, and without the errors that all samples share.
+    pub fn rough(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
+        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
+        possible(&budget, &settings.known)?;
+        Ok(self.rubbed(&Uniform, settings).settled(rod, &with_friction(budget, settings), &settings.known))
+    }
+
+    /// The scan with friction that is known or as its plateau tells it.
+    pub fn rubbed<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
+        let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
+        let Start { mu, sigma, scatter, spread, against, likelihood, without } =
+            start(rod, &self.track, &self.noise, &self.nodes, mu);
+        let track = self.track.with_friction(mu);
+        let nodes = places(rod, &track, &self.noise, &self.breaks);
+        let gain = likelihood - without;
+        let friction = Some(FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against });
+        Self { track, nodes, friction, ..self }
+    }
+
+    /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
+    pub fn with_plateau<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
+        match settings.friction {
+            Friction::None if !rubs(rod, &self.track, &self.noise, &self.nodes) => self,
+            Friction::None => {
+                let friction = self.clone().rubbed(rod, settings).friction;
+                Self { friction, ..self }
+            }
+            _ => self.rubbed(rod, settings),
+        }
+    }
+
+    /// What the same scan with friction tells of it.
+    fn compared(self, rough: &Self) -> Self {
+        let likelihood = |scan: &Self| scan.calibration.as_ref().map(|told| told.1.log_likelihood);
+        let gain = likelihood(rough).zip(likelihood(&self)).map(|(with, without)| with - without);
+        let friction = rough.friction.map(|found| FrictionEstimate { gain: gain.unwrap_or(found.gain), ..found });
+        Self { friction, ..self }
+    }
+
+    /// Without the errors that all samples share.
+    fn settled(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
+        let Self { track, noise, breaks, nodes, units, calibration, friction, .. } = &mut self;
+        let plateau = track.friction;
+        if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known) {
             if let Some(correction) = correction {
                 *track = correction.track(track);
                 *nodes = places(&Uniform, track, noise, breaks);
@@ -46,9 +110,13 @@ impl Calibrated {
             }
             shared.doubt(nodes);
             shared.judge(&Errors::zeros(), track, nodes);
+            told.shift(Source::Friction, plateau);
+            if let Some((found, own)) = friction.as_mut().zip(told.source(Source::Friction)) {
+                (found.mu, found.sigma) = (track.friction, own.sigma);
+            }
             *calibration = Some((shared, told));
         }
-        Ok(scan)
+        self
     }
 
     /// The samples as they are; `units` is a rod of the same units as `rod`.
@@ -58,6 +126,9 @@ impl Calibrated {
         samples: &[Sample],
         settings: &Settings,
     ) -> Result<Self, ReconstructError> {
+        if let Some(value) = settings.friction.fault() {
+            return Err(ReconstructError::Friction { value });
+        }
         positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
         let (track, numbered) = Track::new(units, samples);
         let units = units.units();
@@ -88,8 +159,18 @@ impl Calibrated {
         if nodes.is_empty() {
             return Err(ReconstructError::TooFew { usable: 0, samples: samples.len(), fewest: FEWEST_SAMPLES });
         }
-        Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration: None })
+        let (calibration, friction) = (None, None);
+        Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration, friction })
     }
+}
+
+/// The budget with that of friction.
+fn with_friction(budget: Budget, settings: &Settings) -> Budget {
+    let friction = match settings.friction {
+        Friction::Known { sigma, .. } => sigma,
+        _ => ANY_FRICTION,
+    };
+    Budget { friction, ..budget }
 }
 
 /// The noise of the samples: the standard deviations of the samples, if they have some, otherwise those of the scan; with the correlation

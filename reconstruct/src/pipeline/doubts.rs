@@ -1,8 +1,9 @@
 //! What a reconstruction itself finds wrong with the recording.
 
 use super::reading::{Reading, Reason};
-use super::reconstruction::Reconstruction;
+use super::reconstruction::{Pass, Reconstruction};
 use crate::check::Finding;
+use crate::friction::FrictionEstimate;
 use crate::phase::{Basis, Label};
 use crate::scan::Fault;
 use crate::systematic::{Calibration, Source};
@@ -18,6 +19,12 @@ const LOST: f64 = 0.75;
 const UNCERTAIN: f64 = 0.01;
 /// Part of the wrong labels to be expected that a run has which is named.
 const MUCH: f64 = 0.1;
+/// Share of the tangential path along which the rod slides against friction that is reported: the rest is noise of the rates.
+const AGAINST: f64 = 0.2;
+/// How much the coefficient of friction may vary along a pass, beyond its noise and in multiples of it. Sensors and clamps of an ordinary
+/// laboratory let it seem to vary by 0.01.
+const SPREAD: f64 = 0.02;
+const SCATTERED: f64 = 3.0;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
 
@@ -31,6 +38,7 @@ impl Reconstruction {
             .filter_map(|pass| pass.calibration.as_ref())
             .flat_map(of_calibration)
             .collect::<Vec<_>>();
+        findings.extend(self.passes.iter().flat_map(of_friction));
         // where forces contradict that the rod is free, it is in contact
         let free = |reading: &Reading| reading.label == Label::Free && reading.touch == Err(Reason::Free);
         let single = || self.readings.iter().filter(|reading| !reading.label.several() && !free(reading));
@@ -74,6 +82,18 @@ impl Reconstruction {
         let (_, run, label) = counted.max_by(|u, v| doubt(&u.1, u.0).total_cmp(&doubt(&v.1, v.0)))?;
         (share > UNCERTAIN).then_some(Finding::Uncertain { share, label, from: run.start, to: run.end })
     }
+}
+
+/// Friction that was not asked for, and friction that is not what was asked for.
+fn of_friction(pass: &Pass) -> Option<Finding> {
+    let FrictionEstimate { mu, sigma, scatter, spread, gain, against, .. } = pass.friction?;
+    if pass.used_friction == 0.0 {
+        return pass.friction.filter(FrictionEstimate::is_there).map(|_| Finding::Friction { mu, sigma, gain });
+    }
+    if against > AGAINST {
+        return Some(Finding::FrictionAgainst { mu, share: against });
+    }
+    (scatter > SCATTERED && spread > SPREAD).then_some(Finding::FrictionChanges { mu, scatter, spread })
 }
 
 fn of_calibration(calibration: &Calibration) -> Vec<Finding> {

@@ -82,6 +82,6 @@ impl Reconstruction {
         self.runs.push((samples.start, label));
         let without = Reading::without(label, Reason::Fault(Fault::TooFew));
         self.readings.extend(samples.clone().map(|_| without));
-        self.passes.push(Pass { samples, calibration: None });
+        self.passes.push(Pass { samples, calibration: None, used_friction: 0.0, friction: None });
     }
 }

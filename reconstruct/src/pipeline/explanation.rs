@@ -1,12 +1,13 @@
 //! What explains a recording that does not fit, and how likely.
 
-use super::calibrated::Calibrated;
+use super::calibrated::{ANY_FRICTION, Calibrated};
 use super::settings::Settings;
-use crate::check::{Finding, Mistake, plausibility};
+use crate::check::{Finding, Mistake, plausibility_with_friction};
+use crate::friction::Friction;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::passes;
 use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
-use rod_core::{Rod, Sample};
+use rod_core::{Rod, Sample, Uniform};
 use std::fmt;
 
 /// Most samples that the likelihood of a mistake is first found from. Fewer: the likeliest ones may be missed; more: more time.
@@ -46,6 +47,9 @@ impl fmt::Display for Explanation {
             Self::Several => f.write_str("several errors at once"),
             Self::Source(source, value) => {
                 let unit = source.name().1;
+                if *source == Source::Friction {
+                    return write!(f, "friction with mu = {:.2}", value.abs());
+                }
                 let number = matches!(source, Source::NaturalCurvature | Source::ClampCompliance);
                 match unit {
                     "" if number => write!(f, "{source} {value:+.1e}"),
@@ -98,10 +102,24 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
             (explanation, calibration.log_likelihood + log - all)
         }));
     }
+    found.extend(of_friction(rod, &thin, &settings, found.iter().map(|one| one.1).fold(f64::NEG_INFINITY, f64::max)));
     let all = log_sum(found.iter().map(|one| one.1));
     found.iter_mut().for_each(|one| one.1 = (one.1 - all).exp());
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     found
+}
+
+/// Friction that was not asked for, if it explains more than the best of the others; the likelihood contains that nothing was known of the
+/// coefficient before.
+fn of_friction(rod: &Rod, samples: &[Sample], settings: &Settings, best: f64) -> Option<(Explanation, f64)> {
+    if settings.friction != Friction::None {
+        return None;
+    }
+    let settings = Settings { friction: Friction::Estimate, ..*settings };
+    let calibration = interpreted(rod, samples, &settings)?;
+    let found = calibration.source(Source::Friction)?;
+    let log = calibration.log_likelihood + (found.sigma / ANY_FRICTION).min(1.0).ln();
+    (log > best + STRONG).then_some((Explanation::Source(Source::Friction, found.value), log))
 }
 
 /// At most so many of the samples, evenly spaced.
@@ -111,16 +129,27 @@ fn thinned(samples: &[Sample], most: usize) -> Vec<Sample> {
 
 /// What the longest pass of a recording says of the errors that its samples share; none where units or signs are impossible.
 fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Calibration> {
-    let is_gross = |rod: &Rod, samples: &[Sample]| {
-        plausibility(rod, &thinned(samples, MOST_CHECKED)).findings.iter().any(Finding::is_gross)
+    let is_gross = |rod: &Rod, samples: &[Sample], friction: f64| {
+        let check = plausibility_with_friction(rod, &thinned(samples, MOST_CHECKED), |_| friction);
+        check.findings.iter().any(Finding::is_gross)
     };
-    let gross = is_gross(rod, samples);
     let longest = passes(rod, samples).into_iter().max_by_key(|pass| pass.len())?;
     let part = samples.get(longest)?;
     let settings = Settings { noise: Some(noise(part, settings)), ..*settings };
-    let calibration = Calibrated::of(rod, part, &settings).ok()?.calibration?.1;
+    let scan = Calibrated::measured(&Uniform, rod, part, &settings).ok()?;
+    let rubs = settings.friction != Friction::None;
+    let scan = if rubs { scan.rough(rod, &settings) } else { scan.smooth(rod, &settings) };
+    let (track, calibration) = scan.ok().map(|scan| (scan.track, scan.calibration))?;
+    let calibration = calibration?.1;
     // a bias may look like a wrong sign
-    if gross && (!calibration.is_applied() || is_gross(&calibration.rod(rod), &calibration.corrected(rod, part))) {
+    let friction = track.friction;
+    let corrected = || (calibration.rod(rod), calibration.corrected(rod, part));
+    if is_gross(rod, samples, friction)
+        && (!calibration.is_applied() || {
+            let (rod, samples) = corrected();
+            is_gross(&rod, &samples, friction)
+        })
+    {
         return None;
     }
     calibration.log_likelihood.is_finite().then_some(calibration)

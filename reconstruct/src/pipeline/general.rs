@@ -50,7 +50,7 @@ pub fn reconstruct_general<R: PhysicalRod>(
         Rod::new(units.length, stiffness).map_err(|_| ReconstructError::Setting { what, value: stiffness })?;
     let inverse = Any(rod);
     each_pass(&uniform, samples, |pass| {
-        let scan = Calibrated::measured(&inverse, &uniform, pass, settings)?;
+        let scan = Calibrated::measured(&inverse, &uniform, pass, settings)?.with_plateau(&inverse, settings);
         Ok(answered(&inverse, units, pass, scan, settings))
     })
 }

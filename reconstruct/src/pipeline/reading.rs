@@ -49,7 +49,7 @@ pub enum Reason {
 pub struct Reading {
     /// The phase.
     pub label: Label,
-    /// Probability of the label, 0 to 1.
+    /// Probability of the label, 0 to 1. Where nothing tells BA from BB, as for a rod that is not uniform, that of several contacts.
     pub probability: f64,
     /// The contact, or the first of several.
     pub touch: Result<Touch, Reason>,

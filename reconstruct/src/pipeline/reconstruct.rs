@@ -38,7 +38,7 @@ pub(super) fn answered<I: Inverse>(
     scan: Calibrated,
     settings: &Settings,
 ) -> Reconstruction {
-    let Calibrated { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration } = scan;
+    let Calibrated { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration, friction } = scan;
     let identified = identify(rod, &track, &noise, nodes);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
     let systematic =
@@ -94,6 +94,11 @@ pub(super) fn answered<I: Inverse>(
         windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
         evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
         steps: std::array::from_fn(|c| steps[c].map(|step| step * size[c])),
-        passes: vec![Pass { samples: 0..samples.len(), calibration: calibration.map(|calibration| calibration.1) }],
+        passes: vec![Pass {
+            samples: 0..samples.len(),
+            calibration: calibration.map(|calibration| calibration.1),
+            used_friction: track.friction,
+            friction,
+        }],
     }
 }

@@ -2,6 +2,7 @@
 
 use super::reading::{Reading, Reason};
 use crate::contour::{Assembly, ContourEstimate, Gap, Measured, Trace, TraceKind};
+use crate::friction::FrictionEstimate;
 use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
 use crate::point::Touch;
@@ -23,6 +24,10 @@ pub struct Pass {
     pub samples: Range<usize>,
     /// What was found of the errors that its samples share; none where the budget has none, or where there are too few samples.
     pub calibration: Option<Calibration>,
+    /// The coefficient of friction with which the pass was reconstructed, with the sign of [`FrictionEstimate::mu`]; 0 without.
+    pub used_friction: f64,
+    /// What the pass tells of friction, where that was asked for, or where it seems to be there though it was not.
+    pub friction: Option<FrictionEstimate>,
 }
 
 /// The result of a reconstruction.
@@ -135,6 +140,11 @@ impl Reconstruction {
                 point.sigma = point.sigma.hypot(point.systematic);
             }
         }
+    }
+
+    /// The coefficient of friction with which each sample was reconstructed, with the sign of [`FrictionEstimate::mu`]; 0 without.
+    pub fn frictions(&self) -> Vec<f64> {
+        self.passes.iter().flat_map(|pass| std::iter::repeat_n(pass.used_friction, pass.samples.len())).collect()
     }
 
     /// The criteria at the place nearest to a sample, dimensionless; none for a sample that cannot be used.

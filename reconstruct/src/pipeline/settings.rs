@@ -1,5 +1,6 @@
 //! Settings of a reconstruction.
 
+use crate::friction::Friction;
 use crate::kink::KinkOptions;
 use crate::scan::noise_estimate::ChannelNoise;
 use crate::systematic::{Budget, Known, Source};
@@ -18,6 +19,8 @@ pub struct Settings {
     pub budget: Option<Budget>,
     /// What a calibration says of single sources of error, in place of the budget of these sources.
     pub known: Known,
+    /// What is known of friction at the contacts.
+    pub friction: Friction,
 }
 
 impl Default for Settings {
@@ -28,6 +31,7 @@ impl Default for Settings {
             largest_sigma: 0.02,
             budget: None,
             known: Known::NOTHING,
+            friction: Friction::None,
         }
     }
 }
@@ -61,6 +65,12 @@ pub enum ReconstructError {
     Known {
         /// Of which source.
         of: Source,
+        /// The number that is wrong.
+        value: f64,
+    },
+    /// A coefficient of friction, or its standard deviation, that is not possible.
+    #[error("friction is {value}, expected a finite number, 0 or larger")]
+    Friction {
         /// The number that is wrong.
         value: f64,
     },

@@ -5,7 +5,7 @@ use rod_core::{Clamp as Held, Cut, PhysicalRod, Pose, Reactions, RodModel, find_
 
 /// Length of the steps (rod lengths) in which the moment is followed. Two zeros within one step may be missed; the work grows
 /// with its inverse.
-const STEP: f64 = 1.0 / 64.0;
+pub(super) const STEP: f64 = 1.0 / 64.0;
 /// Steps up to the tip and a little beyond it: noise puts the zero of a contact at the tip there.
 const STEPS: usize = 64 + 6;
 
@@ -56,11 +56,6 @@ impl<'a, M: RodModel> Bent<'a, M> {
             [0, 1, 2, 3].map(|i| direct[c][i] + shift[i] + phi * d.by_phi[i])
         });
         (end, columns, d.by_phi)
-    }
-
-    /// Tangent angle of the contour.
-    pub fn alpha(&self) -> f64 {
-        self.b.atan2(self.a)
     }
 
     /// How the moment changes along the rod.

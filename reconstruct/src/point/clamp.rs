@@ -1,5 +1,6 @@
 //! The rod between its clamp and its first contact, which pose and reactions determine; dimensionless.
 
+use super::friction::normal_part;
 use crate::numeric::Number;
 use nalgebra::{Matrix4x3, Vector3, Vector4};
 #[cfg(feature = "std")]
@@ -13,6 +14,9 @@ pub(crate) struct Clamp<T = f64> {
     pub reactions: Vector3<T>,
     /// Natural curvature of the rod, the same along it: 0 for a straight rod, and for rates.
     pub natural: T,
+    /// Tangent of the angle by which friction turns the force of a contact, positive where it draws the rod from the clamp towards its
+    /// tip: mu where the rod is drawn back over its contacts, -mu where it is pushed on; 0 without friction, and for rates.
+    pub friction: T,
 }
 
 impl<T: Number> Clamp<T> {
@@ -25,6 +29,7 @@ impl<T: Number> Clamp<T> {
                 reactions.m0z / units.moment,
             ),
             natural: T::zero(),
+            friction: T::zero(),
         }
     }
 
@@ -76,14 +81,44 @@ impl<T: Number> Clamp<T> {
         (end, gradient)
     }
 
-    /// The phase criterion K = kappa(0)^2 - n^2 - 2 (f0y sin phi0 + f0x cos phi0) of a rod of natural curvature n, and its
-    /// derivatives by the reactions.
+    /// Sine of the angle by which friction turns the force of a contact.
+    pub fn sin_rho(&self) -> T {
+        self.friction / (T::one() + self.friction * self.friction).sqrt()
+    }
+
+    /// The tangent angle of the contour where a single contact is, at a section of the rod at this angle. The force next to the clamp is that
+    /// of the contact, which friction turns from the normal of the contour: one way where the solid is on the rod's left, and the
+    /// other way where it is on its right.
+    pub fn alpha(&self, phi: T) -> T {
+        if self.friction == T::zero() {
+            let [a, b] = self.force();
+            return b.atan2(a);
+        }
+        let [a, b] = normal_part(self.force(), phi.sin_cos(), self.friction);
+        b.atan2(a)
+    }
+
+    /// The phase criterion K - 2 |F| sin rho, K = kappa(0)^2 - n^2 - 2 (f0y sin phi0 + f0x cos phi0) of a rod of natural curvature n,
+    /// |F| = hypot(f0x, f0y) and rho the angle of friction, and its derivatives by the reactions.
     pub fn criterion(&self) -> (T, Vector3<T>) {
         let (two, (sin, cos)) = (T::from_f64(2.0), self.pose.z.sin_cos());
         let r = &self.reactions;
         // kappa(0)^2 - n^2, which is m0z^2 for a straight rod
         let bending = r.z * (r.z - two * self.natural);
-        (bending - two * (r.y * sin + r.x * cos), Vector3::new(-two * cos, -two * sin, two * (r.z - self.natural)))
+        let k = bending - two * (r.y * sin + r.x * cos);
+        let by_reactions = Vector3::new(-two * cos, -two * sin, two * (r.z - self.natural));
+        let (rubbing, by_force) = self.rubbing();
+        (k - rubbing, by_reactions - by_force)
+    }
+
+    /// What K of a single tangential contact is, 2 |F| sin rho, and its derivatives by the reactions.
+    pub fn rubbing(&self) -> (T, Vector3<T>) {
+        let (r, twice) = (&self.reactions, T::from_f64(2.0) * self.sin_rho());
+        let force = (r.x * r.x + r.y * r.y).sqrt();
+        if twice == T::zero() || force == T::zero() {
+            return (T::zero(), Vector3::zeros());
+        }
+        (twice * force, Vector3::new(r.x / force, r.y / force, T::zero()) * twice)
     }
 }
 

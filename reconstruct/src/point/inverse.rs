@@ -23,9 +23,10 @@ pub(crate) trait Inverse {
     /// The derivatives of (x, y, phi, moment) at an arc length.
     fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient;
 
-    /// -2 |F| sin rho with the angle rho from contour to rod at the first zero of the moment: 0 where that is a tangential contact,
-    /// negative where it is one of the tip. Of the uniform rod it is the phase criterion K (Merker et al. 2020, eq. 20), wherever the zero
-    /// is. With its derivatives by the reactions; none where the moment vanishes nowhere.
+    /// 2 F . t - 2 |F| sin rho, where F is the force on the rod at the first zero of the moment, t the rod's tangent there and rho the angle
+    /// of friction: 0 where that is a tangential contact, negative where it is one of the tip. Of the uniform rod it is the phase
+    /// criterion K (Merker et al. 2020, eq. 20) less 2 |F| sin rho, wherever the zero is. With its derivatives by the reactions; none
+    /// where the moment vanishes nowhere.
     fn criterion(&self, clamp: &Clamp, first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)>;
 
     /// The zero at which the tip would be, were it the only contact.
@@ -68,14 +69,14 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
             return Err(NoContact::Free);
         }
         let bent = Bent::new(self.0, clamp);
-        bent.zeros().next().and_then(|s| zero(&bent, s)).ok_or(NoContact::NoMomentZero)
+        bent.zeros().next().and_then(|s| zero(&bent, clamp, s)).ok_or(NoContact::NoMomentZero)
     }
 
     fn by_tip(&self, first: &MomentZero, clamp: &Clamp) -> Option<MomentZero> {
         let bent = Bent::new(self.0, clamp);
         let from_tip = |s: &f64| (s - 1.0).abs();
         let nearest = bent.zeros().min_by(|u, v| from_tip(u).total_cmp(&from_tip(v)))?;
-        (from_tip(&nearest) < from_tip(&first.s)).then(|| zero(&bent, nearest)).flatten()
+        (from_tip(&nearest) < from_tip(&first.s)).then(|| zero(&bent, clamp, nearest)).flatten()
     }
 
     fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient {
@@ -95,12 +96,13 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
         // B = -f0x and A = f0y change it, and so does the slope angle there
         let by_force = Vector3::new(-2.0 * cos, -2.0 * sin, 0.0);
         let turns = found.by_reactions.row(2).transpose() * (-2.0 * (b * sin + a * cos));
-        Some((2.0 * (b * cos - a * sin), by_force + turns))
+        let (rubbing, of_rubbing) = clamp.rubbing();
+        Some((2.0 * (b * cos - a * sin) - rubbing, by_force + turns - of_rubbing))
     }
 }
 
 /// The zero of the moment at an arc length; none where the moment is stationary.
-fn zero<M: RodModel>(bent: &Bent<'_, M>, s: f64) -> Option<MomentZero> {
+fn zero<M: RodModel>(bent: &Bent<'_, M>, clamp: &Clamp, s: f64) -> Option<MomentZero> {
     let (at, columns, _) = bent.by_reactions(s);
     let (rate, kappa) = (bent.moment_rate(&at), bent.model.curvature_at(s, at.moment));
     if rate == 0.0 || !at.x.is_finite() {
@@ -113,7 +115,7 @@ fn zero<M: RodModel>(bent: &Bent<'_, M>, s: f64) -> Option<MomentZero> {
         s,
         section: Section { x: at.x, y: at.y, phi: at.phi, kappa },
         force: bent.a.hypot(bent.b),
-        alpha: bent.alpha(),
+        alpha: clamp.alpha(at.phi),
         s_by_reactions,
         by_reactions: at_s + Vector3::new(cos, sin, kappa) * s_by_reactions.transpose(),
     })

@@ -1,12 +1,13 @@
 //! One contact from one sample: [`single`] in closed form, [`one_sample`] for any rod on any clamp and with the kind of contact,
 //! [`single_general`] through any integrator.
 //!
-//! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; `Inverse` is what a whole scan needs of a
+//! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; `friction` turns forces; `Inverse` is what a whole scan needs of a
 //! rod, in closed form or step by step; [`Touch`] is a contact point.
 
 #[cfg(feature = "std")]
 mod bent;
 mod clamp;
+mod friction;
 #[cfg(feature = "std")]
 mod inverse;
 mod moment_zero;
@@ -16,10 +17,14 @@ mod one_sample;
 mod single;
 #[cfg(feature = "std")]
 mod single_general;
+#[cfg(feature = "std")]
+mod through_roller;
 mod touch;
 
 #[cfg(feature = "std")]
 pub(crate) use clamp::Clamp;
+#[cfg(feature = "std")]
+pub(crate) use friction::{normal_part, tangential};
 #[cfg(feature = "std")]
 pub(crate) use inverse::{Any, Inverse};
 #[cfg(feature = "std")]
@@ -27,7 +32,9 @@ pub(crate) use moment_zero::MomentZero;
 pub use no_contact::NoContact;
 #[cfg(feature = "std")]
 pub use one_sample::{OneSample, one_sample};
-pub use single::single;
+pub use single::{single, single_with_friction};
 #[cfg(feature = "std")]
 pub use single_general::{GeneralError, single_general};
+#[cfg(feature = "std")]
+pub use through_roller::{Estimate, ThroughRoller, beyond_roller, through_roller};
 pub use touch::Touch;

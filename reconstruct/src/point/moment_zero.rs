@@ -133,7 +133,8 @@ impl<T: Number> MomentZero<T> {
         let s_by_reactions = -at_s.row(3).transpose() / kappa_by_s;
         let slide = Vector3::new(gradient.by_s[0], gradient.by_s[1], gradient.by_s[2]);
         let by_reactions = at_s.fixed_rows::<3>(0) + slide * s_by_reactions.transpose();
-        Some(Self { s, section, force: (a * a + b * b).sqrt(), alpha: b.atan2(a), s_by_reactions, by_reactions })
+        let (force, alpha) = ((a * a + b * b).sqrt(), clamp.alpha(section.phi));
+        Some(Self { s, section, force, alpha, s_by_reactions, by_reactions })
     }
 
     /// The contact there, dimensionless.

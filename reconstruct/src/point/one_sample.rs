@@ -5,9 +5,9 @@ use super::moment_zero::is_free;
 use super::no_contact::NoContact;
 use super::single::dimensionless;
 use super::touch::Touch;
-use crate::numeric::propagated;
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
-use rod_core::{PhysicalRod, Pose, Reactions, RodModel};
+use crate::numeric::variance;
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
+use rod_core::{Cut, PhysicalRod, Pose, Reactions, RodModel, Units};
 
 /// Standard deviations within which a difference counts as noise.
 const SIGMAS: f64 = 4.0;
@@ -90,22 +90,63 @@ pub fn one_sample<R: PhysicalRod>(
     if is_free(&clamp, &covariance) {
         return Ok(OneSample::Free);
     }
-    let bent = Bent::new(rod, &clamp);
-    let rounding = (EXACT * (1.0 + clamp.reactions.norm())).powi(2);
-    let exact = covariance + Matrix3::from_diagonal_element(rounding);
-    let zeros: Vec<f64> = bent.zeros().collect();
-    let places: Vec<Place> = zeros.iter().map(|zero| bent.place(*zero, &exact)).collect();
-    let touch = |s: f64| bent.touch(s, true, &covariance).in_units(units);
+    told(&Bent::new(rod, &clamp), clamp.reactions.norm(), &covariance, units)
+}
+
+/// A rod whose shape up to its first contact follows from N readings, dimensionless.
+pub(super) trait Felt<const N: usize> {
+    /// The rod.
+    fn model(&self) -> &impl RodModel;
+    /// The force (A, B) that its contacts push with, and its derivatives by the readings.
+    fn force(&self) -> ([f64; 2], [[f64; 2]; N]);
+    /// (x, y, phi, moment) at an arc length, and its derivatives by the readings.
+    fn by_readings(&self, s: f64) -> (Cut, [[f64; 4]; N]);
+    /// The zeros of the moment, a little beyond the tip too.
+    fn moment_zeros(&self) -> Vec<f64>;
+}
+
+impl<M: RodModel> Felt<3> for Bent<'_, M> {
+    fn model(&self) -> &impl RodModel {
+        self.model
+    }
+
+    fn force(&self) -> ([f64; 2], [[f64; 2]; 3]) {
+        ([self.a, self.b], [[0.0, -1.0], [1.0, 0.0], [0.0, 0.0]])
+    }
+
+    fn by_readings(&self, s: f64) -> (Cut, [[f64; 4]; 3]) {
+        let (at, columns, _) = self.by_reactions(s);
+        (at, columns)
+    }
+
+    fn moment_zeros(&self) -> Vec<f64> {
+        self.zeros().collect()
+    }
+}
+
+/// What readings of this `size` tell of the contacts of a rod that is not free.
+pub(super) fn told<const N: usize>(
+    felt: &impl Felt<N>,
+    size: f64,
+    covariance: &SMatrix<f64, N, N>,
+    units: Units,
+) -> Result<OneSample, NoContact> {
+    let rounding = (EXACT * (1.0 + size)).powi(2);
+    let exact = covariance + SMatrix::from_diagonal_element(rounding);
+    let zeros = felt.moment_zeros();
+    let places: Vec<Place> = zeros.iter().map(|zero| place(felt, *zero, &exact)).collect();
+    let touch = |s: f64, slides: bool| touch(felt, s, slides, covariance).in_units(units);
     if let Some(tip) = places.iter().find(|place| place.is_at_tip() && place.presses()) {
-        return Ok(OneSample::Tip(touch(tip.s)));
+        return Ok(OneSample::Tip(touch(tip.s, true)));
     }
     // where the force acts along the end of the rod, the moment vanishes there without a change of sign
-    if bent.is_free_of_moment(1.0, &exact) && bent.place(1.0, &exact).presses() {
-        return Ok(OneSample::Tip(bent.touch(1.0, false, &covariance).in_units(units)));
+    if is_free_of_moment(felt, 1.0, &exact) && place(felt, 1.0, &exact).presses() {
+        return Ok(OneSample::Tip(touch(1.0, false)));
     }
     let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
     let tangent = places.iter().find(|place| place.s < 1.0 && place.is_tangential());
-    Ok(tangent.map_or_else(|| OneSample::Several(touch(first)), |place| OneSample::Tangent(touch(place.s))))
+    let several = || OneSample::Several(touch(first, true));
+    Ok(tangent.map_or_else(several, |place| OneSample::Tangent(touch(place.s, true))))
 }
 
 /// A zero of the moment.
@@ -129,38 +170,40 @@ impl Place {
     }
 }
 
-impl<M: RodModel> Bent<'_, M> {
-    fn place(&self, s: f64, covariance: &Matrix3<f64>) -> Place {
-        let (at, columns, _) = self.by_reactions(s);
-        let (rate, force) = (self.moment_rate(&at), self.a.hypot(self.b));
-        // the zero slides along the rod so that the moment there stays 0
-        let by_s = Vector3::from(columns.map(|column| -column[3] / rate));
-        let turn = Vector3::new(-self.a, -self.b, 0.0) / (force * force);
-        let bend = self.model.curvature_at(s, 0.0);
-        let by_angle = Vector3::from(columns.map(|column| column[2])) + by_s * bend - turn;
-        let (pressing, tilt) = (at.phi - self.alpha()).sin_cos();
-        let noise = |gradient: Vector3<f64>| SIGMAS * propagated(&gradient.transpose(), covariance).x.sqrt();
-        Place { s, s_noise: noise(by_s), pressing, pressing_noise: noise(by_angle * tilt) }
-    }
+fn place<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMatrix<f64, N, N>) -> Place {
+    let ((at, columns), ([a, b], by_force)) = (felt.by_readings(s), felt.force());
+    let (rate, force) = (moment_rate(&at, [a, b]), a.hypot(b));
+    // the zero slides along the rod so that the moment there stays 0
+    let by_s = SVector::from(columns.map(|column| -column[3] / rate));
+    let turn = SVector::from(by_force.map(|[by_a, by_b]| (a * by_b - b * by_a) / (force * force)));
+    let bend = felt.model().curvature_at(s, 0.0);
+    let by_angle = SVector::from(columns.map(|column| column[2])) + by_s * bend - turn;
+    let (pressing, tilt) = (at.phi - b.atan2(a)).sin_cos();
+    let noise = |gradient: &SVector<f64, N>| SIGMAS * variance(gradient, covariance).sqrt();
+    Place { s, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) }
+}
 
-    /// Whether the moment at an arc length is within its noise.
-    fn is_free_of_moment(&self, s: f64, covariance: &Matrix3<f64>) -> bool {
-        let (at, columns, _) = self.by_reactions(s);
-        let by_reactions = Vector3::from(columns.map(|column| column[3]));
-        at.moment.abs() <= SIGMAS * propagated(&by_reactions.transpose(), covariance).x.sqrt()
-    }
+/// Whether the moment at an arc length is within its noise.
+fn is_free_of_moment<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMatrix<f64, N, N>) -> bool {
+    let (at, columns) = felt.by_readings(s);
+    let gradient = SVector::from(columns.map(|column| column[3]));
+    at.moment.abs() <= SIGMAS * variance(&gradient, covariance).sqrt()
+}
 
-    /// The contact there, dimensionless; it `slides` along the rod with the reactions so that the moment there stays 0.
-    fn touch(&self, s: f64, slides: bool, covariance: &Matrix3<f64>) -> Touch {
-        let (at, columns, _) = self.by_reactions(s);
-        let (rate, (sin, cos)) = (self.moment_rate(&at), at.phi.sin_cos());
-        let columns = columns.map(|[x, y, _, moment]| {
-            let slide = if slides { -moment / rate } else { 0.0 };
-            [x + cos * slide, y + sin * slide]
-        });
-        let position = Matrix2x3::from_fn(|i, c| columns[c][i]);
-        let covariance = propagated(&position, covariance);
-        let force = self.a.hypot(self.b);
-        Touch { s, x: at.x, y: at.y, alpha: self.alpha(), force, covariance, systematic: Matrix2::zeros() }
-    }
+/// The contact there, dimensionless; it `slides` along the rod with the readings so that the moment there stays 0.
+fn touch<const N: usize>(felt: &impl Felt<N>, s: f64, slides: bool, covariance: &SMatrix<f64, N, N>) -> Touch {
+    let ((at, columns), ([a, b], _)) = (felt.by_readings(s), felt.force());
+    let (rate, (sin, cos)) = (moment_rate(&at, [a, b]), at.phi.sin_cos());
+    let columns = columns.map(|[x, y, _, moment]| {
+        let slide = if slides { -moment / rate } else { 0.0 };
+        [x + cos * slide, y + sin * slide]
+    });
+    let position = SMatrix::<f64, 2, N>::from_fn(|i, c| columns[c][i]);
+    let covariance = position * covariance * position.transpose();
+    Touch { s, x: at.x, y: at.y, alpha: b.atan2(a), force: a.hypot(b), covariance, systematic: Matrix2::zeros() }
+}
+
+/// How the moment changes along the rod.
+fn moment_rate(at: &Cut, [a, b]: [f64; 2]) -> f64 {
+    a * at.phi.cos() + b * at.phi.sin()
 }

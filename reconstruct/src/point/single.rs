@@ -48,9 +48,42 @@ pub fn single<T: Number>(
     reactions: Reactions<T>,
     covariance: &Matrix3<T>,
 ) -> Result<Touch<T>, NoContact<T>> {
+    single_with_friction(rod, pose, reactions, covariance, T::zero())
+}
+
+/// [`single`] of a rod that slides over the object with this coefficient of friction: positive where friction draws the rod from its clamp
+/// towards its tip, as on a rod that is drawn back over the contact, negative where it is pushed on.
+///
+/// Where the contact is does not depend on friction. The contour's tangent does: the force is turned from the contour's normal by
+/// atan(friction). So does the criterion that tells a contact that would have to pull: K <= 2 |F| sin rho.
+///
+/// ```
+/// use nalgebra::Matrix3;
+/// use rod_core::{Elastica, Load, Pose, Rod};
+/// let rod = Rod::new(0.1, 6.3e-4)?; // m, N m^2
+/// let clamp = Pose { x: 0.0, y: 0.0, phi: 1.5 };
+/// // the force of a tip that slides with mu = 0.2 along a contour of tangent angle 1.2
+/// let (mu, alpha) = (0.2_f64, 1.2);
+/// let load = Load { s: 0.1, force: 0.02, alpha: alpha + mu.atan() };
+/// let bent = Elastica::under_loads(rod.units(), clamp, &[load])?.0;
+/// let found = rod_reconstruct::single_with_friction(&rod, clamp, bent.reactions(), &Matrix3::zeros(), mu)?;
+/// assert!((found.x - bent.at(0.1).x).abs() < 1e-15 && (found.alpha - alpha).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`NoContact`] where no single contact fits, with the reason.
+pub fn single_with_friction<T: Number>(
+    rod: &Rod<T>,
+    pose: Pose<T>,
+    reactions: Reactions<T>,
+    covariance: &Matrix3<T>,
+    friction: T,
+) -> Result<Touch<T>, NoContact<T>> {
     let (one, slack, sigmas) = (T::one(), T::from_f64(SLACK + ROUNDINGS * T::EPSILON), T::from_f64(NOISE_SIGMAS));
     let units = rod.units();
     let (clamp, covariance) = dimensionless(units, pose, reactions, covariance)?;
+    let clamp = Clamp { friction, ..clamp };
     // the derivatives are half of the work, and needed for the covariance only
     let noisy = covariance.iter().any(|v| *v != T::zero());
     let first = MomentZero::first(&clamp, &covariance, noisy)?;

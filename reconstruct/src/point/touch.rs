@@ -18,10 +18,10 @@ pub struct Touch<T = f64> {
     pub x: T,
     /// Position, m.
     pub y: T,
-    /// Tangent angle of the contour, radians, in (-pi, pi], with the solid on its left. The contact force on the rod is
-    /// force (sin alpha, -cos alpha).
+    /// Tangent angle of the contour, radians, in (-pi, pi], with the solid on its left. Without friction the contact force on the rod is
+    /// force (sin alpha, -cos alpha); friction turns it.
     pub alpha: T,
-    /// Contact force, N, >= 0.
+    /// Size of the contact force, with its friction, N, >= 0.
     pub force: T,
     /// Covariance of the position (x, y), m^2; zero where the noise is not known.
     pub covariance: Matrix2<T>,

@@ -32,6 +32,8 @@ pub(crate) struct LocalCubic {
     variance: Vector3<f64>,
     /// Natural curvature of the rod.
     natural: f64,
+    /// Tangent of the angle of friction.
+    friction: f64,
     pub window: Range<usize>,
 }
 
@@ -127,8 +129,8 @@ impl LocalCubic {
             coefficients[(0, c)] += value;
         }
         let variance = noise.variance.sup(&found).component_mul(&noise.long_run);
-        let natural = track.natural;
-        Some((Self { centre, half, coefficients, inverse, variance, natural, window }, fits))
+        let Track { natural, friction, .. } = *track;
+        Some((Self { centre, half, coefficients, inverse, variance, natural, friction, window }, fits))
     }
 
     fn six(clamp: &Clamp) -> SMatrix<f64, 6, 1> {
@@ -158,6 +160,11 @@ impl LocalCubic {
         Some(best)
     }
 
+    /// Gives the contacts friction whose angle has this tangent.
+    pub fn rub(&mut self, friction: f64) {
+        self.friction = friction;
+    }
+
     /// Values and rates at tau.
     pub fn at(&self, tau: f64) -> Estimate {
         let t = (tau - self.centre) / self.half;
@@ -169,11 +176,12 @@ impl LocalCubic {
                 pose: six.fixed_rows::<3>(0).into_owned(),
                 reactions: six.fixed_rows::<3>(3).into_owned(),
                 natural: 0.0,
+                friction: 0.0,
             }
         };
         let (at_value, at_rate) = (self.inverse * value, self.inverse * rate);
         Estimate {
-            clamp: Clamp { natural: self.natural, ..split(&value) },
+            clamp: Clamp { natural: self.natural, friction: self.friction, ..split(&value) },
             rate: split(&rate),
             shape: [value.dot(&at_value), value.dot(&at_rate), rate.dot(&at_rate)],
             variance: self.variance,
@@ -192,10 +200,12 @@ mod tests {
             pose: Vector3::new(tau, 2.0, 0.5),
             reactions: Vector3::new(1.0 + tau, tau.powi(3) + bend * (tau - 0.1).max(0.0), 3.0),
             natural: 0.0,
+            friction: 0.0,
         };
         let noise = Noise { variance: Vector3::repeat(1e-24), long_run: Vector3::repeat(1.0) };
         for (bend, widest) in [(0.0, 200), (1.0, 50)] {
-            let track = Track { clamps: tau.iter().map(|&t| clamp(t, bend)).collect(), tau: tau.clone(), natural: 0.0 };
+            let track =
+                Track { clamps: tau.iter().map(|&t| clamp(t, bend)).collect(), tau: tau.clone(), ..Track::default() };
             let fit = LocalCubic::about(&track, 80, 0..200, &noise, 1000).unwrap();
             assert!(fit.window.len() <= widest && fit.window.len() >= widest / 2, "{:?}", fit.window);
             let at = fit.at(0.08);

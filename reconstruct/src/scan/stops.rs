@@ -77,7 +77,9 @@ fn mean(clamps: &[Clamp]) -> Clamp {
     // relative to the first, so that equal poses stay as they are
     let first = clamps
         .first()
-        .map_or(Clamp { pose: Vector3::zeros(), reactions: Vector3::zeros(), natural: 0.0 }, |clamp| *clamp);
+        .map_or(Clamp { pose: Vector3::zeros(), reactions: Vector3::zeros(), natural: 0.0, friction: 0.0 }, |clamp| {
+            *clamp
+        });
     let sum = |of: fn(&Clamp) -> Vector3<f64>| {
         clamps.iter().map(|clamp| of(clamp) - of(&first)).sum::<Vector3<f64>>() * share
     };

@@ -40,6 +40,8 @@ pub(crate) struct Track {
     pub clamps: Vec<Clamp>,
     /// Natural curvature of the rod, which the clamps have, too.
     pub natural: f64,
+    /// Tangent of the angle of friction, which the clamps have, too.
+    pub friction: f64,
 }
 
 /// Makes samples dimensionless, one by one, and gives each its path parameter.
@@ -89,8 +91,11 @@ impl Track {
     /// The samples whose poses go on in one direction.
     fn exact(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
         let mut intake = Intake::new(rod);
-        let mut track =
-            Self { tau: Vec::with_capacity(samples.len()), clamps: Vec::with_capacity(samples.len()), natural: 0.0 };
+        let mut track = Self {
+            tau: Vec::with_capacity(samples.len()),
+            clamps: Vec::with_capacity(samples.len()),
+            ..Self::default()
+        };
         let places = samples
             .iter()
             .zip(frozen(samples).into_iter().zip(spikes(samples)))
@@ -141,7 +146,14 @@ impl Track {
             .iter()
             .map(|place| if usable(place) { indices.next().ok_or(Fault::TooFew) } else { *place })
             .collect();
-        Some((Self { tau, clamps, natural: 0.0 }, places))
+        Some((Self { tau, clamps, ..Self::default() }, places))
+    }
+
+    /// The same with friction whose angle has this tangent.
+    pub fn with_friction(mut self, friction: f64) -> Self {
+        self.friction = friction;
+        self.clamps.iter_mut().for_each(|clamp| clamp.friction = friction);
+        self
     }
 
     pub fn len(&self) -> usize {

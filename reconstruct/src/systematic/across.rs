@@ -1,10 +1,9 @@
 //! How far errors that all samples share displace single contact points across the contour.
 
-use super::correction::{Frame, motion};
+use super::correction::{Frame, motion, still};
 use super::influence::point_by_errors;
 use super::source::{SOURCES, Source};
 use crate::phase::{Label, constrained};
-use crate::point::Clamp;
 use crate::scan::{Estimate, Track};
 use nalgebra::{Matrix3, Vector3};
 use rod_core::{Rod, Sample, Uniform};
@@ -42,8 +41,7 @@ pub fn influences(
     let noise = Matrix3::from_diagonal(&noise.map(|sigma| sigma.max(least).powi(2)));
     let one = |number: usize, label: Label, index: usize| {
         let clamp = track.clamps[index];
-        let rate = Clamp { pose: motion(&track, index), reactions: Vector3::zeros(), natural: 0.0 };
-        let place = Estimate::exact(clamp, rate);
+        let place = Estimate::exact(clamp, still(motion(&track, index)));
         let (by, _) = point_by_errors(frame, track.tau[index], &place, &noise, label)?;
         let alpha = constrained(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];

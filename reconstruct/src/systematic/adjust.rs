@@ -46,6 +46,7 @@ fn conditions(label: Label, evidence: &Evidence) -> &'static [Criterion] {
         Label::A if evidence.again() => &[LengthByTip, TangentByTip],
         Label::A => &[Length, Tangent],
         Label::B => &[K, Tangent],
+        Label::BB if evidence.rubs() => &[],
         Label::BB => &[K],
         Label::BA => &[],
     }

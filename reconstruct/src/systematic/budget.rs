@@ -43,6 +43,9 @@ pub struct Budget {
     pub lag: f64,
     /// Relative error of the scale of the stage.
     pub stage_scale: f64,
+    /// Coefficient of friction. 0 takes the contacts for frictionless, or for what [`Settings::friction`](crate::Settings::friction) says.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub friction: f64,
 }
 
 impl Budget {
@@ -66,6 +69,7 @@ impl Budget {
             clamp_compliance: 5e-3,
             lag: 2e-3 * length,
             stage_scale: 5e-3,
+            friction: 0.0,
         }
     }
 
@@ -84,6 +88,7 @@ impl Budget {
         clamp_compliance: 0.0,
         lag: 0.0,
         stage_scale: 0.0,
+        friction: 0.0,
     };
 
     /// Whether there are no such errors.
@@ -113,6 +118,7 @@ impl Budget {
             Source::ClampCompliance => self.clamp_compliance,
             Source::Lag => self.lag,
             Source::StageScale => self.stage_scale,
+            Source::Friction => self.friction,
         }
     }
 

@@ -248,13 +248,24 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
     if is_enough(means) {
         return *means;
     }
-    let mut free: [bool; SOURCES] = std::array::from_fn(|k| k <= Source::BowM0z as usize && sigmas[k] > 0.0);
+    let free = |of: fn(Source) -> bool| std::array::from_fn(|k| of(Source::ALL[k]) && sigmas[k] > 0.0);
+    // friction is known as a plateau tells it, and not exactly
+    let mut free: [bool; SOURCES] = if sigmas[Source::Friction as usize] > 0.0 {
+        free(|source| source == Source::Friction)
+    } else {
+        free(Source::is_of_scan)
+    };
     loop {
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
         let only = Prior { sigmas: only, ..*prior };
         let taken = adjust(frame, &only, &restricted(found, prior, &free), places, least).errors;
         if is_enough(&taken) {
             return taken;
+        }
+        let of_scan = |k: usize| Source::ALL[k].is_of_scan() && sigmas[k] > 0.0;
+        if (0..SOURCES).any(|k| of_scan(k) && !free[k]) {
+            free = std::array::from_fn(|k| free[k] || of_scan(k));
+            continue;
         }
         let others = (0..SOURCES).filter(|k| !free[*k] && sigmas[*k] > 0.0);
         let best = others.min_by(|i, j| {

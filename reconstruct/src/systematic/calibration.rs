@@ -103,9 +103,18 @@ impl Calibration {
         samples.iter().zip(places).map(of).collect()
     }
 
-    /// Whether anything was taken off the samples.
+    /// Counts a source from another origin.
+    pub(crate) fn shift(&mut self, source: Source, by: f64) {
+        for estimate in self.sources.iter_mut().filter(|estimate| estimate.source == source) {
+            estimate.known += by;
+            estimate.value += by;
+            estimate.taken += by;
+        }
+    }
+
+    /// Whether anything was taken off the samples: friction changes what follows from them, not the samples.
     pub fn is_applied(&self) -> bool {
-        self.sources.iter().any(|estimate| estimate.taken != 0.0)
+        self.sources.iter().any(|estimate| estimate.taken != 0.0 && estimate.source != Source::Friction)
     }
 
     /// The rod with stiffness and length as they were found, if that was needed; otherwise the given one.

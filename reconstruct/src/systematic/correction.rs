@@ -107,19 +107,29 @@ impl Correction {
         pose.z -= compliance * force.z;
         pose_rate.z -= compliance * force_rate.z;
         let natural = clamp.natural + self.error(Source::NaturalCurvature);
-        (Clamp { pose, reactions: force, natural }, Clamp { pose: pose_rate, reactions: force_rate, natural: 0.0 })
+        let friction = clamp.friction + self.error(Source::Friction);
+        (
+            Clamp { pose, reactions: force, natural, friction },
+            Clamp { pose: pose_rate, reactions: force_rate, natural: 0.0, friction: 0.0 },
+        )
     }
 
     /// A scan without the errors.
     pub fn track(&self, track: &Track) -> Track {
         let mut corrected = track.clone();
         for (index, clamp) in corrected.clamps.iter_mut().enumerate() {
-            let motion = Clamp { pose: motion(track, index), reactions: Vector3::zeros(), natural: 0.0 };
+            let motion = still(motion(track, index));
             *clamp = self.apply(track.tau[index], clamp, &motion).0;
         }
         corrected.natural += self.error(Source::NaturalCurvature);
+        corrected.friction += self.error(Source::Friction);
         corrected
     }
+}
+
+/// Rates of a clamp that moves and whose reactions stay the same.
+pub(super) fn still(pose: Vector3<f64>) -> Clamp {
+    Clamp { pose, reactions: Vector3::zeros(), natural: 0.0, friction: 0.0 }
 }
 
 /// Rate of the pose at a sample, from its neighbours.
@@ -140,14 +150,16 @@ mod tests {
             pose: Vector3::new(0.3 - tau, 0.1 + 0.2 * tau, 1.2 + 0.5 * tau),
             reactions: Vector3::new(tau.sin(), 2.0 + tau * tau, -1.0 + tau),
             natural: 0.0,
+            friction: 0.0,
         };
         let rate = |tau: f64| Clamp {
             pose: Vector3::new(-1.0, 0.2, 0.5),
             reactions: Vector3::new(tau.cos(), 2.0 * tau, 1.0),
             natural: 0.0,
+            friction: 0.0,
         };
         let tau: Vec<f64> = (0..11).map(|k| 0.1 * f64::from(k)).collect();
-        let track = Track { clamps: tau.iter().map(|&tau| clamp(tau)).collect(), tau, natural: 0.0 };
+        let track = Track { clamps: tau.iter().map(|&tau| clamp(tau)).collect(), tau, ..Track::default() };
         let frame = Frame::of(&track).unwrap();
         let none = Correction::new(frame, &Errors::zeros()).unwrap();
         let (same, still) = none.apply(0.4, &clamp(0.4), &rate(0.4));

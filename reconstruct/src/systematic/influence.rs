@@ -8,10 +8,10 @@ use crate::scan::Estimate;
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
 use rod_core::Uniform;
 
-/// Pose, reactions, natural curvature, and rates of pose and reactions.
-const INPUTS: usize = 13;
-/// The first seven of them determine the contact point.
-pub(super) const OF_POINT: usize = 7;
+/// Pose, reactions, natural curvature, friction, and rates of pose and reactions.
+const INPUTS: usize = 14;
+/// The first eight of them determine the contact point.
+pub(super) const OF_POINT: usize = 8;
 /// Step of differences by inputs of size 1: the error of a central difference is some 1e-10 relative, far below that of any budget.
 const STEP: f64 = 1e-5;
 
@@ -19,14 +19,15 @@ type Inputs = SVector<f64, INPUTS>;
 
 fn inputs((clamp, rate): &(Clamp, Clamp)) -> Inputs {
     let (p, r, v, w) = (&clamp.pose, &clamp.reactions, &rate.pose, &rate.reactions);
-    Inputs::from([p.x, p.y, p.z, r.x, r.y, r.z, clamp.natural, v.x, v.y, v.z, w.x, w.y, w.z])
+    let (n, f) = (clamp.natural, clamp.friction);
+    Inputs::from([p.x, p.y, p.z, r.x, r.y, r.z, n, f, v.x, v.y, v.z, w.x, w.y, w.z])
 }
 
 fn of_inputs(x: &Inputs) -> (Clamp, Clamp) {
     let three = |k: usize| x.fixed_rows::<3>(k).into_owned();
     (
-        Clamp { pose: three(0), reactions: three(3), natural: x[6] },
-        Clamp { pose: three(7), reactions: three(10), natural: 0.0 },
+        Clamp { pose: three(0), reactions: three(3), natural: x[6], friction: x[7] },
+        Clamp { pose: three(8), reactions: three(11), natural: 0.0, friction: 0.0 },
     )
 }
 

@@ -6,7 +6,7 @@ use rod_core::Rod;
 use std::fmt;
 
 /// Number of sources.
-pub(crate) const SOURCES: usize = 27;
+pub(crate) const SOURCES: usize = 28;
 
 /// One number for each source, dimensionless (lengths in L, forces in EI/L^2, moments in EI/L).
 pub(crate) type Errors = SVector<f64, SOURCES>;
@@ -72,6 +72,9 @@ pub enum Source {
     Lag,
     /// Relative error of the stage's scale.
     StageScale,
+    /// Coefficient of Coulomb friction at the contacts: positive where friction draws the rod from its clamp towards its tip, as on a rod that
+    /// is drawn back, negative the other way.
+    Friction,
 }
 
 impl Source {
@@ -104,6 +107,7 @@ impl Source {
         Self::ClampCompliance,
         Self::Lag,
         Self::StageScale,
+        Self::Friction,
     ];
 
     /// Its name in words and its unit; the unit is empty where it is a relative number.
@@ -136,12 +140,14 @@ impl Source {
             Self::ClampCompliance => ("compliance of the clamp times EI/L", ""),
             Self::Lag => ("lag of the pose", "m"),
             Self::StageScale => ("scale of the stage", ""),
+            Self::Friction => ("friction", ""),
         }
     }
 
-    /// Whether each scan has its own, as bias and drift. All others stay the same as long as rod, sensor, clamp and stage do.
+    /// Whether each scan has its own, as bias and drift, and friction, whose direction is that of the scan. All others stay the same as long
+    /// as rod, sensor, clamp and stage do.
     pub fn is_of_scan(self) -> bool {
-        self <= Self::BowM0z
+        self <= Self::BowM0z || self == Self::Friction
     }
 
     /// What one dimensionless unit of it is, SI.

@@ -62,7 +62,7 @@ impl Turns<'_> {
         let mut before: Vec<(Label, f64)> = Vec::new();
         for _ in 0..TURNS {
             self.left(&adjusted).judge(&adjusted.errors, self.track, &mut judged);
-            let now = labels(&judged);
+            let now = labels(&judged, false);
             adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least);
             let again = raise(&mut prior, &adjusted.errors, &mut raised);
             let same = now.iter().zip(&before).all(|(now, before)| now.0 == before.0) && now.len() == before.len();

@@ -31,7 +31,7 @@ struct Place {
 fn both(part: &Part, local: &Local) -> [Place; 2] {
     let values = Unknowns::from_fn(|unknown| Dual::variable(local.values[unknown], unknown as usize));
     let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
-    let two = two(pose, Dual::constant(local.natural), &values);
+    let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &values);
     let [a, b] = two.force;
     let turn = if part.tip { b.value.atan2(a.value) } else { two.second.phi.value };
     let of = |s: &Section<Dual<f64, UNKNOWNS>>, alpha: f64| {

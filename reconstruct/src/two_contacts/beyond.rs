@@ -1,6 +1,6 @@
 //! The rod beyond its first contact.
 
-use crate::point::Clamp;
+use crate::point::{Clamp, normal_part, tangential};
 use rod_core::{Section, advance_with_sensitivities, inflection};
 
 /// Most steps of Newton's method, which converges in 4 to 8 or not at all.
@@ -14,26 +14,36 @@ pub(super) struct Beyond {
     pub s1: f64,
     pub first: Section,
     pub force: [f64; 2],
+    /// Tangent of the angle of friction.
+    friction: f64,
 }
 
 impl Beyond {
     pub fn new(clamp: &Clamp, s1: f64) -> Self {
-        Self { s1, first: clamp.at(s1), force: clamp.force() }
+        Self { s1, first: clamp.at(s1), force: clamp.force(), friction: clamp.friction }
     }
 
     /// The force (A, B) beyond the first contact, which pushes with `f1` from the side of a solid to the left of the rod
     /// (negative: to its right).
     pub fn left(&self, f1: f64) -> [f64; 2] {
-        let (sin, cos) = self.first.phi.sin_cos();
-        [self.force[0] - f1 * cos, self.force[1] - f1 * sin]
+        let [a, b] = tangential(f1, self.first.phi.sin_cos(), self.friction);
+        [self.force[0] - a, self.force[1] - b]
     }
 
     /// Curvature at the tip and its derivative by f1.
     pub fn tip(&self, f1: f64) -> (Section, f64) {
         let [a, b] = self.left(f1);
         let (end, by) = advance_with_sensitivities(&self.first, a, b, 1.0 - self.s1);
-        let (sin, cos) = self.first.phi.sin_cos();
-        (end, -by.by_a[3] * cos - by.by_b[3] * sin)
+        let [of_a, of_b] = tangential(1_f64.copysign(f1), self.first.phi.sin_cos(), self.friction);
+        let by = -by.by_a[3] * of_a - by.by_b[3] * of_b;
+        (end, if f1 < 0.0 { -by } else { by })
+    }
+
+    /// Whether the tip pushes what it touches, rather than pulls it, where the force there is larger than this.
+    pub fn pushes(&self, f1: f64, small: f64) -> bool {
+        let (sin, cos) = self.tip(f1).0.phi.sin_cos();
+        let [a, b] = normal_part(self.left(f1), (sin, cos), self.friction);
+        a * sin - b * cos >= -small
     }
 
     /// The f1 for which the moment at the tip vanishes, by Newton's method from a guess.

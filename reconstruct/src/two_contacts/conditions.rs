@@ -1,10 +1,11 @@
 //! The conditions that two contacts fulfil at every instant of a scan.
 //!
-//! The reactions determine the rod up to its first contact, and with the force there up to the second one. Without friction
-//! each contact moves along its own tangent; at the second one the moment vanishes, because it is the last.
+//! The reactions determine the rod up to its first contact, and with the force there up to the second one. Each contact moves along its own
+//! tangent; at the second one the moment vanishes, because it is the last. Friction turns the forces, and nothing else.
 
 use super::part::Local;
 use super::unknowns::{Gradient, UNKNOWNS, Unknown, Unknowns};
+use crate::point::{normal_part, tangential};
 use rod_core::{Dual, Scalar, Section, advance};
 
 /// A condition: a number that vanishes.
@@ -28,13 +29,14 @@ pub(super) struct Two<T> {
     pub force: [T; 2],
 }
 
-/// The two contacts of a rod of this natural curvature with its clamp at `pose` (x0, y0, phi0).
-pub(super) fn two<T: Scalar>(pose: [T; 3], natural: T, v: &Unknowns<T>) -> Two<T> {
+/// The two contacts of a rod of this natural curvature with its clamp at `pose` (x0, y0, phi0), where friction turns the first force by an
+/// angle with this tangent.
+pub(super) fn two<T: Scalar>(pose: [T; 3], natural: T, friction: T, v: &Unknowns<T>) -> Two<T> {
     let start = Section { x: pose[0], y: pose[1], phi: pose[2], kappa: natural - v[Unknown::M0z] };
     let (a, b) = (v[Unknown::F0y], -v[Unknown::F0x]);
     let first = advance(&start, a, b, v[Unknown::S1]);
-    let (sin, cos) = first.phi.sin_cos();
-    let force = [a - v[Unknown::F1] * cos, b - v[Unknown::F1] * sin];
+    let [of_a, of_b] = tangential(v[Unknown::F1], first.phi.sin_cos(), friction);
+    let force = [a - of_a, b - of_b];
     let second = advance(&first, force[0], force[1], v[Unknown::S2] - v[Unknown::S1]);
     Two { first, second, force }
 }
@@ -42,7 +44,7 @@ pub(super) fn two<T: Scalar>(pose: [T; 3], natural: T, v: &Unknowns<T>) -> Two<T
 /// The conditions, violated by their values: [`WITH_TIP`] of them where the second contact is at the tip, otherwise
 /// [`TANGENTIAL`].
 pub(super) fn conditions(local: &Local, tip: bool) -> Vec<Condition> {
-    let Local { pose, natural, values, rates, .. } = local;
+    let Local { pose, natural, friction, values, rates, .. } = local;
     /// A number with its derivatives by the unknowns.
     type By = Dual<f64, UNKNOWNS>;
     // the one derivative of these is the rate along the scan
@@ -54,8 +56,8 @@ pub(super) fn conditions(local: &Local, tip: bool) -> Vec<Condition> {
         value: By::constant(pose[0][i]),
         derivatives: [By::constant(pose[1][i])],
     });
-    let natural = By::constant(*natural);
-    let two = two(clamp, Dual::<By, 1>::constant(natural), &inputs);
+    let (natural, friction) = (By::constant(*natural), By::constant(*friction));
+    let two = two(clamp, Dual::<By, 1>::constant(natural), Dual::<By, 1>::constant(friction), &inputs);
     let still = |number: By| Condition {
         value: number.value,
         gradient: Gradient::of_values(Unknowns::from_fn(|u| number.derivatives[u as usize])),
@@ -71,16 +73,26 @@ pub(super) fn conditions(local: &Local, tip: bool) -> Vec<Condition> {
     let first = across(&two.first, cos, sin);
     let kappa = still(two.second.kappa.value - natural);
     if tip {
-        // along the contour means across the force; times the force, because its direction is lost where it vanishes
-        let second = across(&two.second, two.force[0].value, two.force[1].value);
+        // along the contour means across the normal force; times that force, because its direction is lost where it vanishes
+        let [a, b] = normal_part(two.force.map(|force| force.value), two.second.phi.value.sin_cos(), friction);
+        let second = across(&two.second, a, b);
         return vec![first, kappa, second];
     }
     let (sin, cos) = two.second.phi.value.sin_cos();
     let second = across(&two.second, cos, sin);
     let (sin, cos) = pose[0].z.sin_cos();
     let [fx, fy, m] = Unknown::REACTIONS.map(|u| inputs[u].value);
-    let k = still(m * (m - natural - natural) - By::constant(2.0 * sin) * fy - By::constant(2.0 * cos) * fx);
-    vec![first, kappa, second, k]
+    let mut k = m * (m - natural - natural) - By::constant(2.0 * sin) * fy - By::constant(2.0 * cos) * fx;
+    if friction.value != 0.0 {
+        // each contact adds twice its force along the rod
+        let [a, b] = two.force.map(|force| force.value);
+        let (sin, cos) = two.second.phi.value.sin_cos();
+        for normal in [inputs[Unknown::F1].value, a * cos + b * sin] {
+            let pushes = if normal.value < 0.0 { -normal } else { normal };
+            k = k - pushes * friction * By::constant(2.0);
+        }
+    }
+    vec![first, kappa, second, still(k)]
 }
 
 /// A point of the contour with the normal there (up to its sign), with derivatives by the unknowns.
@@ -95,9 +107,9 @@ pub(super) struct ContourPoint {
 pub(super) fn second(local: &Local, tip: bool) -> ContourPoint {
     let variables = Unknowns::from_fn(|u| Dual::variable(local.values[u], u as usize));
     let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
-    let two = two(pose, Dual::constant(local.natural), &variables);
+    let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &variables);
     let (sin, cos) = if tip {
-        let [a, b] = two.force;
+        let [a, b] = normal_part(two.force, two.second.phi.sin_cos(), Dual::constant(local.friction));
         let f = (a * a + b * b).sqrt();
         (b / f, a / f)
     } else {

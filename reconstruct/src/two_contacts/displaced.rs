@@ -61,7 +61,7 @@ pub(super) fn displaced(found: &Resolved, beside: &[Option<Single>; 2], by: &[Co
 fn contacts(part: &Part, x: &DVector<f64>) -> [[Vector2<f64>; 2]; INSTANTS] {
     std::array::from_fn(|k| {
         let local = part.local(x, place(k));
-        let two = two(local.pose[0].into(), local.natural, &local.values);
+        let two = two(local.pose[0].into(), local.natural, local.friction, &local.values);
         [&two.first, &two.second].map(|section| Vector2::new(section.x, section.y))
     })
 }

@@ -7,7 +7,7 @@ use super::part::Part;
 use super::trail::Trail;
 use super::unknowns::Unknown;
 use crate::numeric::legendre;
-use crate::point::MomentZero;
+use crate::point::{MomentZero, normal_part};
 use nalgebra::{DMatrix, DVector, Matrix3};
 
 /// Instants of a stretch at which forces are guessed, its ends among them.
@@ -41,7 +41,8 @@ pub(super) fn guess(parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
                 let [clamp, _] = parts[k].series.clamps(if side == 0 { -1.0 } else { 1.0 });
                 let [a, b] = clamp.force();
                 let phi = clamp.at(s).phi;
-                Some(a.hypot(b) * (a * phi.cos() + b * phi.sin()).signum())
+                let [normal_a, normal_b] = normal_part([a, b], phi.sin_cos(), clamp.friction);
+                Some(normal_a.hypot(normal_b) * (a * phi.cos() + b * phi.sin()).signum())
             }
         };
     }
@@ -147,12 +148,10 @@ fn scanned(beyond: &Beyond) -> f64 {
         let here = beyond.tip(force(k)).0.kappa;
         if here * before <= 0.0
             && let Some(f) = beyond.force_of_tip(0.5 * (force(k) + force(k - 1)))
+            && beyond.pushes(f, 0.0)
+            && best.is_none_or(|b| f.abs() < b.abs())
         {
-            let ([a, b], phi) = (beyond.left(f), beyond.tip(f).0.phi);
-            let pushes = a * phi.sin() - b * phi.cos() >= 0.0;
-            if pushes && best.is_none_or(|b| f.abs() < b.abs()) {
-                best = Some(f);
-            }
+            best = Some(f);
         }
         before = here;
     }

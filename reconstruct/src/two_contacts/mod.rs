@@ -28,6 +28,7 @@ mod run;
 mod series;
 mod signs;
 mod single;
+mod slip;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -5,10 +5,11 @@ use super::conditions::two;
 use super::displaced::Spread;
 use super::part::{Local, Part};
 use super::run::Resolved;
+use super::slip::slides;
 use super::unknowns::{UNKNOWNS, Unknown, Unknowns};
 use super::unresolved::Unresolved;
 use crate::numeric::variance;
-use crate::point::Touch;
+use crate::point::{Touch, normal_part};
 use nalgebra::{Matrix2, Matrix6, SMatrix, SVector, Vector2};
 use rod_core::{Dual, Section};
 
@@ -93,6 +94,10 @@ pub(super) fn answer(
         pairs.extend(tau.iter().map(|_| Pair { first: Err(error), second: Err(error) }));
         return;
     }
+    if !slides(part, x) {
+        pairs.extend(tau.iter().map(|_| Pair { first: Err(Unresolved::Sticks), second: Err(Unresolved::Sticks) }));
+        return;
+    }
     for &tau in tau {
         let t = part.series.interval.local(tau);
         let u = (0.5 * (t.clamp(-1.0, 1.0) + 1.0)) * (INSTANTS - 1) as f64;
@@ -118,7 +123,7 @@ pub(super) fn answer(
 fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], limits: &Limits) -> Pair {
     let values = Unknowns::from_fn(|unknown| Dual::variable(local.values[unknown], unknown as usize));
     let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
-    let two = two(pose, Dual::constant(local.natural), &values);
+    let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &values);
     let bend = |s: &Section<Dual<f64, UNKNOWNS>>| {
         let by =
             SMatrix::<f64, 2, UNKNOWNS>::from_fn(|r, c| if r == 0 { s.x.derivatives[c] } else { s.y.derivatives[c] });
@@ -134,7 +139,7 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
         x,
         y,
         alpha,
-        force: f1.abs(),
+        force: f1.abs() * local.friction.hypot(1.0),
         covariance: spread1,
         systematic: Matrix2::zeros(),
     };
@@ -142,6 +147,7 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
     let first = judged(first, bends[0].abs() + kappa.abs(), covariance[(S1, S1)].max(0.0).sqrt(), limits);
 
     let [a, b] = two.force;
+    let [normal_a, normal_b] = normal_part([a.value, b.value], two.second.phi.value.sin_cos(), local.friction);
     let force = a.value.hypot(b.value);
     let by_force = SVector::<f64, UNKNOWNS>::from_fn(|i, _| {
         (a.value * a.derivatives[i] + b.value * b.derivatives[i]) / force.max(f64::MIN_POSITIVE)
@@ -152,7 +158,7 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
         s: local.values[Unknown::S2],
         x,
         y,
-        alpha: b.value.atan2(a.value),
+        alpha: normal_b.atan2(normal_a),
         force,
         covariance: spread2,
         systematic: Matrix2::zeros(),

@@ -21,6 +21,8 @@ pub(super) struct Local {
     pub pose: [Vector3<f64>; 2],
     /// Natural curvature of the rod.
     pub natural: f64,
+    /// Tangent of the angle of friction.
+    pub friction: f64,
     pub values: Unknowns,
     pub rates: Unknowns,
     pub basis: [Vec<f64>; 2],
@@ -65,7 +67,7 @@ impl Part {
         let pose = [&p, &d].map(|b| {
             Vector3::from_fn(|c, _| self.series.pose.column(c).iter().zip(b).map(|(m, b)| m * b).sum::<f64>())
         });
-        Local { pose, natural: self.series.natural, values, rates, basis: [p, d] }
+        Local { pose, natural: self.series.natural, friction: self.series.friction, values, rates, basis: [p, d] }
     }
 
     /// Derivatives by the unknowns and their rates as derivatives by the coefficients, appended to a sparse row.

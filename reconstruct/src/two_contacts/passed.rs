@@ -55,7 +55,7 @@ impl Passed {
             if s1 > MIDDLE.1 || f1.abs() < small {
                 return false;
             }
-            let first = two(local.pose[0].into(), local.natural, &local.values).first;
+            let first = two(local.pose[0].into(), local.natural, local.friction, &local.values).first;
             let covariance = part.covariance(&local, &solution.covariance);
             let sigma = covariance[(Unknown::S1 as usize, Unknown::S1 as usize)].max(0.0).sqrt();
             let (at, along) = (Vector2::new(first.x, first.y), Vector2::new(first.phi.cos(), first.phi.sin()));

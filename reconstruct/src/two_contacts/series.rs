@@ -57,6 +57,8 @@ pub(super) struct Series {
     pub variance: Vector3<f64>,
     /// Natural curvature of the rod.
     pub natural: f64,
+    /// Tangent of the angle of friction, as that of a [`Clamp`].
+    pub friction: f64,
     /// Whether it has as many terms as it may, by its samples or at all: the reactions may need more.
     pub truncated: bool,
 }
@@ -117,8 +119,10 @@ impl Series {
         let variance = noise.variance.sup(&found).component_mul(&noise.long_run).map(|v| v.max(EXACT * EXACT));
         let inverse = normal.clone().cholesky()?.inverse();
         let part = |from| coefficients.columns(from, 3).into_owned();
-        let (pose, reactions, natural) = (part(0), part(3), track.natural);
-        Some(Self { interval, pose, reactions, normal, inverse, variance, natural, truncated: terms == most })
+        let (pose, reactions) = (part(0), part(3));
+        let Track { natural, friction, .. } = *track;
+        let truncated = terms == most;
+        Some(Self { interval, pose, reactions, normal, inverse, variance, natural, friction, truncated })
     }
 
     /// The first terms alone. They are nearly the best series of that length, because Legendre polynomials are nearly orthogonal.
@@ -133,6 +137,7 @@ impl Series {
             inverse: block(&self.inverse),
             variance: self.variance,
             natural: self.natural,
+            friction: self.friction,
             truncated: self.truncated,
         }
     }
@@ -143,12 +148,12 @@ impl Series {
         let nodes = 2 * terms;
         let mut rows = DMatrix::zeros(terms, nodes);
         let mut moved = DMatrix::zeros(nodes, 6);
-        let mut natural = self.natural;
+        let (mut natural, mut friction) = (self.natural, self.friction);
         for k in 0..nodes {
             let t = -(std::f64::consts::PI * (k as f64 + 0.5) / nodes as f64).cos();
             let [clamp, rate] = self.clamps(t);
             let there = by.apply(self.interval.centre + self.interval.half * t, &clamp, &rate).0;
-            natural = there.natural;
+            (natural, friction) = (there.natural, there.friction);
             let (from, to) = (six(&clamp), six(&there));
             (0..6).for_each(|c| moved[(k, c)] = to[c] - from[c]);
             legendre::values(t, rows.column_mut(k).as_mut_slice());
@@ -159,6 +164,7 @@ impl Series {
             pose: &self.pose + moved.columns(0, 3),
             reactions: &self.reactions + moved.columns(3, 3),
             natural,
+            friction,
             ..self.clone()
         }
     }
@@ -173,10 +179,11 @@ impl Series {
         let by = |b: Vec<f64>, m: &DMatrix<f64>| {
             Vector3::from_fn(|c, _| m.column(c).iter().zip(&b).map(|(m, b)| m * b).sum())
         };
-        [(p, self.natural), (d, 0.0)].map(|(b, natural)| Clamp {
+        [(p, self.natural, self.friction), (d, 0.0, 0.0)].map(|(b, natural, friction)| Clamp {
             pose: by(b.clone(), &self.pose),
             reactions: by(b, &self.reactions),
             natural,
+            friction,
         })
     }
 }

@@ -38,6 +38,7 @@ pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
             pose: local.pose[i],
             reactions: Vector3::from(Unknown::REACTIONS.map(|unknown| v[unknown])),
             natural: if i == 0 { local.natural } else { 0.0 },
+            friction: if i == 0 { local.friction } else { 0.0 },
         };
         let estimate = Estimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
         let speed = NormalSpeed::at(&estimate, s1);
@@ -51,8 +52,7 @@ pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
             doubt += speed.by_s.abs() * part.sigma_of_rate(&local, &solution.covariance) / INSTANTS as f64;
         }
         let beyond = Beyond::new(&estimate.clamp, s1);
-        let ([a, b], phi) = (beyond.left(f1), beyond.tip(f1).0.phi);
-        let pushes = !part.tip || a * phi.sin() - b * phi.cos() >= -small;
+        let pushes = !part.tip || beyond.pushes(f1, small);
         if !part.tip {
             let covariance = part.covariance(&local, &solution.covariance);
             let sigma = covariance[(Unknown::S2 as usize, Unknown::S2 as usize)].max(0.0).sqrt();

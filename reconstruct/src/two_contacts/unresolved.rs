@@ -28,6 +28,9 @@ pub enum Unresolved {
     /// two.
     #[error("the force of the first contact is known at no end of the stretch")]
     NoAnchor,
+    /// One of the contacts may stick, or the rod may roll on it, or slide the other way: its friction is not known.
+    #[error("one of the contacts may stick, so that its friction is not known")]
+    Sticks,
     /// The standard deviation of the position exceeds the limit.
     #[error("the position is uncertain by {sigma} lengths of the rod")]
     TooNoisy {

@@ -1,14 +1,19 @@
-//! How the rod is held at its base: rigidly, on springs, or on a pivot.
+//! How the rod is held at its base: rigidly, on springs, on a pivot, or rigidly with a roller ahead.
 //!
 //! What the base does is linear in the reactions, so that a clamp is a few numbers ([`ClampLaw`]). Which clamp it is, is a type
 //! parameter of [`MultiPoint`](crate::MultiPoint): the rigid one, a [`Pose`], costs nothing.
 
 mod elastic;
+mod guided;
 mod mounted;
+mod roller;
 mod springs;
 
 pub use elastic::{Elastic, Pivot};
+pub use guided::{Guided, RollerClamp};
 pub use mounted::Mounted;
+pub(crate) use roller::Passage;
+pub use roller::{Roller, RollerHold};
 pub use springs::ElasticClamp;
 
 use crate::pose::{Pose, Reactions};
@@ -26,6 +31,12 @@ pub trait Clamp {
     /// How the clamp gives way; None where it is rigid.
     #[inline(always)]
     fn law(&self) -> Option<ClampLaw> {
+        None
+    }
+
+    /// The roller through which the rod runs between this clamp and its first contact; None without one. A clamp that gives way has none.
+    #[inline(always)]
+    fn roller(&self) -> Option<Roller> {
         None
     }
 
@@ -65,6 +76,10 @@ impl<C: Clamp + ?Sized> Clamp for &C {
     #[inline(always)]
     fn law(&self) -> Option<ClampLaw> {
         (**self).law()
+    }
+    #[inline(always)]
+    fn roller(&self) -> Option<Roller> {
+        (**self).roller()
     }
 }
 

@@ -1,6 +1,8 @@
 //! A rod on a clamp that gives way.
 
 use super::{Elastic, ElasticClamp};
+use crate::elastica::Elastica;
+use crate::model::RodModel;
 use crate::physical::{PhysicalRod, RodParameter};
 use crate::pose::Pose;
 use crate::units::Units;
@@ -64,7 +66,7 @@ impl<R: PhysicalRod<Clamp = Pose>> PhysicalRod for Mounted<R> {
         self.rod.curvature_rate(parameter, s, moment)
     }
 
-    fn bending_stress(&self, kappa: f64) -> Option<f64> {
-        self.rod.bending_stress(kappa)
+    fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
+        self.rod.largest_stress(shape)
     }
 }

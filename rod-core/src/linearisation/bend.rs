@@ -23,14 +23,15 @@ const SAME: f64 = 1e-6;
 
 impl Linearisation {
     /// The change of the residual, at fixed unknowns, per unit of something by which the curvature of the rod changes by
-    /// `rate(s, moment)`, all dimensionless. It is smooth between the joints of the rod. None for another rod than that of the problem.
+    /// `rate(s, moment)`, all dimensionless. It is smooth between the joints of the rod. None for another rod than that of the problem,
+    /// and for a clamp with a roller.
     pub fn bend_rates(&self, rod: &impl RodModel, rate: impl Fn(f64, f64) -> f64) -> Option<SmallVec<[f64; 25]>> {
         Some(self.rates_of(&self.bent_ends(rod, rate)?))
     }
 
     /// The change of the equilibrium per unit of something by which the curvature of the rod changes by `rate(s, moment)`, all
     /// dimensionless, with clamp and supports at rest. It is smooth between the joints of the rod. None where the Jacobian has no inverse,
-    /// and for another rod than that of the problem.
+    /// for another rod than that of the problem, and for a clamp with a roller.
     ///
     /// ```
     /// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Uniform, solve};
@@ -65,6 +66,9 @@ impl Linearisation {
 
     /// How the end of each segment, (x, y, phi) on the side of the clamp, moves as the rod bends.
     fn bent_ends(&self, rod: &impl RodModel, rate: impl Fn(f64, f64) -> f64) -> Option<Vector> {
+        if self.passage.is_some() {
+            return None;
+        }
         let mut ends = Vector::with_capacity(3 * self.held.len());
         let (mut to, mut target) = (0.0, [self.base.x, self.base.y, self.base.phi]);
         for Held { node, .. } in &self.held {

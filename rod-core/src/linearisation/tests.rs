@@ -4,6 +4,7 @@ use super::*;
 use crate::clamp::{Elastic, Pivot};
 use crate::model::Uniform;
 use crate::multipoint::Support;
+use crate::newton::System;
 use proptest::prelude::*;
 
 /// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre.

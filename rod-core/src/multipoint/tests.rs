@@ -4,8 +4,16 @@ use super::*;
 use crate::clamp::{Elastic, Pivot};
 use proptest::prelude::*;
 
+/// What friction does at each support.
+#[derive(Clone, Copy, Debug)]
+enum Rubs {
+    No,
+    Slips(f64),
+    Sticks(f64, f64),
+}
+
 /// Circles: r = centre + radius (sin t, -cos t), travelled counter-clockwise, tangent angle t.
-struct Circles(Vec<(Hold, [f64; 3])>);
+struct Circles(Vec<(Hold, [f64; 3], Rubs)>);
 
 impl Supports for Circles {
     fn count(&self) -> usize {
@@ -18,6 +26,21 @@ impl Supports for Circles {
         let [x, y, radius] = self.0[j].1;
         Support { x: x + radius * t.sin(), y: y - radius * t.cos(), alpha: t, speed: radius, turning: 1.0 }
     }
+    fn grip(&self, j: usize) -> Grip {
+        match self.0[j].2 {
+            Rubs::No => Grip::SMOOTH,
+            Rubs::Slips(ratio) => Grip::Slips { ratio },
+            Rubs::Sticks(t, s) => Grip::Sticks { t, s },
+        }
+    }
+}
+
+fn rubs() -> impl Strategy<Value = Rubs> {
+    prop_oneof![
+        Just(Rubs::No),
+        (-1.0..1.0_f64).prop_map(Rubs::Slips),
+        (-1.0..1.0_f64, 0.0..1.0_f64).prop_map(|(t, s)| Rubs::Sticks(t, s)),
+    ]
 }
 
 proptest! {
@@ -27,6 +50,8 @@ proptest! {
         tip: bool,
         phi in 0.0..3.0_f64,
         springs in prop::array::uniform3(prop::array::uniform3(-0.3..0.3_f64)),
+        rubs in prop::collection::vec(rubs(), 4),
+        friction in prop::array::uniform4(-2.0..2.0_f64),
     ) {
         let n = unknowns.len();
         let mut s = 0.0;
@@ -36,8 +61,9 @@ proptest! {
             let at_tip = tip && j + 1 == n;
             u.extend([t, f, if at_tip { phi } else { s }]);
             let offset = if j % 2 == 0 { 0.0 } else { std::f64::consts::PI };
-            circles.push((if at_tip { Hold::Tip } else { Hold::Tangent { offset } }, [0.3 * j as f64, 0.2, radius]));
+            circles.push((if at_tip { Hold::Tip } else { Hold::Tangent { offset } }, [0.3 * j as f64, 0.2, radius], rubs[j]));
         }
+        u.extend(friction.into_iter().zip(&rubs[..n]).filter(|(_, rubs)| matches!(rubs, Rubs::Sticks(..))).map(|(f, _)| f));
         let supports = Circles(circles);
         let pose = Pose { x: 0.0, y: 0.0, phi: 1.5 };
         the_jacobian_is_the_derivative(&MultiPoint { rod: Uniform, clamp: pose, supports: &supports }, &u)?;

@@ -2,7 +2,9 @@
 
 mod natural_curvature;
 mod stiffness;
+mod stress;
 
+use crate::elastica::Elastica;
 use crate::error::{RodError, finite};
 use crate::model::{Cone, CutSensitivities, RodModel, RodSection, check_sections};
 use crate::physical::RodParameter;
@@ -13,6 +15,7 @@ use crate::units::Units;
 use natural_curvature::{Curvature, Function};
 use std::sync::Arc;
 use stiffness::{Model, Stiffness};
+use stress::Diameters;
 
 pub use natural_curvature::NaturalCurvature;
 
@@ -50,6 +53,7 @@ pub struct VaryingRod {
     at_clamp: Rod,
     stiffness: Stiffness,
     model: Model,
+    diameters: Option<Diameters>,
 }
 
 impl Rod {
@@ -142,7 +146,7 @@ impl Rod {
     }
 
     /// The same rod, bent at rest. A curvature that is a number keeps the closed form; one that is a function has to be smooth. The
-    /// wire of [`Rod::from_diameter`] and the yield stress do not go along.
+    /// yield stress does not go along.
     ///
     /// ```
     /// use rod_core::Rod;
@@ -156,7 +160,11 @@ impl Rod {
     pub fn with_natural_curvature(self, curvature: impl Into<NaturalCurvature>) -> Result<VaryingRod, RodError> {
         let uniform =
             RodSection { length: self.length(), bending_stiffness: self.bending_stiffness(), natural_curvature: 0.0 };
-        VaryingRod::of_sections(self.length(), &[uniform])?.with_natural_curvature(curvature)
+        let rod = VaryingRod::of_sections(self.length(), &[uniform])?.with_natural_curvature(curvature)?;
+        match self.diameter() {
+            Some(diameter) => rod.with_section_diameters(&[diameter]),
+            None => Ok(rod),
+        }
     }
 }
 
@@ -175,7 +183,11 @@ impl VaryingRod {
 
     fn new(at_clamp: Rod, stiffness: Stiffness) -> Result<Self, RodError> {
         let model = stiffness.model().and_then(open).map_err(|error| in_si(error, &at_clamp))?;
-        Ok(Self { at_clamp, stiffness, model })
+        let diameters = match (&stiffness, at_clamp.diameter()) {
+            (Stiffness::Cone(Cone { taper }), Some(clamp)) => Some(Diameters::Cone { clamp, taper: *taper }),
+            _ => None,
+        };
+        Ok(Self { at_clamp, stiffness, model, diameters })
     }
 
     /// The same rod with another curvature at rest (1/m) than it has: a number, or a smooth function of the arc length (m), which may
@@ -195,6 +207,59 @@ impl VaryingRod {
         }
         let model = self.stiffness.bent(curvature).and_then(open).map_err(|error| in_si(error, &self.at_clamp))?;
         Ok(Self { model, ..self })
+    }
+
+    /// The same rod with the diameters (m) of its sections, which are round: then the [bending stress](Self::bending_stress) is known. They do
+    /// not change the stiffness.
+    ///
+    /// ```
+    /// use rod_core::{Rod, RodSection};
+    /// let section = |length, bending_stiffness| RodSection { length, bending_stiffness, natural_curvature: 0.0 };
+    /// let wires = Rod::sections(0.1, &[section(0.06, 6.32e-4), section(0.04, 8.19e-5)])?.with_section_diameters(&[0.5e-3, 0.3e-3])?;
+    /// // 1 N mm bends the thin wire (32 M / pi d^3)
+    /// let stress = wires.bending_stress(0.08, 1e-3).ok_or("no diameter")?;
+    /// assert!((stress - 32e-3 / (std::f64::consts::PI * 27e-12)).abs() < 1e-6 * stress);
+    /// let message = wires.with_section_diameters(&[0.5e-3]).unwrap_err().to_string();
+    /// assert_eq!(message, "diameters are given for 1 sections, expected one for each of the 2 sections of the rod");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RodError::SectionDiameters`] where there is not one for each section, or the rod has none; [`RodError::Section`] where one is not a
+    /// positive, finite number.
+    pub fn with_section_diameters(self, diameters: &[f64]) -> Result<Self, RodError> {
+        let sections = if let Stiffness::Sections(sections) = &self.stiffness { sections.as_slice() } else { &[] };
+        if sections.len() != diameters.len() || sections.is_empty() {
+            return Err(RodError::SectionDiameters { given: diameters.len(), sections: sections.len() });
+        }
+        let wrong = |diameter: &f64| !(diameter.is_finite() && *diameter > 0.0);
+        if let Some(index) = diameters.iter().position(wrong) {
+            let (what, value, expected) = ("diameter", diameters[index], "a positive, finite number");
+            return Err(RodError::Section { index, what, value, expected });
+        }
+        let joints = sections[1..].iter().zip(sections).scan(0.0, |end, (_, section)| {
+            *end += section.length;
+            Some(*end)
+        });
+        let diameters = Diameters::Sections { joints: joints.collect(), diameters: diameters.to_vec() };
+        Ok(Self { diameters: Some(diameters), ..self })
+    }
+
+    /// The bending stress 32 |M| / (pi d^3) (Pa) at the surface at arc length `s` (m) under the bending moment M = `moment` (N m), which is
+    /// E d |kappa - kappa0| / 2; at a joint that on the side of the tip. None where the diameter d is not known.
+    pub fn bending_stress(&self, s: f64, moment: f64) -> Option<f64> {
+        let diameter = self.diameters.as_ref()?.at(s / self.length());
+        Some(32.0 * moment.abs() / (std::f64::consts::PI * diameter.powi(3)))
+    }
+
+    /// The largest bending stress (Pa) of a shape of this rod, found to 1e-10 of it.
+    pub(crate) fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
+        let diameters = self.diameters.as_ref()?;
+        let segments = shape.segments();
+        let ends = segments.iter().skip(1).map(|next| next.s).chain([1.0]);
+        let all = segments.iter().zip(ends).map(|(segment, to)| diameters.largest_stress(&*self.model, segment, to));
+        let larger = |one: f64, other: f64| if one.is_nan() || other <= one { one } else { other };
+        Some(all.fold(0.0, larger) * self.units().moment)
     }
 
     /// Length, m.

@@ -23,6 +23,8 @@ pub struct Transition {
 pub struct Clean {
     /// What was swept.
     pub scene: Scene,
+    /// Coefficient of friction.
+    pub friction: f64,
     /// What was felt.
     pub samples: Vec<Sample>,
     /// In which phase each sample was.
@@ -32,11 +34,12 @@ pub struct Clean {
 }
 
 impl Clean {
-    /// Sweeps the scene in a file, a sample every [`STEP`].
-    pub fn sweep(file: &Path) -> Outcome<Self> {
+    /// Sweeps the scene in a file with this coefficient of friction, a sample every [`STEP`].
+    pub fn sweep(file: &Path, friction: f64) -> Outcome<Self> {
         let scene = Scene::read(file)?;
         let (mut samples, mut labels, mut transitions) = (Vec::new(), Vec::new(), Vec::new());
-        for item in Sweep::new(&scene.rod, &scene.objects, scene.path, STEP)? {
+        let sweep = Sweep::new(&scene.rod, &scene.objects, scene.path, STEP)?;
+        for item in if friction == 0.0 { sweep } else { sweep.with_friction(friction)? } {
             match item? {
                 Item::State(state) => {
                     let phase = state.phase();
@@ -46,7 +49,7 @@ impl Clean {
                 Item::Event(event) => transitions.push(transition(&scene, &event)),
             }
         }
-        Ok(Self { scene, samples, labels, transitions })
+        Ok(Self { scene, friction, samples, labels, transitions })
     }
 
     /// What a sensor makes of it. Lost samples are missing.

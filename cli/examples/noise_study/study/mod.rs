@@ -12,11 +12,12 @@ pub use files::Recordings;
 pub use limit::{kinks_below, limits};
 pub use noise::{LEVELS, Level, NOISES, Noise};
 pub use score::Score;
-pub use table::{by_scan, tables};
+pub use table::{by_scan, frictions, tables};
 
 use rayon::prelude::*;
 use std::error::Error;
 use std::path::Path;
+use vibrissa::reconstruct::Friction;
 
 /// Samples in a second, 1/s, and speed of the clamp, m/s.
 pub const RATE: f64 = 500.0;
@@ -34,9 +35,9 @@ pub fn scans() -> Vec<String> {
     (1..=3).flat_map(|object| [20, 40, 60].map(|q| format!("O{object}_q{q}"))).collect()
 }
 
-/// Sweeps scenes of the directory `scenes`.
-pub fn sweep(scenes: &Path, names: &[String]) -> Outcome<Vec<Clean>> {
-    names.par_iter().map(|name| Clean::sweep(&scenes.join(format!("{name}.toml")))).collect()
+/// Sweeps scenes of the directory `scenes` with this coefficient of friction.
+pub fn sweep(scenes: &Path, names: &[String], friction: f64) -> Outcome<Vec<Clean>> {
+    names.par_iter().map(|name| Clean::sweep(&scenes.join(format!("{name}.toml")), friction)).collect()
 }
 
 /// Records and reconstructs each scan with so many seeds of a noise; a score for each scan. The recordings are kept if
@@ -57,7 +58,9 @@ pub fn judge(
             let clean = &scans[scan];
             // no two scans with the same noise
             let samples = clean.recorded(&model, 1000 * scan as u64 + seed)?;
-            let found = vibrissa::reconstruct(&clean.scene.rod, &samples, &vibrissa::Settings::default())?;
+            let friction = if clean.friction == 0.0 { Friction::None } else { Friction::Estimate };
+            let settings = vibrissa::Settings { friction, ..vibrissa::Settings::default() };
+            let found = vibrissa::reconstruct(&clean.scene.rod, &samples, &settings)?;
             if let Some(keep) = keep {
                 keep.add(clean, level, noise, seed, &samples, &found)?;
             }

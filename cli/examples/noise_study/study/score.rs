@@ -41,6 +41,9 @@ pub struct Score {
     pub several: [Vec<f64>; 2],
     /// Points that one contact would have, of samples that have several.
     pub naive: Vec<f64>,
+    /// Coefficients of friction that were found, each with its error in standard deviations of the noise, and in those with all errors that
+    /// samples share.
+    pub frictions: Vec<[f64; 3]>,
     /// Samples with one contact that are labelled so and have their point.
     pub answered: Share,
     /// Samples with several contacts that have their first, their second contact.
@@ -74,6 +77,10 @@ impl Score {
         score.readings(clean, samples, found);
         score.stretches(clean, found);
         score.mistakes(clean, found);
+        if let Some(friction) = found.passes.iter().find_map(|pass| pass.friction) {
+            let off = friction.mu - clean.friction;
+            score.frictions.push([friction.mu, off / friction.sigma_of_noise, off / friction.sigma]);
+        }
         let objects = &clean.scene.objects;
         let contour = found.contour(&Assembly::default());
         let places = contour.of_kind(TraceKind::Single).flat_map(|trace| {
@@ -99,6 +106,7 @@ impl Score {
         self.points.extend(other.points);
         self.contour.extend(other.contour);
         self.naive.extend(other.naive);
+        self.frictions.extend(other.frictions);
         self.answered.merge(other.answered);
         for (k, distances) in other.several.into_iter().enumerate() {
             self.several[k].extend(distances);

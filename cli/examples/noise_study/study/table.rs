@@ -43,6 +43,24 @@ pub fn tables<'a>(rows: impl IntoIterator<Item = (&'a Level, Option<&'a Noise>, 
     markdown("noise", &rows.collect::<Vec<_>>())
 }
 
+/// The coefficients of friction that were found, with a row for each noise.
+pub fn frictions<'a>(rows: impl IntoIterator<Item = (&'a Level, Option<&'a Noise>, &'a Score)>) -> String {
+    let mut text = String::from(
+        "Friction found, mean and standard deviation over the scans; root mean square of its error in stated standard deviations:\n\n\
+         | noise | mu | by the noise alone | with errors that samples share |\n|---|---|---|---|\n",
+    );
+    for (level, noise, score) in rows {
+        let noise = noise.map_or(String::new(), |noise| format!(", {}", noise.name));
+        let count = score.frictions.len().max(1) as f64;
+        let mean = |of: &dyn Fn(&[f64; 3]) -> f64| score.frictions.iter().map(of).sum::<f64>() / count;
+        let mu = mean(&|found| found[0]);
+        let [scatter, alone, all] =
+            [mean(&|f| (f[0] - mu).powi(2)), mean(&|f| f[1].powi(2)), mean(&|f| f[2].powi(2))].map(f64::sqrt);
+        text += &format!("| {}{noise} | {mu:.6} +- {scatter:.1e} | {alone:.1} | {all:.2} |\n", level.title());
+    }
+    text
+}
+
 /// Tables with a row for each scan.
 pub fn by_scan<'a>(rows: impl IntoIterator<Item = (&'a str, &'a Score)>) -> String {
     markdown("scan", &rows.into_iter().map(|(name, score)| (name.to_owned(), score)).collect::<Vec<_>>())

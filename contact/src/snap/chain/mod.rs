@@ -10,6 +10,7 @@ mod cluster;
 mod near;
 mod pressed;
 mod programme;
+mod root;
 mod solution;
 
 use crate::contact_set::Configuration;
@@ -21,6 +22,7 @@ use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
 use programme::Programme;
 use rod_core::{Clamp, PhysicalRod, Pose, RodModel};
+use root::Root;
 use smallvec::{SmallVec, smallvec};
 use solution::solve;
 
@@ -74,6 +76,8 @@ pub(crate) struct Chain {
     /// The same at rest, and by how much each joint turns by a unit of moment.
     rest: [f64; LINKS],
     softness: [f64; LINKS],
+    /// A roller at its root.
+    root: Option<Root>,
 }
 
 impl Chain {
@@ -85,12 +89,18 @@ impl Chain {
             let (s, length) = share(i);
             length * rod.natural_curvature(s)
         });
-        let softness = std::array::from_fn(|i| {
+        let mut softness = std::array::from_fn(|i| {
             let (s, length) = share(i);
             length * (rod.curvature_at(s, 1.0) - rod.natural_curvature(s))
         });
         let joints = rest.map(|joint| joint + bend * LINK);
-        Self { clamp: clamp.pose(), springs: springs(clamp.law()), given: [0.0; 3], joints, rest, softness }
+        let mut springs = springs(clamp.law());
+        let root = clamp.roller().map(|roller| Root::new(rod, &roller, clamp.pose()));
+        if let Some(root) = &root {
+            root.stiffen(&mut softness);
+            springs.push(root.spring);
+        }
+        Self { clamp: clamp.pose(), springs, given: [0.0; 3], joints, rest, softness, root }
     }
 
     /// The shape of the rod in `configuration`, its clamp at another `tau`.
@@ -103,8 +113,19 @@ impl Chain {
             *given = spring.along(displacement);
         }
         let mut before = base.phi;
+        if let Some(Root { turn, at, lean, .. }) = &chain.root {
+            let turned = rod::along(setup.rod.model(), &segments, *at).phi - support.phi - lean;
+            chain.given = [turned / turn, 0.0, 0.0];
+            before += turned;
+        }
         let joints = std::array::from_fn(|i| {
-            let here = rod::along(setup.rod.model(), &segments, (i as f64 + 0.5) * LINK).phi;
+            // up to a roller it is as at rest
+            let is_root = chain.root.as_ref().is_some_and(|root| root.leads(i));
+            let here = if is_root {
+                before + chain.rest[i]
+            } else {
+                rod::along(setup.rod.model(), &segments, (i as f64 + 0.5) * LINK).phi
+            };
             let joint = here - before;
             before = here;
             joint

@@ -1,0 +1,41 @@
+//! What a scan tells of friction.
+
+/// Standard deviations by which friction must differ from 0.
+const SIGMAS: f64 = 4.0;
+/// Logarithm of the factor by which a scan must be likelier with friction than without: very strong evidence (Jeffreys 1961, appendix B).
+const DECISIVE: f64 = 10.0;
+
+/// What a pass of a recording tells of friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FrictionEstimate {
+    /// The coefficient that was used: positive where friction draws the rod from its clamp towards its tip, as on a rod that is
+    /// drawn back over its contacts, negative where the rod is pushed on.
+    pub mu: f64,
+    /// Its standard deviation. Where errors that all samples share are estimated, it contains that they may be mistaken for friction.
+    pub sigma: f64,
+    /// Standard deviation by the noise alone, as if all else were known.
+    pub sigma_of_noise: f64,
+    /// How far K / (2 |F|) along tangential contacts is from one value, in standard deviations of its noise (root mean square): 1 where
+    /// the coefficient is the same along the pass.
+    pub scatter: f64,
+    /// How much the coefficient varies along the pass beyond the noise (standard deviation).
+    pub spread: f64,
+    /// Logarithm of the likelihood of the pass with friction over that without, each with the errors that explain it best.
+    pub gain: f64,
+    /// Share of the tangential path along which the rod slides the other way than this sign of friction asks for.
+    pub against: f64,
+}
+
+impl FrictionEstimate {
+    /// Whether there is friction: the coefficient differs from 0, and neither noise nor errors that all samples share explain the pass as
+    /// well.
+    pub fn is_there(&self) -> bool {
+        self.mu.abs() > SIGMAS * self.sigma_of_noise && self.gain > DECISIVE
+    }
+
+    /// Whether the pass tells friction from the errors that all samples share: the coefficient exceeds its standard deviation with these.
+    pub fn is_told_apart(&self) -> bool {
+        self.mu.abs() > SIGMAS * self.sigma && self.gain > DECISIVE
+    }
+}

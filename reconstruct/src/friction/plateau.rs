@@ -1,0 +1,234 @@
+//! The value of K / (2 |F|) along tangential contacts: sin rho.
+
+use crate::numeric::{median, robust_sigma};
+use crate::phase::{Evidence, Node, likelihood};
+use crate::point::{Clamp, Inverse};
+use crate::scan::{Estimate, Noise, Track};
+use nalgebra::Vector3;
+
+/// Largest sine of the angle of friction: mu = 3.
+const LARGEST: f64 = 0.95;
+/// Most places from which the plateau is looked for. More: more time.
+const PLACES: usize = 400;
+/// Spacing of the values at which the density of places is computed, and the width of a place that is exact.
+const SPACING: f64 = 0.005;
+const NARROWEST: f64 = 0.01;
+/// A place tells nothing where its value has this standard deviation or a larger one.
+const VAGUE: f64 = 0.1;
+/// Relative standard deviation of the force from which on its direction says nothing.
+const WEAK: f64 = 0.1;
+/// Values of which the density is at least this part of the largest are tried, and the most of them.
+const PART: f64 = 0.2;
+const MOST: usize = 4;
+/// Values farther from a peak than this belong to another one.
+const NEAR: f64 = 0.02;
+/// Turns of medians and least squares about a peak; they settle in three or four.
+const TURNS: usize = 8;
+/// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the label may be wrong.
+const OUTLYING: f64 = 3.0;
+/// Share of the places by which it is judged whether the plateau is flat, and the size of a standard normal variable that this share does
+/// not exceed. Larger: places with several contacts, which noise lets pass for tangential ones, count; smaller: friction that changes along a
+/// part of the scan is not told.
+const INNER: f64 = 0.8;
+const OF_INNER: f64 = 1.2816;
+/// Smallest standard deviation of the sine at one place: rounding. Smaller: the noise of noise-free samples decides.
+const FINEST: f64 = 1e-9;
+/// A plateau this close to 0 is none: sensors, clamps and rods of an ordinary laboratory let K / (2 |F|) be as large.
+const NOTHING: f64 = 0.03;
+/// Standard deviations within which a number may be 0 by chance.
+const SIGMAS: f64 = 4.0;
+/// The same absolutely, per way of the clamp: the error of rates of noise-free samples. Smaller: exact samples are no plateau.
+const RATE: f64 = 1e-6;
+
+/// K / (2 |F|) of a place without regard to friction, with its standard deviation; none where the force is too weak.
+fn ratio<I: Inverse>(rod: &I, estimate: &Estimate, clamp: &Clamp) -> Option<(f64, f64)> {
+    let frictionless = Clamp { friction: 0.0, ..*clamp };
+    let first = if I::UNIFORM { None } else { Some(rod.first(&frictionless).ok()?) };
+    let (k, by) = rod.criterion(&frictionless, first.as_ref())?;
+    let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
+    let size = force.norm();
+    let none = Vector3::zeros();
+    let direction = force / size;
+    let of_force = estimate.variance(&direction, &none).sqrt();
+    let value = k / (2.0 * size);
+    let sigma = estimate.variance(&(by / (2.0 * size) - direction * (value / size)), &none).sqrt();
+    (size > 0.0 && of_force < WEAK * size && sigma.is_finite() && value.abs() < LARGEST).then_some((value, sigma))
+}
+
+/// The estimate at a place, and its clamp: that of the sample itself where samples are clean.
+fn place(track: &Track, noise: &Noise, node: &Node) -> (Estimate, Clamp) {
+    let estimate = node.fit.at(track.tau[node.index]);
+    let clamp = if noise.is_clean() { track.clamps[node.index] } else { estimate.clamp };
+    (estimate, clamp)
+}
+
+/// A place that kinematics alone tell to be of one contact along the rod's side, whatever its friction: the moment vanishes before the tip,
+/// and the rod does not move across itself there.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    /// K / (2 |F|), and its standard deviation.
+    value: f64,
+    sigma: f64,
+    /// Its share of the samples of its window.
+    weight: f64,
+    /// Way of the clamp to the next one.
+    way: f64,
+    /// Speed of the rod's matter along the rod per way of the clamp, and its standard deviation.
+    slides: (f64, f64),
+}
+
+impl Side {
+    fn of<I: Inverse>(rod: &I, track: &Track, noise: &Noise, node: &Node, way: f64) -> Option<Self> {
+        let (estimate, clamp) = place(track, noise, node);
+        let (value, sigma) = ratio(rod, &estimate, &clamp).filter(|(_, sigma)| *sigma < VAGUE)?;
+        let found = rod.first(&estimate.clamp).ok()?;
+        let none = Vector3::zeros();
+        let before_tip = 1.0 - found.s - SIGMAS * estimate.variance(&found.s_by_reactions, &none).sqrt();
+        let gradient = rod.gradient_at(&estimate.clamp, found.s);
+        let rate = gradient.rate(&estimate.rate);
+        let (sin, cos) = found.section.phi.sin_cos();
+        let along = |x: f64, y: f64| {
+            let by_rate = gradient.by_reactions.row(0).transpose() * x + gradient.by_reactions.row(1).transpose() * y;
+            (x * rate[0] + y * rate[1], estimate.variance(&none, &by_rate).sqrt())
+        };
+        let (across, of_across) = along(-sin, cos);
+        let slides = along(cos, sin);
+        let is_one = before_tip > RATE && across.abs() < SIGMAS * of_across + RATE * (1.0 + slides.0.abs());
+        is_one.then_some(Self { value, sigma: sigma.max(FINEST), weight: node.weight, way, slides })
+    }
+
+    /// Of the places of a scan, at most [`PLACES`] of them.
+    fn all<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> Vec<Self> {
+        let stride = nodes.len().div_ceil(PLACES).max(1);
+        let of = |part: &[Node]| {
+            let (first, last) = (part.first()?, part.last()?);
+            let way = track.tau[last.index] - track.tau[first.index.saturating_sub(1)];
+            Self::of(rod, track, noise, first, way)
+        };
+        nodes.chunks(stride).filter_map(of).collect()
+    }
+}
+
+/// How densely places lie about each value of K / (2 |F|), by the way of the clamp.
+fn density(sides: &[Side]) -> Vec<(f64, f64)> {
+    let most = (LARGEST / SPACING) as i32;
+    let mut density: Vec<(f64, f64)> = (-most..=most).map(|k| (SPACING * f64::from(k), 0.0)).collect();
+    for side in sides {
+        let width = side.sigma.hypot(NARROWEST);
+        for (at, density) in &mut density {
+            let z = (*at - side.value) / width;
+            *density += side.way / width * (-0.5 * z * z).exp();
+        }
+    }
+    density
+}
+
+/// The values about which places are densest, the densest first.
+fn peaks(density: &[(f64, f64)]) -> Vec<f64> {
+    let top = density.iter().map(|one| one.1).fold(0.0, f64::max);
+    let highest = |w: &&[(f64, f64)]| w[1].1 >= w[0].1 && w[1].1 > w[2].1 && w[1].1 > PART * top;
+    let mut found: Vec<(f64, f64)> = density.windows(3).filter(highest).map(|w| w[1]).collect();
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found.truncate(MOST);
+    found.into_iter().map(|one| one.0).collect()
+}
+
+/// Whether places are dense about a value of K / (2 |F|) that an ordinary laboratory does not explain without friction.
+pub(crate) fn rubs<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> bool {
+    peaks(&density(&Side::all(rod, track, noise, nodes))).iter().any(|peak| peak.abs() > NOTHING)
+}
+
+/// Friction as the plateau tells it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Start {
+    /// The coefficient, with the sign of [`FrictionEstimate::mu`](super::FrictionEstimate::mu).
+    pub mu: f64,
+    /// Its standard deviation by the noise.
+    pub sigma: f64,
+    /// Residuals of the plateau in standard deviations of their noise, 1 at least.
+    pub scatter: f64,
+    /// How much the coefficient varies beyond the noise.
+    pub spread: f64,
+    /// Share of the tangential path along which the rod slides the other way.
+    pub against: f64,
+    /// Logarithm of the likelihood of the labels with it, and of those without friction.
+    pub likelihood: f64,
+    pub without: f64,
+}
+
+/// The likeliest friction: of size `mu`, if it is known, and of either sign.
+pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], mu: Option<f64>) -> Start {
+    let sides = Side::all(rod, track, noise, nodes);
+    let tried: Vec<f64> = match mu {
+        Some(mu) => vec![mu, -mu],
+        None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
+    };
+    let mut judged = nodes.to_vec();
+    let mut likelihoods = [0.0].into_iter().chain(tried).map(|mu| {
+        judge(rod, track, &mut judged, mu);
+        (mu, likelihood(&judged))
+    });
+    let without = likelihoods.next().map_or(0.0, |first| first.1);
+    let (found, likelihood) = likelihoods.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, without));
+    let sine = found / found.hypot(1.0);
+    let information = level(&sides, sine).1;
+    let off = |side: &Side| side.value - sine;
+    let scatter = outer(sides.iter().map(|side| off(side) / side.sigma)).max(1.0);
+    let (size, own) = (outer(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
+    let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
+    let spread = (size.powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * tangent_by_sine;
+    let way = |sides: &mut dyn Iterator<Item = &Side>| sides.map(|side| side.way).sum::<f64>();
+    let backwards = |side: &&Side| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
+    let all = way(&mut sides.iter());
+    let against = if all > 0.0 && found != 0.0 { way(&mut sides.iter().filter(backwards)) / all } else { 0.0 };
+    Start { mu: found, sigma: tangent_by_sine / information.sqrt(), scatter, spread, against, likelihood, without }
+}
+
+/// The standard deviation of normal variables about 0 of which [`INNER`] are no larger than those; 0 without values.
+fn outer(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = values.map(f64::abs).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes.get((INNER * sizes.len() as f64) as usize).map_or(0.0, |size| size / OF_INNER)
+}
+
+fn tangent(sine: f64) -> f64 {
+    sine / (1.0 - sine * sine).sqrt()
+}
+
+/// Gives places the evidence that they have with this friction.
+fn judge<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) {
+    for node in nodes {
+        node.fit.rub(friction);
+        let evidence = Evidence::of(rod, &node.fit.at(track.tau[node.index]));
+        node.judged(evidence);
+    }
+}
+
+/// The value of a plateau about a peak, by medians of what is ever nearer and then by least squares, and how much is known of it.
+fn level(sides: &[Side], peak: f64) -> (f64, f64) {
+    let (mut sine, mut near) = (peak, NEAR);
+    for _ in 0..TURNS {
+        let about: Vec<&Side> =
+            sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(SIGMAS * side.sigma)).collect();
+        let Some(middle) = median(about.iter().map(|side| side.value).collect()) else { break };
+        sine = middle;
+        near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
+    }
+    let (mut information, mut scatter) = (0.0, 1.0);
+    for _ in 0..TURNS {
+        let mut sums = (0.0, 0.0);
+        let about = |side: &&Side| (side.value - sine).abs() < NEAR.hypot(SIGMAS * side.sigma);
+        let z = |side: &Side| (side.value - sine) / side.sigma;
+        let next = robust_sigma(sides.iter().filter(about).map(z)).unwrap_or(1.0).max(1.0);
+        for side in sides {
+            let z = z(side) / (OUTLYING * scatter);
+            let weight = side.weight / (1.0 + z * z) / (side.sigma * scatter).powi(2);
+            sums = (sums.0 + weight, sums.1 + weight * side.value);
+        }
+        if sums.0 > 0.0 {
+            (information, sine) = (sums.0, sums.1 / sums.0);
+        }
+        scatter = next;
+    }
+    (sine.clamp(-LARGEST, LARGEST), information)
+}

@@ -1,0 +1,6 @@
+//! Rods that slide with Coulomb friction.
+
+mod changing;
+mod parabola;
+mod recording;
+mod reference;
