@@ -176,6 +176,27 @@ def test_a_simulated_recording_has_friction(rod: vibrissa.Rod, parabolas: vibris
     assert identical(vibrissa.simulate(smooth, **options), vibrissa.simulate(rough, friction=0, **options))
 
 
+def test_a_follower_rolls_before_it_slips_back(rod: vibrissa.Rod, parabolas: vibrissa.Composite) -> None:
+    def pose(x: float) -> tuple[float, float, float]:
+        return (x, -0.04, math.pi / 2)
+
+    def mode(one: vibrissa.Follower) -> str | None:
+        return one.state.contacts[0].mode
+
+    follower = vibrissa.Follower(rod, parabolas, pose(0.09), friction=MU)
+    follower.to(pose(-0.02))
+    scan = vibrissa.sweep(rod, parabolas, vibrissa.ClampPath(pose(0.09), pose(-0.02)), 0.01, friction=MU)
+    assert mode(follower) == "slip-" and follower.state.reactions == pytest.approx(scan.state(-1).reactions, abs=1e-12)
+    again = vibrissa.Follower.from_state(rod, parabolas, follower.state, friction=MU)
+    for one in (follower, again):
+        one.to(pose(-0.0199))
+        assert mode(one) == "stick"
+        one.to(pose(-0.01))
+        assert mode(one) == "slip+"
+    with pytest.raises(ValueError, match=r"friction is -1, expected a finite coefficient"):
+        vibrissa.Follower(rod, parabolas, pose(0.09), friction=-1)
+
+
 @pytest.mark.parametrize(
     "friction, message",
     [
@@ -224,7 +245,7 @@ def test_the_figure_marks_where_contacts_stick(loop: vibrissa.Scan) -> None:
     # from the turn of the clamp to the event
     slips = float(loop.events["x0"][loop.events["kind"] == "slip"][0])
     for ax in axes:
-        (wide,) = [line for line in ax.lines if line.get_linewidth() == 6.0 and len(line.get_xydata())]
+        (wide,) = [line for line in ax.lines if line.get_linewidth() == 6.0 and np.size(line.get_xydata())]
         x = np.asarray(wide.get_xdata(), dtype=float)
         assert x[0] == pytest.approx(-40.0) and x[-1] == pytest.approx(1e3 * slips)
         lines = [line for line in ax.lines if line.get_linewidth() == 1.2]
