@@ -256,8 +256,8 @@ impl VaryingRod {
     pub(crate) fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
         let diameters = self.diameters.as_ref()?;
         let segments = shape.segments();
-        let ends = segments.iter().skip(1).map(|next| next.s).chain([1.0]);
-        let all = segments.iter().zip(ends).map(|(segment, to)| diameters.largest_stress(&*self.model, segment, to));
+        let ends = segments.iter().skip(1).map(|next| (next.s, Some(&next.start))).chain([(1.0, None)]);
+        let all = segments.iter().zip(ends).map(|(segment, end)| diameters.largest_stress(&*self.model, segment, end));
         let larger = |one: f64, other: f64| if one.is_nan() || other <= one { one } else { other };
         Some(all.fold(0.0, larger) * self.units().moment)
     }

@@ -5,10 +5,12 @@ use crate::propagator::Cut;
 use crate::segment::Segment;
 use core::f64::consts::PI;
 
-/// Part of the largest stress by which the one that is found may be too small. Smaller: more bisections around a maximum between the ends of
-/// a segment, one for each factor of 4.
+/// Part of the largest stress by which the one that is found may be too small. Smaller: one more cut around a maximum between the ends of a
+/// segment.
 const ACCURACY: f64 = 1e-10;
-/// Most intervals of a piece of a segment that are looked at. A maximum takes about 40.
+/// Least share of an interval in a cut.
+const LEAST_SHARE: f64 = 0.01;
+/// Most intervals of a piece of a segment that are looked at. A maximum takes about ten.
 const MOST_INTERVALS: usize = 4096;
 
 /// The diameters (m) of a round rod along it.
@@ -76,21 +78,30 @@ impl Diameters {
         }
     }
 
-    /// The largest |moment| 32 / (pi d^3) along a segment of a rod of this model that ends at arc length `to`, moments in E I / L.
-    pub fn largest_stress<M: RodModel + ?Sized>(&self, model: &M, segment: &Segment<Cut>, to: f64) -> f64 {
+    /// The largest |moment| 32 / (pi d^3) along a segment of a rod of this model that ends at arc length `to`, moments in E I / L. The cut there
+    /// is `last`; without one the segment is free, and its moment the same all along.
+    pub fn largest_stress<M: RodModel + ?Sized>(
+        &self,
+        model: &M,
+        segment: &Segment<Cut>,
+        (to, last): (f64, Option<&Cut>),
+    ) -> f64 {
         let Segment { s: from, start, a, b } = *segment;
+        if start.moment.is_nan() {
+            return f64::NAN;
+        }
         let ends = self.joints().iter().copied().filter(|joint| *joint > from && *joint < to).chain([to]);
         let (mut largest, mut left) = (0.0_f64, (from, start));
         for end in ends {
             let modulus = self.modulus(self.piece(left.0));
-            if a == 0.0 && b == 0.0 {
-                // the moment is the same everywhere
+            let Some(last) = last else {
                 let most = modulus.inverse(left.0).max(modulus.inverse(end));
                 largest = largest.max(start.moment.abs() * most);
                 left.0 = end;
                 continue;
-            }
-            let right = (end, model.carry(left.0, &left.1, a, b, end - left.0));
+            };
+            let cut = if end < to { model.carry(left.0, &left.1, a, b, end - left.0) } else { *last };
+            let right = (end, cut);
             largest = largest_in_piece(model, &modulus, [a, b], [left, right], largest);
             left = right;
         }
@@ -100,9 +111,7 @@ impl Diameters {
 
 /// The largest stress between two places without a joint between them, or `least` if that is larger; NaN where a moment is NaN.
 ///
-/// Branch and bound: with g = w m, w = 32 / (pi d^3), the force P and the curvature kappa, |m'| <= P and |m''| <= P |kappa| bound |g''| on an
-/// interval. By this bound g leaves the values at its ends by h^2 |g''| / 8 at most, and not at all where it is monotone. An interval
-/// that may hold more than the largest value so far is halved.
+/// Branch and bound: an interval that may hold more than the largest value so far is cut in two, about where the stress is largest.
 fn largest_in_piece<M: RodModel + ?Sized>(
     model: &M,
     modulus: &Modulus,
@@ -110,7 +119,6 @@ fn largest_in_piece<M: RodModel + ?Sized>(
     ends: [(f64, Cut); 2],
     least: f64,
 ) -> f64 {
-    let force = a.hypot(b);
     let place = |(s, cut): (f64, Cut)| {
         let (w, (sin, cos)) = (modulus.inverse(s), cut.phi.sin_cos());
         let rate = 3.0 * modulus.narrowing(s) * cut.moment + a * cos + b * sin;
@@ -118,31 +126,24 @@ fn largest_in_piece<M: RodModel + ?Sized>(
     };
     let [first, last] = ends.map(place);
     // what is NaN stays so
-    let larger =
-        |most: f64, place: &Place| if most.is_nan() || place.stress.abs() <= most { most } else { place.stress.abs() };
+    let larger = |most: f64, place: &Place| {
+        if most.is_nan() || place.stress.abs() <= most { most } else { place.stress.abs() }
+    };
     let mut largest = larger(larger(least, &first), &last);
     let mut open = vec![(first, last)];
     for _ in 0..MOST_INTERVALS {
         let Some((left, right)) = open.pop() else { break };
-        let h = right.s - left.s;
-        let (low, high) = model.curvature_bounds((left.s, left.cut.moment), (right.s, right.cut.moment), force);
-        let most_moment = left.cut.moment.abs().max(right.cut.moment.abs()) + 0.5 * force * h;
-        let narrowing = modulus.narrowing(left.s).abs().max(modulus.narrowing(right.s).abs());
-        let w = modulus.inverse(left.s).max(modulus.inverse(right.s));
-        let of_taper = 12.0 * narrowing * narrowing * most_moment + 6.0 * narrowing * force;
-        let bend = w * (of_taper + force * low.abs().max(high.abs()));
-        let at_ends = left.stress.abs().max(right.stress.abs());
-        let is_monotone = left.rate.abs() > bend * h;
         // not where something is NaN
-        let may_exceed = at_ends + 0.125 * bend * h * h > largest * (1.0 + ACCURACY);
-        if is_monotone || !may_exceed {
+        let may_exceed = bound(model, modulus, [a, b], &left, &right) > largest * (1.0 + ACCURACY);
+        let h = right.s - left.s;
+        // where the rate vanishes, if it is linear
+        let share = left.rate / (left.rate - right.rate);
+        let share = if (0.0..=1.0).contains(&share) { share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE) } else { 0.5 };
+        let at = left.s + share * h;
+        if !may_exceed || at <= left.s || at >= right.s {
             continue;
         }
-        let half = 0.5 * h;
-        if left.s + half <= left.s || left.s + half >= right.s {
-            continue;
-        }
-        let middle = place((left.s + half, model.carry(left.s, &left.cut, a, b, half)));
+        let middle = place((at, model.carry(left.s, &left.cut, a, b, at - left.s)));
         largest = larger(largest, &middle);
         // the half that ends in the larger value first: it is what the other one has to exceed
         let halves = [(left, middle), (middle, right)];
@@ -153,4 +154,50 @@ fn largest_in_piece<M: RodModel + ?Sized>(
         }
     }
     largest
+}
+
+/// What the stress does not exceed between two places, without a joint between them.
+///
+/// With g = w m, w = 32 / (pi d^3) and n = -d' / d it is g'' = w (12 n^2 m + 6 n m' + m''), m' = A cos phi + B sin phi and
+/// m'' = kappa (B cos phi - A sin phi). No place is farther than half of the interval from an end, so that the values at the ends, the force
+/// and the curvature bound each factor. A g that is concave is below its tangents at both ends; any g leaves the values at its ends by
+/// h^2 |g''| / 8 at most.
+fn bound<M: RodModel + ?Sized>(model: &M, modulus: &Modulus, [a, b]: [f64; 2], left: &Place, right: &Place) -> f64 {
+    let (h, force) = (right.s - left.s, a.hypot(b));
+    let kappa = model.curvature_bounds((left.s, left.cut.moment), (right.s, right.cut.moment), force);
+    let turn = 0.5 * h * kappa.0.abs().max(kappa.1.abs());
+    let around = |one: f64, other: f64, slack: f64| (one.min(other) - slack, one.max(other) + slack);
+    let (along, across) = (|(sin, cos): (f64, f64)| a * cos + b * sin, |(sin, cos): (f64, f64)| b * cos - a * sin);
+    let [from, to] = [left, right].map(|place| place.cut.phi.sin_cos());
+    let moment = around(left.cut.moment, right.cut.moment, 0.5 * h * force);
+    let rate = around(along(from), along(to), turn * force);
+    let bend = product(kappa, around(across(from), across(to), turn * force));
+    let narrowing = around(modulus.narrowing(left.s), modulus.narrowing(right.s), 0.0);
+    let square = product(narrowing, narrowing);
+    let (of_moment, of_rate) = (product((12.0 * square.0.max(0.0), 12.0 * square.1), moment), product(narrowing, rate));
+    let second = (of_moment.0 + 6.0 * of_rate.0 + bend.0, of_moment.1 + 6.0 * of_rate.1 + bend.1);
+    let at_ends = left.stress.abs().max(right.stress.abs());
+    let w = modulus.inverse(left.s).max(modulus.inverse(right.s));
+    let by_bend = at_ends + 0.125 * w * second.0.abs().max(second.1.abs()) * h * h;
+    // |g| bends down all along: by its sign
+    let sign = if moment.0 >= 0.0 && second.1 <= 0.0 {
+        1.0
+    } else if moment.1 <= 0.0 && second.0 >= 0.0 {
+        -1.0
+    } else {
+        return by_bend;
+    };
+    let [(g0, d0), (g1, d1)] = [left, right].map(|place| (sign * place.stress, sign * place.rate));
+    if d0 <= 0.0 || d1 >= 0.0 {
+        return at_ends;
+    }
+    // where the tangents at both ends meet
+    let meet = (g1 - g0 - d1 * h) / (d0 - d1);
+    by_bend.min(g0 + d0 * meet.clamp(0.0, h))
+}
+
+/// The range of a product of numbers of two ranges.
+fn product((a0, a1): (f64, f64), (b0, b1): (f64, f64)) -> (f64, f64) {
+    let all = [a0 * b0, a0 * b1, a1 * b0, a1 * b1];
+    all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)))
 }
