@@ -2,6 +2,7 @@
 
 use crate::composite::contours;
 use crate::event::PyEvent;
+use crate::friction::Given;
 use crate::pose::PyPose;
 use crate::rod::{PyRod, for_rod};
 use crate::state::PyState;
@@ -11,6 +12,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use vibrissa::contact::{Item, Stop};
 use vibrissa::rod::{Mounted, VaryingRod};
 use vibrissa::{Composite, Follower, Pose, Rod, State};
+use vibrissa_cli::SceneFriction;
 
 /// A rod in equilibrium whose clamp is moved from pose to pose, for controllers.
 ///
@@ -25,9 +27,13 @@ use vibrissa::{Composite, Follower, Pose, Rod, State};
 /// pose : tuple of float
 ///     First pose of the clamp: x (m), y (m), phi (rad). In contact there, the rod has the shape that it gets when it is pushed
 ///     forward along its own axis.
+/// friction : float, tuple of float, or list, optional
+///     Coulomb friction, as in :func:`vibrissa.sweep`. In contact at the first pose, the rod has none until it moves.
 ///
 /// Raises
 /// ------
+/// ValueError
+///     The friction is not possible.
 /// SweepStopped
 ///     There is no equilibrium at that pose.
 ///
@@ -74,6 +80,15 @@ impl AnyFollower {
         }
     }
 
+    fn rubbing(self, friction: Option<SceneFriction>) -> PyResult<Self> {
+        let Some(friction) = friction else { return Ok(self) };
+        let made = match self {
+            Self::Uniform(follower) => follower.with_friction(friction).map(Self::Uniform),
+            Self::Mounted(follower) => follower.with_friction(friction).map(Self::Mounted),
+        };
+        made.map_err(errors::value)
+    }
+
     fn to(&mut self, pose: Pose) -> Result<Vec<Item>, Stop> {
         match self {
             Self::Uniform(follower) => follower.to(pose),
@@ -99,11 +114,19 @@ impl PyFollower {
 #[pymethods]
 impl PyFollower {
     #[new]
-    fn new(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, pose: PyPose) -> PyResult<Self> {
+    #[pyo3(signature = (rod, objects, pose, *, friction=None))]
+    fn new(
+        py: Python<'_>,
+        rod: &PyRod,
+        objects: &Bound<'_, PyAny>,
+        pose: PyPose,
+        friction: Option<Given>,
+    ) -> PyResult<Self> {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
+        let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
         let make = || for_rod!(&rod.rod, rod => Follower::new(rod, borrowed(&objects), pose.0).map(AnyFollower::from));
-        let made = running::run(py, make)?;
-        Ok(Self { follower: Mutex::new(made.map_err(|stop| errors::stopped(py, &stop, None))?), objects })
+        let made = running::run(py, make)?.map_err(|stop| errors::stopped(py, &stop, None))?;
+        Ok(Self { follower: Mutex::new(made.rubbing(friction)?), objects })
     }
 
     /// A rod in an equilibrium that is known.
@@ -116,6 +139,8 @@ impl PyFollower {
     ///     What the rod touches.
     /// state : State
     ///     A state of this rod on these objects.
+    /// friction : float, tuple of float, or list, optional
+    ///     Coulomb friction, as in :func:`vibrissa.sweep`; contacts that stick in the state go on sticking.
     ///
     /// Returns
     /// -------
@@ -126,13 +151,21 @@ impl PyFollower {
     /// ValueError
     ///     The state is none of this rod on these objects.
     #[staticmethod]
-    fn from_state(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, state: &PyState) -> PyResult<Self> {
+    #[pyo3(signature = (rod, objects, state, *, friction=None))]
+    fn from_state(
+        py: Python<'_>,
+        rod: &PyRod,
+        objects: &Bound<'_, PyAny>,
+        state: &PyState,
+        friction: Option<Given>,
+    ) -> PyResult<Self> {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
+        let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
         let state = &state.state;
         let make =
             || for_rod!(&rod.rod, rod => Follower::from_state(rod, borrowed(&objects), state).map(AnyFollower::from));
         let made = running::run(py, make)?;
-        Ok(Self { follower: Mutex::new(made.map_err(errors::value)?), objects })
+        Ok(Self { follower: Mutex::new(made.map_err(errors::value)?.rubbing(friction)?), objects })
     }
 
     /// The equilibrium that the rod is in.

@@ -207,7 +207,7 @@ fn what_is_no_sample() {
     assert!(told(0.0, f64::NAN, 0.0).unwrap_err().to_string().contains("not finite"));
     assert!(told(0.0, 0.0, f64::INFINITY).unwrap_err().to_string().contains("not finite"));
     assert!(told(0.0, 0.5, 0.0).unwrap_err().to_string().contains("vanishes nowhere"));
-    // force and moment as of a rod without a roller, which bend it away from that: neither a stiffness nor a gain explains it
-    let found = told(1.0, 0.5, 0.0).unwrap();
+    // force and moment that bend it to the same side: neither a stiffness nor a gain brings it to the roller
+    let found = told(-1.0, 0.5, -3.0).unwrap();
     assert!(found.miss.value < -1e-3 && found.bending_stiffness.is_none() && found.moment_gain.is_none(), "{found:?}");
 }
