@@ -36,7 +36,8 @@ const HALVINGS: u32 = 20;
 /// let sticks = MultiPoint { rod: Uniform, clamp, supports: &Wall(Grip::Sticks { t: u[0], s: 1.0 }) };
 /// let mut stuck = [u[0], u[1], u[2], 0.0];
 /// assert!(solve(&sticks, &mut stuck, &NewtonOptions::default(), &mut NewtonWorkspace::new()).status.is_solved());
-/// assert!((stuck[3] + 0.2 * u[1]).abs() < 1e-12);
+/// // along its axis the nearly straight rod is 3e5 times as stiff as E I / L^3, and so is rounding
+/// assert!((stuck[3] + 0.2 * u[1]).abs() < 1e-9);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grip {

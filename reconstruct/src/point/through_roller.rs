@@ -63,7 +63,7 @@ pub struct ThroughRoller {
 /// use rod_reconstruct::{OneSample, through_roller};
 /// let rod = Guided::new(Rod::new(0.1, 1e-3)?, 0.02)?;
 /// // a state of a scan, whose contact is known
-/// let pose = Pose { x: 0.0, y: 0.0, phi: 0.0 };
+/// let pose = Pose { x: 0.0, y: 0.0, phi: 0.5 };
 /// let (contact, clamp, roller) = rod_reconstruct_example(&rod, pose);
 /// let found = through_roller(&rod, pose, clamp, roller, &Matrix4::zeros())?;
 /// let OneSample::Tip(touch) = found.contact else { return Err("no tip".into()) };
@@ -76,14 +76,14 @@ pub struct ThroughRoller {
 /// #     impl Supports for Ceiling {
 /// #         fn count(&self) -> usize { 1 }
 /// #         fn hold(&self, _: usize) -> Hold { Hold::Tip }
-/// #         fn support(&self, _: usize, t: f64) -> Support { Support { x: t, y: -0.3, alpha: 0.0, speed: 1.0, turning: 0.0 } }
+/// #         fn support(&self, _: usize, t: f64) -> Support { Support { x: t, y: 0.3, alpha: 0.0, speed: 1.0, turning: 0.0 } }
 /// #     }
 /// #     let problem = MultiPoint { rod: rod.model(), clamp: rod.clamp(pose), supports: &Ceiling };
-/// #     let mut u = [0.95, 1.0, -0.5];
+/// #     let mut u = [0.93, 1.0, 0.2];
 /// #     assert!(solve(&problem, &mut u, &NewtonOptions::default(), &mut NewtonWorkspace::new()).status.is_solved());
 /// #     let units = rod.units();
 /// #     let roller = problem.roller(&u).map_or(f64::NAN, |hold| hold.force * units.force);
-/// #     ([u[0] * units.length, -0.3 * units.length], problem.elastica(&u, units).reactions(), roller)
+/// #     ([u[0] * units.length, 0.3 * units.length], problem.elastica(&u, units).reactions(), roller)
 /// # }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
