@@ -39,6 +39,7 @@ mod elastica;
 mod error;
 #[cfg(feature = "std")]
 mod general;
+#[cfg(feature = "std")]
 mod grip;
 mod inflection;
 #[cfg(feature = "std")]
@@ -87,6 +88,7 @@ pub use elastica::Elastica;
 pub use error::RodError;
 #[cfg(feature = "std")]
 pub use general::GeneralElastica;
+#[cfg(feature = "std")]
 pub use grip::{Grip, arc_length};
 pub use inflection::inflection;
 #[cfg(feature = "std")]
