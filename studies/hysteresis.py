@@ -57,13 +57,10 @@ def amplitudes():
     for amplitude in (2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2):
         turns = [amplitude * sign for _ in range(CYCLES) for sign in (-1.0, 1.0)]
         scan = vibrissa.sweep(ROD, O1, way(0.08, *turns), amplitude / 4.0, friction=MU)
+        before = vibrissa.sweep(ROD, O1, way(0.08, *turns[:-2]), amplitude / 4.0, friction=MU)
         ways = [at(scan, len(turns) - 2 + k, 0.0) for k in (0, 1)]
         width, moment = (abs(ways[0][name] - ways[1][name]) for name in ("f0x", "m0z"))
-        legs = scan.states["leg"]
-        last = legs >= len(turns) - 2
-        first = int(np.flatnonzero(last)[0]) - 1
-        x, force = scan.states["x0"][first:], scan.states["f0x"][first:]
-        work = np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(x))
+        work = scan.dissipated - before.dissipated
         middle = 0.5 * (ways[0]["f0x"] + ways[1]["f0x"]) - exact
         print(f"{1e3 * amplitude:g}, {1e3 * width:.2f}, {1e3 * moment:.3f}, {1e6 * work:.3f}, {1e3 * middle:.2f}")
 
@@ -73,13 +70,16 @@ def dither():
     exact = smooth(0.0)
     one_way = vibrissa.sweep(ROD, O1, way(0.08, 0.0), 0.1, friction=MU).states[-1]
     print(f"f0x without friction {exact['f0x']:.5f} N, m0z {1e3 * exact['m0z']:.4f} N mm; from one side {one_way['f0x']:.5f} N, {1e3 * one_way['m0z']:.4f} N mm")
-    for largest in (1e-3, 2e-3, 5e-3, 1e-2):
-        swings, size = [], largest
-        while size > 1e-5:
-            swings.extend([-size, size])
-            size *= 0.8
-        end = vibrissa.sweep(ROD, O1, way(0.08, *swings, 0.0), 0.1, friction=MU).states[-1]
-        print(f"swings from {1e3 * largest:g} mm down by 0.8: f0x {end['f0x']:.5f} N, m0z {1e3 * end['m0z']:.4f} N mm")
+    effect = one_way["f0x"] - exact["f0x"]
+    print("factor, first side, share of the effect of friction on f0x that is left, %")
+    for factor in (0.8, 0.9, 0.95, 0.98):
+        for side in (-1.0, 1.0):
+            swings, size = [], 2e-3
+            while size > 1e-5:
+                swings.extend([side * size, -side * size])
+                size *= factor
+            end = vibrissa.sweep(ROD, O1, way(0.08, *swings, 0.0), 0.1, friction=MU).states[-1]
+            print(f"{factor}, {side:+.0f}, {100.0 * (end['f0x'] - exact['f0x']) / effect:.1f}")
 
 
 def whisking():

@@ -197,8 +197,10 @@ pub enum StopReason {
     Jammed,
     /// Friction allows more than one motion of the contacts, or none that leads on.
     Undetermined,
-    /// A contact with friction comes to a place that is only followed without: the rod parts, lies down or runs together with another contact
-    /// in a notch or at an inflection of the contour.
+    /// The side of the rod slips onto a rougher piece and would roll back from there: it slips on along the border between the two, held by a
+    /// force between their limits, which is not computed.
+    RougherPiece,
+    /// The rod lies down on a wall of a notch, which is only followed without friction.
     FrictionInNotch,
     /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
     StepBudget,
@@ -264,6 +266,7 @@ impl std::fmt::Display for StopReason {
             Self::NoPose => "no-pose",
             Self::Jammed => "jammed",
             Self::Undetermined => "undetermined",
+            Self::RougherPiece => "rougher-piece",
             Self::FrictionInNotch => "friction-in-notch",
             Self::StepBudget => "step-budget",
         })
@@ -311,8 +314,11 @@ impl std::fmt::Display for Stop {
             StopReason::Undetermined => {
                 "friction leaves the motion of the contacts undetermined; start a new sweep beyond, or lower the friction"
             }
+            StopReason::RougherPiece => {
+                "the side of the rod stays on the border of a rougher piece, between slipping and rolling back, which is not computed; give both pieces the same friction, or start a new sweep beyond"
+            }
             StopReason::FrictionInNotch => {
-                "the rod lies down in a notch or at an inflection, which is only followed without friction; end the path before it"
+                "the rod lies down in a notch, which is only followed without friction; end the path before it"
             }
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",

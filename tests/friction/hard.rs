@@ -5,7 +5,7 @@ use super::judge::{Counts, Judge, Shape};
 use super::random::composite;
 use crate::rods::scans::o1;
 use std::f64::consts::{FRAC_PI_2, PI};
-use vibrissa::contact::{Chain, Contact, ContactKind, SlipMode, StopReason};
+use vibrissa::contact::{Chain, Contact, ContactKind, Outcome, SlipMode, StopReason};
 use vibrissa::rod::Pose;
 use vibrissa::{ClampPath, Composite, Rod, Sweep, equilibrium};
 
@@ -140,5 +140,28 @@ fn more_contacts_than_can_be_tried_are_named() {
         println!("{count} {counts:?}");
         assert!(wrong.is_empty(), "{count}: {wrong:#?}");
         assert!(counts.stops.is_empty() && counts.rolls > 5, "{count}: {counts:?}");
+    }
+}
+
+/// With hardly any friction an inflection is passed as without: one contact parts into two there, and the two run together on the way back.
+#[test]
+fn an_inflection_is_passed_as_without_friction() {
+    for (d, mu) in [(-0.1, 1e-8), (-0.05, 1e-8), (-0.1, 0.05), (-0.05, 0.05)] {
+        let objects = [composite(&Shape::Quartic([0.0, 0.0, 0.0, -0.3, -d]))];
+        let pose = |y: f64| Pose { x: 0.75, y, phi: PI - 0.6 };
+        let path = Chain::polyline(&[pose(-0.6), pose(-0.14), pose(-0.6)]).unwrap();
+        let sweep = || Sweep::new(&uniform(), &objects, path.clone(), 2e-3).unwrap();
+        let (smooth, rough) = (sweep().run(), sweep().with_friction(mu).unwrap().run());
+        assert!(smooth.stop.is_none() && rough.stop.is_none(), "{d} {mu}: {:?}", rough.stop);
+        let contacts = |outcome: &Outcome| {
+            let events = outcome.events.iter().filter(|event| event.from() != event.to());
+            events.map(|event| (event.kind, event.to().to_string())).collect::<Vec<_>>()
+        };
+        assert_eq!(contacts(&smooth), contacts(&rough), "{d} {mu}");
+        let tolerance = if mu < 1e-6 { 1e-6 } else { 2.0 };
+        for (smooth, rough) in smooth.states.iter().zip(&rough.states) {
+            let off = (smooth.reactions.f0x - rough.reactions.f0x).abs();
+            assert!(off < tolerance * (1.0 + smooth.reactions.f0x.abs()), "{d} {mu} {:?}: {off}", smooth.pose);
+        }
     }
 }

@@ -124,7 +124,10 @@ fn the_clamp_turns_back() {
         let outcome = there_and_back(x_r);
         // the file ends before the sweep does
         let end = number(&run["states"].as_array().unwrap().last().unwrap()["x0"]);
-        let back: Vec<_> = outcome.events.iter().filter(|event| event.leg() == 1 && event.pose().x < end).collect();
+        let mut back: Vec<_> = outcome.events.iter().filter(|event| event.leg() == 1 && event.pose().x < end).collect();
+        let turn = back.remove(0);
+        assert_eq!((turn.kind, turn.pose().x), (EventKind::Stick, x_r));
+        assert_eq!(turn.before.reactions, turn.after.reactions, "{x_r}");
         assert!(outcome.stop.is_none(), "{x_r}: {:?}", outcome.stop);
         let states: Vec<_> = outcome.states.iter().filter(|state| state.leg == 1).collect();
         let mut compared = 0;

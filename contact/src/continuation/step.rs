@@ -291,10 +291,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
                 self.end(from, &next).map_err(Refused::Ended)
             };
         }
-        // a contact with friction does not run together with another one freely
-        let follows = !self.corrector.setup.world.rubs();
-        let together = follows.then(|| self.runs_together(&next, &tangent).or_else(|| self.joined(&next, &tangent)));
-        if let Some(transition) = together.flatten() {
+        if let Some(transition) = self.runs_together(&next, &tangent).or_else(|| self.joined(&next, &tangent)) {
             return Ok(self.changed(transition));
         }
         if report.iterations <= 2 {
@@ -325,8 +322,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
         match wraps(&self.corrector.setup, next, &next.segments(&self.corrector.setup)) {
             // a rod that is bent at rest may go on along a line, from the contact to its tip
-            Some(_) if self.corrector.setup.world.rubs() => Err(StopReason::LineContact),
-            Some(last) if last + 1 == next.count() && self.corrector.setup.rod.model().is_straight() => {
+            Some(last) if last + 1 == next.count() && self.may_part(&from.configuration) => {
                 let parted = parted(&mut self.corrector, &from.configuration);
                 Ok(parted.map_or_else(|| from.ends(), |transition| self.changed(transition)))
             }
@@ -337,6 +333,12 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
                 Ok(fold.map_or_else(|| from.ends(), |fold| Step::Ended(Box::new(fold))))
             }
         }
+    }
+
+    /// Whether the last contact may part into two: where the rod is straight at rest, and does not roll there.
+    fn may_part(&self, from: &Configuration) -> bool {
+        let rolls = from.contacts.last().is_some_and(|last| last.grip.sticks());
+        self.corrector.setup.rod.model().is_straight() && !rolls
     }
 
     /// A transition with a look at the contact set after it.
@@ -358,7 +360,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     fn joined(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
         let j = (1..next.count()).find(|&j| {
             let [before, rate] = [j - 1, j].map(|j| tangent.rate_of(Unknown::ArcLength(j)));
-            let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j);
+            let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j) && !next.contacts[j].grip.sticks();
             same && next.s(j) - next.s(j - 1) < CLOSE && rate < before
         })?;
         let (weak, strong) = if next.force(j) < next.force(j - 1) { (j, j - 1) } else { (j - 1, j) };
@@ -467,6 +469,10 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         let Point { configuration, tangent, .. } = from;
         let step = |j: usize| {
             let (t, rate) = (configuration.t(j), tangent.rate_of(Unknown::Parameter(j)));
+            // a tip that sticks has no border ahead
+            if rate == 0.0 {
+                return f64::INFINITY;
+            }
             let border = self.corrector.setup.world.border(configuration.contacts[j].stretch, rate > 0.0);
             1.5 * ((border - t) / rate).max(0.0) + PROBE
         };

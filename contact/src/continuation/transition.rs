@@ -128,7 +128,8 @@ fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
 /// The limit of f_t / f at contact j, which sticks, if it is passed.
 fn slips(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<f64> {
     let held = configuration.contacts[j];
-    if !held.grip.sticks() {
+    // of one that would have to pull, its release tells on which side it has left the cone
+    if !held.grip.sticks() || configuration.force(j) < -FORCE_TOLERANCE {
         return None;
     }
     let (limit, friction) = (world.coefficients(held.stretch).at_rest, configuration.friction(j));
@@ -187,6 +188,14 @@ impl Break {
             let (start, unknown, value) = self.vanishing(&corrector.setup.world, broken)?;
             on(corrector, start, unknown, value)?
         };
+        // a contact that sticks slips before its force vanishes, unless both its parts vanish at once
+        if let Self::Release(j) = self
+            && broken.contacts[j].grip.sticks()
+            && at.friction(j).abs() > FORCE_TOLERANCE
+        {
+            let limit = corrector.setup.world.coefficients(at.contacts[j].stretch).at_rest;
+            return Self::Slip(j, limit.copysign(at.friction(j))).locate(corrector, &at, from, tangent);
+        }
         let (kind, before, after) = self.change(&corrector.setup.world, broken, at)?;
         // The tip-to-tangent point is compared as the tip contact it was.
         let along = tangent.along(&before.z, &from.z);
@@ -285,7 +294,7 @@ pub(crate) fn gathered<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &
     let lying = near.count().checked_sub(2)?;
     let wall = near.contacts[lying].stretch;
     let notch = near.contacts[lying + 1].stretch;
-    let rests = world.is_notch(notch) && world.walls(notch).contains(&Some(wall));
+    let rests = world.is_notch(notch) && world.walls(notch).contains(&Some(wall)) && !near.rubs();
     if !rests || 1.0 - near.s(lying) > GATHERED {
         return None;
     }

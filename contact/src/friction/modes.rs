@@ -16,6 +16,8 @@ const ON_CONE: f64 = 1e-9;
 const RATE: f64 = 1e-9;
 /// Force (E I / L^2) below which a contact is new, or about to leave: then its mode is open.
 const UNLOADED: f64 = 1e-9;
+/// Force along the contour (E I / L^2) that a contact sticks with for too short a way to be followed: it slips back at once.
+const NEGLIGIBLE: f64 = 3e-8;
 /// Most contacts whose modes are tried in all combinations: 3^6 systems of 24 unknowns.
 const MOST_CONTACTS: usize = 6;
 
@@ -81,6 +83,9 @@ fn choice<R: PhysicalRod>(
     let (force, friction) = (configuration.force(j), configuration.friction(j));
     if rest == 0.0 || world.is_notch(configuration.contacts[j].stretch) {
         return SmallVec::from_slice(&[Mode::Slips(0.0)]);
+    }
+    if rest * force < NEGLIGIBLE && force >= UNLOADED {
+        return SmallVec::from_slice(&[Mode::Slips(slips), Mode::Slips(-slips)]);
     }
     if stopped == Some(j) {
         return SmallVec::from_slice(&[Mode::Sticks]);

@@ -38,11 +38,11 @@ pub(crate) fn reversed(world: &World<'_>, configuration: &Configuration, tangent
 }
 
 /// The slip coordinate g (L) of contact j: arc length of the contour from parameter 0 of its stretch, or from its start, less that of
-/// the rod in the contour's sense.
+/// the rod from its tip, in the contour's sense. At the tip that is none, whichever sense the rod has there.
 pub(crate) fn slip_coordinate(world: &World<'_>, configuration: &Configuration, j: usize) -> f64 {
     let stretch = configuration.contacts[j].stretch;
     let (range, t) = (world.range(stretch), configuration.t(j));
     let support = world.support(stretch, t);
     let along = arc_length(|t| world.support(stretch, t).speed, range.clamp(0.0), t);
-    along - sense(configuration, j, &support) * configuration.s(j)
+    along + sense(configuration, j, &support) * (1.0 - configuration.s(j))
 }

@@ -25,6 +25,8 @@ const BEND: f64 = 0.05;
 /// back at once.
 const FARTHEST_SLIP: f64 = 0.05;
 const SHORTEST_SLIP: f64 = 1e-9;
+/// Force (E I / L^2) up to which a rod that becomes free does not jump.
+const UNLOADED: f64 = 1e-9;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
@@ -137,8 +139,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     fn jumped(&mut self, last: Seen, landed: Point) -> Point {
-        let kind = match (last.configuration.count(), landed.configuration.count()) {
+        let before = &last.configuration;
+        let bears = (0..before.count()).any(|j| before.force(j) > UNLOADED);
+        let kind = match (before.count(), landed.configuration.count()) {
             (0, _) => EventKind::FirstContact,
+            // with friction its contact may come to rest at the very pose where it ends
+            (_, 0) if !bears => EventKind::Release,
             (_, 0) => EventKind::SnapOff,
             _ => EventKind::Snap,
         };

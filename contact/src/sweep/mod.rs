@@ -374,7 +374,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 let roughness =
                     |here: &Configuration, j: usize| self.setup().world.coefficients(here.contacts[j].stretch);
                 let is_rougher = kind == EventKind::Piece
-                    && (0..before.count()).any(|j| roughness(&before, j) != roughness(&after.configuration, j));
+                    && (0..before.count())
+                        .any(|j| !before.is_tip(j) && roughness(&before, j) != roughness(&after.configuration, j));
                 let before = self.stepper.look(before);
                 let next = if self.setup().world.rubs() {
                     self.goes_on_rubbing(after, stopped)?
@@ -387,8 +388,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
                     }
-                    // on the border between pieces it neither slips on nor rolls on: it stays there, held by what lies between their coefficients
-                    None if is_rougher => Err(StopReason::Undetermined),
+                    // on the border of a rougher piece it neither slips on nor rolls on: it slips there, held by what lies between their coefficients
+                    None if is_rougher => Err(StopReason::RougherPiece),
                     None => self.snap(before).map(Box::new),
                 }
             }

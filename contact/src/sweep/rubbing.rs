@@ -1,6 +1,7 @@
 //! What a sweep does where there is friction: it chooses the modes of the contacts anew at every event.
 
 use super::Sweep;
+use super::landing::same;
 use crate::contact_set::Configuration;
 use crate::continuation::step::{Point, Seen, Step};
 use crate::error::StopReason;
@@ -13,8 +14,22 @@ const CHANGED: f64 = 1e-9;
 
 /// The contact that has come to rest in an event of this kind.
 pub(super) fn stopped(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
-    let rests = |j: &usize| after.contacts[*j].grip.sticks() && !before.contacts[*j].grip.sticks();
-    if kind == EventKind::Stick { (0..after.count()).find(rests) } else { None }
+    (0..after.count()).find(|&j| kind == EventKind::Stick && rests(before, after, j))
+}
+
+/// Whether contact j slips before and sticks after.
+fn rests(before: &Configuration, after: &Configuration, j: usize) -> bool {
+    after.contacts[j].grip.sticks() && !before.contacts[j].grip.sticks()
+}
+
+/// What happens to the modes of the contacts where the path turns, if anything does.
+fn turned(before: &Configuration, after: &Configuration) -> Option<EventKind> {
+    let slips = |j: usize| !after.contacts[j].grip.sticks();
+    let turns = |j: usize| before.contacts[j].grip.sticks() || after.friction(j) * before.friction(j) < 0.0;
+    if (0..after.count()).any(|j| rests(before, after, j)) {
+        return Some(EventKind::Stick);
+    }
+    (0..after.count()).any(|j| slips(j) && turns(j)).then_some(EventKind::Slip)
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
@@ -29,8 +44,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             Motion::Jams => return Err(StopReason::Jammed),
             Motion::TooMany => return Err(StopReason::Undetermined),
         };
-        let mut found: Option<Point> = None;
-        for mut way in ways {
+        // what slips goes on to slip where it can, although friction at rest could hold it
+        let mut ways: Vec<_> =
+            ways.into_iter().map(|way| (self.held_at_rest(&seen.configuration, &way), way)).collect();
+        ways.sort_by_key(|(held, _)| *held);
+        let mut found: Option<(usize, Point)> = None;
+        for (held, mut way) in ways {
+            if found.as_ref().is_some_and(|(fewest, _)| held > *fewest) {
+                break;
+            }
             // a coefficient that has changed at once moves the rod
             let moved = (0..way.count())
                 .any(|j| (way.friction(j) - seen.configuration.friction(j)).abs() > CHANGED * (1.0 + way.force(j)));
@@ -42,10 +64,19 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 if found.is_some() {
                     return Err(StopReason::Undetermined);
                 }
-                found = Some(point);
+                found = Some((held, point));
             }
         }
-        Ok(found)
+        Ok(found.map(|(_, point)| point))
+    }
+
+    /// Number of contacts that slip before, and after stick where friction at rest is larger than in motion.
+    fn held_at_rest(&self, before: &Configuration, after: &Configuration) -> usize {
+        let holds_more = |j: usize| {
+            let coefficients = self.setup().world.coefficients(after.contacts[j].stretch);
+            coefficients.at_rest > coefficients.slipping
+        };
+        (0..after.count()).filter(|&j| rests(before, after, j) && holds_more(j)).count()
     }
 
     /// Where a step leads from a point, with the work of friction on the way.
@@ -61,6 +92,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn resume_rubbing(&mut self, given: Configuration) -> Result<Point, StopReason> {
         let seen = self.stepper.look(given);
         if let Some(point) = self.goes_on_rubbing(seen.clone(), None)? {
+            let turned = turned(&seen.configuration, &point.configuration);
+            // the first state of all has the modes in which it goes on
+            if let Some(kind) = turned.filter(|_| self.reported > 0) {
+                let before = self.stepper.point(seen);
+                self.announce(kind, &before, &point);
+            }
             return Ok(point);
         }
         let point = self.stepper.point(seen);
@@ -69,14 +106,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The point from which the sweep goes on where the rod has landed: each contact is held back in the sense in which it came from the shape
-    /// of `last`, or, where there is no such equilibrium, sticks without a force along the contour.
+    /// of `last`, or, where there is no such equilibrium or `last` is it, which has ended, sticks without a force along the contour.
     pub(super) fn goes_on_landed(&mut self, landed: Seen, last: &Configuration) -> Option<Point> {
         if !self.setup().world.rubs() || landed.configuration.count() == 0 {
             return self.goes_on(landed);
         }
         let before = last.segments(self.setup());
         let dragged = drags(&mut self.stepper.corrector, &landed.configuration, &before);
-        for way in dragged.into_iter().chain([smooth(&landed.configuration)]) {
+        let elsewhere = dragged.filter(|dragged| !same(dragged, last));
+        for way in elsewhere.into_iter().chain([smooth(&landed.configuration)]) {
             let seen = self.stepper.look(way);
             if let Ok(Some(point)) = self.goes_on_rubbing(seen, None) {
                 return Some(point);

@@ -1,0 +1,195 @@
+//! Scenes with friction that were wrong, stopped or took minutes.
+
+use crate::common::edited;
+use std::collections::BTreeSet;
+use vibrissa::contact::{EventKind, Outcome};
+use vibrissa::{Event, State};
+use vibrissa_cli::{AnyScene, Scene, SceneRod};
+
+/// The sweep of a scene, in at most so many steps.
+fn swept(scene: &str) -> Outcome {
+    fn run<R: SceneRod>(scene: &Scene<R>) -> Outcome {
+        scene.sweep().unwrap().with_most_steps(20_000).run()
+    }
+    match AnyScene::parse("scene.toml".as_ref(), scene).unwrap() {
+        AnyScene::Uniform(scene) => run(&scene),
+        AnyScene::Mounted(scene) => run(&scene),
+        AnyScene::Guided(scene) => run(&scene),
+    }
+}
+
+/// All states of a sweep, those at events with it.
+fn all(outcome: &Outcome) -> impl Iterator<Item = &State> {
+    let at_events = outcome.events.iter().flat_map(|event| [&event.before, &event.after]);
+    outcome.states.iter().chain(at_events)
+}
+
+fn kinds(outcome: &Outcome) -> Vec<EventKind> {
+    outcome.events.iter().map(|event| event.kind).collect()
+}
+
+/// A wire, an object, and a law of friction.
+fn scene(friction: &str, piece: &str, sweep: &str) -> String {
+    format!(
+        "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n[contact]\nfriction = {friction}\n\
+         [[object]]\n[[object.piece]]\n{piece}\n[sweep]\n{sweep}"
+    )
+}
+
+const PARABOLA: &str = "shape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0";
+const DISC: &str = "shape = \"arc\"\ncenter = [0.0, 0.01]\nradius = 0.01\nfrom_angle = -90\nto_angle = 270";
+const STATIC: &str = "{ at_rest = 0.3, slipping = 0.2 }";
+
+/// What slips goes on to slip where a leg ends, or a contact changes, although friction at rest could hold it.
+#[test]
+fn friction_at_rest_does_not_stop_what_slips() {
+    let one = "from = [0.08, -0.04]\nto = [-0.02, -0.04]\nangle = 90.0\nstep = 1e-3\n";
+    let two =
+        "from = [0.08, -0.04]\nto = [0.02, -0.04]\nangle = 90.0\nstep = 1e-3\n[[sweep.leg]]\nto = [-0.02, -0.04]\n";
+    let [one, two] = [one, two].map(|sweep| swept(&scene(STATIC, PARABOLA, sweep)));
+    assert!(one.stop.is_none() && two.stop.is_none(), "{:?} {:?}", one.stop, two.stop);
+    assert_eq!(kinds(&one), kinds(&two));
+    for (one, two) in one.states.iter().zip(&two.states) {
+        assert!((one.reactions.f0x - two.reactions.f0x).abs() < 1e-10 && (one.pose.x - two.pose.x).abs() < 1e-12);
+    }
+
+    let past = "from = [0.08, -0.04]\nto = [-0.09, -0.04]\nangle = 90.0\nstep = 1e-3\n";
+    let [law, kinetic] = [STATIC, "0.2"].map(|friction| swept(&scene(friction, DISC, past)));
+    assert!(law.stop.is_none(), "{:?}", law.stop);
+    // it never comes to rest
+    let poses = |outcome: &Outcome| outcome.events.iter().map(|event| (event.kind, event.pose().x)).collect::<Vec<_>>();
+    assert_eq!(poses(&law), poses(&kinetic));
+
+    // past two parabolas, with two contacts and their transitions
+    let law = swept(
+        &edited("to = [0.03, -0.04]", "to = [-0.09, -0.04]")
+            .replace("[sweep]", &format!("[contact]\nfriction = {STATIC}\n[sweep]")),
+    );
+    assert!(law.stop.is_none(), "{:?}", law.stop);
+    let phases: Vec<_> = law.events.iter().map(|event: &Event| event.to().to_string()).collect();
+    assert_eq!(phases, ["A", "B", "BB", "BA", "B", "A", "free"]);
+}
+
+/// A tip that sticks has no rate at all: its piece has no border ahead.
+#[test]
+fn a_tip_that_sticks_takes_long_steps() {
+    let stuck = "[rod]\nlength = 0.1\ndiameter = 0.0005\nyoungs_modulus = 205348073774.88702\ntip_diameter = 0.00025\n\
+                 natural_curvature = -6.066333112443578\n[contact]\nfriction = 0.5\n\
+                 [[object]]\nmirror = true\nangle = -151.73831745877726\n\
+                 [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 24.716016243408518\n\
+                 [sweep]\nfrom = [-0.09371526713526734, -0.10022430504016558]\nto = [0.13529122761503473, 0.022885505138308355]\n\
+                 angle = -241.73831745877726\nangle_to = -241.73831745877726\nstep = 0.0005\n";
+    let outcome = swept(stuck);
+    assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
+    assert!(kinds(&outcome).starts_with(&[EventKind::FirstContact, EventKind::Stick, EventKind::Slip]));
+}
+
+/// A tip that is let go sideways leaves the cone on one side before its force vanishes.
+#[test]
+fn what_sticks_slips_before_it_is_released() {
+    let scene = r#"
+[rod]
+length = 0.1
+diameter = 0.0005
+youngs_modulus = 205348073774.88702
+tip_diameter = 0.00025
+natural_curvature = -4.494451498835907
+[contact]
+friction = { at_rest = 1.8911813424162935, slipping = 1.2 }
+[[object]]
+mirror = true
+angle = -125.42036140461857
+[[object.piece]]
+shape = "spline"
+points = [[-0.06999999999999999, 0.0036365807086101718], [-0.04666666666666667, 0.005956566848864239], [-0.023333333333333334, 0.013170807720966807], [0.0, 0.001268380530835026], [0.02333333333333333, 0.015075025044491054], [0.04666666666666666, 0.010558906952635758], [0.06999999999999999, 0.004909023827976102]]
+end = "natural"
+[sweep]
+from = [0.07967534955691923, -0.09501999254834682]
+to = [0.06251322908842576, 0.001627753412115857]
+angle = -235.15037029951299
+angle_to = -235.15037029951299
+step = 0.0005
+step_angle = 0.5
+[[sweep.leg]]
+to = [0.09849521555668057, -0.06855778921028007]
+angle_to = -235.15037029951299
+"#;
+    let outcome = swept(scene);
+    assert!(outcome.stop.is_none() && outcome.events.len() > 3, "{:?}", outcome.stop);
+    for contact in all(&outcome).flat_map(|state| &state.contacts) {
+        let friction = contact.friction.unwrap();
+        assert!(friction.force.abs() <= 1.8911813424162935 * contact.force + 1e-9, "{contact:?}");
+    }
+}
+
+/// Where the tip is at right angles to the contour its sense changes, and g does not.
+#[test]
+fn the_slip_of_a_tip_does_not_jump() {
+    let outcome = swept(
+        "[rod]\nlength = 0.1\nbending_stiffness = 0.00063\nnatural_curvature = -7.636413682366336\n\
+         [contact]\nfriction = 1.6\n[[object]]\nangle = 178.08465691454273\n\
+         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 3.206528232238931\n\
+         [sweep]\nfrom = [0.13270247445074235, 0.07863890588619228]\nto = [-0.03305407566115461, 0.08418205372983202]\n\
+         angle = 268.08465691454273\nangle_to = 268.08465691454273\nstep = 0.0005\n",
+    );
+    assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
+    let tips = outcome.states.windows(2).filter_map(|pair| {
+        let [one, two] = [&pair[0], &pair[1]].map(|state| state.contacts.last());
+        let (one, two) = (one?, two?);
+        let way = (two.x - one.x).hypot(two.y - one.y) + (two.s - one.s).abs();
+        Some((two.friction?.slip - one.friction?.slip, way))
+    });
+    let tips: Vec<_> = tips.collect();
+    assert!(tips.len() > 20);
+    for (slip, way) in tips {
+        assert!(slip.abs() < 1.1 * way + 1e-9, "{slip} {way}");
+    }
+}
+
+/// A snap never leads back to the equilibrium that has ended.
+#[test]
+fn no_snap_leads_back_to_where_it_began() {
+    let outcome = swept(
+        "[rod]\nlength = 0.1\nbending_stiffness = 0.00063\n\
+         natural_curvature = [[0.0, 1.9968723187500514], [0.1, 2.5902969812948196]]\n[contact]\nfriction = 0.05\n\
+         [[object]]\nangle = -172.67257902493057\n\
+         [[object.piece]]\nshape = \"parabola\"\nvertex = [-0.013294725845142416, 0.00031447432285598134]\n\
+         coefficient = 75.98531981720159\n\
+         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.013294725845142416, 0.0]\ncoefficient = 88.63730473772638\n\
+         [sweep]\nfrom = [0.11955849629756161, 0.08952437370840646]\nto = [-0.1367588331092958, 0.044237301431171126]\n\
+         angle = -70.39730174437638\nangle_to = -80.48646433163321\nstep = 0.002\n",
+    );
+    assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
+    for event in outcome.events.iter().filter(|event| event.kind == EventKind::Snap) {
+        assert!((event.before.energy - event.after.energy).abs() > 1e-9 * event.before.energy, "{event:?}");
+    }
+}
+
+/// A rod that leaves a disc at the pose where it has touched it is released, with friction as without.
+#[test]
+fn a_rod_without_force_is_released() {
+    let there_and_back =
+        "from = [0.03, -0.07]\nto = [0.005, -0.07]\nangle = 90.0\nstep = 1e-3\n[[sweep.leg]]\nto = [0.03, -0.07]\n";
+    for friction in ["0", "0.1"] {
+        let outcome = swept(&scene(friction, DISC, there_and_back));
+        assert_eq!(kinds(&outcome).last(), Some(&EventKind::Release), "{friction}");
+    }
+}
+
+/// A clamp that turns back: an event tells that contacts come to rest, once.
+#[test]
+fn a_turn_of_the_path_is_an_event() {
+    let there_and_back =
+        "from = [0.08, -0.04]\nto = [0.0, -0.04]\nangle = 90.0\nstep = 1e-3\n[[sweep.leg]]\nto = [0.03, -0.04]\n";
+    let outcome = swept(&scene("0.3", PARABOLA, there_and_back));
+    let at_turn: Vec<_> = outcome.events.iter().filter(|event| event.pose().x == 0.0).collect();
+    let [turn] = at_turn[..] else { panic!("{at_turn:?}") };
+    assert_eq!((turn.kind, turn.leg()), (EventKind::Stick, 1));
+    let modes = [&turn.before, &turn.after].map(|state| state.contacts[0].friction.unwrap().mode.to_string());
+    assert_eq!(modes, ["slip-", "stick"]);
+    let phases: BTreeSet<_> = [turn.from(), turn.to()].map(|phase| phase.to_string()).into();
+    assert_eq!(phases.len(), 1);
+    // without friction nothing happens there
+    let smooth = swept(&scene("0", PARABOLA, there_and_back));
+    assert!(smooth.events.iter().all(|event| event.pose().x != 0.0));
+}
