@@ -79,7 +79,7 @@ pub(super) fn draw<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>
         contour::draw(&chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
     }
     let mut drawn = scan.outcome.states.iter().step_by(every);
-    for state in drawn.next().into_iter().chain(drawn.last()) {
+    for state in drawn.next().into_iter().chain(drawn.next_back()) {
         support::draw(&chart, &window, rod, state)?;
     }
     name_phases(root, &chart, scan, &intervals)
