@@ -101,8 +101,8 @@ def of_tapers(out):
     for column, name in zip(axes.T, names):
         column[0].set_title(name, fontsize=8)
         column[1].set_xlabel("taper 1 − d(tip) / d(clamp)")
-    axes[0, 0].set_ylabel("jump of |f0′| in EI(0) / L³")
-    axes[1, 0].set_ylabel("the same over the range of |f0|, 1 / L")
+    axes[0, 0].set_ylabel("|jump of f0′| in EI(0) / L³")
+    axes[1, 0].set_ylabel("|jump of f0′| over the range of |f0| in 1 / L")
     axes[0, 0].legend(frameon=False)
     figure.savefig(out / "taper-kinks.svg", metadata={"Date": None})
 
@@ -124,15 +124,16 @@ def of_curvatures(out):
     left.legend(frameon=False)
     x = np.linspace(-0.2, 0.62, 400)
     right.plot(x, np.minimum(5.0 * x**2, 5.0 * (x - 0.3) ** 2), color="grey", linewidth=0.8)
-    # touched points, each kind a little further out
+    # touched points, each rod's further off the contour than the last one's
     for number, (curvature, colour) in enumerate([(-1.0, COLOURS[0]), (0.0, "black"), (1.0, COLOURS[1])], 1):
         contacts = swept(vibrissa.Rod(1.0, 1.0, natural_curvature=curvature), 0.4).contacts.values
         out_by = 0.012 * number
         xs, ys = contacts["x"] + out_by * np.sin(contacts["alpha"]), contacts["y"] - out_by * np.cos(contacts["alpha"])
-        right.plot(xs, ys, ".", markersize=2, color=colour, label=f"{curvature:+.0f} / L" if curvature else "straight")
-    right.set(xlabel="x in L", ylabel="touched at q = 0.4 L; y in L", xlim=(-0.2, 0.62), ylim=(-0.06, 0.45))
+        right.plot(xs, ys, ".", markersize=2, color=colour, label=f"{curvature:+.0f} / L, {out_by:.3f} L off" if curvature else f"straight, {out_by:.3f} L off")
+    right.set(xlabel="x in L", ylabel="y in L", xlim=(-0.2, 0.62), ylim=(-0.06, 0.45))
+    right.set_title("contacts at q = 0.4 L, drawn off the contour", fontsize=8)
     right.set_aspect("equal")
-    right.legend(frameon=False, loc="upper left", markerscale=4)
+    right.legend(frameon=False, loc="upper center", markerscale=4, title="curvature at rest")
     figure.savefig(out / "curvature-reach.svg", metadata={"Date": None})
 
 

@@ -1,9 +1,12 @@
 //! What a command says when it is done.
 
-use crate::table::Table;
+use crate::table::{Table, counted};
 use crate::{Scan, SceneRod};
 use vibrissa::Rod;
 use vibrissa::contact::{Start, StartCandidate};
+
+/// From this gap on, lengths of the rod, all along the path, rod, objects or path are most likely in another unit than m.
+const FAR: f64 = 10.0;
 
 impl<R: SceneRod> Scan<R> {
     /// A line on the phases, one on each thing a user should know, and the table of events.
@@ -11,7 +14,11 @@ impl<R: SceneRod> Scan<R> {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
         let incomplete = if self.is_complete() { "" } else { "incomplete, " };
         let phases = if self.is_empty() { "no phase".to_owned() } else { self.cycle().titled() };
-        let mut text = format!("{}: {incomplete}{phases}; {states} states, {events} events\n", self.scene.name);
+        let mut text = format!("{}: {incomplete}{phases};", self.scene.name);
+        text += &format!(" {}, {}\n", counted(states, "state"), counted(events, "event"));
+        if let Some(note) = self.touches_nothing() {
+            text += &note;
+        }
         if let Some(start) = self.start_in_contact() {
             text += &start;
         }
@@ -24,6 +31,19 @@ impl<R: SceneRod> Scan<R> {
             text += &self.event_table();
         }
         text
+    }
+
+    /// A line where the rod is free all along.
+    fn touches_nothing(&self) -> Option<String> {
+        let states = &self.outcome.states;
+        let is_free = self.outcome.events.is_empty() && states.iter().all(|state| state.contacts.is_empty());
+        let gap = states.iter().map(|state| state.certificate.min_gap.seen).reduce(f64::min)?;
+        let length = self.scene.rod.units().length;
+        let hint = if gap > FAR * length { "; are all lengths in m?" } else { "" };
+        (is_free && self.is_complete()).then(|| {
+            let [gap, length] = [gap, length].map(|length| 1e3 * length);
+            format!("note: no contact on the whole path; the rod of {length:.6} mm comes as near to the objects as {gap:.6} mm{hint}\n")
+        })
     }
 
     /// A line on how a start in contact was found, and what else there was.

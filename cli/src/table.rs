@@ -2,6 +2,11 @@
 
 use std::fmt;
 
+/// How many there are of what has a plural in -s.
+pub(crate) fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Rows of text in columns: words to the left, numbers to the right.
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
@@ -44,6 +49,11 @@ impl fmt::Display for Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_has_no_plural() {
+        assert_eq!([0, 1, 2].map(|count| counted(count, "kink")), ["0 kinks", "1 kink", "2 kinks"]);
+    }
 
     #[test]
     fn numbers_stand_right_and_words_left() {

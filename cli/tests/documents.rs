@@ -25,6 +25,23 @@ fn every_scene_can_be_read_and_drawn() {
     }
 }
 
+/// The blocks of TOML on the pages of rods and whiskers, with an object and a path behind them.
+#[test]
+fn the_rods_of_the_documentation_can_be_read() {
+    let rest = "[[contour.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0\n\
+                [sweep]\nfrom = [0.08, -0.04]\nto = [0.0, -0.04]\nangle = 90.0\nstep = 1e-3\n";
+    for (page, count) in [("rods.md", 3), ("whiskers.md", 1)] {
+        let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(page)).unwrap();
+        let blocks: Vec<&str> = text.split("```toml\n").skip(1).filter_map(|block| block.split("```").next()).collect();
+        assert_eq!(blocks.len(), count, "{page}");
+        for block in blocks {
+            let scene = AnyScene::parse(page.as_ref(), &format!("{block}\n{rest}"))
+                .unwrap_or_else(|error| panic!("{error}\n{block}"));
+            assert!(!matches!(scene, AnyScene::Uniform(_)) && scene.warnings().is_empty(), "{block}");
+        }
+    }
+}
+
 #[test]
 fn every_shape_has_a_section_and_a_small_picture() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");

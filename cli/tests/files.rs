@@ -206,16 +206,18 @@ fn an_unreadable_scene() {
 }
 
 #[test]
-fn an_unwritable_directory() {
+fn a_file_where_a_directory_is_to_be() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
     fs::write(directory.path().join("taken"), "a file").unwrap();
-    for (command, out) in [(vec!["sweep", "scene.toml"], "taken"), (vec!["paper"], "taken/below")] {
-        let output = vibrissa(directory.path(), &[&command[..], &["--out", out]].concat());
+    let contour = ["contour", "scene.toml"];
+    for (command, out) in
+        [(&["sweep", "scene.toml"][..], "taken"), (&["paper"], "taken/below"), (&contour, "taken/c.csv")]
+    {
+        let output = vibrissa(directory.path(), &[command, &["--out", out]].concat());
         assert_eq!(output.status.code(), Some(1));
         let message = complaint(&output);
-        assert!(message.contains(&format!("cannot write into the directory {out}")), "{message}");
-        assert!(message.contains("--out"), "{message}");
+        assert!(message.contains("taken is a file, expected a directory; name another one with --out"), "{message}");
     }
     assert_eq!(fs::read_to_string(directory.path().join("taken")).unwrap(), "a file");
 }

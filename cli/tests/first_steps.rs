@@ -20,6 +20,26 @@ fn without_a_command_the_first_steps_are_told() {
     }
 }
 
+/// A path in mm leads far away from the objects: this is valid, and is told.
+#[test]
+fn a_sweep_that_touches_nothing_says_so() {
+    let directory = tempfile::tempdir().unwrap();
+    let report = |scene: &str| {
+        fs::write(directory.path().join("scene.toml"), scene).unwrap();
+        let output = vibrissa(directory.path(), &["sweep", "scene.toml"]);
+        assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+        (String::from_utf8_lossy(&output.stdout).into_owned(), complaint(&output))
+    };
+    let (said, warned) = report(&SCENE.replace("0.07, -", "70, -").replace("0.03, -", "30, -").replace("1e-3", "1.0"));
+    assert!(said.starts_with("scene: free; 41 states, 0 events\nnote: no contact on the whole path; the rod of 100.000000 mm comes as near"), "{said}");
+    assert!(said.contains(" mm; are all lengths in m?\n"), "{said}");
+    assert!(warned.contains("sweep.to: the path is 400 lengths of the rod long; are from and to in m?"), "{warned}");
+    let (said, warned) = report(&SCENE.replace("to = [0.03, -", "to = [0.066, -"));
+    let near = said.split("comes as near to the objects as ").nth(1).unwrap().split(" mm\n").next().unwrap();
+    assert!((0.1..2.0).contains(&near.parse::<f64>().unwrap()) && warned.is_empty(), "{said}{warned}");
+    assert!(!report(SCENE).0.contains("note:"));
+}
+
 #[test]
 fn every_command_has_an_example_and_a_next_step() {
     let whole = said(&["--help"]);

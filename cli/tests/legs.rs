@@ -48,13 +48,18 @@ fn states_and_events_carry_their_leg() {
 }
 
 #[test]
-fn only_sweep_and_contour_take_several_legs() {
+fn recordings_have_no_several_legs() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("whisking.toml"), whisking()).unwrap();
     assert!(vibrissa(directory.path(), &["contour", "whisking.toml"]).status.success());
     let output = vibrissa(directory.path(), &["simulate", "whisking.toml"]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.code() == Some(1) && message.contains("sweep.leg"), "{message}");
+    assert!(message.contains("only `sweep`, `contour` and `study` take"), "{message}");
+    let study = "scene = \"whisking.toml\"\n[[parameter]]\nname = \"turn\"\nvalues = [-60.0]\nset = [{ field = \"sweep.leg[1].turn\" }]\n";
+    fs::write(directory.path().join("study.toml"), study).unwrap();
+    let output = vibrissa(directory.path(), &["study", "study.toml"]);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("1 done, 0 stopped early, 0 refused"), "{output:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::Event;
 use vibrissa::contact::{EventKind, Phase};
-use vibrissa_cli::{Scan, Scene};
+use vibrissa_cli::{AnyScene, Scan, Scene};
 
 /// Scene, phases, and the largest number of contacts that any state has.
 const SCENES: [(&str, &str, usize); 14] = [
@@ -29,6 +29,9 @@ const SCENES: [(&str, &str, usize); 14] = [
     ("triangle", "A B", 1),
     ("whisking", "B A free B A", 1),
 ];
+
+/// Object O1 with another rod or another clamp.
+const OTHER_RODS: [&str; 2] = ["sections", "springs"];
 
 /// Those with objects on both sides of the rod.
 const THREADED: [&str; 3] = ["channel", "gears", "pegs"];
@@ -59,14 +62,23 @@ fn comes_between(event: &Event) -> bool {
 fn every_scene_but_those_of_the_paper_is_in_the_table() {
     let files = fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
     let names: BTreeSet<String> = files.map(|file| file.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
-    let others: Vec<&str> = names
-        .iter()
-        .map(String::as_str)
-        .filter(|name| !name.starts_with('O') && !name.starts_with("whisker"))
-        .collect();
+    let of_one_object = |name: &&str| name.starts_with('O') || name.starts_with("whisker") || OTHER_RODS.contains(name);
+    let others: Vec<&str> = names.iter().map(String::as_str).filter(|name| !of_one_object(name)).collect();
     assert_eq!(others, SCENES.map(|(name, ..)| name));
-    // nine of the paper, one of them again with a roller, and two with a rod that tapers
-    assert_eq!(names.len(), others.len() + 12);
+    // nine of the paper, one of them again with a roller, on springs and with sections, and two with a rod that tapers
+    assert_eq!(names.len(), others.len() + 14);
+}
+
+#[test]
+fn the_scenes_of_other_rods_come_to_their_end() {
+    for (name, phases) in OTHER_RODS.into_iter().zip(["A B BB BA B", "A B BB BA B A"]) {
+        let AnyScene::Mounted(scene) = AnyScene::read(&folder().join(name).with_extension("toml")).unwrap() else {
+            panic!("{name} is uniform")
+        };
+        let scan = Scan::run(scene).unwrap();
+        assert!(scan.is_complete() && scan.scene.warnings.is_empty(), "{name}");
+        assert_eq!(scan.cycle().to_string(), phases, "{name}");
+    }
 }
 
 #[test]

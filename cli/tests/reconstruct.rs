@@ -266,10 +266,27 @@ fn wrong_units_and_another_rod_are_told_and_everything_is_written() {
             message.contains(&format!("likely causes, if it is one of those that are tried: {cause}: ")),
             "{message}"
         );
+        assert!(message.contains("; not tried: a rod that tapers or is bent at rest (`tip_diameter`,"), "{message}");
         let causes = &report(directory.path())["physics"]["causes"];
         assert!(causes[0]["cause"] == cause && causes[0]["likelihood"].as_f64() > Some(0.9), "{causes}");
         assert!(String::from_utf8(output.stdout).unwrap().contains(said));
     }
+}
+
+#[test]
+fn a_recording_without_a_contact_says_why_it_has_no_contour() {
+    let directory = tempfile::tempdir().unwrap();
+    let free = SCENE.replace("to = [-0.09, -0.04]", "to = [0.07, -0.04]");
+    fs::write(directory.path().join("free.toml"), free).unwrap();
+    fs::write(directory.path().join("noise.toml"), NOISE).unwrap();
+    let run = |arguments: &[&str]| vibrissa(directory.path(), arguments).status.code();
+    let simulate =
+        ["simulate", "free.toml", "--noise", "noise.toml", "--rate", "100", "--speed", "0.001", "--out", "r.csv"];
+    assert_eq!(run(&simulate), Some(0));
+    assert_eq!(run(&["reconstruct", "r.csv", "--rod", "free.toml"]), Some(0));
+    let figure = fs::read_to_string(directory.path().join("out/r/contour.svg")).unwrap();
+    assert!(figure.contains("no sample has a contact point, so there is no contour"));
+    assert!(!figure.contains("<circle"));
 }
 
 /// Checks that nothing is written, and that one line on standard error holds all these parts.

@@ -129,6 +129,51 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
 }
 
 /// A table without springs is no clamp that gives way, and the command gives the base where the springs let it go.
+/// Then everything that takes a uniform rod alone takes it.
+#[test]
+fn a_uniform_rod_is_uniform_however_it_is_written() {
+    let stiff = "bending_stiffness = 6e-4\n";
+    let sections = |first: &str, second: &str| {
+        format!("length = 0.1\n[[rod.section]]\nlength = 0.06\n{first}[[rod.section]]\nlength = 0.04\n{second}")
+    };
+    let wire = "diameter = 0.5e-3\nyoungs_modulus = 206e9\n";
+    for (rod, uniform) in [
+        (format!("{WIRE}tip_diameter = 0.5e-3\nyield_stress = 1e9\n"), true),
+        (format!("{WIRE}natural_curvature = 0\n"), true),
+        (format!("length = 0.1\n[[rod.section]]\nlength = 0.1\n{wire}"), true),
+        (sections(stiff, stiff), true),
+        (sections(wire, &format!("{wire}natural_curvature = 0.0\n")), true),
+        (sections(stiff, &format!("{stiff}natural_curvature = 1.0\n")), false),
+        (sections(stiff, "bending_stiffness = 5e-4\n"), false),
+        (sections(wire, "diameter = 0.4e-3\nyoungs_modulus = 206e9\n"), false),
+        (format!("{WIRE}tip_diameter = 0.4e-3\n"), false),
+    ] {
+        let scene = AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap();
+        assert_eq!(matches!(scene, AnyScene::Uniform(_)), uniform, "{rod}");
+        if let AnyScene::Uniform(scene) = scene {
+            assert_eq!(scene.rod.diameter().is_some(), rod.contains("diameter"), "{rod}");
+            assert_eq!(scene.rod.length(), 0.1);
+        }
+    }
+}
+
+#[test]
+fn implausible_sections_are_told() {
+    let rod = TWO
+        .replace("diameter = 0.3e-3", "diameter = 0.3")
+        .replace("length = 0.04", "length = 0.4")
+        .replace("206e9", "206");
+    let scene =
+        AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod.replace("length = 0.1\n", "length = 0.46\n"))).unwrap();
+    let warnings = scene.warnings();
+    assert!(
+        warnings[0].contains("rod.section[2].diameter: diameter is 0.3 m, expected 1e-7 to 1e-1 m"),
+        "{warnings:?}"
+    );
+    assert!(warnings[1].contains("rod.section[2].youngs_modulus: youngs_modulus is 206 Pa"), "{warnings:?}");
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+}
+
 #[test]
 fn a_clamp_gives_way_by_its_springs() {
     let of = |clamp: &str| AnyScene::parse("scene.toml".as_ref(), &with_rod(&format!("{WIRE}{clamp}"))).unwrap();

@@ -30,7 +30,9 @@ fn a_missing_field() {
 
 #[test]
 fn an_unknown_field() {
-    says(&edited("length", "lenght"), &["scene.toml:2:1: rod.lenght: ", "unknown field `lenght`", "`length`"]);
+    says(&edited("length", "lenght"), &["scene.toml:2:1: rod.lenght: ", "unknown field `lenght`", "mean `length`?"]);
+    let section = edited("[[contour", "[[section]]\nlength = 0.1\n[[contour");
+    says(&section, &["scene.toml:6:3: section: unknown field `section`", "did you mean [[rod.section]]?"]);
     says(&edited("coefficient", "curvature"), &["scene.toml:9:1: contour.piece[1].curvature: ", "`coefficient`"]);
     says(&edited("parabola", "parbola"), &["scene.toml:7:9: contour.piece[1].shape: ", "parbola", "`parabola`"]);
     says(&edited("[sweep]", "[swep]"), &["scene.toml:16:", "swep: ", "unknown field `swep`"]);
@@ -119,6 +121,38 @@ fn a_number_that_is_none() {
     says(&edited("90.0", "nan"), &["scene.toml:19:9: sweep.angle: ", "NaN", "degrees"]);
     says(&edited("90.0", "90\nangle_to = inf"), &["scene.toml:20:12: sweep.angle_to: ", "inf", "degrees"]);
     says(&edited("1e-3", "nan"), &["scene.toml:20:8: sweep.step: ", "step is NaN, expected a positive, finite"]);
+}
+
+#[test]
+fn a_number_with_hundreds_of_digits() {
+    says(&edited("0.5e-3", "1e300"), &["rod.diameter: ", "diameter is 1e300 m, expected at most the length"]);
+    let whole = "the value is 99999999999999999999, expected a number of this size with a decimal point";
+    says(&edited("0.1", "99999999999999999999"), &["scene.toml:2:10: rod.length: ", whole]);
+    says(&edited("50.0", "99999999999999999999"), &["contour.piece[1].coefficient: ", whole]);
+}
+
+/// What is wrong may come from a number in another unit elsewhere.
+#[test]
+fn an_error_beside_an_implausible_number_names_both() {
+    let modulus = "youngs_modulus = 206e9\n";
+    let bent = edited("length = 0.1", "length = 30").replace(modulus, &format!("{modulus}natural_curvature = 20.0\n"));
+    let length = "besides, rod.length: length is 30 m, expected 1e-4 to 1e1 m; is the unit right?";
+    says(&bent, &["scene.toml:5:21: rod.natural_curvature: ", length]);
+    let sections = "[[rod.section]]\nlength = 60\nbending_stiffness = 6e-4\n[[rod.section]]\nlength = 40\nbending_stiffness = 1e-4\n";
+    let sections = edited("diameter = 0.5e-3\nyoungs_modulus = 206e9\n", sections);
+    let sum = "add up to 100 m, expected 0.1 m, the length of the rod; are they in mm?";
+    says(&sections, &["scene.toml:4:10: rod.section[1].length: ", sum]);
+    let far = edited("[0.07, -0.04]", "[70, -40]").replace("step = 1e-3", "step = 1e-6");
+    says(
+        &far,
+        &["sweep.step: ", "asks for 8.1e7 states", "besides, sweep.to: the path is 806 lengths of the rod long"],
+    );
+}
+
+#[test]
+fn a_recording_is_no_scene() {
+    let table = "# from the laboratory\nx0,y0,phi0,f0x,f0y,m0z\n0.07,-0.04,1.57,0,0,0\n";
+    says(table, &["scene.toml:2:1: this is a table (CSV), expected a TOML file; ", "vibrissa reconstruct", "--rod"]);
 }
 
 #[test]
@@ -268,6 +302,8 @@ fn a_radius_or_an_arc_that_is_none() {
             &["scene.toml:9:10: contour.piece[1].radius: ", &format!("radius is {number}, expected a positive number")],
         );
     }
+    let thin = "the radius is 1e-300 m, expected at least 1.0e-13 m, 1e-12 lengths of the rod";
+    says(&arc(("radius = 1", "radius = 1e-300")), &["scene.toml:9:10: contour.piece[1].radius: ", thin]);
     says(&arc(("radius = 1", "radius = nan")), &["contour.piece[1].radius: ", "NaN", "finite"]);
     says(&arc(("[0, 0]", "[0, inf]")), &["contour.piece[1].center: ", "inf", "finite"]);
     says(&arc(("= 90", "= nan")), &["scene.toml:11:12: contour.piece[1].to_angle: ", "NaN", "finite"]);

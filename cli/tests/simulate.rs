@@ -233,5 +233,5 @@ fn a_file_that_cannot_be_written() {
     }
     let output = simulate(directory.path(), &["--rate", "1", "--out", "scene.toml/r.csv"]);
     let message = complaint(&output);
-    assert!(message.contains("cannot write into the directory scene.toml"), "{message}");
+    assert!(message.contains("scene.toml is a file, expected a directory"), "{message}");
 }

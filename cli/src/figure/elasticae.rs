@@ -9,6 +9,7 @@ use super::line::thinned;
 use super::outline;
 use super::palette::{INK, TRANSITION, WHITE, colour};
 use super::plane::Window;
+use super::support;
 use crate::{Interval, Scan, SceneRod};
 use std::f64::consts::{FRAC_PI_2, PI};
 use vibrissa::State;
@@ -76,6 +77,10 @@ pub(super) fn draw<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>
     let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, bounds)) {
         contour::draw(&chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
+    }
+    let mut drawn = scan.outcome.states.iter().step_by(every);
+    for state in drawn.next().into_iter().chain(drawn.next_back()) {
+        support::draw(&chart, &window, rod, state)?;
     }
     name_phases(root, &chart, scan, &intervals)
 }

@@ -23,6 +23,7 @@ mod profile;
 mod reactions;
 mod reconstruction;
 mod scale;
+mod support;
 mod sweep;
 mod text;
 pub(crate) mod trace;

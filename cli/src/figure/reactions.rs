@@ -46,8 +46,11 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
         let (head, mut rest) = root.split_vertically(HEAD);
         let title = format!("{}: reactions, phase criterion K, and probability of the label", found.name);
         write(&head, &title, (24, 36), HPos::Left, TITLE, INK)?;
-        let kinks = found.found.kinks.len();
-        write(&head, &format!("vertical lines: {kinks} kinks and jumps"), (24, 80), HPos::Left, BODY, MUTED)?;
+        let kinks = match found.found.kinks.len() {
+            1 => "1 kink or jump".to_owned(),
+            kinks => format!("{kinks} kinks and jumps"),
+        };
+        write(&head, &format!("vertical lines: {kinks}"), (24, 80), HPos::Left, BODY, MUTED)?;
         for (index, (name, quantity)) in quantities.into_iter().enumerate() {
             let (part, below) = rest.split_vertically(row(index));
             let parts = parts(found, abscissa, &along.across, quantity);

@@ -43,7 +43,11 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
     svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {
         let (head, area) = root.split_vertically(HEAD);
         write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
-        let errors = found.comparison.as_ref().map_or_else(String::new, errors);
+        let errors = match &found.comparison {
+            _ if all().next().is_none() => "no sample has a contact point, so there is no contour".to_owned(),
+            Some(comparison) => errors(comparison),
+            None => String::new(),
+        };
         for (line, y) in errors.lines().zip([76, 110]) {
             write(&head, line, (24, y), HPos::Left, BODY, MUTED)?;
         }

@@ -19,6 +19,12 @@ pub enum OutputError {
         /// Why.
         source: io::Error,
     },
+    /// A file is where a directory is to be.
+    #[error("{} is a file, expected a directory; name another one with --out", file.display())]
+    NoDirectory {
+        /// Which file.
+        file: PathBuf,
+    },
     /// A name that is none for a table.
     #[error("{} is no name for a CSV file, expected one that does not end in .svg, the name of the drawing", file.display())]
     Name {
@@ -80,8 +86,11 @@ impl Staged {
     /// Files for the directory `target`, which is made if it is missing.
     ///
     /// # Errors
-    /// [`OutputError::Directory`].
+    /// [`OutputError::NoDirectory`], [`OutputError::Directory`].
     pub fn new(target: &Path) -> Result<Self, OutputError> {
+        if let Some(file) = target.ancestors().find(|there| there.is_file()) {
+            return Err(OutputError::NoDirectory { file: file.to_path_buf() });
+        }
         let mut stages = stages::lock();
         let missing = |directory: &&Path| !directory.as_os_str().is_empty() && !directory.exists();
         let made = target.ancestors().take_while(missing).map(Path::to_path_buf).collect();
@@ -104,7 +113,7 @@ impl Staged {
     /// Files for the directory of the file `out`, and the name of that one there.
     ///
     /// # Errors
-    /// [`OutputError::NoFile`], [`OutputError::Directory`].
+    /// [`OutputError::NoFile`], and those of [`new`](Self::new).
     pub fn of_file(out: &Path) -> Result<(Self, &Path), OutputError> {
         let no_file = || OutputError::NoFile { file: out.to_path_buf() };
         let name = out.file_name().map(Path::new).ok_or_else(no_file)?;

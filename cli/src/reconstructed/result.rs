@@ -117,7 +117,7 @@ impl Reconstructed {
         if matches!(self.explanations.first(), Some((Explanation::Tare, share)) if *share > UNEXPLAINED) {
             return Some(
                 "no likely cause among those that are tried (signs, axes, units, single errors of rod, sensor, clamp and stage): look for \
-                 friction, taper, a loose clamp, an object that moves, or two mistakes at once"
+                 friction, a rod that tapers or is bent at rest, a loose clamp, an object that moves, or two mistakes at once"
                     .to_owned(),
             );
         }
@@ -125,7 +125,8 @@ impl Reconstructed {
         let told: Vec<String> = told.map(|(what, share)| format!("{what}: {:.0} %", 100.0 * share)).collect();
         (!told.is_empty()).then(|| {
             format!(
-                "likely causes, if it is one of those that are tried: {}; correct what is wrong, and reconstruct again",
+                "likely causes, if it is one of those that are tried: {}; not tried: a rod that tapers or is bent at rest (`tip_diameter`, \
+                 `natural_curvature` of [rod]), and two mistakes at once; correct what is wrong, and reconstruct again",
                 told.join("; ")
             )
         })

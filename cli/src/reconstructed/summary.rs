@@ -3,7 +3,7 @@
 use super::comparison::{Comparison, Transition};
 use super::report::Answered;
 use super::result::Reconstructed;
-use crate::table::Table;
+use crate::table::{Table, counted};
 use std::fmt::Write;
 use vibrissa::reconstruct::score::Deviation;
 use vibrissa::reconstruct::{Source, SourceEstimate};
@@ -29,7 +29,8 @@ impl Reconstructed {
             "points: {single_answered} of {single} samples with one contact; of {several} with several the first of \
              {first_answered}, the second of {second_answered}"
         )?;
-        writeln!(text, "{} kinks, {} gaps", self.found.kinks.len(), self.contour.gaps.len())?;
+        let (kinks, gaps) = (self.found.kinks.len(), self.contour.gaps.len());
+        writeln!(text, "{}, {}", counted(kinks, "kink"), counted(gaps, "gap"))?;
         match self.missing() {
             Some(missing) => writeln!(text, "{missing}")?,
             None => {

@@ -14,18 +14,40 @@ use vibrissa::{ClampPath, Pose};
 /// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
 pub(crate) const MOST_STATES: f64 = 1e6;
 
-/// Files that the objects name are looked for in `directory`.
+/// Least radius of an arc, lengths of the rod: rounding leaves nothing of a smaller one.
+const LEAST_RADIUS: f64 = 1e-12;
+
+/// Files that the objects name are looked for in `directory`. What is wrong may come from a number of another field that is not plausible: the
+/// message then names that one, too.
 pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<AnyScene, Fault> {
+    let unlikely = plausible::scene(&document.tables);
+    let also = unlikely.first().map(|also| (also.clone(), source.place(also.clone()).without_place()));
+    checked(name, source, document, directory, unlikely).map_err(|fault| match also {
+        Some((also, said)) => fault.beside(&also, &said),
+        None => fault,
+    })
+}
+
+fn checked(
+    name: String,
+    source: Source,
+    document: Document,
+    directory: &Path,
+    unlikely: Vec<Fault>,
+) -> Result<AnyScene, Fault> {
     let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
     let Document { tables, contour, objects: pieces } = document;
     let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
     let objects = object::all(&tables, &contour, &pieces, directory)?;
+    let least = LEAST_RADIUS * rod.length();
+    if let Some(fault) = contour.iter().chain(pieces.iter().flatten()).find_map(|piece| piece.too_thin(least)) {
+        return Err(fault);
+    }
     let path = path(tables.sweep.get_ref())?;
     let step = step(&tables.sweep, &path)?;
     let legs = leg::all(tables.sweep.get_ref(), path.at(path.length()), rod.length())?;
     let (friction, large) = friction::friction(&tables, &contour, &pieces, &objects)?;
-    let unlikely = plausible::rod(tables.rod.get_ref()).into_iter().chain(large);
-    let warnings = unlikely.map(|fault| source.place(fault).to_string()).collect();
+    let warnings = unlikely.into_iter().chain(large).map(|fault| source.place(fault).to_string()).collect();
     Ok(match rod {
         Held::Clamped(AnyRod::Uniform(rod)) => {
             AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })

@@ -5,13 +5,18 @@ use super::rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
 use crate::SceneError;
 use crate::toml_file;
 use std::path::{Path, PathBuf};
-use vibrissa::rod::{Guided, Mounted, PhysicalRod, VaryingRod};
+use vibrissa::rod::{ElasticClamp, Guided, Mounted, PhysicalRod, VaryingRod};
 use vibrissa::{ClampPath, Composite, Rod};
 
 /// A rod of a scene.
 pub trait SceneRod: PhysicalRod {
     /// The rod, if it is uniform and straight at rest and its clamp is rigid: only of such a rod contacts are found from reactions.
     fn uniform(&self) -> Option<&Rod>;
+
+    /// The springs of its clamp, if that gives way.
+    fn springs(&self) -> Option<&ElasticClamp> {
+        None
+    }
 
     /// Whether it runs through a roller, whose reaction is measured as well.
     fn has_roller(&self) -> bool {
@@ -28,6 +33,10 @@ impl SceneRod for Rod {
 impl SceneRod for Mounted<VaryingRod> {
     fn uniform(&self) -> Option<&Rod> {
         None
+    }
+
+    fn springs(&self) -> Option<&ElasticClamp> {
+        Some(Mounted::springs(self)).filter(|springs| !springs.is_rigid())
     }
 }
 

@@ -201,7 +201,8 @@ impl<R: SceneRod> Scene<R> {
         if self.legs.is_empty() {
             return Ok(());
         }
-        let message = "several legs, which only `sweep` and `contour` take, expected a path without [[sweep.leg]]";
+        let message =
+            "several legs, which only `sweep`, `contour` and `study` take, expected a path without [[sweep.leg]]";
         Err(self.source.error("sweep.leg", message))
     }
 }

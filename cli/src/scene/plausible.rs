@@ -1,6 +1,6 @@
-//! Numbers of a rod that are valid, but no rod has them: most often a wrong unit.
+//! Numbers of a scene that are valid, but no rod and no scan have them: most often a wrong unit.
 
-use super::document::RodTable;
+use super::document::{Point, RodTable, SectionTable, Tables};
 use crate::toml_file::Fault;
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -11,21 +11,47 @@ const LENGTH: RangeInclusive<f64> = 1e-4..=10.0;
 const DIAMETER: RangeInclusive<f64> = 1e-7..=0.1;
 /// From the softest silicone to above diamond, Pa.
 const MODULUS: RangeInclusive<f64> = 1e4..=2e12;
+/// Straight path, lengths of the rod, beyond which positions are most likely in another unit than m.
+const LONG_WAY: f64 = 100.0;
 
-/// A warning for each number of a rod outside of its plausible range.
-pub(super) fn rod(table: &RodTable) -> Vec<Fault> {
+/// A number, its name, plausible range and unit.
+type Field<'a> = (&'static str, Option<&'a Spanned<f64>>, RangeInclusive<f64>, &'static str);
+
+/// A warning for each number of a scene outside of its plausible range.
+pub(super) fn scene(tables: &Tables) -> Vec<Fault> {
+    let rod = tables.rod.get_ref();
+    let sections = rod.section.iter().flat_map(|section| section_fields(section.get_ref()));
+    let fields = rod_fields(rod).into_iter().chain(sections);
+    fields.filter_map(unlikely).chain(long_way(tables)).collect()
+}
+
+fn rod_fields(table: &RodTable) -> Vec<Field<'_>> {
     let RodTable { length, diameter, tip_diameter, youngs_modulus, .. } = table;
-    let fields = [
+    vec![
         ("length", Some(length), LENGTH, "m"),
         ("diameter", diameter.as_ref(), DIAMETER, "m"),
         ("tip_diameter", tip_diameter.as_ref(), DIAMETER, "m"),
         ("youngs_modulus", youngs_modulus.as_ref(), MODULUS, "Pa"),
-    ];
-    let check = |(name, field, range, unit): (&str, Option<&Spanned<f64>>, RangeInclusive<f64>, &str)| {
-        let (span, value) = field.map(|field| (field.span(), *field.get_ref()))?;
-        let (least, most) = (range.start(), range.end());
-        let text = format!("{name} is {value} {unit}, expected {least:e} to {most:e} {unit}; is the unit right?");
-        (!range.contains(&value)).then(|| Fault::new(span, text))
-    };
-    fields.into_iter().filter_map(check).collect()
+    ]
+}
+
+fn section_fields(table: &SectionTable) -> Vec<Field<'_>> {
+    let SectionTable { diameter, youngs_modulus, .. } = table;
+    vec![("diameter", diameter.as_ref(), DIAMETER, "m"), ("youngs_modulus", youngs_modulus.as_ref(), MODULUS, "Pa")]
+}
+
+fn unlikely((name, field, range, unit): Field<'_>) -> Option<Fault> {
+    let (span, value) = field.map(|field| (field.span(), *field.get_ref()))?;
+    let (least, most) = (range.start(), range.end());
+    let text = format!("{name} is {value} {unit}, expected {least:e} to {most:e} {unit}; is the unit right?");
+    (!range.contains(&value)).then(|| Fault::new(span, text))
+}
+
+/// A first leg that is very long beside the rod.
+fn long_way(tables: &Tables) -> Option<Fault> {
+    let (sweep, rod) = (tables.sweep.get_ref(), tables.rod.get_ref());
+    let [Point([x0, y0]), Point([x1, y1])] = [sweep.from.get_ref(), sweep.to.get_ref()];
+    let lengths = (x1 - x0).hypot(y1 - y0) / rod.length.get_ref();
+    let text = format!("the path is {lengths:.0} lengths of the rod long; are from and to in m?");
+    (lengths > LONG_WAY && lengths.is_finite()).then(|| Fault::new(sweep.to.span(), text))
 }

@@ -20,6 +20,9 @@ pub(super) const NOT_RIGID: &str = "a clamp that gives way, expected no table [c
 pub(super) const NO_ROLLER: &str = "a roller ahead of the clamp, which only `sweep`, `contour`, `study` and `simulate` take, expected no \
      field roller";
 
+/// Sections that are longer together than so many lengths of their rod are in another unit.
+const IN_MM: f64 = 100.0;
+
 /// A field of a table, for messages that point at it.
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>);
 
@@ -48,9 +51,27 @@ fn placed<'a>(fields: &'a [Field<'a>], table: Range<usize>) -> impl Fn(RodError)
 }
 
 /// How stiff a rod or section is, as it is written.
+#[derive(Clone, Copy, PartialEq)]
 enum Written {
     Stiffness(f64),
     Wire { diameter: f64, youngs_modulus: f64 },
+}
+
+impl Written {
+    /// A uniform, straight rod of this length, m.
+    fn rod(self, length: f64) -> Result<Rod, RodError> {
+        match self {
+            Self::Stiffness(stiffness) => Rod::new(length, stiffness),
+            Self::Wire { diameter, youngs_modulus } => Rod::from_diameter(length, diameter, youngs_modulus),
+        }
+    }
+
+    fn diameter(self) -> Option<f64> {
+        match self {
+            Self::Stiffness(_) => None,
+            Self::Wire { diameter, .. } => Some(diameter),
+        }
+    }
 }
 
 fn written(table: Range<usize>, [stiffness, diameter, modulus]: [Option<&Spanned<f64>>; 3]) -> Result<Written, Fault> {
@@ -167,7 +188,8 @@ enum Alone {
     Varying(VaryingRod),
 }
 
-/// The rod of a table.
+/// The rod of a table. One that is uniform and straight at rest is, however it is written: with a tip as thick as the base, with a curvature of 0,
+/// or in sections that are all alike.
 fn alone(table: &Spanned<RodTable>) -> Result<Alone, Fault> {
     let RodTable {
         length,
@@ -189,32 +211,18 @@ fn alone(table: &Spanned<RodTable>) -> Result<Alone, Fault> {
     ];
     let at = placed(&fields, table.span());
     let long = *length.get_ref();
-    let varying = if section.is_empty() {
+    let rod = if section.is_empty() {
         let stiff = written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))?;
         match (stiff, tip_diameter) {
-            (Written::Wire { diameter, youngs_modulus }, Some(tip)) => {
-                Some(Rod::tapered(long, diameter, *tip.get_ref(), youngs_modulus).map_err(&at)?)
+            (Written::Wire { diameter, youngs_modulus }, Some(tip)) if *tip.get_ref() != diameter => {
+                Alone::Varying(Rod::tapered(long, diameter, *tip.get_ref(), youngs_modulus).map_err(&at)?)
             }
             (Written::Stiffness(_), Some(tip)) => {
                 let message =
                     "given beside bending_stiffness, expected diameter and youngs_modulus of a wire that tapers";
                 return Err(Fault::new(tip.span(), message));
             }
-            (stiff, None) => {
-                let rod = match stiff {
-                    Written::Stiffness(stiffness) => Rod::new(long, stiffness),
-                    Written::Wire { diameter, youngs_modulus } => Rod::from_diameter(long, diameter, youngs_modulus),
-                };
-                let rod = rod.map_err(&at)?;
-                let rod = match yield_stress {
-                    Some(stress) => rod.with_yield_stress(*stress.get_ref()).map_err(&at)?,
-                    None => rod,
-                };
-                match natural_curvature {
-                    None => return Ok(Alone::Uniform(rod)),
-                    Some(_) => Some(rod.with_natural_curvature(0.0).map_err(&at)?),
-                }
-            }
+            (stiff, _) => Alone::Uniform(stiff.rod(long).map_err(&at)?),
         }
     } else {
         let others = fields[1..5].iter().find_map(|(name, field)| field.map(|field| (name, field)));
@@ -222,20 +230,29 @@ fn alone(table: &Spanned<RodTable>) -> Result<Alone, Fault> {
             let message = format!("{name} is given beside [[rod.section]], expected it in the sections alone");
             return Err(Fault::new(field.span(), message));
         }
-        Some(of_sections(length, section)?)
+        of_sections(length, section)?
     };
-    // what a varying rod's surface carries is not known
+    let given = section.iter().find_map(|section| section.get_ref().natural_curvature.as_ref());
+    if let (Some(_), Some(bent)) = (natural_curvature, given) {
+        let message = "given beside rod.natural_curvature, expected one of the two";
+        return Err(Fault::new(bent.span(), message));
+    }
+    let bent = natural_curvature.as_ref().filter(|curvature| number(curvature.get_ref()) != Some(0.0));
+    let rod = match (rod, bent) {
+        (Alone::Uniform(rod), None) => {
+            let Some(stress) = yield_stress else { return Ok(Alone::Uniform(rod)) };
+            return rod.with_yield_stress(*stress.get_ref()).map(Alone::Uniform).map_err(&at);
+        }
+        (Alone::Uniform(rod), Some(_)) => rod.with_natural_curvature(0.0).map_err(&at)?,
+        (Alone::Varying(rod), _) => rod,
+    };
+    // the stress at the surface of a varying rod is not compared with a limit
     if let Some(stress) = yield_stress {
         let message =
             "given for a rod that is not uniform or not straight at rest, expected it with a uniform rod alone";
         return Err(Fault::new(stress.span(), message));
     }
-    let Some(rod) = varying else { return Err(Fault::new(table.span(), "no rod")) };
-    let Some(curvature) = natural_curvature else { return Ok(Alone::Varying(rod)) };
-    if let Some(bent) = section.iter().find_map(|section| section.get_ref().natural_curvature.as_ref()) {
-        let message = "given beside rod.natural_curvature, expected one of the two";
-        return Err(Fault::new(bent.span(), message));
-    }
+    let Some(curvature) = bent else { return Ok(Alone::Varying(rod)) };
     let wrong = |error: RodError| Fault::new(curvature.span(), error.to_string());
     let curvature = natural(curvature).and_then(|curvature| curvature.map_err(wrong))?;
     rod.with_natural_curvature(curvature).map(Alone::Varying).map_err(wrong)
@@ -249,10 +266,8 @@ pub(super) fn uniform(table: &Spanned<RodTable>, instead: &str) -> Result<Rod, F
     }
 }
 
-fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Result<VaryingRod, Fault> {
-    let mut sections = Vec::with_capacity(tables.len());
-    // of all sections, or of none
-    let mut diameters = Some(Vec::with_capacity(tables.len()));
+fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Result<Alone, Fault> {
+    let (mut sections, mut stiff) = (Vec::with_capacity(tables.len()), Vec::with_capacity(tables.len()));
     for table in tables {
         let SectionTable { length, diameter, youngs_modulus, bending_stiffness, natural_curvature } = table.get_ref();
         let fields: [Field<'_>; 5] = [
@@ -264,34 +279,48 @@ fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Resul
         ];
         let at = placed(&fields, table.span());
         let long = *length.get_ref();
-        let bending_stiffness =
-            match written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))? {
-                Written::Stiffness(stiffness) => {
-                    diameters = None;
-                    stiffness
-                }
-                Written::Wire { diameter, youngs_modulus } => {
-                    diameters.iter_mut().for_each(|all| all.push(diameter));
-                    Rod::from_diameter(long, diameter, youngs_modulus).map_err(&at)?.bending_stiffness()
-                }
-            };
+        let written = written(table.span(), [bending_stiffness, diameter, youngs_modulus].map(Option::as_ref))?;
+        let bending_stiffness = match written {
+            Written::Stiffness(stiffness) => stiffness,
+            wire @ Written::Wire { .. } => wire.rod(long).map_err(&at)?.bending_stiffness(),
+        };
         let natural_curvature = natural_curvature.as_ref().map_or(0.0, |curvature| *curvature.get_ref());
         let section = RodSection { length: long, bending_stiffness, natural_curvature };
         // each on its own, so that the message points at it
         Rod::sections(long, &[section]).map_err(&at)?;
         sections.push(section);
+        stiff.push(written);
     }
-    let wrong = |error: RodError| Fault::new(length.span(), error.to_string());
-    let rod = Rod::sections(*length.get_ref(), &sections).map_err(wrong)?;
-    match diameters {
-        Some(diameters) => rod.with_section_diameters(&diameters).map_err(wrong),
-        None => Ok(rod),
+    let long = *length.get_ref();
+    let wrong = |error: RodError| match (error, tables.first()) {
+        (RodError::SectionsLength { total, .. }, Some(first)) if total > IN_MM * long => {
+            let message = format!(
+                "the lengths of the sections add up to {total} m, expected {long} m, the length of the rod; are they in mm?"
+            );
+            Fault::new(first.get_ref().length.span(), message)
+        }
+        (error, _) => Fault::new(length.span(), error.to_string()),
+    };
+    let rod = Rod::sections(long, &sections).map_err(wrong)?;
+    if let Some(first) = stiff.first()
+        && stiff.iter().all(|one| one == first)
+        && sections.iter().all(|section| section.natural_curvature == 0.0)
+    {
+        return first.rod(long).map(Alone::Uniform).map_err(wrong);
     }
+    // of all sections, or of none
+    match stiff.iter().map(|one| one.diameter()).collect::<Option<Vec<_>>>() {
+        Some(diameters) => rod.with_section_diameters(&diameters).map(Alone::Varying).map_err(wrong),
+        None => Ok(Alone::Varying(rod)),
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// A natural curvature as it is written: a number, or points.
 fn natural(field: &Spanned<Value>) -> Result<Result<NaturalCurvature, RodError>, Fault> {
-    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
     let wrong =
         || Fault::new(field.span(), "expected a number (1/m), or a list of points: [[s, curvature], ...] in m and 1/m");
     let value = field.get_ref();

@@ -85,6 +85,18 @@ impl Piece {
         Ok(pieces)
     }
 
+    /// What is wrong with an arc whose radius is below `least`, m.
+    pub fn too_thin(&self, least: f64) -> Option<Fault> {
+        let (name, radius) = match &self.shape {
+            Shape::Arc(fields) => ("radius", fields.radius),
+            Shape::Ellipse(fields) => ("radii", fields.radii[0].min(fields.radii[1])),
+            _ => return None,
+        };
+        let field = self.fields.iter().find(|field| field.name == name)?;
+        let message = format!("the radius is {radius} m, expected at least {least:.1e} m, 1e-12 lengths of the rod");
+        (radius < least).then(|| Fault::new(field.span.clone(), message))
+    }
+
     /// Of how many pieces of contour it consists: 0 before [`contours`](Self::contours) has made them.
     pub fn count(&self) -> usize {
         self.count.get()

@@ -1,5 +1,6 @@
 //! A number of a scene file by its name, as messages write it: `contour.piece[2].vertex[1]`, counted from 1.
 
+use crate::toml_file::meant;
 use toml::{Table, Value};
 
 /// The names and numbers on the way from the table to the value.
@@ -67,8 +68,10 @@ impl Field {
 
 /// What a table has under a name.
 fn named<'a>(table: &'a mut Table, name: &str) -> Result<&'a mut Value, String> {
-    let names = table.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    table.get_mut(name).ok_or_else(|| format!("the scene has no `{name}` there, only {names}"))
+    let names: Vec<&str> = table.keys().map(String::as_str).collect();
+    let hint = meant(name, &names).map_or_else(String::new, |hint| format!("; {hint}"));
+    let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    table.get_mut(name).ok_or_else(|| format!("the scene has no `{name}` there, only {names}{hint}"))
 }
 
 fn put(table: &mut Table, name: &str, number: f64) -> Result<(), String> {
@@ -116,6 +119,7 @@ mod tests {
         }
         for (name, message) in [
             ("sweep.from[1]", "the scene has no `sweep` there, only `object`, `rod`"),
+            ("objekt[1].angle", "the scene has no `objekt` there, only `object`, `rod`; did you mean `object`?"),
             ("object[2].angle", "the scene has 1, expected a number from 1 to 1"),
             ("object.angle", "`angle` is asked of a value of type array, expected a table"),
             ("rod[1]", "[1] is asked of a value of type table, expected a list"),

@@ -79,6 +79,7 @@ impl Invalid {
 }
 
 /// Something wrong at a place of a text that is not known here.
+#[derive(Clone)]
 pub(crate) struct Fault {
     span: Range<usize>,
     message: String,
@@ -86,13 +87,26 @@ pub(crate) struct Fault {
 
 impl Fault {
     pub fn new(span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { span, message: message.into() }
+        Self { span, message: message::with_short_numbers(message.into()) }
+    }
+
+    /// The same, with what is `said` of another place, unless it is the same one.
+    pub fn beside(self, other: &Self, said: &str) -> Self {
+        if self.span == other.span {
+            return self;
+        }
+        let message = format!("{}; besides, {said}", self.message);
+        Self { message, ..self }
     }
 
     /// What is wrong with a text that is no TOML. Most often a number has a decimal comma, or a unit behind it: then the
     /// message shows it.
     pub fn of_syntax(error: toml::de::Error, text: &str) -> Self {
         let fault = Self::from(error);
+        if let Some(span) = table_head(text) {
+            let message = "this is a table (CSV), expected a TOML file; give a recording to `vibrissa reconstruct`, and its rod or scene by --rod";
+            return Self::new(span, message);
+        }
         if let Some((span, hint)) = number::decimal_comma(text, fault.span.start) {
             return Self::new(span, hint);
         }
@@ -165,6 +179,21 @@ impl From<toml::de::Error> for Fault {
         // An error without a place concerns the file as a whole.
         Self::new(error.span().unwrap_or(0..0), message)
     }
+}
+
+/// Where the names of the columns are in the text of a table (CSV, TSV), comments before them.
+fn table_head(text: &str) -> Option<Range<usize>> {
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let (at, line) = (start, line.trim_end());
+        start += text[start..].find('\n').map_or(0, |end| end + 1);
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let is_head = line.contains([',', ';', '\t']) && !line.contains(['=', '[', '{']);
+        return is_head.then(|| at..at + line.len());
+    }
+    None
 }
 
 /// Path of the smallest field whose key or value holds the span.
