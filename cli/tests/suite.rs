@@ -21,6 +21,7 @@ mod documents;
 mod edges;
 mod files;
 mod first_steps;
+mod friction;
 mod interrupt;
 mod laboratory;
 mod legs;

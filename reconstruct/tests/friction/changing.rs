@@ -121,6 +121,25 @@ fn friction_that_changes_is_told() {
     }
 }
 
+/// One piece of an object that is greased: a fifth of the tangential path has another coefficient.
+#[test]
+fn another_coefficient_along_a_part_of_the_path_is_told() {
+    let told = |other: f64, noise: bool| {
+        let states = scan(if noise { FINE } else { COARSE }, -0.3, |x0| if x0 > -0.15 { 0.15 } else { other });
+        let exact = || states.iter().map(|state| state.sample).collect();
+        let samples: Vec<Sample> = if noise { noisy(&states, 11) } else { exact() };
+        let found = found(&samples, Friction::Estimate, Some(Budget::NONE));
+        found.findings().into_iter().find(|finding| matches!(finding, Finding::FrictionChanges { .. }))
+    };
+    for noise in [false, true] {
+        let Some(Finding::FrictionChanges { mu, spread, .. }) = told(0.1, noise) else {
+            panic!("nothing told: {noise}")
+        };
+        assert!((mu - 0.15).abs() < 1e-3 && (spread - 0.05).abs() < 5e-3, "{mu} {spread}");
+        assert_eq!(told(0.15, noise), None);
+    }
+}
+
 /// A rod that sticks now and then: K / (2 |F|) is anywhere between -sin rho and sin rho there.
 #[test]
 fn samples_whose_friction_is_another_have_no_point_that_is_off() {
