@@ -111,12 +111,15 @@ impl Calibrated {
         let plateau = track.friction;
         if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known) {
             if let Some(correction) = correction {
+                // other errors than bias and drift might explain a coefficient that changes
+                let tare = Correction::new(shared.frame, &told.tare(rod));
+                let mu = plateau + told.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
+                if let Some(found) = friction.as_mut() {
+                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, tare.as_ref(), mu);
+                }
                 *track = correction.track(track);
                 *nodes = places(&Uniform, track, noise, breaks);
                 *units = told.rod(rod).units();
-                if let Some(found) = friction.as_mut() {
-                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, track.friction);
-                }
             }
             shared.doubt(nodes);
             shared.judge(&Errors::zeros(), track, nodes);

@@ -90,7 +90,8 @@ fn of_friction(pass: &Pass) -> Option<Finding> {
     if pass.used_friction == 0.0 {
         return pass.friction.filter(FrictionEstimate::is_there).map(|_| Finding::Friction { mu, sigma, gain });
     }
-    if against > AGAINST {
+    // the direction of what is not there says nothing
+    if against > AGAINST && pass.friction.is_some_and(|found| found.is_there()) {
         return Some(Finding::FrictionAgainst { mu, share: against });
     }
     (scatter > SCATTERED && spread > SPREAD).then_some(Finding::FrictionChanges { mu, scatter, spread })

@@ -73,6 +73,8 @@ fn the_coefficient_is_found_in_noise_as_well_as_stated() {
         let samples = noisy(&states, seed as u64);
         for budget in [Some(Budget::NONE), None] {
             let found = found(&samples, Friction::Estimate, budget);
+            let against = |finding: &Finding| matches!(finding, Finding::FrictionAgainst { .. });
+            assert!(!found.findings().iter().any(against), "{mu}: {:?}", found.findings());
             let friction = estimate(&found);
             let z = (friction.mu - mu) / friction.sigma_of_noise;
             assert!(z.abs() < 5.0 && friction.sigma_of_noise < 1e-4, "{mu}: {friction:?}");
