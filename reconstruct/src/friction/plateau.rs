@@ -160,16 +160,16 @@ pub(crate) fn rubs<I: Inverse>(
     peaks(&density(&Side::all(rod, track, noise, nodes, tare))).iter().any(|peak| peak.abs() > NOTHING)
 }
 
-/// How far places, after a correction if there is one, are from the plateau of a coefficient, in standard deviations of their noise (1 at least), and in terms of the coefficient.
+/// How far places, after a correction, are from the plateau of a coefficient, in standard deviations of their noise (1 at least), and in terms of the coefficient.
 pub(crate) fn flatness<I: Inverse>(
     rod: &I,
     track: &Track,
     noise: &Noise,
     nodes: &[Node],
-    tare: Option<&Correction>,
+    correction: &Correction,
     mu: f64,
 ) -> (f64, f64) {
-    off_plateau(&Side::all(rod, track, noise, nodes, tare), mu)
+    off_plateau(&Side::all(rod, track, noise, nodes, Some(correction)), mu)
 }
 
 fn off_plateau(sides: &[Side], mu: f64) -> (f64, f64) {

@@ -7,7 +7,7 @@ use crate::phase::{Break, Node, places};
 use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
-use crate::systematic::{Budget, Calibration, Correction, Errors, Known, Shared, Source, calibrate};
+use crate::systematic::{Budget, Calibration, Correction, Errors, Known, Shared, Source, SourceEstimate, calibrate};
 use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
@@ -111,11 +111,11 @@ impl Calibrated {
         let plateau = track.friction;
         if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known) {
             if let Some(correction) = correction {
-                // other errors than bias and drift might explain a coefficient that changes
-                let tare = Correction::new(shared.frame, &told.tare(rod));
+                // errors beyond their budgets explain nothing: then friction changes as on the samples as they are
+                let explained = !told.sources.iter().any(SourceEstimate::is_beyond);
                 let mu = plateau + told.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
-                if let Some(found) = friction.as_mut() {
-                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, tare.as_ref(), mu);
+                if let Some(found) = friction.as_mut().filter(|_| explained) {
+                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, &correction, mu);
                 }
                 *track = correction.track(track);
                 *nodes = places(&Uniform, track, noise, breaks);
