@@ -19,7 +19,7 @@ const NOT_EXPECTED: &str = "`budget` knows the errors of a uniform, straight rod
      reconstruct --truth` show what noise does to the contacts of any rod";
 
 pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
-    let Calibrate { recordings, rod, setup, noise, free, out, moved, written } = arguments;
+    let Calibrate { recordings, rod, setup, noise, free, friction, out, moved, written } = arguments;
     signals::end();
     if crate::is_standard(&out) {
         return Err(OutputError::NoFile { file: out }.into());
@@ -34,6 +34,7 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
         noise: noise.map(|model| model.channels()),
         budget: budget(&scan.setup, &given.rod),
         known: given.known,
+        friction,
         ..Settings::default()
     };
     let recordings: Vec<Recording> = recordings.iter().map(|file| read(file, &scan)).collect::<Result<_, Error>>()?;
@@ -50,7 +51,7 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
 }
 
 pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
-    let Expect { scene, setup, noise, rate, speed, runs, seed, out } = arguments;
+    let Expect { scene, setup, noise, friction, rate, speed, runs, seed, out } = arguments;
     signals::end();
     let scene = read_any(&scene)?.uniform(NOT_EXPECTED)?;
     scene.check_single_leg()?;
@@ -61,7 +62,7 @@ pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let staged = Staged::new(&out)?.keeping(inputs);
-    let expected = BudgetStudy { scene, budget, noise, rate, speed, runs, seed }.run()?;
+    let expected = BudgetStudy { scene, budget, noise, friction, rate, speed, runs, seed }.run()?;
     expected.write(&staged)?;
     staged.publish()?;
     say(&expected.report());

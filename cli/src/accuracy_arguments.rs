@@ -1,9 +1,10 @@
 //! Options of the commands about accuracy: `calibrate` and `budget`.
 
 use crate::arguments::{Moved, Written};
-use crate::values::{directory, seed};
+use crate::values::{directory, friction, seed};
 use clap::Args;
 use std::path::PathBuf;
+use vibrissa::reconstruct::Friction;
 use vibrissa_cli::Freed;
 
 /// Most recordings with random errors: hours of work.
@@ -28,6 +29,10 @@ pub struct Calibrate {
     /// The errors to look for, with commas between them [default: all that have a budget]
     #[arg(long, value_name = "ERRORS", value_enum, value_delimiter = ',')]
     pub free: Vec<Freed>,
+    /// Coulomb friction of rod and objects, as for `reconstruct`. Each recording has a coefficient of its own, which takes part in the estimate;
+    /// passes there and back have the same
+    #[arg(long, value_name = "MU", value_parser = friction, default_value = "none")]
+    pub friction: Friction,
     /// The TOML file of the calibrated rod; calibration.svg is written beside it
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
@@ -48,6 +53,9 @@ pub struct Expect {
     /// The noise of the sensor, a TOML file as for `simulate` [default: white, 0.008 E I / L^2 and 0.003 E I / L]
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
+    /// What a reconstruction is told of Coulomb friction, as for `reconstruct` [default: estimate, if the scene has friction]
+    #[arg(long, value_name = "MU", value_parser = friction)]
+    pub friction: Option<Friction>,
     /// Samples in a second
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,

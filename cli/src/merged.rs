@@ -72,8 +72,9 @@ impl Merged {
         };
         let contour = merge(&contours);
         let disagreements = Comparison::default().disagreements(&contours);
-        let passes = fitting().flat_map(|one| &one.found.passes);
-        let calibrations: Vec<Calibration> = passes.filter_map(|pass| pass.calibration.clone()).collect();
+        let passes = fitting().enumerate().flat_map(|(k, one)| one.found.passes.iter().map(move |pass| (k, pass)));
+        let calibrations: Vec<(usize, Calibration)> =
+            passes.filter_map(|(k, pass)| Some((k, pass.calibration.clone()?))).collect();
         let mut offsets = offsets.into_iter();
         let scan = |one: &Reconstructed| {
             let fits = one.check.fits();

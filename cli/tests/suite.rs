@@ -22,6 +22,7 @@ mod edges;
 mod files;
 mod first_steps;
 mod friction;
+mod friction_reconstructed;
 mod interrupt;
 mod laboratory;
 mod legs;

@@ -22,9 +22,10 @@ struct Arguments {
     /// Only these levels: clean, 0.2mN, 2.5mN, 10mN.
     #[arg(long, num_args = 1.., value_parser = ["clean", "0.2mN", "2.5mN", "10mN"])]
     level: Vec<String>,
-    /// Coefficient of friction of rod and objects; it is estimated from each recording, unless it is 0.
-    #[arg(long, default_value_t = 0.0)]
-    friction: f64,
+    /// Coefficients of friction of rod and objects, one study after the other; each is estimated from each recording, unless it is 0. Several are
+    /// compared in a table.
+    #[arg(long, num_args = 1.., default_values_t = [0.0])]
+    friction: Vec<f64>,
     /// Only these scans: O1_q20 and so on.
     #[arg(long, num_args = 1..)]
     scan: Vec<String>,
@@ -41,13 +42,29 @@ struct Arguments {
 
 fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
+    let mut compared = Vec::new();
+    for friction in &arguments.friction {
+        let rows = of_friction(&arguments, *friction)?;
+        compared.extend(rows.into_iter().map(|(level, noise, score)| (*friction, level, noise, score)));
+    }
+    if arguments.friction.len() > 1 {
+        println!("{}", study::compared(&compared));
+    }
+    Ok(())
+}
+
+/// A noise, and how well the scans are reconstructed with it.
+type Row = (&'static Level, Option<&'static Noise>, Score);
+
+/// The study with one coefficient of friction, printed.
+fn of_friction(arguments: &Arguments, friction: f64) -> Outcome<Vec<Row>> {
     let names = if arguments.scan.is_empty() { study::scans() } else { arguments.scan.clone() };
     let wanted = |level: &Level| arguments.level.is_empty() || arguments.level.iter().any(|only| only == level.name);
-    let scans = study::sweep(&arguments.scenes, &names, arguments.friction)?;
+    let scans = study::sweep(&arguments.scenes, &names, friction)?;
     let keep = arguments.write.as_deref().map(Recordings::new).transpose()?;
 
     let noisy = LEVELS.iter().flat_map(|level| NOISES.iter().map(move |noise| (level, noise)));
-    let noisy: Vec<(&Level, &Noise)> = noisy.filter(|(level, _)| wanted(level)).collect();
+    let noisy: Vec<(&'static Level, &'static Noise)> = noisy.filter(|(level, _)| wanted(level)).collect();
     let clean = wanted(&Level::CLEAN).then_some((&Level::CLEAN, &NOISES[0]));
     let work = if clean.is_some() { 1 } else { 0 } + arguments.seeds * noisy.len() as u64;
     let bar = ProgressBar::new(work * scans.len() as u64)
@@ -70,9 +87,9 @@ fn main() -> Outcome<()> {
     if let Some(keep) = keep {
         keep.finish()?;
     }
-    println!("{} scans, {} seeds\n", scans.len(), arguments.seeds);
+    println!("{} scans, {} seeds, friction {friction}\n", scans.len(), arguments.seeds);
     println!("{}", study::tables(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
-    if arguments.friction != 0.0 {
+    if friction != 0.0 {
         println!("{}", study::frictions(rows.iter().map(|(level, noise, score)| (*level, *noise, score))));
     }
     println!("Least changes of slope that stand out by 5 standard deviations, forces in mN/mm / moment in mN m/mm:\n");
@@ -81,7 +98,7 @@ fn main() -> Outcome<()> {
         "Kinks by transition, their changes of slope, and how many of them no half-window up to 4 mm lets stand out:\n"
     );
     println!("{}{details}", study::kinks_below(&scans, &noisy)?);
-    Ok(())
+    Ok(rows)
 }
 
 fn detail(scans: &[Clean], level: &Level, noise: Option<&Noise>, scores: &[Score]) -> String {

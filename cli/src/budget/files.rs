@@ -20,6 +20,7 @@ struct BudgetRecord<'a> {
     sources: Vec<SourceRecord>,
     shared_before: f64,
     shared_after: f64,
+    shared_with_known_friction: Option<f64>,
     noise_points: f64,
     total_after: f64,
     needed: Option<NeededRecord>,
@@ -74,6 +75,7 @@ impl Expected {
             sources: sources.collect(),
             shared_before: forecast.shared[0],
             shared_after: forecast.shared[1],
+            shared_with_known_friction: forecast.with_known_friction,
             noise_points: forecast.noise,
             total_after: forecast.total(),
             needed: self.needed.map(|needed| NeededRecord {

@@ -15,6 +15,8 @@ pub(crate) struct Forecast {
     pub sources: Vec<Share>,
     /// Of all sources, before any correction, and after the scan has calibrated itself.
     pub shared: [f64; 2],
+    /// Of all sources after the scan has calibrated itself, if friction were known exactly; none where it is not a source.
+    pub with_known_friction: Option<f64>,
     pub noise: f64,
     /// Displacements by one standard deviation of the budget of each source, a row for each point, m.
     pub(super) influence: DMatrix<f64>,
@@ -43,7 +45,8 @@ impl Forecast {
     ) -> Option<Self> {
         let stride = truth.samples.len().div_ceil(POINTS).max(1);
         let sigma = [sigma.f0x, sigma.f0y, sigma.m0z];
-        let points = influences(rod, &truth.samples, &truth.labels, sigma, stride);
+        let friction = found.passes.iter().map(|pass| pass.used_friction).find(|mu| *mu != 0.0).unwrap_or(0.0);
+        let points = influences(rod, &truth.samples, &truth.labels, sigma, friction, stride);
         let sources: Vec<Source> = Source::ALL.into_iter().filter(|source| budget.of(*source) > 0.0).collect();
         let influence = DMatrix::from_fn(points.len(), sources.len(), |point, k| {
             points[point].1.of(sources[k]) * budget.of(sources[k])
@@ -75,7 +78,11 @@ impl Forecast {
         )?;
         let before = shared(&influence, &DMatrix::identity(count, count))?;
         let after = shared(&influence, &covariance)?;
-        Some(Self { sources: shares, shared: [before, after], noise, influence, covariance })
+        let with_known_friction = sources.iter().position(|source| *source == Source::Friction).and_then(|k| {
+            let by = covariance.column(k);
+            shared(&influence, &(&covariance - by * by.transpose() / covariance[(k, k)].max(f64::MIN_POSITIVE)))
+        });
+        Some(Self { sources: shares, shared: [before, after], with_known_friction, noise, influence, covariance })
     }
 
     /// The sources that displace points most after the calibration, the largest first.

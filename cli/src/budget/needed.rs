@@ -48,6 +48,7 @@ impl Needed {
         let told = mapped(told, |information| information.max(0.0));
         let total = |sensor: f64, stiffer: bool| {
             let prior = |k: usize| match forecast.sources[k].source {
+                Source::Friction => 1.0,
                 source if source.is_of_scan() => sensor,
                 // in E I / L, a clamp yields more to a stiffer rod
                 Source::ClampCompliance if stiffer => 1.0 / sensor,

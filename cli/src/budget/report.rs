@@ -45,6 +45,15 @@ impl Expected {
         table.row(row("noise", forecast.noise, forecast.noise));
         table.row(row("all", before.hypot(forecast.noise), forecast.total()));
         write!(text, "{table}")?;
+        if let Some(known) = forecast.with_known_friction {
+            writeln!(
+                text,
+                "if the coefficient of friction were known exactly, errors that all samples share would be {} mm after calibration in place \
+                 of {}",
+                mm(known),
+                mm(after)
+            )?;
+        }
         self.tell_needed(text)?;
         self.tell_runs(text)
     }

@@ -4,9 +4,9 @@ use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};
 use super::truth::Truth;
-use crate::{Error, Scene};
+use crate::{Error, Scene, SceneFriction};
 use vibrissa::contact::Stop;
-use vibrissa::reconstruct::{Budget, Known, NoiseModel, reconstruct_passes};
+use vibrissa::reconstruct::{Budget, Friction, Known, NoiseModel, reconstruct_passes};
 use vibrissa::rod::{Reactions, Units};
 use vibrissa::{Rod, Settings};
 
@@ -26,6 +26,8 @@ pub struct BudgetStudy {
     pub rate: f64,
     /// Speed of the clamp: m/s, or rad/s where it only turns.
     pub speed: f64,
+    /// What a reconstruction knows of friction: nothing of its coefficient if none is given and the scene has friction.
+    pub friction: Option<Friction>,
     /// Number of recordings with random errors.
     pub runs: usize,
     /// Of errors and noise.
@@ -79,11 +81,14 @@ impl BudgetStudy {
     /// [`Error::Budget`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
     pub fn run(self) -> Result<Expected, Error> {
         let rod = self.scene.rod;
-        let budget = self.budget.unwrap_or_else(|| Budget::laboratory(&rod));
+        let rubs = self.scene.friction.as_ref().is_some_and(SceneFriction::rubs);
+        let friction = self.friction.unwrap_or(if rubs { Friction::Estimate } else { Friction::None });
+        let errors = self.budget.unwrap_or_else(|| Budget::laboratory(&rod));
+        let budget = Budget { friction: friction.sigma(), ..errors };
         let noise = self.noise.unwrap_or_else(|| usual(&rod));
         noise.check()?;
         let (truth, scene) = Truth::of(self.scene, self.rate, self.speed)?;
-        let settings = Settings { budget: Some(budget), known: Known::NOTHING, ..Settings::default() };
+        let settings = Settings { budget: Some(errors), known: Known::NOTHING, friction, ..Settings::default() };
         let (read, _) = truth.read(&truth.samples, &noise, self.seed)?;
         let found = reconstruct_passes(&rod, &read, &settings)
             .map_err(|source| BudgetError::Reconstruct { scene: scene.name.clone(), source })?;

@@ -6,7 +6,7 @@ use crate::{Error, Scene};
 use rayon::prelude::*;
 use serde::Serialize;
 use vibrissa::reconstruct::score::signed_distance;
-use vibrissa::reconstruct::{Budget, NoiseModel, Source, disturb, reconstruct_passes};
+use vibrissa::reconstruct::{Budget, Friction, NoiseModel, Source, disturb, reconstruct_passes};
 use vibrissa::rod::Reactions;
 use vibrissa::{Label, Settings};
 
@@ -63,7 +63,13 @@ impl Trials<'_> {
             return Ok(Trial::default());
         };
         let (read, labels) = self.truth.read(&disturbed, self.noise, seed.wrapping_add(1))?;
-        let Ok(found) = reconstruct_passes(&given, &read, &self.settings) else { return Ok(Trial::default()) };
+        // a coefficient that is known is so with an error, too
+        let friction = match self.settings.friction {
+            Friction::Known { mu, sigma } => Friction::Known { mu: (mu + error(Source::Friction)).abs(), sigma },
+            other => other,
+        };
+        let settings = Settings { friction, ..self.settings };
+        let Ok(found) = reconstruct_passes(&given, &read, &settings) else { return Ok(Trial::default()) };
         let right = found.readings.iter().zip(&labels).filter(|(reading, label)| reading.label == **label).count();
         let single = found.readings.iter().filter(|reading| matches!(reading.label, Label::A | Label::B));
         let judged: Vec<(f64, f64)> = single

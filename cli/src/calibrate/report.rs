@@ -1,9 +1,10 @@
 //! A calibration in words.
 
 use super::result::RodCalibration;
+use crate::reconstructed::hardly_told;
 use crate::table::Table;
 use std::fmt::Write;
-use vibrissa::reconstruct::Source;
+use vibrissa::reconstruct::{Source, SourceEstimate};
 
 /// Part of its budget below which an estimate is told as 0.
 const NOTHING: f64 = 1e-9;
@@ -20,21 +21,30 @@ impl RodCalibration {
             return text + &self.differences();
         }
         let mut table = Table::new(["source", "unit", "known", "budget", "estimate", "sigma", "written", "identified"]);
-        for estimate in self.combined.sources.iter().filter(|estimate| estimate.budget > 0.0) {
-            let (name, unit) = estimate.source.name();
-            let numbers = [estimate.known, estimate.given, estimate.value, estimate.sigma, estimate.taken];
+        for (name, estimate) in self.named().filter(|(_, estimate)| estimate.budget > 0.0) {
+            let unit = estimate.source.name().1;
+            let numbers = [estimate.known, estimate.given, estimate.value, estimate.sigma];
             let number = |value: f64| {
                 if value.abs() < NOTHING * estimate.budget { "0".to_owned() } else { format!("{value:.3e}") }
             };
             let identified = if estimate.is_identified() { "yes" } else { "no" };
             let raised = if estimate.raised { ", budget raised" } else { "" };
-            let cells = [name.to_owned(), if unit.is_empty() { "1" } else { unit }.to_owned()];
-            table.row(cells.into_iter().chain(numbers.map(number)).chain([format!("{identified}{raised}")]));
+            let cells = [name, if unit.is_empty() { "1" } else { unit }.to_owned()];
+            // friction is of the objects, not of the rod
+            let written = if estimate.source.is_of_scan() { "-".to_owned() } else { number(estimate.taken) };
+            table.row(cells.into_iter().chain(numbers.map(number)).chain([written, format!("{identified}{raised}")]));
         }
         text += &table.to_string();
-        let ties: Vec<String> = self.combined.ties.iter().map(|(a, b, _)| format!("{a} and {b}")).collect();
+        let mut ties: Vec<String> = self.combined.ties.iter().map(|(a, b, _)| format!("{a} and {b}")).collect();
+        ties.dedup();
         if !ties.is_empty() {
             let _ = writeln!(text, "not told apart: {}", ties.join("; "));
+        }
+        for (number, (name, estimate)) in self.named().enumerate() {
+            let others = hardly_told(estimate.value, estimate.sigma, &self.combined.confused(number));
+            if estimate.source == Source::Friction && !others.is_empty() {
+                let _ = writeln!(text, "{name}: mu = {:.4} +- {:.1e}{others}", estimate.value, estimate.sigma);
+            }
         }
         if self.combined.freedom > 0 {
             let (chi_squared, freedom) = (self.combined.chi_squared, self.combined.freedom);
@@ -50,6 +60,18 @@ impl RodCalibration {
             found.0, found.1, given.0, given.1
         );
         text
+    }
+
+    /// The sources with their names; friction has that of its recording.
+    fn named(&self) -> impl Iterator<Item = (String, &SourceEstimate)> {
+        let mut recordings: Vec<usize> = self.each.iter().map(|one| one.0).collect();
+        recordings.dedup();
+        let mut files = recordings.into_iter().filter_map(|number| self.recordings[number].file_name());
+        self.combined.sources.iter().map(move |estimate| {
+            let name = estimate.source.to_string();
+            let of = if estimate.source == Source::Friction { files.next() } else { None };
+            (of.map_or(name.clone(), |file| format!("{name} of {}", file.to_string_lossy())), estimate)
+        })
     }
 
     /// What each pass says on its own of the sources that differ most.

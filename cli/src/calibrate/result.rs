@@ -57,8 +57,7 @@ impl RodCalibration {
             let misfits = found.check.findings.iter().filter(|finding| finding.is_misfit());
             findings.extend(misfits.map(|finding| format!("{}: {finding}", recording.file.display())));
         }
-        let calibrations: Vec<Calibration> = each.iter().map(|one| one.1.clone()).collect();
-        let combined = Combined::of(&calibrations).ok_or(CalibrateError::Nothing)?;
+        let combined = Combined::of(&each).ok_or(CalibrateError::Nothing)?;
         findings.extend(contradictions(&combined));
         let (found, known) = combined.known(&rod);
         let known = with_held(known, &given.known, free);

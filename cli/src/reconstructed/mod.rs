@@ -17,3 +17,4 @@ pub(crate) use files::COLUMNS as CONTOUR_COLUMNS;
 pub(crate) use naive::naive_touch;
 pub(crate) use points::PointRecord;
 pub use result::{Reconstructed, ReconstructionError};
+pub(crate) use summary::hardly_told;

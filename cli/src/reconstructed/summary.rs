@@ -8,6 +8,9 @@ use std::fmt::Write;
 use vibrissa::reconstruct::score::Deviation;
 use vibrissa::reconstruct::{Source, SourceEstimate};
 
+/// Standard deviation of friction, in parts of the coefficient, below which it is well known.
+const WELL_KNOWN: f64 = 0.01;
+
 impl Reconstructed {
     /// Rows, noise, labels, points and gaps, and the comparison with the truth where that is known.
     pub fn summary(&self) -> String {
@@ -57,9 +60,11 @@ impl Reconstructed {
                 (true, false) => "; errors that all samples share would explain a part of it",
                 (false, _) => "; the scan is explained as well without",
             };
+            let others = pass.calibration.as_ref().map_or_else(Vec::new, |told| told.confused(Source::Friction));
+            let others = hardly_told(found.mu, found.sigma, &others);
             writeln!(
                 text,
-                "friction{of}: mu = {:.4} +- {:.1e} (by the noise alone {:.1e}), the rod {way} its contacts{told}",
+                "friction{of}: mu = {:.4} +- {:.1e} (by the noise alone {:.1e}), the rod {way} its contacts{told}{others}",
                 found.mu.abs(),
                 found.sigma,
                 found.sigma_of_noise
@@ -139,6 +144,17 @@ impl Reconstructed {
             ]);
         }
         table
+    }
+}
+
+/// From which sources friction is hardly told, in words: the parts of its variance that they are the reason of. Empty where it is well known.
+pub(crate) fn hardly_told(mu: f64, sigma: f64, others: &[(Source, f64)]) -> String {
+    let named: Vec<String> =
+        others.iter().map(|(source, part)| format!("{source} ({:.0} % of its variance)", 100.0 * part)).collect();
+    if named.is_empty() || sigma < WELL_KNOWN * mu.abs() {
+        String::new()
+    } else {
+        format!("; hardly told from {}", named.join(", "))
     }
 }
 

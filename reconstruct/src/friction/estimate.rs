@@ -16,10 +16,11 @@ pub struct FrictionEstimate {
     pub sigma: f64,
     /// Standard deviation by the noise alone, as if all else were known.
     pub sigma_of_noise: f64,
-    /// How far K / (2 |F|) along tangential contacts is from one value, in standard deviations of its noise (root mean square): 1 where
-    /// the coefficient is the same along the pass.
+    /// How far K / (2 |F|) along tangential contacts is from one value, in standard deviations of its noise (root mean square, or that of
+    /// another part of the path): 1 where the coefficient is the same along the pass.
     pub scatter: f64,
-    /// How much the coefficient varies along the pass beyond the noise (standard deviation).
+    /// How much the coefficient varies along the pass beyond the noise (standard deviation), or how far that of another part of the tangential
+    /// path, a tenth at least, is off.
     pub spread: f64,
     /// Logarithm of the likelihood of the pass with friction over that without, each with the errors that explain it best.
     pub gain: f64,

@@ -12,6 +12,7 @@ mod plateau;
 mod there_and_back;
 
 pub use estimate::FrictionEstimate;
+pub(crate) use known::ANY;
 pub use known::Friction;
-pub(crate) use plateau::{Start, rubs, start};
+pub(crate) use plateau::{Start, flatness, rubs, start};
 pub use there_and_back::{Pair, without_friction};

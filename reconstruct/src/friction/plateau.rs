@@ -4,6 +4,7 @@ use crate::numeric::{median, robust_sigma};
 use crate::phase::{Evidence, Node, likelihood};
 use crate::point::{Clamp, Inverse};
 use crate::scan::{Estimate, Noise, Track};
+use crate::systematic::Correction;
 use nalgebra::Vector3;
 
 /// Largest sine of the angle of friction: mu = 3.
@@ -31,6 +32,11 @@ const OUTLYING: f64 = 3.0;
 /// part of the scan is not told.
 const INNER: f64 = 0.8;
 const OF_INNER: f64 = 1.2816;
+/// Another plateau is one this far from the first: errors of an ordinary laboratory let K / (2 |F|) vary by 0.01 along a scan.
+const APART: f64 = 0.015;
+/// Smallest part of the path along which another plateau is told. Larger: one piece of an object with another coefficient is missed;
+/// smaller: places with several contacts, which noise lets pass for tangential ones, are taken for one.
+const ANOTHER: f64 = 0.1;
 /// Smallest standard deviation of the sine at one place: rounding. Smaller: the noise of noise-free samples decides.
 const FINEST: f64 = 1e-9;
 /// A plateau this close to 0 is none: sensors, clamps and rods of an ordinary laboratory let K / (2 |F|) be as large.
@@ -55,11 +61,14 @@ fn ratio<I: Inverse>(rod: &I, estimate: &Estimate, clamp: &Clamp) -> Option<(f64
     (size > 0.0 && of_force < WEAK * size && sigma.is_finite() && value.abs() < LARGEST).then_some((value, sigma))
 }
 
-/// The estimate at a place, and its clamp: that of the sample itself where samples are clean.
-fn place(track: &Track, noise: &Noise, node: &Node) -> (Estimate, Clamp) {
-    let estimate = node.fit.at(track.tau[node.index]);
-    let clamp = if noise.is_clean() { track.clamps[node.index] } else { estimate.clamp };
-    (estimate, clamp)
+/// The estimate at a place after a correction, if there is one, and its clamp: that of the sample itself where samples are clean.
+fn place(track: &Track, noise: &Noise, node: &Node, tare: Option<&Correction>) -> (Estimate, Clamp) {
+    let tau = track.tau[node.index];
+    let measured = node.fit.at(tau);
+    let sample = if noise.is_clean() { track.clamps[node.index] } else { measured.clamp };
+    let Some(tare) = tare else { return (measured, sample) };
+    let (clamp, rate) = tare.apply(tau, &measured.clamp, &measured.rate);
+    (measured.moved(clamp, rate), tare.apply(tau, &sample, &measured.rate).0)
 }
 
 /// A place that kinematics alone tell to be of one contact along the rod's side, whatever its friction: the moment vanishes before the tip,
@@ -78,8 +87,14 @@ struct Side {
 }
 
 impl Side {
-    fn of<I: Inverse>(rod: &I, track: &Track, noise: &Noise, node: &Node, way: f64) -> Option<Self> {
-        let (estimate, clamp) = place(track, noise, node);
+    fn of<I: Inverse>(
+        rod: &I,
+        (track, noise): (&Track, &Noise),
+        tare: Option<&Correction>,
+        node: &Node,
+        way: f64,
+    ) -> Option<Self> {
+        let (estimate, clamp) = place(track, noise, node, tare);
         let (value, sigma) = ratio(rod, &estimate, &clamp).filter(|(_, sigma)| *sigma < VAGUE)?;
         let found = rod.first(&estimate.clamp).ok()?;
         let none = Vector3::zeros();
@@ -97,13 +112,13 @@ impl Side {
         is_one.then_some(Self { value, sigma: sigma.max(FINEST), weight: node.weight, way, slides })
     }
 
-    /// Of the places of a scan, at most [`PLACES`] of them.
-    fn all<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> Vec<Self> {
+    /// Of the places of a scan after a correction, if there is one, at most [`PLACES`] of them.
+    fn all<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], tare: Option<&Correction>) -> Vec<Self> {
         let stride = nodes.len().div_ceil(PLACES).max(1);
         let of = |part: &[Node]| {
             let (first, last) = (part.first()?, part.last()?);
             let way = track.tau[last.index] - track.tau[first.index.saturating_sub(1)];
-            Self::of(rod, track, noise, first, way)
+            Self::of(rod, (track, noise), tare, first, way)
         };
         nodes.chunks(stride).filter_map(of).collect()
     }
@@ -133,9 +148,40 @@ fn peaks(density: &[(f64, f64)]) -> Vec<f64> {
     found.into_iter().map(|one| one.0).collect()
 }
 
-/// Whether places are dense about a value of K / (2 |F|) that an ordinary laboratory does not explain without friction.
-pub(crate) fn rubs<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node]) -> bool {
-    peaks(&density(&Side::all(rod, track, noise, nodes))).iter().any(|peak| peak.abs() > NOTHING)
+/// Whether places, after a correction if there is one, are dense about a value of K / (2 |F|) that an ordinary laboratory does not explain
+/// without friction.
+pub(crate) fn rubs<I: Inverse>(
+    rod: &I,
+    track: &Track,
+    noise: &Noise,
+    nodes: &[Node],
+    tare: Option<&Correction>,
+) -> bool {
+    peaks(&density(&Side::all(rod, track, noise, nodes, tare))).iter().any(|peak| peak.abs() > NOTHING)
+}
+
+/// How far places, after a correction, are from the plateau of a coefficient, in standard deviations of their noise (1 at least), and in terms of the coefficient.
+pub(crate) fn flatness<I: Inverse>(
+    rod: &I,
+    track: &Track,
+    noise: &Noise,
+    nodes: &[Node],
+    correction: &Correction,
+    mu: f64,
+) -> (f64, f64) {
+    off_plateau(&Side::all(rod, track, noise, nodes, Some(correction)), mu)
+}
+
+fn off_plateau(sides: &[Side], mu: f64) -> (f64, f64) {
+    let sine = mu / mu.hypot(1.0);
+    let off = |side: &Side| side.value - sine;
+    let scatter = outer(sides.iter().map(|side| off(side) / side.sigma)).max(1.0);
+    let (size, own) = (outer(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
+    let spread = (size.powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * (1.0 - sine * sine).powf(-1.5);
+    match another(sides, sine) {
+        Some((value, sigma)) => (scatter.max((value - sine).abs() / sigma), spread.max((tangent(value) - mu).abs())),
+        None => (scatter, spread),
+    }
 }
 
 /// Friction as the plateau tells it.
@@ -156,11 +202,12 @@ pub(crate) struct Start {
     pub without: f64,
 }
 
-/// The likeliest friction: of size `mu`, if it is known, and of either sign.
+/// The likeliest friction: of size `mu`, if it is known, and of the sign that the direction of the rod asks for, or of either where no place
+/// tells that.
 pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], mu: Option<f64>) -> Start {
-    let sides = Side::all(rod, track, noise, nodes);
+    let sides = Side::all(rod, track, noise, nodes, None);
     let tried: Vec<f64> = match mu {
-        Some(mu) => vec![mu, -mu],
+        Some(mu) => signs(&sides).iter().map(|sign| sign * mu).collect(),
         None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
     };
     let mut judged = nodes.to_vec();
@@ -172,16 +219,42 @@ pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[
     let (found, likelihood) = likelihoods.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, without));
     let sine = found / found.hypot(1.0);
     let information = level(&sides, sine).1;
-    let off = |side: &Side| side.value - sine;
-    let scatter = outer(sides.iter().map(|side| off(side) / side.sigma)).max(1.0);
-    let (size, own) = (outer(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
     let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
-    let spread = (size.powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * tangent_by_sine;
-    let way = |sides: &mut dyn Iterator<Item = &Side>| sides.map(|side| side.way).sum::<f64>();
+    let (scatter, spread) = off_plateau(&sides, found);
     let backwards = |side: &&Side| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
-    let all = way(&mut sides.iter());
-    let against = if all > 0.0 && found != 0.0 { way(&mut sides.iter().filter(backwards)) / all } else { 0.0 };
+    let all = way(sides.iter());
+    let against = if all > 0.0 && found != 0.0 { way(sides.iter().filter(backwards)) / all } else { 0.0 };
     Start { mu: found, sigma: tangent_by_sine / information.sqrt(), scatter, spread, against, likelihood, without }
+}
+
+fn way<'a>(sides: impl Iterator<Item = &'a Side>) -> f64 {
+    sides.map(|side| side.way).sum()
+}
+
+/// The signs that friction may have: against the way in which the rod slides along most of the path.
+fn signs(sides: &[Side]) -> &'static [f64] {
+    let slides = |sign: f64| way(sides.iter().filter(|side| sign * side.slides.0 > SIGMAS * side.slides.1 + RATE));
+    let (on, back) = (slides(1.0), slides(-1.0));
+    if on == back {
+        &[1.0, -1.0]
+    } else if on > back {
+        &[-1.0]
+    } else {
+        &[1.0]
+    }
+}
+
+/// The value of another plateau than that at `sine`, and the standard deviation of one of its places, if a part of the path has one.
+fn another(sides: &[Side], sine: f64) -> Option<(f64, f64)> {
+    let exact: Vec<Side> = sides.iter().copied().filter(|side| side.sigma < NARROWEST).collect();
+    let is_off = |side: &Side| (side.value - sine).abs() > APART.hypot(SIGMAS * side.sigma);
+    let off: Vec<Side> = exact.iter().copied().filter(is_off).collect();
+    let peak = *peaks(&density(&off)).first()?;
+    let near = |side: &&Side| (side.value - peak).abs() < NARROWEST.hypot(SIGMAS * side.sigma);
+    let values = off.iter().filter(near).map(|side| side.value).collect();
+    let sigmas = off.iter().filter(near).map(|side| side.sigma).collect();
+    let found = median(values).zip(median(sigmas));
+    found.filter(|_| way(off.iter().filter(near)) > ANOTHER * way(exact.iter()))
 }
 
 /// The standard deviation of normal variables about 0 of which [`INNER`] are no larger than those; 0 without values.

@@ -1,20 +1,17 @@
 //! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
 
 use super::settings::{ReconstructError, Settings, positive, possible};
-use crate::friction::{Friction, FrictionEstimate, Start, rubs, start};
+use crate::friction::{ANY, Friction, FrictionEstimate, Start, flatness, rubs, start};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Node, places};
 use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
-use crate::systematic::{Budget, Calibration, Errors, Known, Shared, Source, calibrate};
+use crate::systematic::{Budget, Calibration, Correction, Errors, Known, Shared, Source, SourceEstimate, calibrate};
 use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
 const COARSE: f64 = 0.02;
-
-/// Standard deviation of the coefficient of friction about that of the plateau, where nothing is known of it: as good as anything.
-pub(super) const ANY_FRICTION: f64 = 0.3;
 
 /// A scan with the errors that its samples share taken off.
 #[derive(Clone)]
@@ -41,15 +38,25 @@ impl Calibrated {
     /// From the samples of one path of the clamp.
     pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
         let scan = Self::measured(&Uniform, rod, samples, settings)?;
-        if settings.friction == Friction::None && !rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes) {
-            return scan.smooth(rod, settings);
+        let smooth = scan.clone().smooth(rod, settings)?;
+        let rubs = |tare: Option<&Correction>| rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes, tare);
+        // a bias blurs the plateau
+        if settings.friction == Friction::None && !rubs(None) && !smooth.tare(rod).is_some_and(|tare| rubs(Some(&tare)))
+        {
+            return Ok(smooth);
         }
-        let rough = scan.clone().rough(rod, settings)?;
-        let smooth = scan.smooth(rod, settings)?.compared(&rough);
+        let rough = scan.rough(rod, settings)?;
+        let smooth = smooth.compared(&rough);
         if settings.friction == Friction::None {
             return Ok(smooth);
         }
         Ok(Self { friction: smooth.friction, ..rough })
+    }
+
+    /// What takes bias and drift off the samples, and nothing else; none where nothing was taken off.
+    fn tare(&self, rod: &Rod) -> Option<Correction> {
+        let (shared, told) = self.calibration.as_ref().filter(|told| told.1.is_applied())?;
+        Correction::new(shared.frame, &told.tare(rod))
     }
 
     /// Without friction, and without the errors that all samples share.
@@ -81,7 +88,7 @@ impl Calibrated {
     /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
     pub fn with_plateau<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         match settings.friction {
-            Friction::None if !rubs(rod, &self.track, &self.noise, &self.nodes) => self,
+            Friction::None if !rubs(rod, &self.track, &self.noise, &self.nodes, None) => self,
             Friction::None => {
                 let friction = self.clone().rubbed(rod, settings).friction;
                 Self { friction, ..self }
@@ -104,6 +111,12 @@ impl Calibrated {
         let plateau = track.friction;
         if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known) {
             if let Some(correction) = correction {
+                // errors beyond their budgets explain nothing: then friction changes as on the samples as they are
+                let explained = !told.sources.iter().any(SourceEstimate::is_beyond);
+                let mu = plateau + told.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
+                if let Some(found) = friction.as_mut().filter(|_| explained) {
+                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, &correction, mu);
+                }
                 *track = correction.track(track);
                 *nodes = places(&Uniform, track, noise, breaks);
                 *units = told.rod(rod).units();
@@ -111,7 +124,8 @@ impl Calibrated {
             shared.doubt(nodes);
             shared.judge(&Errors::zeros(), track, nodes);
             told.shift(Source::Friction, plateau);
-            if let Some((found, own)) = friction.as_mut().zip(told.source(Source::Friction)) {
+            if let Some((found, own)) = friction.as_mut().zip(told.source(Source::Friction).copied()) {
+                told.direction = found.mu.signum() * (0.5 - found.against).signum();
                 (found.mu, found.sigma) = (track.friction, own.sigma);
             }
             *calibration = Some((shared, told));
@@ -164,12 +178,9 @@ impl Calibrated {
     }
 }
 
-/// The budget with that of friction.
+/// The budget with that of friction, of which nothing is known where it is not asked for.
 fn with_friction(budget: Budget, settings: &Settings) -> Budget {
-    let friction = match settings.friction {
-        Friction::Known { sigma, .. } => sigma,
-        _ => ANY_FRICTION,
-    };
+    let friction = if settings.friction == Friction::None { ANY } else { settings.friction.sigma() };
     Budget { friction, ..budget }
 }
 

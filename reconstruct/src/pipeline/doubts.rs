@@ -23,7 +23,7 @@ const MUCH: f64 = 0.1;
 const AGAINST: f64 = 0.2;
 /// How much the coefficient of friction may vary along a pass, beyond its noise and in multiples of it. Sensors and clamps of an ordinary
 /// laboratory let it seem to vary by 0.01.
-const SPREAD: f64 = 0.02;
+const SPREAD: f64 = 0.015;
 const SCATTERED: f64 = 3.0;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
@@ -90,7 +90,8 @@ fn of_friction(pass: &Pass) -> Option<Finding> {
     if pass.used_friction == 0.0 {
         return pass.friction.filter(FrictionEstimate::is_there).map(|_| Finding::Friction { mu, sigma, gain });
     }
-    if against > AGAINST {
+    // the direction of what is not there says nothing
+    if against > AGAINST && pass.friction.is_some_and(|found| found.is_there()) {
         return Some(Finding::FrictionAgainst { mu, share: against });
     }
     (scatter > SCATTERED && spread > SPREAD).then_some(Finding::FrictionChanges { mu, scatter, spread })

@@ -1,9 +1,9 @@
 //! What explains a recording that does not fit, and how likely.
 
-use super::calibrated::{ANY_FRICTION, Calibrated};
+use super::calibrated::Calibrated;
 use super::settings::Settings;
 use crate::check::{Finding, Mistake, plausibility_with_friction};
-use crate::friction::Friction;
+use crate::friction::{ANY, Friction};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::passes;
 use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
@@ -118,7 +118,7 @@ fn of_friction(rod: &Rod, samples: &[Sample], settings: &Settings, best: f64) ->
     let settings = Settings { friction: Friction::Estimate, ..*settings };
     let calibration = interpreted(rod, samples, &settings)?;
     let found = calibration.source(Source::Friction)?;
-    let log = calibration.log_likelihood + (found.sigma / ANY_FRICTION).min(1.0).ln();
+    let log = calibration.log_likelihood + (found.sigma / ANY).min(1.0).ln();
     (log > best + STRONG).then_some((Explanation::Source(Source::Friction, found.value), log))
 }
 

@@ -24,15 +24,18 @@ impl Influence {
 
 /// The influence of the errors on the contact point of every `stride`-th sample of a scan, with its number, where the label is A or B and
 /// there is one. The samples are exact: take them from a simulation. `sigma` is the noise of f0x, f0y (N) and m0z (N m), by whose
-/// ratios a reconstruction moves reactions onto the conditions of a phase.
+/// ratios a reconstruction moves reactions onto the conditions of a phase; `friction` is the coefficient of friction with the sign of
+/// [`Source::Friction`], 0 without.
 pub fn influences(
     rod: &Rod,
     samples: &[Sample],
     labels: &[Label],
     sigma: [f64; 3],
+    friction: f64,
     stride: usize,
 ) -> Vec<(usize, Influence)> {
     let (track, places) = Track::new(rod, samples);
+    let track = track.with_friction(friction);
     let units = rod.units();
     let Some(frame) = Frame::of(&track) else { return Vec::new() };
     let noise = Vector3::from(sigma).component_div(&Vector3::new(units.force, units.force, units.moment));

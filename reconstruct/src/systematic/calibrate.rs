@@ -350,6 +350,7 @@ fn told(
         covariance,
         ties,
         free,
+        direction: 1.0,
         log_likelihood: 0.0,
         misfit_criterion: left(Criterion::K),
         misfit_length: left(Criterion::Length).max(left(Criterion::LengthByTip)),

@@ -9,6 +9,8 @@ use std::ops::Range;
 
 /// Correlation of two estimates from which on scans do not tell them apart.
 const TIED: f64 = 0.9;
+/// Part of a variance that another source is named for.
+const CONFUSED: f64 = 0.1;
 /// Standard deviations beyond which an estimate contradicts what was known.
 pub(super) const BEYOND: f64 = 3.0;
 
@@ -66,6 +68,9 @@ pub struct Calibration {
     pub ties: Vec<(Source, Source, f64)>,
     /// Stretches of samples in which the rod is free, by the numbers of usable samples.
     pub free: Vec<Range<usize>>,
+    /// 1 where the rod is drawn back over its contacts, -1 where it is pushed on, as kinematics alone tell: the sign that friction has.
+    /// 1 where friction is not estimated.
+    pub direction: f64,
     /// Natural logarithm of the likelihood of labels and errors together, but for a constant of the recording. It compares
     /// interpretations of one recording, as with another sign of a channel.
     pub log_likelihood: f64,
@@ -103,6 +108,12 @@ impl Calibration {
         samples.iter().zip(places).map(of).collect()
     }
 
+    /// What was taken off for bias and drift, dimensionless.
+    pub(crate) fn tare(&self, given: &Rod) -> Errors {
+        let taken = |source: Source| self.source(source).map_or(0.0, |estimate| estimate.taken / source.unit(given));
+        Errors::from_fn(|k, _| if Source::ALL[k] <= Source::BowM0z { taken(Source::ALL[k]) } else { 0.0 })
+    }
+
     /// Counts a source from another origin.
     pub(crate) fn shift(&mut self, source: Source, by: f64) {
         for estimate in self.sources.iter_mut().filter(|estimate| estimate.source == source) {
@@ -124,10 +135,28 @@ impl Calibration {
         Rod::new(given.length() * (1.0 + length), given.bending_stiffness() * (1.0 + stiffness)).unwrap_or(*given)
     }
 
+    /// The sources from which the scan hardly tells this one: by what part the variance of its estimate would be smaller if they were known
+    /// exactly, one by one, a tenth at least; the largest first. Empty where the source was not estimated.
+    pub fn confused(&self, source: Source) -> Vec<(Source, f64)> {
+        let of = self.sources.iter().position(|estimate| estimate.source == source);
+        of.filter(|of| *of < self.covariance.nrows())
+            .map_or_else(Vec::new, |of| confused(&self.sources, &self.covariance, of))
+    }
+
     /// The estimate of one source.
     pub fn source(&self, source: Source) -> Option<&SourceEstimate> {
         self.sources.iter().find(|estimate| estimate.source == source)
     }
+}
+
+/// The sources from which one, by its number, is hardly told: by what part its variance would be smaller if they were known exactly, one by
+/// one, a tenth at least; the largest first.
+pub(super) fn confused(sources: &[SourceEstimate], covariance: &DMatrix<f64>, of: usize) -> Vec<(Source, f64)> {
+    let part = |k: usize| covariance[(of, k)].powi(2) / (covariance[(of, of)] * covariance[(k, k)]);
+    let others = (0..covariance.nrows()).filter(|k| *k != of).map(|k| (sources[k].source, part(k)));
+    let mut found: Vec<(Source, f64)> = others.filter(|other| other.1 > CONFUSED).collect();
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
 }
 
 /// The pairs of sources that scans do not tell apart, with the correlation of their estimates.

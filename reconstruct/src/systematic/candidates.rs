@@ -98,6 +98,7 @@ mod tests {
             covariance,
             ties: Vec::new(),
             free: Vec::new(),
+            direction: 1.0,
             log_likelihood: 0.0,
             misfit_criterion: 0.0,
             misfit_length: 0.0,

@@ -73,6 +73,8 @@ fn the_coefficient_is_found_in_noise_as_well_as_stated() {
         let samples = noisy(&states, seed as u64);
         for budget in [Some(Budget::NONE), None] {
             let found = found(&samples, Friction::Estimate, budget);
+            let against = |finding: &Finding| matches!(finding, Finding::FrictionAgainst { .. });
+            assert!(!found.findings().iter().any(against), "{mu}: {:?}", found.findings());
             let friction = estimate(&found);
             let z = (friction.mu - mu) / friction.sigma_of_noise;
             assert!(z.abs() < 5.0 && friction.sigma_of_noise < 1e-4, "{mu}: {friction:?}");
@@ -118,6 +120,25 @@ fn friction_that_changes_is_told() {
             let told = found.findings();
             assert!(told.iter().any(|finding| matches!(finding, Finding::FrictionChanges { .. })), "{told:?}");
         }
+    }
+}
+
+/// One piece of an object that is greased: a fifth of the tangential path has another coefficient.
+#[test]
+fn another_coefficient_along_a_part_of_the_path_is_told() {
+    let told = |other: f64, noise: bool| {
+        let states = scan(if noise { FINE } else { COARSE }, -0.3, |x0| if x0 > -0.15 { 0.15 } else { other });
+        let exact = || states.iter().map(|state| state.sample).collect();
+        let samples: Vec<Sample> = if noise { noisy(&states, 11) } else { exact() };
+        let found = found(&samples, Friction::Estimate, Some(Budget::NONE));
+        found.findings().into_iter().find(|finding| matches!(finding, Finding::FrictionChanges { .. }))
+    };
+    for noise in [false, true] {
+        let Some(Finding::FrictionChanges { mu, spread, .. }) = told(0.1, noise) else {
+            panic!("nothing told: {noise}")
+        };
+        assert!((mu - 0.15).abs() < 1e-3 && (spread - 0.05).abs() < 5e-3, "{mu} {spread}");
+        assert_eq!(told(0.15, noise), None);
     }
 }
 

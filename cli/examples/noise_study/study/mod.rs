@@ -12,7 +12,7 @@ pub use files::Recordings;
 pub use limit::{kinks_below, limits};
 pub use noise::{LEVELS, Level, NOISES, Noise};
 pub use score::Score;
-pub use table::{by_scan, frictions, tables};
+pub use table::{by_scan, compared, frictions, tables};
 
 use rayon::prelude::*;
 use std::error::Error;

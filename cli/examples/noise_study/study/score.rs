@@ -12,6 +12,9 @@ const SPACING: f64 = 5e-5;
 /// Length of a stretch that is worth a line, m.
 const LONG: f64 = 0.5e-3;
 
+/// Standard deviations within which a point is covered: 95 % of normal errors are.
+const COVERED: f64 = 2.0;
+
 /// So many of so many.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Share {
@@ -35,6 +38,8 @@ pub struct Score {
     pub phases: Confusion,
     /// Points of samples labelled as having one contact.
     pub points: Vec<f64>,
+    /// Those of them that are within two standard deviations of the noise, and of the noise with the errors that samples share.
+    pub covered: [Share; 2],
     /// Places along the contour assembled from them.
     pub contour: Vec<f64>,
     /// First and second contacts of samples labelled as having several.
@@ -104,6 +109,7 @@ impl Score {
         }
         self.phases += other.phases;
         self.points.extend(other.points);
+        self.covered.iter_mut().zip(other.covered).for_each(|(covered, other)| covered.merge(other));
         self.contour.extend(other.contour);
         self.naive.extend(other.naive);
         self.frictions.extend(other.frictions);
@@ -151,8 +157,13 @@ impl Score {
                 for (distances, touch) in self.several.iter_mut().zip([touch, second]) {
                     distances.extend(touch.and_then(off));
                 }
-            } else {
-                self.points.extend(touch.and_then(off));
+            } else if let Some((touch, off)) = touch.and_then(|touch| Some((touch, off(touch)?))) {
+                self.points.push(off);
+                let all = touch.sigma_normal();
+                let alone = (all * all - touch.sigma_systematic().powi(2)).max(0.0).sqrt();
+                for (covered, sigma) in self.covered.iter_mut().zip([alone, all]) {
+                    covered.count(off.abs() <= COVERED * sigma);
+                }
             }
             if truth.several() {
                 let point = single(&clean.scene.rod, sample.pose, sample.reactions, &Matrix3::zeros());

@@ -61,6 +61,42 @@ pub fn frictions<'a>(rows: impl IntoIterator<Item = (&'a Level, Option<&'a Noise
     text
 }
 
+/// A table with a row for each noise and each coefficient of friction, those of a noise below each other.
+pub fn compared(rows: &[(f64, &Level, Option<&Noise>, Score)]) -> String {
+    let mut text = String::from(
+        "Friction compared. Distances of single contacts from the contour, mm: median / 95 %; share of them within two standard deviations by the \
+         noise alone / with errors that samples share; root mean square error of mu, its size in standard deviations by the noise alone:\n\n\
+         | noise | mu | phases right | with a point | error, mm | covered | error of mu |\n|---|---|---|---|---|---|---|\n",
+    );
+    let name = |level: &Level, noise: Option<&Noise>| {
+        format!("{}{}", level.title(), noise.map_or(String::new(), |noise| format!(", {}", noise.name)))
+    };
+    let mut noises: Vec<String> = rows.iter().map(|(_, level, noise, _)| name(level, *noise)).collect();
+    noises.sort_by_key(|one| rows.iter().position(|(_, level, noise, _)| *one == name(level, *noise)));
+    noises.dedup();
+    for one in noises {
+        for (mu, .., score) in rows.iter().filter(|(_, level, noise, _)| one == name(level, *noise)) {
+            let root = |of: &dyn Fn(&[f64; 3]) -> f64| {
+                let squares: f64 = score.frictions.iter().map(|found| of(found).powi(2)).sum();
+                (squares / score.frictions.len().max(1) as f64).sqrt()
+            };
+            let friction = if *mu == 0.0 {
+                "-".to_owned()
+            } else {
+                format!("{:.1e}, {:.1}", root(&|found| found[0] - mu), root(&|found| found[1]))
+            };
+            text += &format!(
+                "| {one} | {mu} | {} | {} | {} | {} | {friction} |\n",
+                percent(score.phases.accuracy()),
+                percent(score.answered.value()),
+                deviation(&score.points, false),
+                both(score.covered.map(|share| share.value())),
+            );
+        }
+    }
+    text
+}
+
 /// Tables with a row for each scan.
 pub fn by_scan<'a>(rows: impl IntoIterator<Item = (&'a str, &'a Score)>) -> String {
     markdown("scan", &rows.into_iter().map(|(name, score)| (name.to_owned(), score)).collect::<Vec<_>>())
