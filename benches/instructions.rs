@@ -183,6 +183,19 @@ fn works() -> Vec<Work> {
     };
     works.push(Work::new("scan of 7 events without states between", [1, 3], scan(2)));
     works.push(Work::new("scan of 7 events and 1000 states", [1, 2], scan(1000)));
+    let rubbing = |states: usize| {
+        move |times: usize| {
+            let contour = OBJECTS[0].contour();
+            let step = path(0.4, 0.8, -0.9).length() / (states - 1) as f64;
+            for _ in 0..times {
+                let sweep = Sweep::new(&rod(), black_box(&contour), path(0.4, 0.8, -0.9), step).unwrap();
+                black_box(sweep.with_friction(0.1).unwrap().run());
+            }
+            times
+        }
+    };
+    works.push(Work::new("scan of 7 events with friction, without states between", [1, 3], rubbing(2)));
+    works.push(Work::new("scan of 7 events with friction and 1000 states", [1, 2], rubbing(1000)));
     works.push(Work::new("one contact from reactions, with its covariance", [1, 9], |times| {
         let states = sweep(&OBJECTS[0].contour(), path(0.4, 0.8, -0.9), 1701).states;
         let samples: Vec<_> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();

@@ -31,7 +31,7 @@ pub struct Calibrate {
     pub free: Vec<Freed>,
     /// Coulomb friction of rod and objects, as for `reconstruct`. Each recording has a coefficient of its own, which takes part in the estimate;
     /// passes there and back have the same
-    #[arg(long, value_name = "MU", value_parser = friction, default_value = "none")]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = friction, default_value = "none")]
     pub friction: Friction,
     /// The TOML file of the calibrated rod; calibration.svg is written beside it
     #[arg(long, value_name = "FILE")]
@@ -54,7 +54,7 @@ pub struct Expect {
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
     /// What a reconstruction is told of Coulomb friction, as for `reconstruct` [default: estimate, if the scene has friction]
-    #[arg(long, value_name = "MU", value_parser = friction)]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = friction)]
     pub friction: Option<Friction>,
     /// Samples in a second
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]

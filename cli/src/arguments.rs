@@ -237,7 +237,7 @@ pub struct Trust {
     pub noise: Option<PathBuf>,
     /// Coulomb friction of rod and object: its coefficient as 0.1, with a standard deviation as 0.1+-0.02, `estimate` to find it from each
     /// pass of the recording, or `none`
-    #[arg(long, value_name = "MU", value_parser = friction, default_value = "none")]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = friction, default_value = "none")]
     pub friction: Friction,
     /// Most kinks of the reactions to be expected by chance, per scan
     #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]

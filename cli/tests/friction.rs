@@ -1,6 +1,6 @@
 //! Scenes with friction that were wrong, stopped or took minutes.
 
-use crate::common::edited;
+use crate::common::{edited, refused_beside};
 use std::collections::BTreeSet;
 use vibrissa::contact::{EventKind, Outcome};
 use vibrissa::{Event, State};
@@ -192,4 +192,26 @@ fn a_turn_of_the_path_is_an_event() {
     // without friction nothing happens there
     let smooth = swept(&scene("0", PARABOLA, there_and_back));
     assert!(smooth.events.iter().all(|event| event.pose().x != 0.0));
+}
+
+#[test]
+fn a_coefficient_told_wrong_has_its_place_and_what_was_expected() {
+    for (friction, parts) in [
+        ("-0.1", ["contact.friction: ", "friction is -0.1, expected a finite coefficient, 0 or more"]),
+        ("{ at_rest = inf, slipping = 0.3 }", ["contact.friction: ", "friction is inf, expected a finite coefficient"]),
+        ("{ at_rest = 0.2, slipping = 0.3 }", ["contact.friction: ", "expected 0 <= slipping <= at_rest"]),
+        ("{ at_rest = 0.4, slipping = \"0.3\" }", ["contact.friction: ", "`slipping` is string, expected a number"]),
+        ("{ at_rest = 0.4 }", ["contact.friction: ", "`slipping` is missing, expected a number"]),
+        ("[0.3, 0.1]", ["contact.friction: ", "a list, expected a coefficient, such as 0.3"]),
+    ] {
+        said(&format!("[contact]\nfriction = {friction}\n"), &parts);
+    }
+    said("[clamp]\nroller = 20\n", &["clamp.roller: ", "is it in mm?"]);
+    said("[contact]\nmu = 0.3\n", &["did you mean friction"]);
+}
+
+/// What is said of the scene with another table.
+fn said(table: &str, parts: &[&str]) {
+    let message = refused_beside(&edited("[sweep]", &format!("{table}[sweep]")), &[]);
+    assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} are not in: {message}");
 }

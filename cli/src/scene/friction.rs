@@ -50,7 +50,8 @@ pub(super) fn friction(
     let mut read = |value: &Spanned<Value>| -> Result<Coefficients, Fault> {
         let found = coefficients(value.span(), value.get_ref())?;
         if found.at_rest > LARGE {
-            let message = format!("friction is {}, expected at most {LARGE}; is it a coefficient?", found.at_rest);
+            let message =
+                format!("friction is {}, expected at most {LARGE}; a coefficient, not percent?", found.at_rest);
             warnings.push(Fault::new(value.span(), message));
         }
         Ok(found)
@@ -92,8 +93,9 @@ fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault
         Value::Table(table) => {
             let field = |name: &str| {
                 table.get(name).and_then(number).ok_or_else(|| {
+                    let found = table.get(name).map_or("missing", Value::type_str);
                     let message =
-                        format!("the table has no number `{name}`, expected {{ at_rest = 0.5, slipping = 0.4 }}");
+                        format!("`{name}` is {found}, expected a number, as in {{ at_rest = 0.5, slipping = 0.4 }}");
                     Fault::new(span.clone(), message)
                 })
             };
@@ -102,6 +104,11 @@ fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault
                 return Err(Fault::new(span, message));
             }
             Coefficients { at_rest: field("at_rest")?, slipping: field("slipping")? }
+        }
+        Value::Array(_) => {
+            let message =
+                "a list, expected a coefficient, such as 0.3; that of one object or piece belongs in its own table";
+            return Err(Fault::new(span, message));
         }
         value => Coefficients::equal(number(value).ok_or_else(|| {
             let message = format!("friction is of the type {}, expected a coefficient, such as 0.3", value.type_str());
@@ -112,10 +119,11 @@ fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault
         return Ok(found);
     }
     let Coefficients { at_rest, slipping } = found;
-    let message = if at_rest == slipping || (at_rest.is_nan() && slipping.is_nan()) {
-        format!("friction is {at_rest}, expected a finite coefficient, 0 or more")
-    } else {
-        format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 <= slipping <= at_rest")
-    };
+    let message =
+        if let Some(wrong) = [at_rest, slipping].into_iter().find(|number| !(0.0..f64::INFINITY).contains(number)) {
+            format!("friction is {wrong}, expected a finite coefficient, 0 or more")
+        } else {
+            format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 <= slipping <= at_rest")
+        };
     Err(Fault::new(span, message))
 }

@@ -134,7 +134,11 @@ fn guided(
         return Err(Fault::new(stiffness.span(), "given beside roller, expected springs or a roller"));
     }
     let rod = varying(table, alone(table)?)?;
-    Guided::new(rod, *roller.get_ref()).map_err(|error| Fault::new(roller.span(), error.to_string()))
+    let length = rod.length();
+    Guided::new(rod, *roller.get_ref()).map_err(|error| {
+        let in_mm = (length..1e3 * length).contains(roller.get_ref());
+        Fault::new(roller.span(), format!("{error}{}", if in_mm { " m; is it in mm?" } else { "" }))
+    })
 }
 
 /// The rod of a table as one of any kind.

@@ -38,11 +38,13 @@ pub(super) fn duplicate(message: &str, written: &str) -> Option<String> {
 }
 
 /// Tables of scene files that stand within another one.
-const WITHIN: [(&str, &str); 4] = [
+const WITHIN: [(&str, &str); 6] = [
     ("section", "[[rod.section]]"),
     ("leg", "[[sweep.leg]]"),
     ("piece", "[[object.piece]]"),
     ("friction", "[contact]"),
+    ("mu", "friction, in the table [contact]"),
+    ("roller", "roller, in the table [clamp]"),
 ];
 
 /// The names between backquotes.
