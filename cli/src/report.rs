@@ -54,7 +54,7 @@ impl<R: SceneRod> Scan<R> {
         let mut text = format!("starts in contact: {}", named(taken));
         if !others.is_empty() {
             let others: Vec<_> = others.iter().map(named).collect();
-            text += &format!("; with more energy: {}", others.join(", "));
+            text += &format!("; also reached: {}", others.join(", "));
         }
         Some(text + "\n")
     }
