@@ -84,6 +84,55 @@ fn a_tip_that_sticks_takes_long_steps() {
     assert!(kinds(&outcome).starts_with(&[EventKind::FirstContact, EventKind::Stick, EventKind::Slip]));
 }
 
+/// Friction lets the force in a notch lean further than the walls do: from there on steps are no shorter.
+#[test]
+fn a_tip_that_leans_in_a_notch_takes_long_steps() {
+    let scene = r#"
+[rod]
+length = 0.1
+diameter = 0.0005
+youngs_modulus = 205348073774.88702
+tip_diameter = 0.00032114067386396954
+[contact]
+friction = 0.2
+[[object]]
+mirror = true
+angle = 61.02048860005149
+[[object.piece]]
+shape = "parabola"
+vertex = [-0.012577887813760028, 0.0010920971553748395]
+coefficient = 25.415644840838194
+[[object.piece]]
+shape = "parabola"
+vertex = [0.012577887813760028, 0.0]
+coefficient = 27.903494971471893
+[sweep]
+from = [-0.0034833684895889463, 0.15053581657107923]
+to = [-0.07794955891234327, 0.016081885906827728]
+angle = -15.831481430221487
+angle_to = -15.831481430221487
+step = 0.002
+step_angle = 0.5
+[[sweep.leg]]
+to = [-0.07691081707646258, 0.017957407159985367]
+angle_to = -15.831481430221487
+step = 0.0005244337903412473
+[[sweep.leg]]
+to = [-0.08079087246249288, 0.014021978413230336]
+angle_to = -15.831481430221487
+step = 0.0008390940645459958
+[[sweep.leg]]
+to = [-0.07615697479329188, 0.019650607875103653]
+angle_to = -15.831481430221487
+step = 0.0004661633691922199
+[[sweep.leg]]
+to = [-0.12945254452552257, -0.07691036758866432]
+angle_to = -15.831481430221487
+"#;
+    let outcome = swept(scene);
+    assert!(outcome.stop.is_none() && outcome.events.len() > 10, "{:?}", outcome.stop);
+}
+
 /// A tip that is let go sideways leaves the cone on one side before its force vanishes.
 #[test]
 fn what_sticks_slips_before_it_is_released() {

@@ -7,7 +7,7 @@ use crate::continuation::certify::Quality;
 use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::joint::{self, Passed};
-use crate::continuation::transition::{Break, NoTransition, Transition, breaks, gathered, on};
+use crate::continuation::transition::{Break, NoTransition, Transition, breaks, gathered, on, range_of_force};
 use crate::error::{Obstacle, StopReason};
 use crate::event::EventKind;
 use crate::friction::{reversed, slip_rate};
@@ -469,11 +469,18 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         let Point { configuration, tangent, .. } = from;
         let step = |j: usize| {
             let (t, rate) = (configuration.t(j), tangent.rate_of(Unknown::Parameter(j)));
-            // a tip that sticks has no border ahead
-            if rate == 0.0 {
+            // a tip that sticks has no border ahead, not even on one
+            if rate == 0.0 || (configuration.is_tip(j) && configuration.contacts[j].grip.sticks()) {
                 return f64::INFINITY;
             }
-            let border = self.corrector.setup.world.border(configuration.contacts[j].stretch, rate > 0.0);
+            let (world, stretch) = (&self.corrector.setup.world, configuration.contacts[j].stretch);
+            // in a notch friction lets the force lean further than its walls do
+            let border = if world.is_notch(stretch) {
+                let range = range_of_force(world, stretch);
+                if rate > 0.0 { range.to } else { range.from }
+            } else {
+                world.border(stretch, rate > 0.0)
+            };
             1.5 * ((border - t) / rate).max(0.0) + PROBE
         };
         (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)

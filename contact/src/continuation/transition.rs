@@ -116,7 +116,7 @@ pub(crate) fn breaks(
 }
 
 /// The range of a stretch: of a notch with friction the directions of the force in the cones of both walls.
-fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
+pub(super) fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
     let Range { from, to } = world.range(stretch);
     if !world.rubs() || !world.is_notch(stretch) {
         return Range { from, to };
