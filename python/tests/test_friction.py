@@ -272,5 +272,5 @@ def test_examples_of_the_page(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -
     assert names["contact"].mode == "slip-" and list(tmp_path.glob("*.png"))
     (toml,) = blocks("toml")
     scene = vibrissa.Scene.parse(toml)
-    assert scene.friction == [[(0.5, 0.4), 0.1], [0.3]]
+    assert scene.friction == [[(0.5, 0.4), 0.1], 0.3]
     assert scene.sweep().stop is None
