@@ -28,12 +28,15 @@ fn kinds(outcome: &Outcome) -> Vec<EventKind> {
     outcome.events.iter().map(|event| event.kind).collect()
 }
 
-/// A wire, an object, and a law of friction.
+/// A wire, an object of one piece, and a law of friction.
 fn scene(friction: &str, piece: &str, sweep: &str) -> String {
-    format!(
-        "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n[contact]\nfriction = {friction}\n\
-         [[object]]\n[[object.piece]]\n{piece}\n[sweep]\n{sweep}"
-    )
+    let wire = "length = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n";
+    scene_of(wire, friction, &format!("[[object.piece]]\n{piece}\n"), sweep)
+}
+
+/// A rod, an object, and a law of friction.
+fn scene_of(rod: &str, friction: &str, object: &str, sweep: &str) -> String {
+    format!("[rod]\n{rod}[contact]\nfriction = {friction}\n[[object]]\n{object}[sweep]\n{sweep}")
 }
 
 const PARABOLA: &str = "shape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0";
@@ -73,13 +76,15 @@ fn friction_at_rest_does_not_stop_what_slips() {
 /// A tip that sticks has no rate at all: its piece has no border ahead.
 #[test]
 fn a_tip_that_sticks_takes_long_steps() {
-    let stuck = "[rod]\nlength = 0.1\ndiameter = 0.0005\nyoungs_modulus = 205348073774.88702\ntip_diameter = 0.00025\n\
-                 natural_curvature = -6.066333112443578\n[contact]\nfriction = 0.5\n\
-                 [[object]]\nmirror = true\nangle = -151.73831745877726\n\
-                 [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 24.716016243408518\n\
-                 [sweep]\nfrom = [-0.09371526713526734, -0.10022430504016558]\nto = [0.13529122761503473, 0.022885505138308355]\n\
-                 angle = -241.73831745877726\nangle_to = -241.73831745877726\nstep = 0.0005\n";
-    let outcome = swept(stuck);
+    let outcome = swept(&scene_of(
+        "length = 0.1\ndiameter = 0.0005\nyoungs_modulus = 205348073774.88702\ntip_diameter = 0.00025\n\
+         natural_curvature = -6.066333112443578\n",
+        "0.5",
+        "mirror = true\nangle = -151.73831745877726\n\
+         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 24.716016243408518\n",
+        "from = [-0.09371526713526734, -0.10022430504016558]\nto = [0.13529122761503473, 0.022885505138308355]\n\
+         angle = -241.73831745877726\nstep = 0.0005\n",
+    ));
     assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
     assert!(kinds(&outcome).starts_with(&[EventKind::FirstContact, EventKind::Stick, EventKind::Slip]));
 }
@@ -174,13 +179,14 @@ angle_to = -235.15037029951299
 /// Where the tip is at right angles to the contour its sense changes, and g does not.
 #[test]
 fn the_slip_of_a_tip_does_not_jump() {
-    let outcome = swept(
-        "[rod]\nlength = 0.1\nbending_stiffness = 0.00063\nnatural_curvature = -7.636413682366336\n\
-         [contact]\nfriction = 1.6\n[[object]]\nangle = 178.08465691454273\n\
-         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 3.206528232238931\n\
-         [sweep]\nfrom = [0.13270247445074235, 0.07863890588619228]\nto = [-0.03305407566115461, 0.08418205372983202]\n\
-         angle = 268.08465691454273\nangle_to = 268.08465691454273\nstep = 0.0005\n",
-    );
+    let outcome = swept(&scene_of(
+        "length = 0.1\nbending_stiffness = 0.00063\nnatural_curvature = -7.636413682366336\n",
+        "1.6",
+        "angle = 178.08465691454273\n\
+         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 3.206528232238931\n",
+        "from = [0.13270247445074235, 0.07863890588619228]\nto = [-0.03305407566115461, 0.08418205372983202]\n\
+         angle = 268.08465691454273\nstep = 0.0005\n",
+    ));
     assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
     let tips = outcome.states.windows(2).filter_map(|pair| {
         let [one, two] = [&pair[0], &pair[1]].map(|state| state.contacts.last());
@@ -198,16 +204,17 @@ fn the_slip_of_a_tip_does_not_jump() {
 /// A snap never leads back to the equilibrium that has ended.
 #[test]
 fn no_snap_leads_back_to_where_it_began() {
-    let outcome = swept(
-        "[rod]\nlength = 0.1\nbending_stiffness = 0.00063\n\
-         natural_curvature = [[0.0, 1.9968723187500514], [0.1, 2.5902969812948196]]\n[contact]\nfriction = 0.05\n\
-         [[object]]\nangle = -172.67257902493057\n\
+    let outcome = swept(&scene_of(
+        "length = 0.1\nbending_stiffness = 0.00063\n\
+         natural_curvature = [[0.0, 1.9968723187500514], [0.1, 2.5902969812948196]]\n",
+        "0.05",
+        "angle = -172.67257902493057\n\
          [[object.piece]]\nshape = \"parabola\"\nvertex = [-0.013294725845142416, 0.00031447432285598134]\n\
          coefficient = 75.98531981720159\n\
-         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.013294725845142416, 0.0]\ncoefficient = 88.63730473772638\n\
-         [sweep]\nfrom = [0.11955849629756161, 0.08952437370840646]\nto = [-0.1367588331092958, 0.044237301431171126]\n\
+         [[object.piece]]\nshape = \"parabola\"\nvertex = [0.013294725845142416, 0.0]\ncoefficient = 88.63730473772638\n",
+        "from = [0.11955849629756161, 0.08952437370840646]\nto = [-0.1367588331092958, 0.044237301431171126]\n\
          angle = -70.39730174437638\nangle_to = -80.48646433163321\nstep = 0.002\n",
-    );
+    ));
     assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
     for event in outcome.events.iter().filter(|event| event.kind == EventKind::Snap) {
         assert!((event.before.energy - event.after.energy).abs() > 1e-9 * event.before.energy, "{event:?}");

@@ -197,8 +197,8 @@ pub enum StopReason {
     Jammed,
     /// Friction allows more than one motion of the contacts, or none that leads on.
     Undetermined,
-    /// The side of the rod slips onto a rougher piece and would roll back from there: it slips on along the border between the two, held by a
-    /// force between their limits, which is not computed.
+    /// The contact stays on the smooth border of a rougher piece: on that piece the rod would roll back, on the other one slip forward. The
+    /// force along the contour is between the limits of the two, and is not computed.
     RougherPiece,
     /// The rod lies down on a wall of a notch, which is only followed without friction.
     FrictionInNotch,

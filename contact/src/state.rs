@@ -91,8 +91,8 @@ pub struct ContactFriction {
     /// Force on the rod along the contour's direction, N: force (cos alpha, sin alpha).
     #[cfg_attr(feature = "serde", serde(rename = "friction"))]
     pub force: f64,
-    /// Slip coordinate, m: arc length of the contour at the contact, from parameter 0 of the piece or from its start, less the arc length
-    /// of the rod in the contour's sense. It grows as the rod slips forward, falls as it slips backward, and stays as it sticks. It means
+    /// Slip coordinate, m: arc length of the contour at the contact, from parameter 0 of the piece or from its start, plus the arc length
+    /// from there to the rod's tip in the contour's sense. It grows as the rod slips forward, falls as it slips backward, and stays as it sticks. It means
     /// nothing but by its differences between states on one piece.
     pub slip: f64,
 }

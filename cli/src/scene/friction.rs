@@ -2,7 +2,7 @@
 
 use super::document::Tables;
 use super::shape::Piece;
-use crate::toml_file::Fault;
+use crate::toml_file::{Fault, number};
 use std::ops::Range;
 use toml::{Spanned, Value};
 use vibrissa::Composite;
@@ -88,7 +88,6 @@ pub(super) fn friction(
 
 /// A number, or a table of two.
 fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault> {
-    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|number| number as f64));
     let found = match value {
         Value::Table(table) => {
             let field = |name: &str| {

@@ -3,7 +3,7 @@
 use super::document::{ClampTable, RodTable, SectionTable};
 use super::given_rod::GivenRod;
 use super::kind::AnyRod;
-use crate::toml_file::Fault;
+use crate::toml_file::{Fault, number};
 use std::ops::Range;
 use toml::{Spanned, Value};
 use vibrissa::Rod;
@@ -317,10 +317,6 @@ fn of_sections(length: &Spanned<f64>, tables: &[Spanned<SectionTable>]) -> Resul
         Some(diameters) => rod.with_section_diameters(&diameters).map(Alone::Varying).map_err(wrong),
         None => Ok(Alone::Varying(rod)),
     }
-}
-
-fn number(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// A natural curvature as it is written: a number, or points.

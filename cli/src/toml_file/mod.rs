@@ -8,7 +8,7 @@ mod number;
 pub(crate) use error::{Fault, Source, place_of};
 pub use error::{Invalid, SceneError};
 pub(crate) use message::meant;
-pub(crate) use number::comma_in_list;
+pub(crate) use number::{comma_in_list, number};
 
 use std::path::Path;
 use toml::Spanned;

@@ -1,6 +1,12 @@
-//! Numbers that are written in a way that TOML does not take: with a decimal comma, or in quotes.
+//! Numbers: those of values, and those that are written in a way that TOML does not take, with a decimal comma or in quotes.
 
 use std::ops::Range;
+use toml::Value;
+
+/// The number that a value is, written with a decimal point or without.
+pub(crate) fn number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
 
 /// Where a number with a decimal comma stands on the line on which TOML found a mistake, and what to write instead.
 pub(super) fn decimal_comma(text: &str, at: usize) -> Option<(Range<usize>, String)> {

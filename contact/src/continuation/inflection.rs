@@ -100,7 +100,7 @@ pub(crate) fn run_together<R: PhysicalRod>(
 ) -> Option<Transition> {
     let j = from.count().checked_sub(2).filter(|_| corrector.setup.rod.model().is_straight())?;
     let [one, other] = from.contacts.last_chunk::<2>()?;
-    if one != other || one.grip.sticks() || from.s(j + 1) - from.s(j) > APART {
+    if one != other || from.s(j + 1) - from.s(j) > APART {
         return None;
     }
     let Inflection { t, by_s, .. } = inflection(&corrector.setup.world, from, j + 1)?;

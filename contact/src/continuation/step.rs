@@ -360,7 +360,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     fn joined(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
         let j = (1..next.count()).find(|&j| {
             let [before, rate] = [j - 1, j].map(|j| tangent.rate_of(Unknown::ArcLength(j)));
-            let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j) && !next.contacts[j].grip.sticks();
+            let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j);
             same && next.s(j) - next.s(j - 1) < CLOSE && rate < before
         })?;
         let (weak, strong) = if next.force(j) < next.force(j - 1) { (j, j - 1) } else { (j - 1, j) };
@@ -473,14 +473,8 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             if rate == 0.0 || (configuration.is_tip(j) && configuration.contacts[j].grip.sticks()) {
                 return f64::INFINITY;
             }
-            let (world, stretch) = (&self.corrector.setup.world, configuration.contacts[j].stretch);
-            // in a notch friction lets the force lean further than its walls do
-            let border = if world.is_notch(stretch) {
-                let range = range_of_force(world, stretch);
-                if rate > 0.0 { range.to } else { range.from }
-            } else {
-                world.border(stretch, rate > 0.0)
-            };
+            let range = range_of_force(&self.corrector.setup.world, configuration.contacts[j].stretch);
+            let border = if rate > 0.0 { range.to } else { range.from };
             1.5 * ((border - t) / rate).max(0.0) + PROBE
         };
         (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)

@@ -1,7 +1,7 @@
 //! Coulomb friction: which contacts slip, stick or roll, and when that changes.
 //!
 //! The contact of the rod has gone a along the contour and s along the rod, which runs in the sense o = 1 of the contour or against it. The
-//! slip coordinate g = a - o s grows as the material point of the rod at the contact moves along the contour; it is constant where the rod sticks
+//! slip coordinate g = a + o (1 - s) grows as the material point of the rod at the contact moves along the contour; it is constant where the rod sticks
 //! (tip) or rolls (side). With the normal force f >= 0 and the force f_t on the rod along the contour:
 //!
 //! | mode | equation | holds while |
@@ -21,6 +21,6 @@ mod work;
 pub use law::{Coefficients, Friction};
 
 pub(crate) use landed::{drags, smooth};
-pub(crate) use modes::{Motion, anew, resists};
+pub(crate) use modes::{Motion, UNLOADED, anew, resists};
 pub(crate) use rates::{reversed, slip_coordinate, slip_rate};
 pub(crate) use work::dissipated;

@@ -15,8 +15,8 @@ const ON_CONE: f64 = 1e-9;
 /// to 1e-13; a limit above 1e-6 would take second-order slips for standing still.
 const RATE: f64 = 1e-9;
 /// Force (E I / L^2) below which a contact is new, or about to leave: then its mode is open.
-const UNLOADED: f64 = 1e-9;
-/// Force along the contour (E I / L^2) that a contact sticks with for too short a way to be followed: it slips back at once.
+pub(crate) const UNLOADED: f64 = 1e-9;
+/// Limit of the force along the contour (E I / L^2) below which a contact sticks for too short a way to be followed: it slips back at once.
 const NEGLIGIBLE: f64 = 3e-8;
 /// Most contacts whose modes are tried in all combinations: 3^6 systems of 24 unknowns.
 const MOST_CONTACTS: usize = 6;

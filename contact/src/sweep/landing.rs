@@ -7,7 +7,7 @@ use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::step::{FIRST_STEP, Point, Seen, Stepper};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::smooth;
+use crate::friction::{UNLOADED, smooth};
 use crate::gap::GAP_TOLERANCE;
 use crate::scene::setup::Setup;
 use crate::snap::chain::Chain;
@@ -25,8 +25,6 @@ const BEND: f64 = 0.05;
 /// back at once.
 const FARTHEST_SLIP: f64 = 0.05;
 const SHORTEST_SLIP: f64 = 1e-9;
-/// Force (E I / L^2) up to which a rod that becomes free does not jump.
-const UNLOADED: f64 = 1e-9;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.

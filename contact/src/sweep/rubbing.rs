@@ -14,7 +14,7 @@ const CHANGED: f64 = 1e-9;
 
 /// The contact that has come to rest in an event of this kind.
 pub(super) fn stopped(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
-    (0..after.count()).find(|&j| kind == EventKind::Stick && rests(before, after, j))
+    if kind == EventKind::Stick { (0..after.count()).find(|&j| rests(before, after, j)) } else { None }
 }
 
 /// Whether contact j slips before and sticks after.
@@ -106,7 +106,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The point from which the sweep goes on where the rod has landed: each contact is held back in the sense in which it came from the shape
-    /// of `last`, or, where there is no such equilibrium or `last` is it, which has ended, sticks without a force along the contour.
+    /// of `last`. Where there is no such equilibrium, or where it is `last` itself, which has ended, all contacts stick without a force along the
+    /// contour.
     pub(super) fn goes_on_landed(&mut self, landed: Seen, last: &Configuration) -> Option<Point> {
         if !self.setup().world.rubs() || landed.configuration.count() == 0 {
             return self.goes_on(landed);
