@@ -255,7 +255,11 @@ fn a_coefficient_told_wrong_has_its_place_and_what_was_expected() {
     for (friction, parts) in [
         ("-0.1", ["contact.friction: ", "friction is -0.1, expected a finite coefficient, 0 or more"]),
         ("{ at_rest = inf, slipping = 0.3 }", ["contact.friction: ", "friction is inf, expected a finite coefficient"]),
-        ("{ at_rest = 0.2, slipping = 0.3 }", ["contact.friction: ", "expected 0 <= slipping <= at_rest"]),
+        ("{ at_rest = 0.2, slipping = 0.3 }", ["contact.friction: ", "expected 0 < slipping <= at_rest"]),
+        (
+            "{ at_rest = 0.2, slipping = 0 }",
+            ["contact.friction: ", "friction is 0 slipping and 0.2 at rest, expected 0 <"],
+        ),
         ("{ at_rest = 0.4, slipping = \"0.3\" }", ["contact.friction: ", "`slipping` is string, expected a number"]),
         ("{ at_rest = 0.4 }", ["contact.friction: ", "`slipping` is missing, expected a number"]),
         ("[0.3, 0.1]", ["contact.friction: ", "a list, expected a coefficient, such as 0.3"]),

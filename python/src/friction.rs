@@ -51,7 +51,7 @@ fn coefficients(object: &Bound<'_, PyAny>) -> PyResult<Option<Coefficients>> {
         return Ok(Some(found));
     }
     let rule = if object.is_instance_of::<PyTuple>() {
-        "(at_rest, slipping) with 0 <= slipping <= at_rest, both finite"
+        "(at_rest, slipping) with 0 < slipping <= at_rest, both finite"
     } else {
         "a finite coefficient, 0 or more"
     };

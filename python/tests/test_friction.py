@@ -203,7 +203,7 @@ def test_a_follower_rolls_before_it_slips_back(rod: vibrissa.Rod, parabolas: vib
         ([0.3, 0.2], "friction is a list of 2, expected 1: one for each object"),
         ([], "friction is a list of 0, expected 1: one for each object"),
         ([math.nan], "friction is nan, expected a finite coefficient, 0 or more"),
-        ((0.2, 0.3), r"friction is \(0\.2, 0\.3\), expected \(at_rest, slipping\) with 0 <= slipping <= at_rest"),
+        ((0.2, 0.3), r"friction is \(0\.2, 0\.3\), expected \(at_rest, slipping\) with 0 < slipping <= at_rest"),
         ([[0.3, 0.2, 0.1]], "friction of object 0 is a list of 3, expected 2: one for each piece"),
     ],
 )

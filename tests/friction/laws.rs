@@ -37,7 +37,9 @@ fn coefficients_that_cannot_be_are_refused() {
     assert!(number == 1 && told.contains("0.2"), "{told}");
     assert!(new().with_friction(vec![]).is_ok());
     // an own law that is wrong on its second piece only
-    for (at_rest, slipping) in [(0.1, 0.2), (f64::NAN, 0.2), (f64::INFINITY, 0.1), (0.3, -0.1), (0.3, f64::NAN)] {
+    for (at_rest, slipping) in
+        [(0.1, 0.2), (f64::NAN, 0.2), (f64::INFINITY, 0.1), (0.3, -0.1), (0.3, f64::NAN), (0.3, 0.0)]
+    {
         let own = move |_: usize, piece: usize| {
             if piece == 1 { Coefficients { at_rest, slipping } } else { Coefficients::equal(0.1) }
         };

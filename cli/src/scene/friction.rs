@@ -122,7 +122,7 @@ fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault
         if let Some(wrong) = [at_rest, slipping].into_iter().find(|number| !(0.0..f64::INFINITY).contains(number)) {
             format!("friction is {wrong}, expected a finite coefficient, 0 or more")
         } else {
-            format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 <= slipping <= at_rest")
+            format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 < slipping <= at_rest")
         };
     Err(Fault::new(span, message))
 }

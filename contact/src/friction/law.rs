@@ -9,7 +9,7 @@ use std::fmt;
 pub struct Coefficients {
     /// Static coefficient, >= `slipping`.
     pub at_rest: f64,
-    /// Kinetic coefficient, >= 0.
+    /// Kinetic coefficient, > 0, or 0 where the static one is: a rod that slips without friction would never come to rest.
     pub slipping: f64,
 }
 
@@ -22,9 +22,10 @@ impl Coefficients {
         Self { at_rest: coefficient, slipping: coefficient }
     }
 
-    /// Whether they are finite, and 0 <= `slipping` <= `at_rest`.
+    /// Whether they are finite, and 0 < `slipping` <= `at_rest`, or both are 0.
     pub fn are_valid(&self) -> bool {
-        self.at_rest.is_finite() && 0.0 <= self.slipping && self.slipping <= self.at_rest
+        let Self { at_rest, slipping } = *self;
+        at_rest.is_finite() && (0.0 < slipping || at_rest == 0.0 && slipping == 0.0) && slipping <= at_rest
     }
 
     /// The same as an error of the coefficients of an object.
@@ -36,6 +37,8 @@ impl Coefficients {
         let is_one = slipping.is_finite() && slipping >= 0.0;
         let (value, expected) = if !is_one {
             (slipping, "a finite kinetic coefficient >= 0".to_owned())
+        } else if slipping == 0.0 && at_rest > 0.0 {
+            (slipping, format!("a kinetic coefficient above 0 beside the static one, {at_rest}"))
         } else {
             (at_rest, format!("a finite static coefficient not below the kinetic one, {slipping}"))
         };

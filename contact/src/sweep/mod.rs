@@ -371,11 +371,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
                 let stopped = stopped(kind, &before, &after.configuration);
-                let roughness =
-                    |here: &Configuration, j: usize| self.setup().world.coefficients(here.contacts[j].stretch);
-                let is_rougher = kind == EventKind::Piece
-                    && (0..before.count())
-                        .any(|j| !before.is_tip(j) && roughness(&before, j) != roughness(&after.configuration, j));
+                let is_held = kind == EventKind::Piece && self.is_held_at_border(&before, &after.configuration);
                 let before = self.stepper.look(before);
                 let next = if self.setup().world.rubs() {
                     self.goes_on_rubbing(after, stopped)?
@@ -388,8 +384,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
                     }
-                    // on the border of a rougher piece it neither slips on nor rolls on: it slips there, held by what lies between their coefficients
-                    None if is_rougher => Err(StopReason::RougherPiece),
+                    None if is_held => Err(StopReason::RougherPiece),
                     None => self.snap(before).map(Box::new),
                 }
             }
