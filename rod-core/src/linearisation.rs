@@ -334,7 +334,7 @@ impl Linearisation {
             let alpha = moves.alpha + node.at.turning * t;
             let (phi, s) = if *tangent { (alpha, third) } else { (third, 0.0) };
             let (x, y) = (moves.x + along * node.cos, moves.y + along * node.sin);
-            let ((own_a, own_b), (push_a, push_b)) = (node.own, node.push());
+            let ((own_a, own_b), (push_a, push_b)) = (node.own, node.push);
             let mut friction = 0.0;
             if *sticks {
                 friction = unknowns.map_or(0.0, |u| u[tangential]);

@@ -116,8 +116,8 @@ pub(crate) struct Node {
     pub sin: f64,
     pub cos: f64,
     pub force: f64,
-    /// Tangential force over the normal one where the rod slips; 0 where it sticks: there the tangential force is an unknown.
-    pub ratio: f64,
+    /// (A, B) per unit of the normal force: with the friction of a rod that slips. Where it sticks the tangential force is an unknown.
+    pub push: (f64, f64),
     /// The force of this support alone, as (A, B).
     pub own: (f64, f64),
     /// Slope angle of the rod there.
@@ -134,12 +134,6 @@ pub(crate) struct Node {
 impl Node {
     pub(crate) fn cut(&self) -> Cut {
         Cut { x: self.at.x, y: self.at.y, phi: self.phi, moment: self.moment }
-    }
-
-    /// (A, B) per unit of the normal force: with the friction of a rod that slips.
-    #[inline(always)]
-    pub(crate) fn push(&self) -> (f64, f64) {
-        (self.cos - self.ratio * self.sin, self.sin + self.ratio * self.cos)
     }
 
     /// The sense in which the rod runs along the curve: 1 along it, -1 against it.
@@ -178,15 +172,21 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                 Hold::Tangent { offset } => (at.alpha + offset, third),
                 Hold::Tip => (third, 1.0),
             };
-            let (ratio, friction) = match self.supports.grip(j) {
-                Grip::Slips { ratio } => (ratio, ratio * force),
-                Grip::Sticks { .. } => {
-                    tangential += 1;
-                    (0.0, u[tangential - 1])
+            let mut push = (cos, sin);
+            let mut own = (force * cos, force * sin);
+            // what has no friction does not pay for it
+            match self.supports.grip(j) {
+                Grip::SMOOTH => {}
+                Grip::Slips { ratio } => {
+                    push = (cos - ratio * sin, sin + ratio * cos);
+                    own = (force * push.0, force * push.1);
                 }
-            };
-            let own = (force * cos - friction * sin, force * sin + friction * cos);
-            nodes.push(Node { at, sin, cos, force, ratio, own, phi, s, a: own.0, b: own.1, moment: 0.0 });
+                Grip::Sticks { .. } => {
+                    own = (own.0 - u[tangential] * sin, own.1 + u[tangential] * cos);
+                    tangential += 1;
+                }
+            }
+            nodes.push(Node { at, sin, cos, force, push, own, phi, s, a: own.0, b: own.1, moment: 0.0 });
         }
         for j in (1..n).rev() {
             let ahead = nodes[j];
@@ -283,7 +283,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         let Support { speed, turning, .. } = node.at;
         let (sin, cos) = (node.sin, node.cos);
         let (own_a, own_b) = node.own;
-        let (push_a, push_b) = node.push();
+        let (push_a, push_b) = node.push;
         let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
         let moment_by_t = speed * (ahead_a * cos + ahead_b * sin);
         let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
@@ -297,7 +297,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         // Supports ahead: through the force and the moment they leave here.
         for (k, other) in nodes.iter().enumerate().skip(j + 1) {
             let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
-            let ((own_a, own_b), (push_a, push_b)) = (other.own, other.push());
+            let ((own_a, own_b), (push_a, push_b)) = (other.own, other.push);
             let Support { speed, turning, .. } = other.at;
             let moment_by_f = -(dx * push_a + dy * push_b);
             let moment_by_t = -speed * other.force - turning * (dy * own_a - dx * own_b);
@@ -527,7 +527,7 @@ pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
 fn give_way(law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
     let (a, b) = (nodes[0].a, nodes[0].b);
     for (k, node) in nodes.iter().enumerate() {
-        let (at, (own_a, own_b), (push_a, push_b)) = (&node.at, node.own, node.push());
+        let (at, (own_a, own_b), (push_a, push_b)) = (&node.at, node.own, node.push);
         let (dx, dy) = (base.x - at.x, base.y - at.y);
         let by_t =
             [-at.turning * own_b, at.turning * own_a, at.turning * (dy * own_a - dx * own_b) - node.force * at.speed];
