@@ -60,15 +60,18 @@ impl Unknown {
     }
 }
 
+/// Contacts of a set. Sets of up to four, most of all, are on the stack; they are moved often, so that more room there costs more.
+pub(crate) type Contacts = SmallVec<[Held; 4]>;
+
 /// Unknowns of the boundary-value problem, three a contact, then the tangential force of each contact that sticks, and the path
 /// parameter behind them.
-pub(crate) type Unknowns = SmallVec<[f64; 25]>;
+pub(crate) type Unknowns = SmallVec<[f64; 13]>;
 
 /// Contacts from the clamp to the tip, and z = (t_1, f_1, s_1, ..., tau), where the last third of a tip contact is the
 /// slope angle instead of the arc length.
 #[derive(Clone, Debug)]
 pub(crate) struct Configuration {
-    pub contacts: SmallVec<[Held; 8]>,
+    pub contacts: Contacts,
     pub z: Unknowns,
 }
 

@@ -4,7 +4,7 @@
 use crate::contact_set::edit::{as_tangent, as_tip, beyond_corner, onto_neighbour, without};
 use crate::contact_set::notch::parted;
 use crate::contact_set::order::ordered;
-use crate::contact_set::{Configuration, Held, Unknown};
+use crate::contact_set::{Configuration, Contacts, Held, Unknown};
 use crate::continuation::branch::Corrector;
 use crate::continuation::step::Seen;
 use crate::continuation::transition::{Break, breaks, with_contact};
@@ -26,7 +26,7 @@ pub(crate) fn settle<R: PhysicalRod>(
 ) -> Option<Seen> {
     let mut configuration = guess;
     let tau = configuration.tau();
-    let mut tried: SmallVec<[SmallVec<[Held; 8]>; 4]> = SmallVec::new();
+    let mut tried: SmallVec<[Contacts; 4]> = SmallVec::new();
     for _ in 0..MOST_REPAIRS {
         tried.push(configuration.contacts.clone());
         let start = configuration.clone();
