@@ -6,6 +6,7 @@
 mod bend;
 
 use crate::clamp::{Clamp, ClampLaw, Passage, product};
+use crate::grip::Grip;
 use crate::linear::{invert, multiply};
 use crate::model::{CutSensitivities, RodModel};
 use crate::multipoint::{Hold, MultiPoint, Node, Supports, friction_size, natural_sizes, reactions};
@@ -108,7 +109,7 @@ pub struct Linearisation {
 struct Held {
     node: Node,
     tangent: bool,
-    sticks: bool,
+    grip: Grip,
     segment: CutSensitivities,
 }
 
@@ -147,7 +148,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             held.push(Held {
                 node: *node,
                 tangent: self.supports.hold(j) != Hold::Tip,
-                sticks: self.supports.grip(j).sticks(),
+                grip: self.supports.grip(j),
                 segment,
             });
         }
@@ -328,15 +329,15 @@ impl Linearisation {
     fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
         let mut rates: Vec<NodeRate> = Vec::with_capacity(supports.len());
         let mut tangential = 3 * self.held.len();
-        for (j, (Held { node, tangent, sticks, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
+        for (j, (Held { node, tangent, grip, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
             let [t, force, third] = unknowns.map_or([0.0; 3], |u| [u[3 * j], u[3 * j + 1], u[3 * j + 2]]);
             let along = node.at.speed * t;
             let alpha = moves.alpha + node.at.turning * t;
             let (phi, s) = if *tangent { (alpha, third) } else { (third, 0.0) };
             let (x, y) = (moves.x + along * node.cos, moves.y + along * node.sin);
-            let ((own_a, own_b), (push_a, push_b)) = (node.own, node.push);
+            let [(own_a, own_b), (push_a, push_b)] = node.push(*grip);
             let mut friction = 0.0;
-            if *sticks {
+            if grip.sticks() {
                 friction = unknowns.map_or(0.0, |u| u[tangential]);
                 tangential += 1;
             }

@@ -116,10 +116,8 @@ pub(crate) struct Node {
     pub sin: f64,
     pub cos: f64,
     pub force: f64,
-    /// (A, B) per unit of the normal force: with the friction of a rod that slips. Where it sticks the tangential force is an unknown.
-    pub push: (f64, f64),
-    /// The force of this support alone, as (A, B).
-    pub own: (f64, f64),
+    /// Tangential force, where the rod sticks; 0 where it slips, since it follows from the normal one there.
+    pub friction: f64,
     /// Slope angle of the rod there.
     pub phi: f64,
     /// Arc length.
@@ -134,6 +132,20 @@ pub(crate) struct Node {
 impl Node {
     pub(crate) fn cut(&self) -> Cut {
         Cut { x: self.at.x, y: self.at.y, phi: self.phi, moment: self.moment }
+    }
+
+    /// The force of this support alone, as (A, B), and how that changes by the normal force. What has no friction does not pay for it.
+    #[inline(always)]
+    pub(crate) fn push(&self, grip: Grip) -> [(f64, f64); 2] {
+        let Self { sin, cos, force, friction, .. } = *self;
+        match grip {
+            Grip::SMOOTH => [(force * cos, force * sin), (cos, sin)],
+            Grip::Slips { ratio } => {
+                let (a, b) = (cos - ratio * sin, sin + ratio * cos);
+                [(force * a, force * b), (a, b)]
+            }
+            Grip::Sticks { .. } => [(force * cos - friction * sin, force * sin + friction * cos), (cos, sin)],
+        }
     }
 
     /// The sense in which the rod runs along the curve: 1 along it, -1 against it.
@@ -172,21 +184,14 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                 Hold::Tangent { offset } => (at.alpha + offset, third),
                 Hold::Tip => (third, 1.0),
             };
-            let mut push = (cos, sin);
-            let mut own = (force * cos, force * sin);
-            // what has no friction does not pay for it
-            match self.supports.grip(j) {
-                Grip::SMOOTH => {}
-                Grip::Slips { ratio } => {
-                    push = (cos - ratio * sin, sin + ratio * cos);
-                    own = (force * push.0, force * push.1);
-                }
-                Grip::Sticks { .. } => {
-                    own = (own.0 - u[tangential] * sin, own.1 + u[tangential] * cos);
-                    tangential += 1;
-                }
+            let (grip, mut friction) = (self.supports.grip(j), 0.0);
+            if grip.sticks() {
+                friction = u[tangential];
+                tangential += 1;
             }
-            nodes.push(Node { at, sin, cos, force, push, own, phi, s, a: own.0, b: own.1, moment: 0.0 });
+            let mut node = Node { at, sin, cos, force, friction, phi, s, a: 0.0, b: 0.0, moment: 0.0 };
+            [(node.a, node.b), _] = node.push(grip);
+            nodes.push(node);
         }
         for j in (1..n).rev() {
             let ahead = nodes[j];
@@ -215,7 +220,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                     };
                     self.residual_of(&nodes, j, &end, residual);
                 }
-                if u.len() > 3 * nodes.len() {
+                if self.any_sticks(u, &nodes) {
                     self.sticking_residual(&nodes, u, residual);
                 }
             }
@@ -282,8 +287,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         // This support: its point moves the start, its angle turns start and force.
         let Support { speed, turning, .. } = node.at;
         let (sin, cos) = (node.sin, node.cos);
-        let (own_a, own_b) = node.own;
-        let (push_a, push_b) = node.push;
+        let [(own_a, own_b), (push_a, push_b)] = node.push(self.supports.grip(j));
         let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
         let moment_by_t = speed * (ahead_a * cos + ahead_b * sin);
         let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
@@ -297,7 +301,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         // Supports ahead: through the force and the moment they leave here.
         for (k, other) in nodes.iter().enumerate().skip(j + 1) {
             let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
-            let ((own_a, own_b), (push_a, push_b)) = (other.own, other.push);
+            let [(own_a, own_b), (push_a, push_b)] = other.push(self.supports.grip(k));
             let Support { speed, turning, .. } = other.at;
             let moment_by_f = -(dx * push_a + dy * push_b);
             let moment_by_t = -speed * other.force - turning * (dy * own_a - dx * own_b);
@@ -309,9 +313,25 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         if j == 0
             && let Some(law) = self.clamp.law()
         {
-            give_way(&law, nodes, &end, matrix, stride);
+            self.give_way(&law, nodes, &end, matrix, stride);
         }
         d
+    }
+
+    /// Turns the derivatives of the end of segment 0 in the leading three rows into those of the equations of a clamp that gives way. All
+    /// unknowns change the reactions: m(0) = sum f_k ((x(0) - x_k) cos alpha_k + (y(0) - y_k) sin alpha_k).
+    fn give_way(&self, law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
+        let (a, b) = (nodes[0].a, nodes[0].b);
+        for (k, node) in nodes.iter().enumerate() {
+            let (at, [(own_a, own_b), (push_a, push_b)]) = (&node.at, node.push(self.supports.grip(k)));
+            let (dx, dy) = (base.x - at.x, base.y - at.y);
+            let moment_by_t = at.turning * (dy * own_a - dx * own_b) - node.force * at.speed;
+            let by_t = [-at.turning * own_b, at.turning * own_a, moment_by_t];
+            let by_force = [push_a, push_b, dx * push_a + dy * push_b];
+            for (column, rates) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
+                give_way_by(law, (a, b), rates, &mut matrix[(3 * k + column) * stride..][..3]);
+            }
+        }
     }
 
     /// How the rod comes from its first contact through the roller of its clamp. None without a roller or a contact, and where it does not
@@ -326,6 +346,12 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         let nodes = self.nodes(u);
         let roller = self.clamp.roller()?;
         if nodes.is_empty() { Some(roller.at_rest(self.clamp.pose())) } else { Some(self.passage(&nodes)?.hold) }
+    }
+
+    /// Whether a support sticks: not asked where none can.
+    #[inline(always)]
+    fn any_sticks(&self, u: &[f64], nodes: &Nodes) -> bool {
+        u.len() > 3 * nodes.len() && self.sticking().next().is_some()
     }
 
     /// The supports that stick, in order.
@@ -346,7 +372,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         matrix: &mut [f64],
         stride: usize,
     ) {
-        if u.len() > 3 * nodes.len() {
+        if self.any_sticks(u, nodes) {
             self.sticking_residual(nodes, u, residual);
             self.sticking_columns(nodes, matrix, stride);
         }
@@ -498,6 +524,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
         self.evaluate_into(u, residual, jacobian.map(|j| (j, stride)));
     }
 
+    #[inline(always)]
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
         let (of_all, of_sticking) = weights.split_at_mut(3 * self.supports.count());
         for (j, w) in of_all.chunks_exact_mut(3).enumerate() {
@@ -522,23 +549,7 @@ pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
     Reactions { f0x: -first.b, f0y: first.a, m0z: -base.moment }
 }
 
-/// Turns the derivatives of the end of segment 0 in the leading three rows into those of the equations of a clamp that gives way. All
-/// unknowns change the reactions: m(0) = sum f_k ((x(0) - x_k) cos alpha_k + (y(0) - y_k) sin alpha_k).
-fn give_way(law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
-    let (a, b) = (nodes[0].a, nodes[0].b);
-    for (k, node) in nodes.iter().enumerate() {
-        let (at, (own_a, own_b), (push_a, push_b)) = (&node.at, node.own, node.push);
-        let (dx, dy) = (base.x - at.x, base.y - at.y);
-        let by_t =
-            [-at.turning * own_b, at.turning * own_a, at.turning * (dy * own_a - dx * own_b) - node.force * at.speed];
-        let by_force = [push_a, push_b, dx * push_a + dy * push_b];
-        for (column, rates) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
-            give_way_by(law, (a, b), rates, &mut matrix[(3 * k + column) * stride..][..3]);
-        }
-    }
-}
-
-/// The same for one unknown, by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
+/// One unknown of [`MultiPoint::give_way`], by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
 fn give_way_by(law: &ClampLaw, (a, b): (f64, f64), [a_rate, b_rate, moment_rate]: [f64; 3], rows: &mut [f64]) {
     let end = [rows[0], rows[1], rows[2]];
     let moment_rate = moment_rate + a * end[0] + b * end[1];
