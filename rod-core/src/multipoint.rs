@@ -141,8 +141,10 @@ impl Node {
         match grip {
             Grip::SMOOTH => [(force * cos, force * sin), (cos, sin)],
             Grip::Slips { ratio } => {
-                let (a, b) = (cos - ratio * sin, sin + ratio * cos);
-                [(force * a, force * b), (a, b)]
+                // by the operations of a rod that sticks: at the instant at which it begins to slip both are equal to the last bit
+                let friction = ratio * force;
+                let own = (force * cos - friction * sin, force * sin + friction * cos);
+                [own, (cos - ratio * sin, sin + ratio * cos)]
             }
             Grip::Sticks { .. } => [(force * cos - friction * sin, force * sin + friction * cos), (cos, sin)],
         }
