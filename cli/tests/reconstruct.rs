@@ -195,6 +195,25 @@ fn a_noisy_one_gives_it_within_its_noise() {
     assert!(answered.clone().all(|line| line["sigma_x"].as_f64().unwrap() > 0.0));
 }
 
+/// Far from the object the forces are small, and few places are independent: what chance leaves of a criterion is no misfit.
+#[test]
+fn noise_alone_is_no_misfit() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("noise.toml"), NOISE).unwrap();
+    for (name, scene) in
+        [("O1_q60", include_str!("../../scenes/O1_q60.toml")), ("O3_q60", include_str!("../../scenes/O3_q60.toml"))]
+    {
+        let file = format!("{name}.toml");
+        fs::write(directory.path().join(&file), scene).unwrap();
+        for seed in ["3", "10", "13"] {
+            let simulated = ["simulate", &file, "--noise", "noise.toml", "--rate", "100", "--seed", seed];
+            assert!(vibrissa(directory.path(), &[&simulated[..], &["--out", "r.csv"]].concat()).status.success());
+            let output = vibrissa(directory.path(), &["reconstruct", "r.csv", "--rod", &file]);
+            assert_eq!(output.status.code(), Some(0), "{name} {seed}: {}", complaint(&output));
+        }
+    }
+}
+
 #[test]
 fn rows_that_cannot_be_used_keep_their_place() {
     let directory = recorded(&["--rate", "20"]);

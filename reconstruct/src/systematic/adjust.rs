@@ -34,7 +34,7 @@ pub(super) struct Adjusted {
     pub normal: Joint,
     /// For each criterion, root mean square residual in standard deviations of the noise, 1 at least.
     pub scatter: [f64; CRITERIA],
-    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be.
+    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be; 0 where noise may have left it.
     pub misfit: [f64; CRITERIA],
 }
 
@@ -125,6 +125,19 @@ fn scatters(residuals: &[Residual]) -> [f64; CRITERIA] {
     })
 }
 
+/// By how many standard deviations of its own the root mean square of a criterion's residuals exceeds 1 where noise does not explain it.
+/// Smaller: scans with few independent places of a phase are called inconsistent by chance.
+const BEYOND_CHANCE: f64 = 3.0;
+/// Standard deviation of a robust root mean square of so many independent normal values, times the root of their number.
+const SPREAD_OF_MEDIAN: f64 = 1.17;
+
+/// The largest root mean square of each criterion's residuals that chance leaves. The weights count places that are independent.
+fn by_chance(residuals: &[Residual]) -> [f64; CRITERIA] {
+    let mut count = [0.0; CRITERIA];
+    residuals.iter().for_each(|residual| count[residual.criterion] += residual.weight);
+    count.map(|count| 1.0 + BEYOND_CHANCE * SPREAD_OF_MEDIAN / count.sqrt())
+}
+
 /// The robust sum of squares.
 fn objective(residuals: &[Residual], scatter: &[f64; CRITERIA]) -> f64 {
     let square = |r: &Residual| {
@@ -158,9 +171,10 @@ pub(super) fn adjust(
     // R of the QR decomposition: R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
     let (mut own, mut scatter, mut allowed) = ([1.0; CRITERIA], [1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
+    let mut chance = [f64::INFINITY; CRITERIA];
     for _ in 0..STEPS {
         let here = residuals(frame, &(means + z.component_mul(sigmas)), sigmas, places);
-        (own, allowed) = (scatters(&here), allowances(&here));
+        (own, allowed, chance) = (scatters(&here), allowances(&here), by_chance(&here));
         scatter = own;
         scatter.iter_mut().zip(least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
         let mut rows = DMatrix::<f64>::zeros(SOURCES + here.len(), SOURCES);
@@ -190,7 +204,7 @@ pub(super) fn adjust(
     let normal = upper.transpose() * upper;
     let misfit = std::array::from_fn(|c| {
         let excess = (own[c] * own[c] - 1.0).sqrt();
-        if excess > 0.0 { excess / allowed[c] } else { 0.0 }
+        if own[c] > chance[c] { excess / allowed[c] } else { 0.0 }
     });
     Adjusted { errors, factor, normal, scatter, misfit }
 }
