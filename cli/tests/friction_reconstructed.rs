@@ -171,6 +171,34 @@ fn a_contact_that_rolls_where_the_clamp_turns_has_no_point_that_is_off() {
     assert!(complaint.contains("the contacts seem to rub"), "{complaint}");
 }
 
+/// Scenes with legs were refused as truth. A pose that is on both ways is compared with the way that the recording was on.
+#[test]
+fn a_recording_there_and_back_is_compared_with_its_scene() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let scene = SCENE.replace("to = [-0.09, -0.04]", "to = [-0.055, -0.04]") + "\n[[sweep.leg]]\nto = [0.08, -0.04]\n";
+    fs::write(path.join("scene.toml"), format!("{scene}\n[contact]\nfriction = 0.3\n")).unwrap();
+    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--out", "r.csv"]);
+    let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "out"];
+    let (report, _) = done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());
+    println!("{report}");
+    let found = json(path, "out/report.json");
+    let truth = &found["truth"];
+    assert!(truth["compared"] == 13501 && truth["off_path"] == 0, "{truth}");
+    assert!(
+        truth["accuracy"].as_f64().unwrap() > 0.99 && truth["single"]["median"].as_f64().unwrap() < 5e-5,
+        "{truth}"
+    );
+    let transitions = truth["transitions"].as_array().unwrap();
+    // BB and BA begin and end at other poses on the way back
+    let at = |from: &str, to: &str| {
+        let one = transitions.iter().find(|one| one["from"] == from && one["to"] == to).unwrap();
+        (one["pose"]["x0"].as_f64().unwrap(), one["error"].as_f64().unwrap())
+    };
+    let [there, back] = [at("B", "BB"), at("BB", "B")];
+    assert!((there.0 - back.0).abs() > 1e-3 && there.1.abs() < 1e-4 && back.1.abs() < 1e-4, "{there:?} {back:?}");
+}
+
 #[test]
 fn a_piece_with_another_coefficient_is_told() {
     let directory = tempfile::tempdir().unwrap();
