@@ -237,6 +237,25 @@ fn units_are_no_cause_of_what_friction_explains() {
     assert!(complaint.contains("tried: friction with mu = 0.30: 100 %"), "{complaint}");
 }
 
+/// `live` said nothing of it.
+#[test]
+fn a_live_scan_tells_of_friction() {
+    let directory = directory(0.3);
+    let path = directory.path();
+    let live = ["live", "--sensor", "file:r.csv", "--rod", "scene.toml", "--out", "out"];
+    for (mu, status) in [("0.3", 2), ("0", 0)] {
+        let scene =
+            fs::read_to_string(path.join("scene.toml")).unwrap().replace("friction = 0.3", &format!("friction = {mu}"));
+        fs::write(path.join("of.toml"), scene).unwrap();
+        done(path, 0, &["simulate", "of.toml", "--rate", "50", "--noise", "noise.toml", "--out", "r.csv"]);
+        let (said, _) = done(path, status, &live);
+        let tells = said.contains("the contacts seem to rub: with friction mu = 0.3");
+        assert!(tells == (status == 2), "{mu}: {said}");
+        let summary = fs::read_to_string(path.join("out/summary.json")).unwrap();
+        assert_eq!(summary.contains("the contacts seem to rub"), tells);
+    }
+}
+
 #[test]
 fn a_piece_with_another_coefficient_is_told() {
     let directory = tempfile::tempdir().unwrap();
