@@ -298,10 +298,10 @@ pub struct Simulate {
     /// The noise of the sensor, a TOML file [default: a sensor that reads the truth]
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
-    /// Samples in a second; there is one every speed / rate of the clamp's way
+    /// Samples in a second; there is one every speed / rate of the clamp's way, and each of several legs has a whole number of them
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
+    /// Speed of the clamp: m/s, or rad/s where the clamp only turns, on all legs
     #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
     pub speed: f64,
     /// Seed of the noise: the same one gives the same recording

@@ -1,7 +1,7 @@
 //! A scan cut at its transitions.
 
 use vibrissa::contact::{EventKind, Outcome, Phase};
-use vibrissa::{ClampPath, Pose, State};
+use vibrissa::{ClampPath, Event, Pose, State};
 
 /// A part of a scan between two transitions.
 #[derive(Clone, Debug)]
@@ -42,16 +42,21 @@ pub(crate) fn way(path: &ClampPath, pose: Pose) -> f64 {
 }
 
 /// Whether a transition separates two parts of a scan: the phase changes, or the shape jumps.
-fn separates(event: &vibrissa::Event) -> bool {
+fn separates(event: &Event) -> bool {
     event.from() != event.to() || matches!(event.kind, EventKind::Snap | EventKind::SnapOff)
 }
 
-/// The parts of a scan, in order, by the way along its path at a state. A state reported at the very pose of a transition belongs to the part after it.
+/// The parts of a scan between transitions, in order, by the way along its path at a state.
 pub(crate) fn intervals(way: impl Fn(&State) -> f64, outcome: &Outcome) -> Vec<Interval<'_>> {
+    cut(way, outcome, separates)
+}
+
+/// The parts of a scan between events that cut it. A state reported at the very pose of one belongs to the part after it.
+pub(crate) fn cut(way: impl Fn(&State) -> f64, outcome: &Outcome, cuts: impl Fn(&Event) -> bool) -> Vec<Interval<'_>> {
     let mut parts = Vec::new();
     let mut part: Vec<&State> = Vec::new();
     let mut states = outcome.states.iter().peekable();
-    for event in outcome.events.iter().filter(|event| separates(event)) {
+    for event in outcome.events.iter().filter(|event| cuts(event)) {
         let place = way(&event.before);
         while let Some(state) = states.next_if(|state| way(state) < place) {
             part.push(state);

@@ -203,7 +203,6 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
 
 fn simulate_scene<R: SceneRod>(scene: Scene<R>, arguments: Simulate) -> Result<ExitCode, Error> {
     let Simulate { noise, rate, speed, seed, sigmas, out, .. } = arguments;
-    scene.check_single_leg()?;
     scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let standard = is_standard(&out);

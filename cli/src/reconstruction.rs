@@ -25,7 +25,6 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     scan.inputs.extend(recordings.iter().chain(&trust.noise).cloned());
     if let Some(file) = &truth {
         let scene = read_any(file)?;
-        scene.check_single_leg()?;
         scene.check_start()?;
         scan.inputs.extend(scene.files().iter().cloned());
     }

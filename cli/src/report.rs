@@ -2,8 +2,8 @@
 
 use crate::table::{Table, counted};
 use crate::{Scan, SceneRod};
-use vibrissa::Rod;
-use vibrissa::contact::{Start, StartCandidate};
+use vibrissa::contact::{Contact, Start, StartCandidate};
+use vibrissa::{Rod, State};
 
 /// From this gap on, lengths of the rod, all along the path, rod, objects or path are most likely in another unit than m.
 const FAR: f64 = 10.0;
@@ -65,14 +65,16 @@ impl<R: SceneRod> Scan<R> {
     }
 
     fn event_table(&self) -> String {
-        let mut table =
-            Table::new(["kind", "from", "to", "x0 mm", "y0 mm", "phi0 deg", "x0/L", "f0x N", "f0y N", "m0z N mm"]);
+        // which contact slips or sticks, where there is friction
+        let rubs = self.scene.friction.is_some();
+        let columns = ["kind", "from", "to", "x0 mm", "y0 mm", "phi0 deg", "x0/L", "f0x N", "f0y N", "m0z N mm"];
+        let mut table = Table::new(columns.into_iter().chain(rubs.then_some("contacts, clamp to tip")));
         let felt = || self.outcome.events.iter().map(|event| event.before.reactions);
         let forces = felt().map(|reactions| reactions.f0x.hypot(reactions.f0y)).fold(0.0, f64::max);
         let moments = felt().map(|reactions| 1e3 * reactions.m0z.abs()).fold(0.0, f64::max);
         for event in &self.outcome.events {
             let (pose, reactions) = (event.pose(), event.before.reactions);
-            table.row([
+            let row = [
                 event.kind.to_string(),
                 event.from().to_string(),
                 event.to().to_string(),
@@ -83,10 +85,20 @@ impl<R: SceneRod> Scan<R> {
                 of_size(reactions.f0x, forces),
                 of_size(reactions.f0y, forces),
                 of_size(1e3 * reactions.m0z, moments),
-            ]);
+            ];
+            let modes = rubs.then(|| format!("{} -> {}", modes(&event.before), modes(&event.after)));
+            table.row(row.into_iter().chain(modes));
         }
         table.to_string()
     }
+}
+
+/// What the contacts do, from the clamp to the tip.
+fn modes(state: &State) -> String {
+    let mode =
+        |contact: &Contact| contact.friction.map_or("no friction".to_owned(), |friction| friction.mode.to_string());
+    let modes: Vec<String> = state.contacts.iter().map(mode).collect();
+    if modes.is_empty() { "free".to_owned() } else { modes.join(", ") }
 }
 
 /// A number in a column whose largest one is `largest`: as it is, or with an exponent where six decimals would leave nothing of it.

@@ -79,4 +79,9 @@ impl<R: SceneRod> Scan<R> {
     pub fn intervals(&self) -> Vec<Interval<'_>> {
         interval::intervals(|state| self.scene.way(state), &self.outcome)
     }
+
+    /// The parts of the scan between all events: along each no contact changes its mode of friction.
+    pub(crate) fn between_events(&self) -> Vec<Interval<'_>> {
+        interval::cut(|state| self.scene.way(state), &self.outcome, |_| true)
+    }
 }

@@ -1,6 +1,6 @@
 //! Scenes with friction that were wrong, stopped or took minutes.
 
-use crate::common::{edited, refused_beside};
+use crate::common::{edited, refused_beside, vibrissa};
 use std::collections::BTreeSet;
 use vibrissa::contact::{EventKind, Outcome};
 use vibrissa::{Event, State};
@@ -274,4 +274,31 @@ fn a_coefficient_told_wrong_has_its_place_and_what_was_expected() {
 fn said(table: &str, parts: &[&str]) {
     let message = refused_beside(&edited("[sweep]", &format!("{table}[sweep]")), &[]);
     assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} are not in: {message}");
+}
+
+/// Neither the printed events nor the drawing told which contact slips or sticks.
+#[test]
+fn modes_are_printed_and_drawn() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = include_str!("../../scenes/there_and_back.toml").replace("to = [-0.02, -0.04]", "to = [-0.053, -0.04]");
+    let smooth = scene.replace("friction = 0.3", "friction = 0");
+    let [(report, drawing), (of_smooth, drawing_of_smooth)] = [scene, smooth].map(|scene| {
+        std::fs::write(directory.path().join("scene.toml"), scene).unwrap();
+        let output = vibrissa(directory.path(), &["sweep", "scene.toml", "--out", "out"]);
+        assert!(output.status.success(), "{output:?}");
+        let drawing = std::fs::read_to_string(directory.path().join("out/sweep.svg")).unwrap();
+        (String::from_utf8(output.stdout).unwrap(), drawing)
+    });
+    // where the clamp turns the tip sticks, while the first contact slips on
+    let turn: Vec<&str> = report.lines().filter(|line| line.trim_start().starts_with("stick ")).collect();
+    assert!(turn.len() == 1 && turn[0].ends_with("slip-, slip- -> slip-, stick"), "{report}");
+    let ends = |end: &str| report.lines().filter(|line| line.ends_with(end)).count();
+    assert_eq!((ends("slip-, stick -> stick, slip+"), ends("stick, slip+ -> slip+, slip+")), (1, 1), "{report}");
+    assert!(report.contains("contacts, clamp to tip") && !of_smooth.contains("slip"), "{of_smooth}");
+    // a row for each contact, and a pale line along both intervals with a contact that sticks in each of three plots
+    let wide = |drawing: &str, width: u32| drawing.matches(&format!("stroke-width=\"{width}\"")).count();
+    let names = ["slip+", "slip-", "stick"];
+    assert!(names.iter().all(|name| drawing.contains(&format!(">{name}<"))), "{drawing}");
+    assert_eq!(wide(&drawing, 14), 2 * 3);
+    assert!(names.iter().all(|name| !drawing_of_smooth.contains(name)) && wide(&drawing_of_smooth, 14) == 0);
 }

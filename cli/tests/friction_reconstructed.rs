@@ -171,6 +171,91 @@ fn a_contact_that_rolls_where_the_clamp_turns_has_no_point_that_is_off() {
     assert!(complaint.contains("the contacts seem to rub"), "{complaint}");
 }
 
+/// Scenes with legs were refused as truth. A pose that is on both ways is compared with the way that the recording was on.
+#[test]
+fn a_recording_there_and_back_is_compared_with_its_scene() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let scene = SCENE.replace("to = [-0.09, -0.04]", "to = [-0.055, -0.04]") + "\n[[sweep.leg]]\nto = [0.08, -0.04]\n";
+    fs::write(path.join("scene.toml"), format!("{scene}\n[contact]\nfriction = 0.3\n")).unwrap();
+    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--out", "r.csv"]);
+    let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "out"];
+    let (report, _) = done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());
+    println!("{report}");
+    let found = json(path, "out/report.json");
+    let truth = &found["truth"];
+    assert!(truth["compared"] == 13501 && truth["off_path"] == 0, "{truth}");
+    assert!(
+        truth["accuracy"].as_f64().unwrap() > 0.99 && truth["single"]["median"].as_f64().unwrap() < 5e-5,
+        "{truth}"
+    );
+    let transitions = truth["transitions"].as_array().unwrap();
+    // BB and BA begin and end at other poses on the way back
+    let at = |from: &str, to: &str| {
+        let one = transitions.iter().find(|one| one["from"] == from && one["to"] == to).unwrap();
+        (one["pose"]["x0"].as_f64().unwrap(), one["error"].as_f64().unwrap())
+    };
+    let [there, back] = [at("B", "BB"), at("BB", "B")];
+    assert!((there.0 - back.0).abs() > 1e-3 && there.1.abs() < 1e-4 && back.1.abs() < 1e-4, "{there:?} {back:?}");
+}
+
+/// A wrong coefficient was blamed on K that varies, and on units.
+#[test]
+fn a_wrong_coefficient_is_named() {
+    let directory = directory(0.3);
+    let path = directory.path();
+    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--noise", "noise.toml", "--out", "r.csv"]);
+    let reconstruct = |friction: &str, status: i32| {
+        let options = ["reconstruct", "r.csv", "--rod", "scene.toml", "--out", "out", "--friction"];
+        let (_, complaint) = done(path, status, &[&options[..], &[friction]].concat());
+        (complaint, json(path, "out/report.json")["friction"][0]["alone"].clone())
+    };
+    for friction in ["0.1", "0.1+-0.02"] {
+        let (complaint, alone) = reconstruct(friction, 2);
+        assert!(complaint.contains("friction with mu = 0.1000 was given, but the scan tells mu = "), "{complaint}");
+        assert!(complaint.contains("friction with mu = 0.30: 100 %") && !complaint.contains(" mN"), "{complaint}");
+        let [mu, sigma, given, deviation] = ["mu", "sigma", "given", "deviation"].map(|of| alone[of].as_f64().unwrap());
+        let apart = (mu - given) / if friction == "0.1" { sigma } else { sigma.hypot(0.02) };
+        assert!((mu - 0.3).abs() < sigma && given == 0.1 && (deviation - apart).abs() < 1e-9, "{alone}");
+    }
+    for friction in ["0.3", "0.31+-0.02"] {
+        let (complaint, alone) = reconstruct(friction, 0);
+        assert!(!complaint.contains("was given") && alone["deviation"].as_f64().unwrap() < 2.0, "{complaint} {alone}");
+    }
+}
+
+/// Of such a scan forces in mN were called the likely cause, beside friction that explains it exactly.
+#[test]
+fn units_are_no_cause_of_what_friction_explains() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let scene = include_str!("../../scenes/O3_q40.toml");
+    fs::write(path.join("scene.toml"), format!("{scene}\n[contact]\nfriction = 0.3\n")).unwrap();
+    done(path, 0, &["simulate", "scene.toml", "--rate", "20", "--out", "r.csv"]);
+    let (_, complaint) = done(path, 2, &["reconstruct", "r.csv", "--rod", "scene.toml", "--out", "out"]);
+    assert!(complaint.contains("the contacts seem to rub: with friction mu = 0.3000"), "{complaint}");
+    assert!(complaint.contains("tried: friction with mu = 0.30: 100 %"), "{complaint}");
+}
+
+/// `live` said nothing of it.
+#[test]
+fn a_live_scan_tells_of_friction() {
+    let directory = directory(0.3);
+    let path = directory.path();
+    let live = ["live", "--sensor", "file:r.csv", "--rod", "scene.toml", "--out", "out"];
+    for (mu, status) in [("0.3", 2), ("0", 0)] {
+        let scene =
+            fs::read_to_string(path.join("scene.toml")).unwrap().replace("friction = 0.3", &format!("friction = {mu}"));
+        fs::write(path.join("of.toml"), scene).unwrap();
+        done(path, 0, &["simulate", "of.toml", "--rate", "50", "--noise", "noise.toml", "--out", "r.csv"]);
+        let (said, _) = done(path, status, &live);
+        let tells = said.contains("the contacts seem to rub: with friction mu = 0.3");
+        assert!(tells == (status == 2), "{mu}: {said}");
+        let summary = fs::read_to_string(path.join("out/summary.json")).unwrap();
+        assert_eq!(summary.contains("the contacts seem to rub"), tells);
+    }
+}
+
 #[test]
 fn a_piece_with_another_coefficient_is_told() {
     let directory = tempfile::tempdir().unwrap();

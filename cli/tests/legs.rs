@@ -47,15 +47,66 @@ fn states_and_events_carry_their_leg() {
     assert!(table.lines().last().unwrap().ends_with(",3"));
 }
 
+/// Legs were refused. The rows are those of the sweep, one each period, and the friction that is remembered at the turn is in them.
 #[test]
-fn recordings_have_no_several_legs() {
+fn a_recording_goes_there_and_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = include_str!("../../scenes/O1_q40.toml");
+    let scene = scene.replace("to = [-0.09, -0.04]", "to = [0.03001, -0.04]").replace("step = 1e-3", "step = 5e-4");
+    let scene = format!("{scene}\n[[sweep.leg]]\nto = [0.08, -0.04]\n\n[contact]\nfriction = 0.3\n");
+    fs::write(directory.path().join("legs.toml"), &scene).unwrap();
+    let output =
+        vibrissa(directory.path(), &["simulate", "legs.toml", "--rate", "2", "--speed", "1e-3", "--out", "r.csv"]);
+    assert!(output.status.success(), "{output:?}");
+    let mut table = csv::Reader::from_path(directory.path().join("r.csv")).unwrap();
+    let rows: Vec<[f64; 7]> = table.deserialize().map(Result::unwrap).collect();
+    // 99.98 periods are 100
+    assert_eq!(rows.len(), 201);
+    for (number, row) in rows.iter().enumerate() {
+        assert_eq!(row[0], 0.5 * number as f64);
+        let way = number.abs_diff(100) as f64 / 100.0;
+        assert!((row[1] - (0.03001 + way * 0.04999)).abs() < 1e-15, "{row:?}");
+    }
+    let whole = scene.replace("step = 5e-4", "step = 4.999e-4");
+    let scan = vibrissa_cli::Scan::run(Scene::parse("legs.toml".as_ref(), &whole).unwrap()).unwrap();
+    let states = &scan.outcome.states;
+    assert_eq!(states.len(), rows.len());
+    for (row, state) in rows.iter().zip(states) {
+        assert!((row[4] - state.reactions.f0x).abs() < 1e-11 && (row[6] - state.reactions.m0z).abs() < 1e-12);
+    }
+    let [there, back] = [80, 120].map(|number: usize| rows[number][4]);
+    assert!((there - back).abs() > 0.1 * there.abs(), "{there} {back}");
+}
+
+/// A leg on which the clamp only turns takes the time in which the tip of the straight rod goes its way.
+#[test]
+fn a_recording_goes_about_a_pivot_and_turns_on_the_spot() {
+    let directory = tempfile::tempdir().unwrap();
+    let turn = "\n[[sweep.leg]]\nangle_to = 80.0\nstep_angle = 1.0\n";
+    fs::write(directory.path().join("whisking.toml"), whisking() + turn).unwrap();
+    let output = vibrissa(directory.path(), &["simulate", "whisking.toml", "--rate", "100", "--out", "r.csv"]);
+    assert!(output.status.success(), "{output:?}");
+    let mut table = csv::Reader::from_path(directory.path().join("r.csv")).unwrap();
+    let rows: Vec<[f64; 7]> = table.deserialize().map(Result::unwrap).collect();
+    // every 10 um: 10 mm, twice 60 degrees at 8 mm, 10 mm, and 10 degrees of a rod of 40 mm
+    assert_eq!(rows.len(), 1 + 1000 + 2 * 838 + 1000 + 698);
+    assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]));
+    let last = rows.last().unwrap();
+    assert!((last[3] - 80_f64.to_radians()).abs() < 1e-14, "{last:?}");
+}
+
+#[test]
+fn what_asks_for_one_leg_refuses_more() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("whisking.toml"), whisking()).unwrap();
     assert!(vibrissa(directory.path(), &["contour", "whisking.toml"]).status.success());
-    let output = vibrissa(directory.path(), &["simulate", "whisking.toml"]);
+    let output = vibrissa(directory.path(), &["budget", "whisking.toml"]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.code() == Some(1) && message.contains("sweep.leg"), "{message}");
-    assert!(message.contains("only `sweep`, `contour` and `study` take"), "{message}");
+    assert!(
+        message.contains("only `sweep`, `contour`, `study`, `simulate` and `reconstruct --truth` take"),
+        "{message}"
+    );
     let study = "scene = \"whisking.toml\"\n[[parameter]]\nname = \"turn\"\nvalues = [-60.0]\nset = [{ field = \"sweep.leg[1].turn\" }]\n";
     fs::write(directory.path().join("study.toml"), study).unwrap();
     let output = vibrissa(directory.path(), &["study", "study.toml"]);

@@ -31,6 +31,13 @@ fn a_missing_field() {
 #[test]
 fn an_unknown_field() {
     says(&edited("length", "lenght"), &["scene.toml:2:1: rod.lenght: ", "unknown field `lenght`", "mean `length`?"]);
+    // these were read field by field, or missed values that nobody had asked for
+    for name in ["contact", "rod", "sweep", "contour", "clamp"] {
+        let list = SCENE.replacen(&format!("[{name}]\n"), &format!("[[{name}]]\n"), 1);
+        let list = if name == "contour" { list.replacen("[[contour.", "[[contour]]\n[[contour.", 1) } else { list };
+        let list = if list == SCENE { format!("{SCENE}\n[[{name}]]\nfriction = 0.3\n") } else { list };
+        says(&list, &[&format!(": {name}"), &format!("expected [{name}] once; several may be [[object]]")]);
+    }
     let section = edited("[[contour", "[[section]]\nlength = 0.1\n[[contour");
     says(&section, &["scene.toml:6:3: section: unknown field `section`", "did you mean [[rod.section]]?"]);
     says(&edited("coefficient", "curvature"), &["scene.toml:9:1: contour.piece[1].curvature: ", "`coefficient`"]);

@@ -237,3 +237,31 @@ fn a_study_of_refused_scenes_ends_with_the_same_status_again() {
         );
     }
 }
+
+/// Tables that the scene does not have were refused.
+#[test]
+fn friction_and_clamp_are_varied_where_the_scene_has_none() {
+    let directory = tempfile::tempdir().unwrap();
+    let parameter = |name: &str, values: &str, fields: &[&str]| {
+        let set: Vec<String> = fields.iter().map(|field| format!("{{ field = \"{field}\" }}")).collect();
+        format!("[[parameter]]\nname = \"{name}\"\nvalues = {values}\nset = [{}]\n", set.join(", "))
+    };
+    let swept = |parameters: &str, way: &str| {
+        written(directory.path(), parameters);
+        let output = vibrissa(directory.path(), &["study", "study.toml", "--out", way]);
+        assert!(String::from_utf8_lossy(&output.stdout).contains(": 2 done, 0 stopped early, 0 refused"), "{output:?}");
+        let rows = rows(&directory.path().join(way));
+        let column = rows[0].iter().position(|column| column == "largest_moment").unwrap();
+        [1, 2].map(|row| rows[row][column].parse::<f64>().unwrap())
+    };
+    let [none, rubs] = swept(&parameter("mu", "[0.0, 0.3]", &["contact.friction"]), "mu");
+    assert!((rubs - none).abs() > 0.02 * none, "{none} {rubs}");
+    let both = ["contact.friction.at_rest", "contact.friction.slipping"];
+    assert_eq!(swept(&parameter("mu", "[0.0, 0.3]", &both), "laws"), [none, rubs]);
+    let [soft, hard] = swept(&parameter("k", "[0.05, 1e9]", &["clamp.stiffness_phi"]), "k");
+    assert!((hard - none).abs() < 1e-6 * none && (soft - none).abs() > 0.02 * none, "{soft} {hard}");
+    // a name that no scene knows is refused with its place
+    written(directory.path(), &parameter("mu", "[0.3]", &["contact.frction"]));
+    let output = vibrissa(directory.path(), &["study", "study.toml", "--out", "no"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("did you mean `friction`?"), "{output:?}");
+}

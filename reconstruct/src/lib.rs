@@ -60,7 +60,7 @@ pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
 #[cfg(feature = "std")]
-pub use friction::{Friction, FrictionEstimate, Pair, without_friction};
+pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};
 #[cfg(feature = "std")]
 pub use merge::{Comparison, Disagreement, Offset, align, merge};
 pub use numeric::Number;

@@ -3,9 +3,10 @@
 use super::canvas::{Area, BODY, FigureError, HPos, stroke, width, write};
 use super::contour;
 use super::element::ShapeStyle;
-use super::palette::{INK, TRANSITION, colour};
+use super::palette::{INK, TRANSITION, colour, mode_colour};
+use super::trace::MODE;
 use crate::Interval;
-use vibrissa::contact::{EventKind, Phase};
+use vibrissa::contact::{EventKind, Phase, SlipMode};
 
 /// Height of a row, pixels.
 const ROW: u32 = 34;
@@ -45,9 +46,9 @@ impl Entry {
 }
 
 impl Legend {
-    /// The legend of a sweep with these parts, in rows of at most this width (pixels). Phases of one colour share a
+    /// The legend of a sweep with these parts and modes of friction, in rows of at most this width (pixels). Phases of one colour share a
     /// sample.
-    pub fn of(intervals: &[Interval<'_>], room: i32) -> Self {
+    pub fn of(intervals: &[Interval<'_>], modes: &[SlipMode], room: i32) -> Self {
         let entry = |name: String, style: ShapeStyle| Entry { name, style, dashed: false, place: (0, 0) };
         let mut entries = vec![entry("contour".into(), INK.stroke_width(contour::WIDTH))];
         let mut phases: Vec<Phase> = Vec::new();
@@ -72,6 +73,7 @@ impl Legend {
         if intervals.iter().any(|interval| interval.end == Some(EventKind::Snap)) {
             entries.push(Entry { dashed: true, ..entry("after a snap".into(), TRANSITION.stroke_width(3)) });
         }
+        entries.extend(modes.iter().map(|mode| entry(mode.to_string(), mode_colour(*mode).stroke_width(MODE))));
         let (mut x, mut row) = (0, 0);
         for entry in &mut entries {
             if x > 0 && x + entry.width() > room {
@@ -108,7 +110,7 @@ mod tests {
         let names = ["A", "B", "BA", "BB", "BBA", "BBB", "BBBA", "BBBB"];
         let events = names.windows(2).map(|pair| event(1.0, pair[0], pair[1], EventKind::Snap)).collect();
         let outcome = outcome(&[(0.0, "A")], events);
-        let legend = Legend::of(&intervals(along, &outcome), 1200);
+        let legend = Legend::of(&intervals(along, &outcome), &[], 1200);
         let names: Vec<&str> = legend.entries.iter().map(|entry| entry.name.as_str()).collect();
         let phases = ["phase A", "phase B", "phase BA", "phase BB", "phases BBA, BBBA", "phases BBB, BBBB"];
         assert_eq!(names[1..7], phases);

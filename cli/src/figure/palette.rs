@@ -1,7 +1,7 @@
 //! Colours: phases have those of Okabe and Ito (2008), near the ones of Merker et al. (2020), fig. 4, everything else has others.
 
 use vibrissa::Label;
-use vibrissa::contact::Phase;
+use vibrissa::contact::{Phase, SlipMode};
 
 /// Red, green and blue, to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +41,15 @@ pub(crate) fn label_colour(label: Label) -> RGBColor {
         Label::BA | Label::BB => 2,
     };
     colour(Phase { contacts, tip: label.tip() })
+}
+
+/// The colour of a contact that slips or sticks.
+pub(crate) fn mode_colour(mode: SlipMode) -> RGBColor {
+    match mode {
+        SlipMode::Forward => SECOND,
+        SlipMode::Backward => FIRST,
+        _ => RGBColor(180, 180, 180),
+    }
 }
 
 /// Black or white, whichever is read more easily on a colour (relative luminance, sRGB).

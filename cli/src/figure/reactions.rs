@@ -3,7 +3,7 @@
 use super::abscissa::Abscissa;
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::palette::{INK, MUTED, label_colour};
-use super::trace::{self, Along, Part, Trace};
+use super::trace::{self, Along, LINE, Part, Trace};
 use crate::Reconstructed;
 use std::ops::Range;
 use vibrissa::{ClampPath, Pose, Rod};
@@ -80,6 +80,7 @@ fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
         phases: phases.collect(),
         marks: found.kink_poses().into_iter().map(|pose| abscissa.value(pose)).collect(),
         legs: Vec::new(),
+        modes: Vec::new(),
     }
 }
 
@@ -87,7 +88,10 @@ fn parts(found: &Reconstructed, abscissa: Abscissa, across: &Range<f64>, quantit
     let width = (across.end - across.start) / COLUMNS;
     let part = |(samples, label): (Range<usize>, _)| {
         let points = samples.map(|sample| (abscissa.value(found.samples[sample].pose), quantity(sample)));
-        Part { points: columns(points.filter(|point| point.1.is_finite()), width), colour: label_colour(label) }
+        Part {
+            points: columns(points.filter(|point| point.1.is_finite()), width),
+            style: label_colour(label).stroke_width(LINE),
+        }
     };
     found.runs().map(part).collect()
 }

@@ -21,7 +21,8 @@ const LEFT: u32 = 860;
 
 /// Draws a sweep.
 pub(crate) fn sweep<R: SceneRod>(scan: &Scan<R>) -> Result<String, FigureError> {
-    let legend = Legend::of(&scan.intervals(), WIDTH as i32 - 2 * EDGE);
+    let along = Along::of(scan);
+    let legend = Legend::of(&scan.intervals(), &along.all_modes(), WIDTH as i32 - 2 * EDGE);
     let height = f64::from(HEAD + legend.height() + GAP) + elasticae::height(scan, LEFT)?;
     svg((WIDTH, height.clamp(HEIGHT.start, HEIGHT.end) as u32), |root| {
         let (head, body) = root.split_vertically(HEAD + legend.height() + GAP);
@@ -29,7 +30,7 @@ pub(crate) fn sweep<R: SceneRod>(scan: &Scan<R>) -> Result<String, FigureError> 
         write(&head, &title(scan), (EDGE, 36), HPos::Left, TITLE, INK)?;
         legend.draw(&head, (EDGE, HEAD))?;
         elasticae::draw(root, &left, scan)?;
-        reactions(root, &right, scan)
+        reactions(root, &right, scan, &along)
     })
 }
 
@@ -55,19 +56,18 @@ fn title<R: SceneRod>(scan: &Scan<R>) -> String {
 type Quantity = fn(&State) -> f64;
 
 /// The three reactions above each other.
-fn reactions<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>) -> Result<(), FigureError> {
+fn reactions<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>, along: &Along) -> Result<(), FigureError> {
     let quantities: [(&str, Quantity); 3] = [
         ("f_{0x} in N", |state| state.reactions.f0x),
         ("f_{0y} in N", |state| state.reactions.f0y),
         ("m_{0z} in N mm", |state| 1e3 * state.reactions.m0z),
     ];
-    let along = Along::of(scan);
     let height = (area.dim_in_pixel().1 - trace::trimmings(true, true)) / 3;
     let mut rest = area.clone();
     for (index, (name, quantity)) in quantities.into_iter().enumerate() {
         let (phases, foot) = (index == 0, index == 2);
         let (part, below) = rest.split_vertically(height + trace::trimmings(phases, foot));
-        trace::draw(root, &part, &Trace { along: &along, parts: trace::parts(scan, quantity), name, phases, foot })?;
+        trace::draw(root, &part, &Trace { along, parts: trace::parts(scan, quantity), name, phases, foot })?;
         rest = below;
     }
     Ok(())

@@ -3,19 +3,27 @@
 use super::abscissa::Course;
 use super::canvas::{Area, BODY, FigureError, HPos, span, width, write};
 use super::chart::{Chart, Room};
-use super::element::Element;
+use super::element::{Element, ShapeStyle};
 use super::labels::Labels;
-use super::palette::{FAINT, INK, RGBColor, TRANSITION, colour};
+use super::palette::{FAINT, INK, TRANSITION, colour, mode_colour};
 use crate::interval::Interval;
 use crate::{Scan, SceneRod};
 use std::ops::Range;
 use vibrissa::State;
+use vibrissa::contact::SlipMode;
 
 /// Room on the left for the numbers and the name of the axis, and below for those of the abscissa, pixels.
 const LEFT: u32 = 130;
 const BELOW: u32 = 70;
 /// Room above for two rows of phases, pixels.
 pub(crate) const ABOVE: u32 = 70;
+
+/// Widths of a line, of the pale one behind it where a contact sticks, and of that which tells a mode, pixels.
+pub(crate) const LINE: u32 = 4;
+const PALE: u32 = 14;
+pub(crate) const MODE: u32 = 9;
+/// Height of the row of a contact, in parts of the height of the plot.
+const STRIP: f64 = 0.06;
 
 /// Least gap between two names of phases in a row, pixels: two names closer read as one.
 const APART: i32 = 14;
@@ -32,12 +40,14 @@ pub(crate) struct Along {
     pub marks: Vec<f64>,
     /// Where one leg of the path ends and the next one begins.
     pub legs: Vec<f64>,
+    /// Parts of the abscissa along which a contact has one mode of friction: which, counted from the clamp, and the mode.
+    pub modes: Vec<(Range<f64>, usize, SlipMode)>,
 }
 
 /// A part of a trace: points in the units of the axes.
 pub(crate) struct Part {
     pub points: Vec<(f64, f64)>,
-    pub colour: RGBColor,
+    pub style: ShapeStyle,
 }
 
 /// What to draw.
@@ -73,26 +83,48 @@ impl Along {
             phases: intervals.iter().map(|part| (ends(part), part.phase.to_string())).collect(),
             marks: ended.map(|part| ends(part).end).collect(),
             legs: if let [_, between @ .., _] = &course.ends()[..] { between.to_vec() } else { Vec::new() },
+            modes: scan
+                .between_events()
+                .iter()
+                .flat_map(|part| modes(part).map(|(k, mode)| (ends(part), k, mode)))
+                .collect(),
         }
+    }
+
+    /// The modes of friction that there are.
+    pub fn all_modes(&self) -> Vec<SlipMode> {
+        let all = [SlipMode::Forward, SlipMode::Backward, SlipMode::Stick];
+        all.into_iter().filter(|mode| self.modes.iter().any(|(.., there)| there == mode)).collect()
     }
 }
 
-/// A quantity along a sweep, coloured by phase.
+/// The mode of friction of each contact along a part without events.
+fn modes<'a>(part: &Interval<'a>) -> impl Iterator<Item = (usize, SlipMode)> + 'a {
+    // others may be reported at the very pose of the event before
+    let contacts = part.states.first().copied().into_iter().flat_map(|state| state.contacts.iter().enumerate());
+    contacts.filter_map(|(number, contact)| Some((number, contact.friction?.mode)))
+}
+
+/// A quantity along a sweep, coloured by phase; a wide, pale line where a contact sticks or rolls.
 pub(crate) fn parts<R: SceneRod>(scan: &Scan<R>, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
     let course = Course::of(&scan.scene);
     let point = |state: &&State| (course.value(state), quantity(state));
     let intervals = scan.intervals();
-    let part = intervals
-        .iter()
-        .map(|part| Part { points: part.states.iter().map(point).collect(), colour: colour(part.phase) });
-    part.collect()
+    let drawn = |part: &Interval<'_>, style| Part { points: part.states.iter().map(point).collect(), style };
+    let pieces = scan.between_events();
+    let sticks = pieces.iter().filter(|part| modes(part).any(|(_, mode)| mode == SlipMode::Stick));
+    let sticks = sticks.map(|part| drawn(part, mode_colour(SlipMode::Stick).stroke_width(PALE)));
+    sticks.chain(intervals.iter().map(|part| drawn(part, colour(part.phase).stroke_width(LINE)))).collect()
 }
 
 /// Draws a trace into a part of `root`.
 pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Result<(), FigureError> {
-    let Along { across, foot, phases, marks, legs } = trace.along;
+    let Along { across, foot, phases, marks, legs, modes } = trace.along;
     let values = trace.parts.iter().flat_map(|part| part.points.iter().map(|point| point.1));
-    let up = span(values.chain([0.0]), 0.08);
+    let mut up = span(values.chain([0.0]), 0.08);
+    let row = STRIP * (up.end - up.start);
+    let rows = modes.iter().map(|mode| mode.1 + 1).max().filter(|_| trace.phases).unwrap_or(0);
+    up.end += row * rows as f64;
     let room = Room {
         left: LEFT,
         right: 30,
@@ -106,10 +138,17 @@ pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Resul
         chart.draw_series([Element::line(vec![(place, up.start), (place, up.end)], FAINT.stroke_width(2))])?;
     }
     for part in &trace.parts {
-        chart.draw_series([Element::line(part.points.iter().copied(), part.colour.stroke_width(4))])?;
+        chart.draw_series([Element::line(part.points.iter().copied(), part.style)])?;
     }
     for &place in marks {
         chart.draw_series([Element::line(vec![(place, up.start), (place, up.end)], TRANSITION.stroke_width(1))])?;
+    }
+    for (part, contact, mode) in modes.iter().filter(|_| trace.phases) {
+        let y = up.end - row * (*contact as f64 + 0.5);
+        chart.draw_series([Element::line(
+            vec![(part.start, y), (part.end, y)],
+            mode_colour(*mode).stroke_width(MODE),
+        )])?;
     }
     if trace.phases { name_phases(root, &chart, phases, up.end) } else { Ok(()) }
 }

@@ -1,7 +1,7 @@
 //! Whether what a live scan has measured can be of its rod.
 
-use vibrissa::reconstruct::{Calibration, Plausibility, plausibility};
-use vibrissa::{Rod, Sample};
+use vibrissa::reconstruct::{Budget, Calibration, Finding, Known, Plausibility, plausibility, reconstruct_passes};
+use vibrissa::{Rod, Sample, Settings};
 
 /// Most samples that are kept for the check.
 const MOST: usize = 4000;
@@ -45,5 +45,14 @@ impl Physics {
         }
         let Plausibility { findings, .. } = check;
         findings.iter().filter(|finding| finding.is_misfit()).map(ToString::to_string).collect()
+    }
+
+    /// Friction, which a live scan takes for none, in words; empty where a reconstruction of the samples sees none.
+    pub fn friction(&self, rod: &Rod, budget: Budget, known: Known) -> Vec<String> {
+        let settings = Settings { budget: Some(budget), known, ..Settings::default() };
+        let found =
+            reconstruct_passes(rod, &self.samples, &settings).map_or_else(|_| Vec::new(), |found| found.findings());
+        let friction = found.iter().filter(|finding| matches!(finding, Finding::Friction { .. }));
+        friction.map(|finding| format!("{finding}: live answers are without, and wrong")).collect()
     }
 }

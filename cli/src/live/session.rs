@@ -120,7 +120,8 @@ impl LiveScan {
         session.finish(|sample, reading| recorded.answer(&sample, reading));
         let Recorded { record, mut report, physics, tell, fault, .. } = recorded;
         report.end(end, sensor.feed.counters(), chain.timekeeper(), session.calibration());
-        for misfit in physics.misfits(&self.rod, session.calibration()) {
+        let misfits = physics.misfits(&self.rod, session.calibration());
+        for misfit in misfits.into_iter().chain(physics.friction(&self.rod, self.budget, self.known)) {
             tell(&format!("warning: {misfit}"));
             report.misfit(misfit);
         }

@@ -2,7 +2,7 @@
 
 use super::comparison::{Comparison, Transition, TruthError};
 use super::result::Reconstructed;
-use crate::{AnyScene, Error, Scan, Scene, SceneRod, interval};
+use crate::{AnyScene, Error, Scan, Scene, SceneRod};
 use rayon::prelude::*;
 use vibrissa::contact::EventKind;
 use vibrissa::reconstruct::Touch;
@@ -42,7 +42,10 @@ impl Comparison {
         let scan = Scan::run(scene)?;
         let told_apart = found.rod.uniform().is_some();
         let truth = Truth::of(&scan, told_apart);
-        let ways: Vec<Option<f64>> = (0..found.samples.len()).map(|sample| truth.way(found.pose(sample))).collect();
+        let poses: Vec<Pose> = (0..found.samples.len()).map(|sample| found.pose(sample)).collect();
+        let legs = truth.legs(&poses);
+        let way = |sample: usize| truth.way(legs[sample]?, poses[sample]);
+        let ways: Vec<Option<f64>> = (0..poses.len()).map(way).collect();
         let off_path = ways.iter().filter(|way| way.is_none()).count();
         if off_path == ways.len() {
             return Err(TruthError { file: found.recording.file.clone(), scene: scan.scene.name }.into());
@@ -63,7 +66,9 @@ impl Comparison {
         let second = deviation(objects, readings().filter_map(|reading| reading.second?.ok()));
         let several = found.samples.par_iter().zip(&found.found.readings).filter(|(_, r)| r.label.several());
         let naive = deviation(objects, several.filter_map(|(sample, _)| found.rod.naive_touch(sample)));
-        let kinks: Vec<f64> = found.kink_poses().into_iter().filter_map(|pose| truth.way(pose)).collect();
+        let kinks = found.found.kinks.iter().zip(found.kink_poses());
+        let kinks: Vec<f64> =
+            kinks.filter_map(|(kink, pose)| truth.way(*legs.get(kink.next)?.as_ref()?, pose)).collect();
         let kinked: Vec<f64> = truth.events.iter().filter(|event| event.kinks).map(|event| event.way).collect();
         let all: Vec<f64> = truth.events.iter().map(|event| event.way).collect();
         Ok(Self {
@@ -77,7 +82,7 @@ impl Comparison {
             naive,
             kinks: KinkScore::of(&kinks, &kinked, MARGIN),
             kinks_of_events: KinkScore::of(&kinks, &all, MARGIN),
-            transitions: truth.transitions(found),
+            transitions: truth.transitions(&found.found.runs, &ways),
             stop: scan.outcome.stop.clone(),
             scene: any(scan.scene),
         })
@@ -87,6 +92,11 @@ impl Comparison {
 fn deviation(objects: &[Composite], touches: impl ParallelIterator<Item = Touch>) -> Option<Deviation> {
     let distances: Option<Vec<f64>> = touches.map(|touch| signed_distance(objects, touch.x, touch.y)).collect();
     Deviation::of(distances?)
+}
+
+/// The place of the least value.
+fn least(values: &[f64]) -> usize {
+    (0..values.len()).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0)
 }
 
 /// A label, BA as BB where they are not told apart.
@@ -99,6 +109,8 @@ struct Truth<'a, R> {
     scan: &'a Scan<R>,
     /// Length of the rod, m.
     length: f64,
+    /// A length of the rod in the unit of ways along the path.
+    unit: f64,
     /// Whether BA and BB are told apart; otherwise all labels here are without BA.
     told_apart: bool,
     start: Label,
@@ -122,12 +134,13 @@ impl<'a, R: SceneRod> Truth<'a, R> {
             let [from, to] = [event.from(), event.to()].map(|phase| told(Label::of(phase.contacts, phase.tip)));
             let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
             let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
-            Happening { event, way: interval::way(&scan.scene.path, event.pose()), from, to, kinks }
+            Happening { event, way: scan.scene.way(&event.before), from, to, kinks }
         };
         let events: Vec<Happening<'a>> = scan.outcome.events.iter().map(happening).collect();
         let phase = scan.outcome.states.first().map(|state| state.phase()).unwrap_or_default();
         let start = told(Label::of(phase.contacts, phase.tip));
-        Self { scan, length: scan.scene.rod.units().length, told_apart, start, events }
+        let length = scan.scene.rod.units().length;
+        Self { scan, length, unit: if scan.scene.turns_only() { 1.0 } else { length }, told_apart, start, events }
     }
 
     /// A label as far as the reactions tell it.
@@ -135,19 +148,58 @@ impl<'a, R: SceneRod> Truth<'a, R> {
         told(label, self.told_apart)
     }
 
-    /// How far along the path a pose is, if it is on it and the sweep came so far.
-    fn way(&self, pose: Pose) -> Option<f64> {
-        let path = &self.scan.scene.path;
-        let way = interval::way(path, pose);
+    /// How far along the path a pose on a leg is, if it is on that and the sweep came so far.
+    fn way(&self, leg: usize, pose: Pose) -> Option<f64> {
+        let path = self.scan.scene.all_legs().nth(leg)?.path;
+        let way = path.way(pose);
         let end = match (&self.scan.outcome.stop, self.scan.outcome.states.last()) {
-            (Some(_), Some(state)) => interval::way(path, state.pose),
+            (Some(_), Some(state)) if state.leg < leg => return None,
+            (Some(_), Some(state)) if state.leg == leg => path.way(state.pose),
             _ => path.length(),
         };
         let there = path.at(way);
-        let unit = if path.turns_only() { 1.0 } else { self.length };
         let off = (pose.x - there.x).hypot(pose.y - there.y).max(self.length * (pose.phi - there.phi).abs());
-        let off = off.max(self.length / unit * (-way).max(way - end));
-        (off <= OFF_PATH * self.length).then_some(way)
+        let unit = if path.turns_only() { self.length } else { 1.0 };
+        let off = off.max(unit * (-way).max(way - end));
+        (off <= OFF_PATH * self.length).then(|| self.scan.scene.way_at(leg, pose))
+    }
+
+    /// The leg that each pose is on; none of poses off the path. Poses that may be on several, as on the way there and back, are given to legs
+    /// so that they go back along the path as little as possible.
+    fn legs(&self, poses: &[Pose]) -> Vec<Option<usize>> {
+        let count = self.scan.scene.legs.len() + 1;
+        // of each leg: how far the poses go back, if the last one is there, and the way of that
+        let mut last = vec![(0.0, 0.0); count];
+        let mut chosen = Vec::with_capacity(poses.len());
+        for &pose in poses {
+            let ways: Vec<Option<f64>> = (0..count).map(|leg| self.way(leg, pose)).collect();
+            if ways.iter().all(Option::is_none) {
+                chosen.push(None);
+                continue;
+            }
+            let from = |way: &Option<f64>| {
+                // bounded, because a recording may begin anew
+                let back = |&(before, last): &(f64, f64)| {
+                    way.map_or(f64::INFINITY, |way| before + (last - way).clamp(0.0, OFF_PATH * self.unit))
+                };
+                let backs: Vec<f64> = last.iter().map(back).collect();
+                let from = least(&backs);
+                (from, (backs[from], way.unwrap_or_default()))
+            };
+            let (froms, next): (Vec<usize>, Vec<(f64, f64)>) = ways.iter().map(from).unzip();
+            last = next;
+            chosen.push(Some(froms));
+        }
+        let mut leg = least(&last.iter().map(|last| last.0).collect::<Vec<_>>());
+        let mut legs: Vec<Option<usize>> = Vec::with_capacity(poses.len());
+        for froms in chosen.iter().rev() {
+            legs.push(froms.as_ref().map(|froms| {
+                let from = froms[leg];
+                std::mem::replace(&mut leg, from)
+            }));
+        }
+        legs.reverse();
+        legs
     }
 
     fn label(&self, way: f64) -> Label {
@@ -156,20 +208,19 @@ impl<'a, R: SceneRod> Truth<'a, R> {
     }
 
     fn is_either(&self, way: f64) -> bool {
-        let slack = EITHER * if self.scan.scene.path.turns_only() { 1.0 } else { self.length };
+        let slack = EITHER * self.unit;
         self.events.iter().any(|event| event.from != event.to && (event.way - way).abs() <= slack)
     }
 
-    fn transitions(&self, found: &Reconstructed) -> Vec<Transition> {
-        let runs = &found.found.runs;
+    fn transitions(&self, runs: &[(usize, Label)], ways: &[Option<f64>]) -> Vec<Transition> {
         let borders: Vec<(Label, Label, f64)> = runs
             .windows(2)
             .filter_map(|pair| {
-                let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| self.way(found.pose(k)));
+                let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| ways[k]);
                 Some((self.told(pair[0].1), self.told(pair[1].1), 0.5 * (before? + after?)))
             })
             .collect();
-        let far = FAR * if self.scan.scene.path.turns_only() { 1.0 } else { self.length };
+        let far = FAR * self.unit;
         let changes = self.events.iter().filter(|event| event.from != event.to);
         changes
             .map(|event| {

@@ -136,6 +136,16 @@ impl TryFrom<Vec<f64>> for Point {
 
 /// The tree as a document.
 pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<Document, Fault> {
+    let single = |name: &str| table.get_ref().get(name).filter(|value| value.get_ref().is_array());
+    if let Some((name, list)) =
+        ["rod", "clamp", "contact", "contour", "sweep"].iter().find_map(|name| Some((name, single(name)?)))
+    {
+        let message = format!(
+            "a list where one table belongs, expected [{name}] once; several may be [[object]], [[object.piece]], \
+                               [[contour.piece]], [[sweep.leg]] and [[rod.section]]"
+        );
+        return Err(Fault::new(list.span(), message));
+    }
     let contour = table.get_mut().get_mut("contour").map_or_else(|| Ok(Vec::new()), pieces)?;
     let objects = match table.get_mut().get_mut("object").map(|objects| (objects.span(), objects.get_mut())) {
         Some((_, DeValue::Array(objects))) => objects.iter_mut().map(pieces).collect::<Result<_, _>>()?,

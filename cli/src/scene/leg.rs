@@ -9,7 +9,7 @@ use vibrissa::contact::{ClampArc, ContactError, Path};
 use vibrissa::{ClampPath, Pose};
 
 /// A leg of the path after the first one, and the distance of its reported states: m, or radians where the clamp only turns.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Leg {
     /// Straight, or about a pivot.
     pub path: LegPath,

@@ -30,7 +30,6 @@ pub use rod::read_rod;
 use crate::SceneError;
 use crate::toml_file::{self, Source};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use toml::Spanned;
 use toml::de::DeTable;
 use vibrissa::contact::{Chain, ContactError, StopReason};
@@ -124,39 +123,46 @@ impl<R: SceneRod> Scene<R> {
     /// # Errors
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
     pub fn sweep(&self) -> Result<Sweep<'_, R>, ContactError> {
-        if self.legs.is_empty() {
-            return self.sweep_by(self.step);
-        }
-        let first: Arc<dyn vibrissa::contact::Path> = Arc::new(self.path);
-        let path = Chain::new(std::iter::once(first).chain(self.legs.iter().map(|leg| leg.path.path())).collect())?;
-        let steps: Vec<_> = std::iter::once(self.step).chain(self.legs.iter().map(|leg| leg.step)).collect();
-        self.rubbing(Sweep::with_steps(&self.rod, &self.objects, path, &steps)?)
+        self.sweep_by(&self.all_legs().map(|leg| leg.step).collect::<Vec<_>>())
     }
 
-    /// The sweep along the first leg with states at another distance.
+    /// The sweep with states at other distances, one for each of [`all_legs`](Self::all_legs).
     ///
     /// # Errors
-    /// As [`Sweep::new`].
-    pub(crate) fn sweep_by(&self, step: f64) -> Result<Sweep<'_, R>, ContactError> {
-        self.rubbing(Sweep::new(&self.rod, &self.objects, self.path, step)?)
-    }
-
-    /// The sweep with the friction of the scene.
-    fn rubbing<'a>(&'a self, sweep: Sweep<'a, R>) -> Result<Sweep<'a, R>, ContactError> {
+    /// As [`Sweep::with_steps`].
+    pub(crate) fn sweep_by(&self, steps: &[f64]) -> Result<Sweep<'_, R>, ContactError> {
+        let path = Chain::new(self.all_legs().map(|leg| leg.path.path()).collect())?;
+        let sweep = Sweep::with_steps(&self.rod, &self.objects, path, steps)?;
         match &self.friction {
             Some(friction) => sweep.with_friction(friction.clone()),
             None => Ok(sweep),
         }
     }
 
+    /// The legs of the whole path in order: `path`, and those after it.
+    pub fn all_legs(&self) -> impl Iterator<Item = Leg> + '_ {
+        let first = Leg { path: LegPath::Straight(self.path), step: self.step };
+        std::iter::once(first).chain(self.legs.iter().copied())
+    }
+
+    /// Whether the clamp turns without moving on all legs.
+    pub(crate) fn turns_only(&self) -> bool {
+        self.all_legs().all(|leg| leg.path.turns_only())
+    }
+
     /// How many steps the path is long.
     pub fn steps(&self) -> f64 {
-        self.path.length() / self.step + self.legs.iter().map(|leg| leg.path.length() / leg.step).sum::<f64>()
+        self.all_legs().map(|leg| leg.path.length() / leg.step).sum()
     }
 
     /// Way along the whole path at a state of its sweep: m, where the clamp moves, plus radians, where it only turns.
     pub(crate) fn way(&self, state: &State) -> f64 {
-        self.way_by(state.leg, state.pose, 1.0)
+        self.way_at(state.leg, state.pose)
+    }
+
+    /// The same at a pose of a leg.
+    pub(crate) fn way_at(&self, leg: usize, pose: Pose) -> f64 {
+        self.way_by(leg, pose, 1.0)
     }
 
     /// The same in m: where the clamp only turns, the way of the tip of a straight rod.
@@ -166,26 +172,24 @@ impl<R: SceneRod> Scene<R> {
 
     /// Way along the whole path at a pose of a leg, where a radian of a leg on which the clamp only turns counts as `radian`.
     fn way_by(&self, leg: usize, pose: Pose, radian: f64) -> f64 {
-        let unit = |turns_only: bool| if turns_only { radian } else { 1.0 };
-        let first = unit(self.path.turns_only());
-        let Some(number) = leg.checked_sub(1) else { return first * crate::interval::way(&self.path, pose) };
-        let way = |leg: &LegPath, way: f64| unit(leg.turns_only()) * way;
-        let before = self.legs[..number].iter().map(|leg| way(&leg.path, leg.path.length())).sum::<f64>();
-        let here = &self.legs[number].path;
-        first * self.path.length() + before + way(here, here.way(pose))
+        let unit = |path: &LegPath| if path.turns_only() { radian } else { 1.0 };
+        let ways =
+            self.all_legs().take(leg + 1).enumerate().map(|(number, Leg { path, .. })| {
+                unit(&path) * if number < leg { path.length() } else { path.way(pose) }
+            });
+        ways.sum()
     }
 
     /// Where its legs end, in m as [`way_in_m`](Self::way_in_m).
     pub(crate) fn ends_of_legs(&self) -> Vec<f64> {
-        let first = std::iter::once(self.path.at(self.path.length()));
-        let ends = first.chain(self.legs.iter().map(|leg| leg.path.at(leg.path.length())));
+        let ends = self.all_legs().map(|leg| leg.path.at(leg.path.length()));
         ends.enumerate().map(|(leg, end)| self.way_in_m(leg, end)).collect()
     }
 
     /// Poses along the path: the ends of straight legs, and others in between where the clamp goes about a pivot.
     pub(crate) fn poses(&self) -> Vec<Pose> {
-        let mut poses = vec![self.path.at(0.0), self.path.at(self.path.length())];
-        for leg in &self.legs {
+        let mut poses = vec![self.path.at(0.0)];
+        for leg in self.all_legs() {
             let parts = if matches!(leg.path, LegPath::Straight(_)) { 1 } else { PARTS };
             let at = |part: u32| leg.path.at(leg.path.length() * f64::from(part) / f64::from(parts));
             poses.extend((1..=parts).map(at));
@@ -193,7 +197,7 @@ impl<R: SceneRod> Scene<R> {
         poses
     }
 
-    /// Refuses a path of several legs, of which recordings know nothing.
+    /// Refuses a path of several legs.
     ///
     /// # Errors
     /// [`SceneError::Invalid`] at the field `sweep.leg`.
@@ -201,8 +205,8 @@ impl<R: SceneRod> Scene<R> {
         if self.legs.is_empty() {
             return Ok(());
         }
-        let message =
-            "several legs, which only `sweep`, `contour` and `study` take, expected a path without [[sweep.leg]]";
+        let message = "several legs, which only `sweep`, `contour`, `study`, `simulate` and `reconstruct --truth` take, expected a path \
+                       without [[sweep.leg]]";
         Err(self.source.error("sweep.leg", message))
     }
 }

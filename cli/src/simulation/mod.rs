@@ -7,7 +7,7 @@ mod ticks;
 pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
-use crate::scene::MOST_STATES;
+use crate::scene::{LegPath, MOST_STATES};
 use crate::{Error, Interrupt, Interrupted, OutputError, Scene, SceneRod, Staged};
 use std::io::{self, Write};
 use std::path::Path;
@@ -34,7 +34,8 @@ pub struct Simulation<R = Rod> {
     pub noise: NoiseModel,
     /// Samples in a second, 1/s.
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where it only turns.
+    /// Speed of the clamp: m/s, or rad/s where it only turns on the whole path. On a leg on which it only turns, of others on which it moves,
+    /// the speed in m/s of the tip of the straight rod.
     pub speed: f64,
     /// Of the noise.
     pub seed: u64,
@@ -100,7 +101,8 @@ pub enum SimulationError {
 impl<R: SceneRod> Simulation<R> {
     /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which
     /// appears when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked
-    /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample.
+    /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample. Of several legs each takes a whole
+    /// number of samples, at the speed that is nearest to `speed`, so that there is a sample where the clamp turns.
     ///
     /// The memory it takes does not grow with the number of samples.
     ///
@@ -146,21 +148,28 @@ impl<R: SceneRod> Simulation<R> {
         [t, x, y, phi, f0x, f0y, m0z, sigma.f0x, sigma.f0y, sigma.m0z]
     }
 
-    /// Way of the clamp between two samples.
-    fn step(&self) -> Result<f64, SimulationError> {
+    /// Way of the clamp between two samples on each leg, in the unit of its parameter, and how many such ways the path is long.
+    fn steps(&self) -> Result<(Vec<f64>, f64), SimulationError> {
         let Self { scene, rate, speed, .. } = self;
-        let unit = if scene.path.turns_only() { "rad" } else { "m" };
-        let per_second = if scene.path.turns_only() { "rad/s" } else { "m/s" };
+        let [unit, per_second] = if scene.turns_only() { ["rad", "rad/s"] } else { ["m", "m/s"] };
         for (what, value, unit) in [("--rate", *rate, "Hz"), ("--speed", *speed, per_second)] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(SimulationError::NotPositive { what, value, unit });
             }
         }
-        let (step, length) = (speed / rate, scene.path.length());
+        let step = speed / rate;
+        let way = |path: &LegPath| match path.turns_only() && !scene.turns_only() {
+            true => path.length() * scene.rod.units().length,
+            false => path.length(),
+        };
+        let legs: Vec<(LegPath, f64)> = scene.all_legs().map(|leg| (leg.path, way(&leg.path))).collect();
+        let length: f64 = legs.iter().map(|leg| leg.1).sum();
         let samples = length / step;
         // Written so that it holds for a step of zero, too.
         if samples <= MOST_STATES {
-            Ok(step)
+            let whole = |(path, way): &(LegPath, f64)| path.length() / (way / step).round().max(1.0);
+            let steps = if scene.legs.is_empty() { vec![step] } else { legs.iter().map(whole).collect() };
+            Ok((steps, samples))
         } else {
             Err(SimulationError::TooMany { rate: *rate, speed: *speed, samples, length, unit })
         }
@@ -203,8 +212,7 @@ impl<R: SceneRod> Samples<'_, R> {
             match self.ticks.next() {
                 Some(Ok(Tick { number, pose, reactions, roller, .. })) => {
                     last = Some(pose);
-                    let Simulation { rate, speed, scene, .. } = self.simulation;
-                    interrupt.pass(number as f64 * speed / rate / scene.path.length());
+                    interrupt.pass(number as f64 / self.ticks.expected);
                     let Some(reactions) = reactions else {
                         recorded.lost += 1;
                         continue;

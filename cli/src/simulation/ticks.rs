@@ -1,6 +1,7 @@
 //! The samples of a simulated recording, one after the other.
 
 use super::Simulation;
+use crate::scene::{Leg, LegPath};
 use crate::{Error, SceneRod};
 use vibrissa::contact::{Item, RollerContact, Stop};
 use vibrissa::reconstruct::{Dropout, NoiseGenerator, NoiseModel};
@@ -27,8 +28,10 @@ pub struct Tick {
 #[derive(Debug)]
 pub struct Ticks<'a, R = Rod> {
     sweep: Sweep<'a, R>,
-    simulation: &'a Simulation<R>,
-    step: f64,
+    /// The legs of the path, the way between two samples on each, and the number of the sample at its start.
+    legs: Vec<(LegPath, f64, usize)>,
+    /// About how many samples there are.
+    pub(super) expected: f64,
     sensor: NoiseGenerator,
     /// That of a roller, which has one channel.
     roller: NoiseGenerator,
@@ -42,12 +45,19 @@ impl<R: SceneRod> Simulation<R> {
     /// # Errors
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
     pub fn ticks(&self) -> Result<Ticks<'_, R>, Error> {
-        let (step, sensor) = (self.step()?, self.noise.generator(self.seed)?);
+        let ((steps, expected), sensor) = (self.steps()?, self.noise.generator(self.seed)?);
         // a sample is lost as a whole
         let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..self.noise };
         let roller = of_roller.generator(self.seed ^ ROLLER_SEED)?;
-        let sweep = self.scene.sweep_by(step)?;
-        Ok(Ticks { sweep, simulation: self, step, sensor, roller, next: 0 })
+        let sweep = self.scene.sweep_by(&steps)?;
+        let mut first = 0;
+        let leg = |(leg, step): (Leg, f64)| {
+            let this = first;
+            first += (leg.path.length() / step).round() as usize;
+            (leg.path, step, this)
+        };
+        let legs = self.scene.all_legs().zip(steps).map(leg).collect();
+        Ok(Ticks { sweep, legs, expected, sensor, roller, next: 0 })
     }
 }
 
@@ -60,15 +70,12 @@ const ROUNDING: f64 = 1e-6;
 impl<R: SceneRod> Ticks<'_, R> {
     /// None of the end of the path, which the sweep reports too, where no sample is due.
     fn tick(&mut self, state: &State) -> Option<Tick> {
-        let Pose { x, y, phi } = state.pose;
-        let path = &self.simulation.scene.path;
-        let start = path.at(0.0);
-        let way = if path.turns_only() { (phi - start.phi).abs() } else { (x - start.x).hypot(y - start.y) };
-        let due = way / self.step;
+        let (path, step, first) = &self.legs[state.leg];
+        let due = path.way(state.pose) / step;
         if (due - due.round()).abs() > ROUNDING {
             return None;
         }
-        let number = due.round() as usize;
+        let number = first + due.round() as usize;
         // The sensor goes on where the sweep has nothing to report.
         for _ in self.next..number {
             self.sensor.sample(Reactions::default());

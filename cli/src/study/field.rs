@@ -30,7 +30,8 @@ impl Field {
         Some(Self(parts))
     }
 
-    /// Writes the number into the table: in place of the one that is there, or beside the others of a table that is there.
+    /// Writes the number into the table: in place of the one that is there, or beside the others of a table that is there, or of one that scenes
+    /// need not have.
     ///
     /// # Errors
     /// What is wrong with the name, for a message.
@@ -66,8 +67,14 @@ impl Field {
     }
 }
 
-/// What a table has under a name.
+/// Tables that a scene need not have, and that hold numbers.
+const OPTIONAL: [&str; 3] = ["contact", "clamp", "friction"];
+
+/// What a table has under a name, which is made where it may be missing.
 fn named<'a>(table: &'a mut Table, name: &str) -> Result<&'a mut Value, String> {
+    if OPTIONAL.contains(&name) {
+        return Ok(table.entry(name).or_insert_with(|| Value::Table(Table::new())));
+    }
     let names: Vec<&str> = table.keys().map(String::as_str).collect();
     let hint = meant(name, &names).map_or_else(String::new, |hint| format!("; {hint}"));
     let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");

@@ -106,6 +106,17 @@ pub enum Finding {
         /// Logarithm of the likelihood of the scan with friction over that without.
         gain: f64,
     },
+    /// The coefficient of friction that was given is not that of the scan.
+    FrictionGiven {
+        /// The one given, negative where the rod is pushed on.
+        given: f64,
+        /// That of the scan.
+        mu: f64,
+        /// Its standard deviation.
+        sigma: f64,
+        /// How far they are apart, in standard deviations of both.
+        deviation: f64,
+    },
     /// K / (2 |F|) along tangential contacts has not one value: friction changes along the scan, or contacts stick.
     FrictionChanges {
         /// The coefficient that was used.
@@ -217,6 +228,7 @@ impl Finding {
             | Self::MomentSign
             | Self::NoFreeStretch
             | Self::Friction { .. }
+            | Self::FrictionGiven { .. }
             | Self::FrictionChanges { .. }
             | Self::FrictionAgainst { .. }
             | Self::Budget { .. } => true,
@@ -279,6 +291,14 @@ impl fmt::Display for Finding {
                 mu.abs(),
                 (gain / std::f64::consts::LN_10).min(999.0),
                 mu / mu.hypot(1.0)
+            ),
+            Self::FrictionGiven { given, mu, sigma, deviation } => write!(
+                f,
+                "friction with mu = {:.4} was given, but the scan tells mu = {:.4} +- {sigma:.1e}{}, {deviation:.0} standard deviations from that: give \
+                 this one, or let it be estimated",
+                given.abs(),
+                mu.abs(),
+                if mu * given < 0.0 { " the other way" } else { "" }
             ),
             Self::FrictionChanges { mu, scatter, spread } => write!(
                 f,

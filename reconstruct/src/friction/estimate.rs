@@ -4,6 +4,8 @@
 const SIGMAS: f64 = 4.0;
 /// Logarithm of the factor by which a scan must be likelier with friction than without: very strong evidence (Jeffreys 1961, appendix B).
 const DECISIVE: f64 = 10.0;
+/// How much errors of an ordinary laboratory let a coefficient seem to vary: 0.01.
+pub(crate) const SPREAD: f64 = 0.015;
 
 /// What a pass of a recording tells of friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +28,36 @@ pub struct FrictionEstimate {
     pub gain: f64,
     /// Share of the tangential path along which the rod slides the other way than this sign of friction asks for.
     pub against: f64,
+    /// What the pass tells without regard to a coefficient that was given; none where none was.
+    pub alone: Option<FrictionAlone>,
+}
+
+/// What a pass of a recording tells of friction on its own, where a coefficient was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FrictionAlone {
+    /// The coefficient, with the sign of [`FrictionEstimate::mu`], and its standard deviation, as there.
+    pub mu: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// The coefficient that was given, with its sign.
+    pub given: f64,
+    /// How far they are apart, in standard deviations of both.
+    pub deviation: f64,
+}
+
+impl FrictionAlone {
+    /// Of a coefficient that was `given` with its standard deviation.
+    pub(crate) fn of(found: &FrictionEstimate, given: f64, sigma: f64) -> Self {
+        let deviation = (found.mu - given).abs() / found.sigma.hypot(sigma);
+        Self { mu: found.mu, sigma: found.sigma, given, deviation }
+    }
+
+    /// Whether the pass contradicts the coefficient that was given: by more than four standard deviations, and by more than errors of an
+    /// ordinary laboratory let a coefficient seem to vary.
+    pub fn contradicts(&self) -> bool {
+        self.deviation > SIGMAS && (self.mu - self.given).abs() > SPREAD
+    }
 }
 
 impl FrictionEstimate {

@@ -11,7 +11,8 @@ mod known;
 mod plateau;
 mod there_and_back;
 
-pub use estimate::FrictionEstimate;
+pub(crate) use estimate::SPREAD;
+pub use estimate::{FrictionAlone, FrictionEstimate};
 pub(crate) use known::ANY;
 pub use known::Friction;
 pub(crate) use plateau::{Start, flatness, rubs, start};

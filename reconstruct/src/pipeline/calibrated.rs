@@ -1,7 +1,7 @@
 //! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
 
 use super::settings::{ReconstructError, Settings, positive, possible};
-use crate::friction::{ANY, Friction, FrictionEstimate, Start, flatness, rubs, start};
+use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rubs, start};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Node, places};
 use crate::point::Inverse;
@@ -45,7 +45,10 @@ impl Calibrated {
         {
             return Ok(smooth);
         }
-        let rough = scan.rough(rod, settings)?;
+        let mut rough = scan.clone().rough(rod, settings)?;
+        if let Friction::Known { mu, sigma } = settings.friction {
+            rough = rough.against_alone(scan.rough(rod, &alone(settings))?.friction, mu, sigma);
+        }
         let smooth = smooth.compared(&rough);
         if settings.friction == Friction::None {
             return Ok(smooth);
@@ -81,7 +84,8 @@ impl Calibrated {
         let track = self.track.with_friction(mu);
         let nodes = places(rod, &track, &self.noise, &self.breaks);
         let gain = likelihood - without;
-        let friction = Some(FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against });
+        let found = FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against, alone: None };
+        let friction = Some(found);
         Self { track, nodes, friction, ..self }
     }
 
@@ -93,8 +97,20 @@ impl Calibrated {
                 let friction = self.clone().rubbed(rod, settings).friction;
                 Self { friction, ..self }
             }
-            _ => self.rubbed(rod, settings),
+            Friction::Known { mu, sigma } => {
+                let free = self.clone().rubbed(rod, &alone(settings)).friction;
+                self.rubbed(rod, settings).against_alone(free, mu, sigma)
+            }
+            Friction::Estimate => self.rubbed(rod, settings),
         }
+    }
+
+    /// With what the scan tells of friction on its own, where a coefficient of this standard deviation was given.
+    fn against_alone(mut self, alone: Option<FrictionEstimate>, mu: f64, sigma: f64) -> Self {
+        if let Some((found, alone)) = self.friction.as_mut().zip(alone) {
+            found.alone = Some(FrictionAlone::of(&alone, mu.copysign(found.mu), sigma));
+        }
+        self
     }
 
     /// What the same scan with friction tells of it.
@@ -176,6 +192,11 @@ impl Calibrated {
         let (calibration, friction) = (None, None);
         Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration, friction })
     }
+}
+
+/// The settings without a coefficient of friction that was given.
+fn alone(settings: &Settings) -> Settings {
+    Settings { friction: Friction::Estimate, ..*settings }
 }
 
 /// The budget with that of friction, of which nothing is known where it is not asked for.

@@ -3,7 +3,7 @@
 use super::reading::{Reading, Reason};
 use super::reconstruction::{Pass, Reconstruction};
 use crate::check::Finding;
-use crate::friction::FrictionEstimate;
+use crate::friction::{FrictionAlone, FrictionEstimate, SPREAD};
 use crate::phase::{Basis, Label};
 use crate::scan::Fault;
 use crate::systematic::{Calibration, Source};
@@ -21,9 +21,7 @@ const UNCERTAIN: f64 = 0.01;
 const MUCH: f64 = 0.1;
 /// Share of the tangential path along which the rod slides against friction that is reported: the rest is noise of the rates.
 const AGAINST: f64 = 0.2;
-/// How much the coefficient of friction may vary along a pass, beyond its noise and in multiples of it. Sensors and clamps of an ordinary
-/// laboratory let it seem to vary by 0.01.
-const SPREAD: f64 = 0.015;
+/// How much the coefficient of friction may vary along a pass, in multiples of its noise.
 const SCATTERED: f64 = 3.0;
 /// Part of its budget to which the scan must determine a bias, where no stretch is of a free rod.
 const KNOWN: f64 = 0.3;
@@ -86,13 +84,17 @@ impl Reconstruction {
 
 /// Friction that was not asked for, and friction that is not what was asked for.
 fn of_friction(pass: &Pass) -> Option<Finding> {
-    let FrictionEstimate { mu, sigma, scatter, spread, gain, against, .. } = pass.friction?;
+    let FrictionEstimate { mu, sigma, scatter, spread, gain, against, alone, .. } = pass.friction?;
     if pass.used_friction == 0.0 {
         return pass.friction.filter(FrictionEstimate::is_there).map(|_| Finding::Friction { mu, sigma, gain });
     }
     // the direction of what is not there says nothing
     if against > AGAINST && pass.friction.is_some_and(|found| found.is_there()) {
         return Some(Finding::FrictionAgainst { mu, share: against });
+    }
+    // that it seems to vary is a consequence
+    if let Some(FrictionAlone { mu, sigma, given, deviation }) = alone.filter(FrictionAlone::contradicts) {
+        return Some(Finding::FrictionGiven { given, mu, sigma, deviation });
     }
     (scatter > SCATTERED && spread > SPREAD).then_some(Finding::FrictionChanges { mu, scatter, spread })
 }

@@ -82,7 +82,11 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
         let (rod, undone) = mistake.undone(rod, samples);
         Some((mistake, interpreted(&rod, &undone, &settings)?.log_likelihood))
     };
-    let possible = Mistake::ALL.into_iter().chain(of_slope).filter(|mistake| mistake.is_possible(rod, &thin));
+    // K / (2 |F|) along tangential contacts has one value, that of friction, only in the units in which it was found
+    let rubs = finds.iter().any(|finding| matches!(finding, Finding::Friction { .. } | Finding::FrictionGiven { .. }));
+    let possible = Mistake::ALL.into_iter().chain(of_slope);
+    let possible =
+        possible.filter(|mistake| mistake.is_possible(rod, &thin) && !(rubs && matches!(mistake, Mistake::Units(..))));
     let few = thinned(samples, FIRST);
     let mut likely: Vec<(Mistake, f64)> = possible.filter_map(|mistake| log(mistake, &few)).collect();
     likely.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -102,19 +106,24 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
             (explanation, calibration.log_likelihood + log - all)
         }));
     }
-    found.extend(of_friction(rod, &thin, &settings, found.iter().map(|one| one.1).fold(f64::NEG_INFINITY, f64::max)));
+    let given = finds.iter().any(|finding| matches!(finding, Finding::FrictionGiven { .. }));
+    if settings.friction == Friction::None || given {
+        found.extend(of_friction(
+            rod,
+            &thin,
+            &settings,
+            found.iter().map(|one| one.1).fold(f64::NEG_INFINITY, f64::max),
+        ));
+    }
     let all = log_sum(found.iter().map(|one| one.1));
     found.iter_mut().for_each(|one| one.1 = (one.1 - all).exp());
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     found
 }
 
-/// Friction that was not asked for, if it explains more than the best of the others; the likelihood contains that nothing was known of the
+/// Friction that was not asked for, or another one than that given, if it explains more than the best of the others; the likelihood contains that nothing was known of the
 /// coefficient before.
 fn of_friction(rod: &Rod, samples: &[Sample], settings: &Settings, best: f64) -> Option<(Explanation, f64)> {
-    if settings.friction != Friction::None {
-        return None;
-    }
     let settings = Settings { friction: Friction::Estimate, ..*settings };
     let calibration = interpreted(rod, samples, &settings)?;
     let found = calibration.source(Source::Friction)?;
