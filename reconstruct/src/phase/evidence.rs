@@ -274,7 +274,7 @@ impl Evidence {
 /// The speed of the moment zero across its tangent and along it, with standard deviations.
 fn speed<I: Inverse>(rod: &I, estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
     let of = |clamp: &Clamp, found: &MomentZero| {
-        let gradient = rod.gradient_at(clamp, found.s);
+        let (_, gradient) = rod.gradient_at(clamp, found.s);
         let rate = gradient.rate(&estimate.rate);
         // the point slides along the rod such that the moment there stays 0
         let slide = -rate[3] / gradient.by_s[3];

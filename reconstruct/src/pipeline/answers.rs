@@ -9,7 +9,7 @@ use crate::phase::{Break, Identified, Label, contact};
 use crate::point::{Inverse, Touch};
 use crate::scan::{Noise, Track};
 use crate::systematic::Shared;
-use crate::two_contacts::{Limits, Neighbour, Passed, Piece, Unresolved, resolve};
+use crate::two_contacts::{Around, Limits, Neighbour, Passed, Piece, Unresolved, resolve};
 use nalgebra::Matrix2;
 use rod_core::Units;
 use std::ops::Range;
@@ -51,16 +51,7 @@ impl<I: Inverse> Answers<'_, I> {
         let runs = &self.identified.runs;
         let mut next = 0;
         while next < runs.len() {
-            if runs[next].1.several() && !I::UNIFORM {
-                let (range, label) = runs[next].clone();
-                let mut nodes = Nearest::new(self.identified, label, range.start);
-                let reason = Reason::Several(Unresolved::NotUniform);
-                readings.extend(range.map(|index| Reading {
-                    second: Some(Err(reason)),
-                    ..self.reading(&mut nodes, index, label, Err(reason))
-                }));
-                next += 1;
-            } else if runs[next].1.several() {
+            if runs[next].1.several() {
                 let many = runs[next..].iter().take_while(|run| run.1.several()).count();
                 self.several(next..next + many, breaks, &mut readings);
                 next += many;
@@ -183,7 +174,7 @@ impl<I: Inverse> Answers<'_, I> {
         let clamp = |k: usize| (nodes[k].fit.at(self.track.tau[nodes[k].index]).clamp, labels[k].0);
         let before = (0..to).rev().take_while(known).map(clamp).collect();
         let after = (from..nodes.len()).take_while(known).map(clamp).collect();
-        Passed::new([before, after])
+        Passed::new(self.rod, [before, after])
     }
 
     /// The answers to pieces that are joined without a jump.
@@ -204,9 +195,8 @@ impl<I: Inverse> Answers<'_, I> {
             }
             _ => Vec::new(),
         };
-        let beside = [before.as_ref(), after.as_ref()];
-        let pairs =
-            resolve(self.track, self.noise, &pieces, beside, &limits, &displacements, &self.passed(&pieces, breaks));
+        let around = Around { neighbours: [before.as_ref(), after.as_ref()], passed: &self.passed(&pieces, breaks) };
+        let pairs = resolve(self.rod, self.track, self.noise, &pieces, around, &limits, &displacements);
         let sure = |found: Result<Touch, Unresolved>| match found {
             Ok(touch) => self.sure(touch),
             Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),

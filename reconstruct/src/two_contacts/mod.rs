@@ -39,5 +39,5 @@ mod weights;
 
 pub(crate) use pair::Limits;
 pub(crate) use passed::Passed;
-pub(crate) use resolve::{Neighbour, Piece, resolve};
+pub(crate) use resolve::{Around, Neighbour, Piece, resolve};
 pub use unresolved::Unresolved;

@@ -8,6 +8,7 @@ use super::series::Series;
 use super::single::Single;
 use super::unresolved::Unresolved;
 use crate::phase::Label;
+use crate::point::Inverse;
 use crate::scan::{Noise, Track};
 use crate::systematic::Correction;
 use std::ops::Range;
@@ -29,16 +30,25 @@ pub(crate) struct Neighbour {
     pub label: Label,
 }
 
-/// Both contacts of each sample of a run of consecutive stretches, dimensionless. `before` and `after` are the neighbouring
-/// stretches with one contact, if the reactions do not jump there. `displacements` are those of the samples by errors that all of them share.
-pub(crate) fn resolve(
+/// What is known on both sides of a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Around<'a> {
+    /// The neighbouring stretches with one contact, if the reactions do not jump there.
+    pub neighbours: [Option<&'a Neighbour>; 2],
+    /// Where the rod passes.
+    pub passed: &'a Passed,
+}
+
+/// Both contacts of each sample of a run of consecutive stretches, dimensionless. `displacements` are those of the samples by errors that
+/// all of them share.
+pub(crate) fn resolve<I: Inverse>(
+    rod: &I,
     track: &Track,
     noise: &Noise,
     pieces: &[Piece],
-    [before, after]: [Option<&Neighbour>; 2],
+    Around { neighbours: [before, after], passed }: Around<'_>,
     limits: &Limits,
     displacements: &[Correction],
-    passed: &Passed,
 ) -> Vec<Pair> {
     let mut pairs = Vec::with_capacity(pieces.iter().map(|p| p.range.len()).sum());
     let inside = |range: &Range<usize>| {
@@ -69,13 +79,13 @@ pub(crate) fn resolve(
             Single::beside(track, noise, &inside(&neighbour.range), side, own.len(), edge)
         };
         let singles = [at_end(before, 0, k == 0), at_end(after, 1, end == pieces.len())];
-        let ends = singles.each_ref().map(|single| single.as_ref()?.contact());
+        let ends = singles.each_ref().map(|single| single.as_ref()?.contact(rod));
         let stretches = (k..end).filter_map(|j| Some((fitted[j].clone()?, pieces[j].label.tip()))).collect::<Vec<_>>();
-        match solve(stretches, ends, noise.is_clean(), passed) {
+        match solve(rod, stretches, ends, noise.is_clean(), passed) {
             Ok(found) => {
-                let spread = displaced(&found, &singles, displacements);
+                let spread = displaced(rod, &found, &singles, displacements);
                 for ((part, piece), spread) in found.parts.iter().zip(&pieces[k..end]).zip(&spread) {
-                    answer(&found, part, &track.tau[piece.range.clone()], limits, spread, &mut pairs);
+                    answer(rod, &found, part, &track.tau[piece.range.clone()], limits, spread, &mut pairs);
                 }
             }
             Err(error) => {
