@@ -37,7 +37,8 @@ mod unknowns;
 mod unresolved;
 mod weights;
 
-pub(crate) use pair::Limits;
+pub(crate) use pair::{Limits, Pair};
 pub(crate) use passed::Passed;
-pub(crate) use resolve::{Around, Neighbour, Piece, resolve};
+pub(crate) use resolve::{Around, Neighbour, Piece, Resolution, resolve};
+pub(crate) use run::AS_GOOD;
 pub use unresolved::Unresolved;

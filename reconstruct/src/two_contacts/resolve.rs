@@ -39,6 +39,23 @@ pub(crate) struct Around<'a> {
     pub passed: &'a Passed,
 }
 
+/// Both contacts of each sample of a run, and how well they explain it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Resolution {
+    pub pairs: Vec<Pair>,
+    /// Samples that no two contacts explain.
+    pub unexplained: usize,
+    /// Sum of the weighted squares of what explains the others.
+    pub cost: f64,
+}
+
+impl Resolution {
+    fn nothing(&mut self, samples: usize, why: Unresolved) {
+        self.pairs.extend((0..samples).map(|_| Pair { first: Err(why), second: Err(why) }));
+        self.unexplained += samples;
+    }
+}
+
 /// Both contacts of each sample of a run of consecutive stretches, dimensionless. `displacements` are those of the samples by errors that
 /// all of them share.
 pub(crate) fn resolve<I: Inverse>(
@@ -49,8 +66,8 @@ pub(crate) fn resolve<I: Inverse>(
     Around { neighbours: [before, after], passed }: Around<'_>,
     limits: &Limits,
     displacements: &[Correction],
-) -> Vec<Pair> {
-    let mut pairs = Vec::with_capacity(pieces.iter().map(|p| p.range.len()).sum());
+) -> Resolution {
+    let mut resolution = Resolution::default();
     let inside = |range: &Range<usize>| {
         let margin = limits.margin.min(range.len() / 8);
         range.start + margin..range.end - margin
@@ -67,7 +84,7 @@ pub(crate) fn resolve<I: Inverse>(
         let end = (k..pieces.len()).find(|&j| fitted[j].is_none()).unwrap_or(pieces.len());
         if end == k {
             let error = Unresolved::TooShort { samples: inside(&pieces[k].range).len(), least: FEWEST_SAMPLES };
-            pairs.extend(pieces[k].range.clone().map(|_| Pair { first: Err(error), second: Err(error) }));
+            resolution.nothing(pieces[k].range.len(), error);
             k += 1;
             continue;
         }
@@ -85,15 +102,13 @@ pub(crate) fn resolve<I: Inverse>(
             Ok(found) => {
                 let spread = displaced(rod, &found, &singles, displacements);
                 for ((part, piece), spread) in found.parts.iter().zip(&pieces[k..end]).zip(&spread) {
-                    answer(rod, &found, part, &track.tau[piece.range.clone()], limits, spread, &mut pairs);
+                    answer(rod, &found, part, &track.tau[piece.range.clone()], limits, spread, &mut resolution.pairs);
                 }
+                resolution.cost += found.solution.cost;
             }
-            Err(error) => {
-                let samples = pieces[end - 1].range.end - pieces[k].range.start;
-                pairs.extend((0..samples).map(|_| Pair { first: Err(error), second: Err(error) }));
-            }
+            Err(error) => resolution.nothing(pieces[end - 1].range.end - pieces[k].range.start, error),
         }
         k = end;
     }
-    pairs
+    resolution
 }

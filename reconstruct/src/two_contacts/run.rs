@@ -40,7 +40,7 @@ const MOST_MISFIT_CLEAN: f64 = 6.0;
 
 /// A solution whose sum of weighted squares exceeds that of another by less than this cannot be excluded: a likelihood ratio of
 /// exp(-12). Larger: more stretches are given up as ambiguous; smaller: wrong contacts pass.
-const AS_GOOD: f64 = 24.0;
+pub(crate) const AS_GOOD: f64 = 24.0;
 /// Distance of the first contacts of two first solutions along the rod, rod lengths, up to which only the better one goes on.
 const SAME: f64 = 0.005;
 /// Distance of the first contacts of two solutions along the rod, rod lengths, from which on they are not the same.

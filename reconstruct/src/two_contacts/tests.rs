@@ -156,7 +156,7 @@ fn displaced(
         let after = (end < all.len() && !all[end - 1].2 && single(end)).then(|| neighbour(end));
         out.push((
             all[k].0.start,
-            resolve(&Uniform, track, noise, &pieces, around(before.as_ref(), after.as_ref()), limits, by),
+            resolve(&Uniform, track, noise, &pieces, around(before.as_ref(), after.as_ref()), limits, by).pairs,
         ));
         k = end;
     }
@@ -321,7 +321,7 @@ fn what_cannot_be_told_is_given_up_with_a_reason() {
     let (track, noise) = measured(&scan, Vector3::zeros(), 0.0, 0);
     let piece = |range, label| Piece { range, label };
     let of = |pieces: &[Piece], track: &Track, noise: &Noise| {
-        resolve(&Uniform, track, noise, pieces, around(None, None), &limits, &[])
+        resolve(&Uniform, track, noise, pieces, around(None, None), &limits, &[]).pairs
     };
     // ten samples
     let short = of(&[piece(1235..1245, Label::BB)], &track, &noise);
