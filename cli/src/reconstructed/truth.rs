@@ -40,8 +40,7 @@ impl Comparison {
         any: impl FnOnce(Scene<R>) -> AnyScene,
     ) -> Result<Self, Error> {
         let scan = Scan::run(scene)?;
-        let told_apart = found.rod.uniform().is_some();
-        let truth = Truth::of(&scan, told_apart);
+        let truth = Truth::of(&scan);
         let ways: Vec<Option<f64>> = (0..found.samples.len()).map(|sample| truth.way(found.pose(sample))).collect();
         let off_path = ways.iter().filter(|way| way.is_none()).count();
         if off_path == ways.len() {
@@ -51,9 +50,8 @@ impl Comparison {
         for (reading, way) in found.found.readings.iter().zip(&ways) {
             let Some(way) = way else { continue };
             let label = truth.label(*way);
-            let read = truth.told(reading.label);
-            confusion.add(label, read);
-            either += u64::from(label != read && truth.is_either(*way));
+            confusion.add(label, reading.label);
+            either += u64::from(label != reading.label && truth.is_either(*way));
         }
         let readings = || found.found.readings.par_iter().filter(|reading| reading.label != Label::Free);
         let objects = &scan.scene.objects;
@@ -69,7 +67,6 @@ impl Comparison {
         Ok(Self {
             off_path,
             confusion,
-            told_apart,
             either,
             single,
             first,
@@ -89,18 +86,11 @@ fn deviation(objects: &[Composite], touches: impl ParallelIterator<Item = Touch>
     Deviation::of(distances?)
 }
 
-/// A label, BA as BB where they are not told apart.
-fn told(label: Label, told_apart: bool) -> Label {
-    if label == Label::BA && !told_apart { Label::BB } else { label }
-}
-
 /// What happened along the path.
 struct Truth<'a, R> {
     scan: &'a Scan<R>,
     /// Length of the rod, m.
     length: f64,
-    /// Whether BA and BB are told apart; otherwise all labels here are without BA.
-    told_apart: bool,
     start: Label,
     events: Vec<Happening<'a>>,
 }
@@ -116,23 +106,17 @@ struct Happening<'a> {
 }
 
 impl<'a, R: SceneRod> Truth<'a, R> {
-    fn of(scan: &'a Scan<R>, told_apart: bool) -> Self {
-        let told = |label| told(label, told_apart);
+    fn of(scan: &'a Scan<R>) -> Self {
         let happening = |event: &'a Event| {
-            let [from, to] = [event.from(), event.to()].map(|phase| told(Label::of(phase.contacts, phase.tip)));
+            let [from, to] = [event.from(), event.to()].map(|phase| Label::of(phase.contacts, phase.tip));
             let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
             let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
             Happening { event, way: interval::way(&scan.scene.path, event.pose()), from, to, kinks }
         };
         let events: Vec<Happening<'a>> = scan.outcome.events.iter().map(happening).collect();
         let phase = scan.outcome.states.first().map(|state| state.phase()).unwrap_or_default();
-        let start = told(Label::of(phase.contacts, phase.tip));
-        Self { scan, length: scan.scene.rod.units().length, told_apart, start, events }
-    }
-
-    /// A label as far as the reactions tell it.
-    fn told(&self, label: Label) -> Label {
-        told(label, self.told_apart)
+        let start = Label::of(phase.contacts, phase.tip);
+        Self { scan, length: scan.scene.rod.units().length, start, events }
     }
 
     /// How far along the path a pose is, if it is on it and the sweep came so far.
@@ -166,7 +150,7 @@ impl<'a, R: SceneRod> Truth<'a, R> {
             .windows(2)
             .filter_map(|pair| {
                 let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| self.way(found.pose(k)));
-                Some((self.told(pair[0].1), self.told(pair[1].1), 0.5 * (before? + after?)))
+                Some((pair[0].1, pair[1].1, 0.5 * (before? + after?)))
             })
             .collect();
         let far = FAR * if self.scan.scene.path.turns_only() { 1.0 } else { self.length };

@@ -56,8 +56,11 @@ impl<I: Inverse> Answers<'_, I> {
         let smooth: Vec<&[Piece]> = pieces.chunk_by(|_, next| !jumps(breaks, next.range.start)).collect();
         for (k, pieces) in smooth.iter().enumerate() {
             let beside = [before.as_ref().filter(|_| k == 0), after.as_ref().filter(|_| k + 1 == smooth.len())];
-            let resolved =
-                if I::UNIFORM { self.as_labelled(pieces, beside, breaks) } else { self.told(pieces, beside, breaks) };
+            let resolved = if self.rod.tells_last() {
+                self.as_labelled(pieces, beside, breaks)
+            } else {
+                self.told(pieces, beside, breaks)
+            };
             for together in resolved {
                 if readings.len() > from {
                     let start = together.pieces.first().map_or(0, |piece| piece.range.start);

@@ -46,9 +46,16 @@ impl<I: Inverse> Answers<'_, I> {
         let mut best: Vec<[Way; 2]> = Vec::with_capacity(pieces.len());
         for end in 0..pieces.len() {
             let ways = [Label::BA, Label::BB].map(|last| {
-                let ways = (0..=end).rev().take(MOST_TOGETHER).map(|start| {
-                    let label = |k: usize| if (end - k).is_multiple_of(2) { last } else { other(last) };
-                    let labelled = (start..=end).map(|k| Piece { label: label(k), ..pieces[k].clone() }).collect();
+                let label = |k: usize| if (end - k).is_multiple_of(2) { last } else { other(last) };
+                let labelled = |k: usize| Piece { label: label(k), ..pieces[k].clone() };
+                let ways = (0..=end).rev().take(MOST_TOGETHER).map_while(|start| {
+                    // what contradicts the reactions alone does so together with others
+                    let alone = |k: usize| all.iter().find(|together| together.pieces == [labelled(k)]);
+                    let contradicts = |k: usize| alone(k).is_some_and(|together| together.found.contradicts());
+                    if contradicts(start) || contradicts(end) {
+                        return None;
+                    }
+                    let labelled = (start..=end).map(labelled).collect();
                     let here = [beside[0].filter(|_| start == 0), beside[1].filter(|_| end + 1 == pieces.len())];
                     let together = self.together(labelled, here, breaks);
                     // a piece before it that belongs to other ones has the same label
@@ -58,7 +65,7 @@ impl<I: Inverse> Answers<'_, I> {
                     way.cost += together.found.cost;
                     way.together.push(all.len());
                     all.push(together);
-                    way
+                    Some(way)
                 });
                 Way::best(ways)
             });

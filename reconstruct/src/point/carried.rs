@@ -56,14 +56,23 @@ impl Carried for f64 {
 impl<const N: usize> Carried for Dual<f64, N> {
     fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &Interval<Self>) -> CrossSection<Self> {
         let (end, by) = sensitive(model, &start.map(|v| v.value), &along.map(|v| v.value));
-        let mut end = end.map(Self::constant);
-        for i in 0..N {
-            let [x, y, phi, bend] = changed(&by, &start.map(|v| v.derivatives[i]), &along.map(|v| v.derivatives[i]));
-            (end.x.derivatives[i], end.y.derivatives[i]) = (x, y);
-            (end.phi.derivatives[i], end.bend.derivatives[i]) = (phi, bend);
-        }
-        end
+        derived(end, &by, start, along)
     }
+}
+
+fn derived<const N: usize>(
+    end: CrossSection,
+    by: &CutSensitivities,
+    start: &CrossSection<Dual<f64, N>>,
+    along: &Interval<Dual<f64, N>>,
+) -> CrossSection<Dual<f64, N>> {
+    let mut end = end.map(Dual::constant);
+    for i in 0..N {
+        let [x, y, phi, bend] = changed(by, &start.map(|v| v.derivatives[i]), &along.map(|v| v.derivatives[i]));
+        (end.x.derivatives[i], end.y.derivatives[i]) = (x, y);
+        (end.phi.derivatives[i], end.bend.derivatives[i]) = (phi, bend);
+    }
+    end
 }
 
 /// A rate whose derivatives are known. Derivatives are symmetric: how the rate changes with a number is how the derivative by that number
@@ -71,10 +80,10 @@ impl<const N: usize> Carried for Dual<f64, N> {
 /// itself, are exact.
 impl<const N: usize> Carried for Dual<Dual<f64, N>, 1> {
     fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &Interval<Self>) -> CrossSection<Self> {
-        let value = Dual::<f64, N>::carry(model, &start.map(|v| v.value), &along.map(|v| v.value));
         let (at, on) = (start.map(|v| v.value.value), along.map(|v| v.value.value));
         let rate = (start.map(|v| v.derivatives[0].value), along.map(|v| v.derivatives[0].value));
-        let here = sensitive(model, &at, &on).1;
+        let (end, here) = sensitive(model, &at, &on);
+        let value = derived(end, &here, &start.map(|v| v.value), &along.map(|v| v.value));
         let size =
             [rate.0.x, rate.0.y, rate.0.phi, rate.0.bend, rate.1.from, rate.1.to, rate.1.force[0], rate.1.force[1]];
         let h = STEP / size.into_iter().fold(1.0, |most: f64, rate| most.max(rate.abs()));

@@ -14,9 +14,12 @@ use rod_core::{
 /// Where the moment of a rod vanishes, and the criterion of a tangential contact, dimensionless and with exact derivatives. Which rod it
 /// is, is a type, so that the uniform one keeps its closed forms.
 pub(crate) trait Inverse {
-    /// Whether the criterion of one tangential contact holds for two as well, and these can be resolved: on a uniform rod, straight at
-    /// rest or bent to an arc.
+    /// Whether the criterion needs no zero of the moment: on a uniform rod, straight at rest or bent to an arc.
     const UNIFORM: bool;
+
+    /// Whether the criterion of one tangential contact holds for the last of several as well: where stiffness and natural curvature are the
+    /// same all along the rod.
+    fn tells_last(&self) -> bool;
 
     /// The zero of the moment that is next to the clamp.
     fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact>;
@@ -51,6 +54,9 @@ pub(crate) trait Inverse {
     /// Arc length of the first zero of the moment beyond a cross-section at `s`, under this force (A, B).
     fn next_zero(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> Option<f64>;
 
+    /// Whether stiffness or natural curvature jump somewhere.
+    fn has_joints(&self) -> bool;
+
     /// The cross-section at an arc length before the first contact.
     fn at(&self, clamp: &Clamp, s: f64) -> CrossSection {
         let start = self.base(clamp.pose.into(), clamp.reactions.into(), clamp.natural);
@@ -67,6 +73,10 @@ pub(crate) trait Inverse {
 /// The uniform rod in closed form. Its natural curvature is that of the clamp it is asked with.
 impl Inverse for Uniform {
     const UNIFORM: bool = true;
+
+    fn tells_last(&self) -> bool {
+        true
+    }
 
     fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
         MomentZero::of(clamp, &Matrix3::zeros())
@@ -106,6 +116,10 @@ impl Inverse for Uniform {
         at.bend
     }
 
+    fn has_joints(&self) -> bool {
+        false
+    }
+
     /// That of the curvature.
     fn next_zero(&self, start: &CrossSection, s: f64, [a, b]: [f64; 2]) -> Option<f64> {
         Some(s + inflection(&section(start), a, b)?)
@@ -129,6 +143,14 @@ pub(crate) struct Any<'a, R>(pub &'a R);
 
 impl<R: PhysicalRod> Inverse for Any<'_, R> {
     const UNIFORM: bool = false;
+
+    fn tells_last(&self) -> bool {
+        // without moment, and under the same moment everywhere
+        [0.0, 1.0].into_iter().all(|moment| {
+            let (least, most) = self.0.model().curvature_bounds((0.0, moment), (1.0, moment), 0.0);
+            least == most
+        })
+    }
 
     fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
         if clamp.reactions == Vector3::zeros() {
@@ -196,6 +218,10 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
         self.0.model().curvature_at(s, at.bend)
     }
 
+    fn has_joints(&self) -> bool {
+        !self.0.model().joints().is_empty()
+    }
+
     fn next_zero(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> Option<f64> {
         let &CrossSection { x, y, phi, bend } = start;
         zeros(self.0.model(), s, Cut { x, y, phi, moment: bend }, force).next()
@@ -225,7 +251,21 @@ fn zero<M: RodModel>(bent: &Bent<'_, M>, clamp: &Clamp, s: f64) -> Option<Moment
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rod_core::{ElasticClamp, Elastica, GeneralElastica, Load, Mounted, Pose, Rod, Units};
+    use rod_core::{ElasticClamp, Elastica, GeneralElastica, Load, Mounted, Pose, Rod, RodSection, Units};
+
+    #[test]
+    fn the_criterion_tells_of_the_last_contact_where_the_rod_is_the_same_all_along() {
+        let wire = Rod::new(1.0, 1.0).unwrap();
+        let springs = ElasticClamp::springs(Some(100.0), None, Some(20.0)).unwrap();
+        assert!(Any(&wire).tells_last() && Any(&Mounted::new(wire, springs)).tells_last());
+        assert!(Any(&wire.with_natural_curvature(0.5).unwrap()).tells_last());
+        assert!(!Any(&Rod::tapered(1.0, 0.01, 0.0099, 1.0).unwrap()).tells_last());
+        let section =
+            |bending_stiffness, natural_curvature| RodSection { length: 0.5, bending_stiffness, natural_curvature };
+        for outer in [section(0.9, 0.0), section(1.1, 0.0), section(1.0, 0.1), section(1.0, -0.1)] {
+            assert!(!Any(&Rod::sections(1.0, &[section(1.0, 0.0), outer]).unwrap()).tells_last());
+        }
+    }
 
     /// The rod of the closed forms, followed step by step, gives the same; and all derivatives are those of differences.
     #[test]

@@ -15,6 +15,10 @@ use std::ops::Range;
 
 /// Fewest samples of a stretch: fewer do not determine rates.
 const FEWEST_SAMPLES: usize = 16;
+/// One of so many samples of a stretch is left out at an end where no contact is known to go on, of a rod with joints: the first contact may
+/// pass one there, beyond which the conditions are others. Larger: the least squares do not find a way past it; smaller: less of the
+/// stretch is used.
+const PASSES_JOINT: usize = 24;
 
 /// A stretch with several contacts.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +54,11 @@ pub(crate) struct Resolution {
 }
 
 impl Resolution {
+    /// Whether two contacts contradict the reactions, rather than not being told by them.
+    pub fn contradicts(&self) -> bool {
+        matches!(self.pairs.first(), Some(Pair { first: Err(Unresolved::Inconsistent), .. }))
+    }
+
     fn nothing(&mut self, samples: usize, why: Unresolved) {
         self.pairs.extend((0..samples).map(|_| Pair { first: Err(why), second: Err(why) }));
         self.unexplained += samples;
@@ -72,10 +81,12 @@ pub(crate) fn resolve<I: Inverse>(
         let margin = limits.margin.min(range.len() / 8);
         range.start + margin..range.end - margin
     };
-    let fitted: Vec<Option<Series>> = pieces
-        .iter()
-        .map(|piece| {
-            let range = inside(&piece.range);
+    let fitted: Vec<Option<Series>> = (0..pieces.len())
+        .map(|k| {
+            let mut range = inside(&pieces[k].range);
+            let ends = [k == 0 && before.is_none(), k + 1 == pieces.len() && after.is_none()];
+            let [from, to] = ends.map(|open| if open && rod.has_joints() { range.len() / PASSES_JOINT } else { 0 });
+            (range.start, range.end) = (range.start + from, range.end - to);
             if range.len() < FEWEST_SAMPLES { None } else { Series::through(track, range, noise) }
         })
         .collect();

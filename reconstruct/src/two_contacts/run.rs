@@ -83,8 +83,9 @@ pub(super) fn solve<I: Inverse>(
     if !stretches.iter().any(|(_, tip)| *tip) {
         choices.retain(anchored);
     }
-    // in noise, nothing else tells two contacts from three
-    if !clean {
+    // in noise nothing else tells two contacts from three, nor do reactions that leave their series, where the label is not known either
+    let exact = clean && (rod.tells_last() || stretches.iter().all(|(series, _)| series.is_exact()));
+    if !exact {
         choices.retain(|choice| choice.ends.iter().any(|end| !matches!(end, End::Open)));
     }
     if choices.is_empty() {

@@ -203,7 +203,6 @@ impl Errors {
                         Unresolved::TooNoisy { .. } => "too noisy",
                         Unresolved::Torn => "torn",
                         Unresolved::Sticks => "sticks",
-                        Unresolved::NotUniform => "not uniform",
                         Unresolved::Inconsistent => "inconsistent",
                     };
                     *self.given_up.entry(why).or_default() += 1;
