@@ -76,8 +76,8 @@ fn found(rod: &impl PhysicalRod, step: f64, noise: Option<u64>) -> Found {
     found
 }
 
-/// Contacts on a cone, on sections, where the first passes a joint, on a rod that is bent at rest, which touches one parabola twice, and on a
-/// soft clamp: all are found, and so is which of BA and BB it is.
+/// Contacts on cones, on sections, where the first one passes a joint, on rods that are bent at rest, one of which touches a parabola twice,
+/// and on a soft clamp: all are found, and so is which of BA and BB it is.
 #[test]
 fn both_contacts_of_exact_scans() {
     let soft = Mounted::new(cone(0.5), ElasticClamp::springs(Some(40.0), Some(30.0), Some(8.0)).unwrap());
@@ -93,24 +93,20 @@ fn both_contacts_of_exact_scans() {
         ("joint", found(&joint, 2e-4, None)),
         ("soft cone", found(&soft, 2e-4, None)),
     ] {
-        println!("{what} {}", found.samples);
+        let Found { samples, right, given, worst, off, .. } = found;
+        assert!(samples > 600 && right == samples && given == [samples; 2], "{what}: {right} of {samples}, {given:?}");
+        assert!(worst[0] < 1e-8 && worst[1] < 1e-6 && off < 1e-8, "{what}: {worst:?} {off:e}");
     }
 }
 
+/// In noise what is given is as good as it says, and what is not has a reason.
 #[test]
 fn both_contacts_in_noise() {
-    let soft = Mounted::new(cone(0.5), ElasticClamp::springs(Some(40.0), Some(30.0), Some(8.0)).unwrap());
-    let other = Rod::new(1.0, 1.0).unwrap().with_natural_curvature(-0.5).unwrap();
-    for seed in 1..3 {
-        for found in [
-            found(&cone(0.3), 2e-5, Some(seed)),
-            found(&cone(0.8), 2e-5, Some(seed)),
-            found(&bent(), 2e-5, Some(seed)),
-            found(&other, 2e-5, Some(seed)),
-            found(&two_sections(), 2e-5, Some(seed)),
-            found(&soft, 2e-5, Some(seed)),
-        ] {
-            println!("{}", found.samples);
-        }
+    let mut given = 0;
+    for (rod, seed) in [(cone(0.8), 1), (cone(0.8), 2), (bent(), 1), (two_sections(), 1)] {
+        let found = found(&rod, 5e-5, Some(seed));
+        assert!(found.wrong == 0 && found.deviation() < 2.0 && found.off < 0.02, "{found:?}");
+        given += found.given[0].min(found.given[1]);
     }
+    assert!(given > 3000, "{given}");
 }
