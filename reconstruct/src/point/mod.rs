@@ -2,7 +2,7 @@
 //! [`single_general`] through any integrator.
 //!
 //! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; `friction` turns forces; `Inverse` is what a whole scan needs of a
-//! rod, in closed form or step by step; [`Touch`] is a contact point.
+//! rod, in closed form or step by step, for which `carried` takes numbers with derivatives along any rod; [`Touch`] is a contact point.
 
 #[cfg(feature = "std")]
 mod bent;
