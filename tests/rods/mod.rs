@@ -9,3 +9,4 @@ mod roller;
 pub mod scans;
 mod stress;
 mod through_roller;
+mod two_contacts;

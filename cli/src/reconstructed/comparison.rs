@@ -41,11 +41,8 @@ pub struct Comparison {
     pub stop: Option<Stop>,
     /// Samples that are not on the path of the scene.
     pub off_path: usize,
-    /// The phases of the samples on the path. Where the reactions do not tell BA from BB, the rod being not uniform or not straight at rest, BA
-    /// counts as BB.
+    /// The phases of the samples on the path.
     pub confusion: Confusion,
-    /// Whether BA and BB are told apart.
-    pub told_apart: bool,
     /// Wrong labels within 1e-4 rod lengths of a transition, where they may be either.
     pub either: u64,
     /// Distance from the contour of the points of samples with a single contact.

@@ -92,9 +92,8 @@ impl Reconstructed {
     /// What is not there because the rod is not uniform or not straight at rest, in words; none for one that is.
     pub fn missing(&self) -> Option<&'static str> {
         self.rod.uniform().is_none().then_some(
-            "not computed for a rod that is not uniform or not straight at rest: which of BA and BB it is, contact points of samples \
-             with several contacts, corrections and standard deviations of errors that all samples share (bias, drift, gain, clamp \
-             angle), the check by the physics, and what explains a recording that does not fit",
+            "not computed for a rod that is not uniform or not straight at rest: corrections and standard deviations of errors that all \
+             samples share (bias, drift, gain, clamp angle), the check by the physics, and what explains a recording that does not fit",
         )
     }
 

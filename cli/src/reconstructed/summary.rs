@@ -162,9 +162,6 @@ impl Comparison {
     fn tell(&self, text: &mut String) -> std::fmt::Result {
         let Self { scene, confusion, either, off_path, kinks, .. } = self;
         writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name(), confusion.total())?;
-        if !self.told_apart {
-            writeln!(text, "BA counts as BB, because the reactions of this rod do not tell one from the other")?;
-        }
         if let Some(stop) = &self.stop {
             writeln!(text, "its sweep stopped early, samples beyond are not compared: {stop}")?;
         }

@@ -40,8 +40,7 @@ impl Comparison {
         any: impl FnOnce(Scene<R>) -> AnyScene,
     ) -> Result<Self, Error> {
         let scan = Scan::run(scene)?;
-        let told_apart = found.rod.uniform().is_some();
-        let truth = Truth::of(&scan, told_apart);
+        let truth = Truth::of(&scan);
         let poses: Vec<Pose> = (0..found.samples.len()).map(|sample| found.pose(sample)).collect();
         let legs = truth.legs(&poses);
         let way = |sample: usize| truth.way(legs[sample]?, poses[sample]);
@@ -54,9 +53,8 @@ impl Comparison {
         for (reading, way) in found.found.readings.iter().zip(&ways) {
             let Some(way) = way else { continue };
             let label = truth.label(*way);
-            let read = truth.told(reading.label);
-            confusion.add(label, read);
-            either += u64::from(label != read && truth.is_either(*way));
+            confusion.add(label, reading.label);
+            either += u64::from(label != reading.label && truth.is_either(*way));
         }
         let readings = || found.found.readings.par_iter().filter(|reading| reading.label != Label::Free);
         let objects = &scan.scene.objects;
@@ -74,7 +72,6 @@ impl Comparison {
         Ok(Self {
             off_path,
             confusion,
-            told_apart,
             either,
             single,
             first,
@@ -99,11 +96,6 @@ fn least(values: &[f64]) -> usize {
     (0..values.len()).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0)
 }
 
-/// A label, BA as BB where they are not told apart.
-fn told(label: Label, told_apart: bool) -> Label {
-    if label == Label::BA && !told_apart { Label::BB } else { label }
-}
-
 /// What happened along the path.
 struct Truth<'a, R> {
     scan: &'a Scan<R>,
@@ -111,8 +103,6 @@ struct Truth<'a, R> {
     length: f64,
     /// A length of the rod in the unit of ways along the path.
     unit: f64,
-    /// Whether BA and BB are told apart; otherwise all labels here are without BA.
-    told_apart: bool,
     start: Label,
     events: Vec<Happening<'a>>,
 }
@@ -128,24 +118,18 @@ struct Happening<'a> {
 }
 
 impl<'a, R: SceneRod> Truth<'a, R> {
-    fn of(scan: &'a Scan<R>, told_apart: bool) -> Self {
-        let told = |label| told(label, told_apart);
+    fn of(scan: &'a Scan<R>) -> Self {
         let happening = |event: &'a Event| {
-            let [from, to] = [event.from(), event.to()].map(|phase| told(Label::of(phase.contacts, phase.tip)));
+            let [from, to] = [event.from(), event.to()].map(|phase| Label::of(phase.contacts, phase.tip));
             let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
             let kinks = jumps || (from != to && event.kind != EventKind::TipToTangent);
             Happening { event, way: scan.scene.way(&event.before), from, to, kinks }
         };
         let events: Vec<Happening<'a>> = scan.outcome.events.iter().map(happening).collect();
         let phase = scan.outcome.states.first().map(|state| state.phase()).unwrap_or_default();
-        let start = told(Label::of(phase.contacts, phase.tip));
+        let start = Label::of(phase.contacts, phase.tip);
         let length = scan.scene.rod.units().length;
-        Self { scan, length, unit: if scan.scene.turns_only() { 1.0 } else { length }, told_apart, start, events }
-    }
-
-    /// A label as far as the reactions tell it.
-    fn told(&self, label: Label) -> Label {
-        told(label, self.told_apart)
+        Self { scan, length, unit: if scan.scene.turns_only() { 1.0 } else { length }, start, events }
     }
 
     /// How far along the path a pose on a leg is, if it is on that and the sweep came so far.
@@ -217,7 +201,7 @@ impl<'a, R: SceneRod> Truth<'a, R> {
             .windows(2)
             .filter_map(|pair| {
                 let [before, after] = [pair[1].0 - 1, pair[1].0].map(|k| ways[k]);
-                Some((self.told(pair[0].1), self.told(pair[1].1), 0.5 * (before? + after?)))
+                Some((pair[0].1, pair[1].1, 0.5 * (before? + after?)))
             })
             .collect();
         let far = FAR * self.unit;

@@ -99,7 +99,7 @@ impl Side {
         let found = rod.first(&estimate.clamp).ok()?;
         let none = Vector3::zeros();
         let before_tip = 1.0 - found.s - SIGMAS * estimate.variance(&found.s_by_reactions, &none).sqrt();
-        let gradient = rod.gradient_at(&estimate.clamp, found.s);
+        let (_, gradient) = rod.gradient_at(&estimate.clamp, found.s);
         let rate = gradient.rate(&estimate.rate);
         let (sin, cos) = found.section.phi.sin_cos();
         let along = |x: f64, y: f64| {

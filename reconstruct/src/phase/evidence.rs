@@ -80,7 +80,7 @@ pub struct Evidence {
     /// Whether a contact may be so weak that the criterion is small in every phase.
     weak: bool,
     /// Whether the criterion tells of the last of several contacts, too.
-    uniform: bool,
+    tells_last: bool,
     /// What the criterion may be where several contacts rub, positive or negative; 0 without friction.
     rubbing: f64,
 }
@@ -132,7 +132,7 @@ impl Evidence {
             }),
             trust: [1.0; 4],
             weak: false,
-            uniform: I::UNIFORM,
+            tells_last: rod.tells_last(),
             rubbing: DIVERGENT * clamp.rubbing().0,
         };
         let force = Vector3::new(clamp.reactions.x, clamp.reactions.y, 0.0);
@@ -159,7 +159,7 @@ impl Evidence {
             let standing = STANDING * along.vanishes(MOVING).min(MOST_STILL).exp();
             across.vanishes(tangent) + (1.0 - STANDING + standing).ln()
         };
-        let last = |of_criterion: f64| if self.uniform { of_criterion } else { 0.0 };
+        let last = |of_criterion: f64| if self.tells_last { of_criterion } else { 0.0 };
         let (tip_of_several, touch_of_several) = if self.rubbing * self.criterion.value > 0.0 {
             let wide = Quantity { sigma: self.criterion.sigma.hypot(self.rubbing), ..self.criterion };
             (wide.not_positive(), wide.vanishes(criterion))
@@ -274,7 +274,7 @@ impl Evidence {
 /// The speed of the moment zero across its tangent and along it, with standard deviations.
 fn speed<I: Inverse>(rod: &I, estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
     let of = |clamp: &Clamp, found: &MomentZero| {
-        let gradient = rod.gradient_at(clamp, found.s);
+        let (_, gradient) = rod.gradient_at(clamp, found.s);
         let rate = gradient.rate(&estimate.rate);
         // the point slides along the rod such that the moment there stays 0
         let slide = -rate[3] / gradient.by_s[3];

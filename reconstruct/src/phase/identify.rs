@@ -114,7 +114,7 @@ pub(crate) fn likelihood(nodes: &[Node]) -> f64 {
 
 /// The phases of a scan with these places.
 pub(crate) fn identify<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: Vec<Node>) -> Identified {
-    let labels = labels(&nodes, !I::UNIFORM);
+    let labels = labels(&nodes, !rod.tells_last());
     let runs = runs(rod, track, noise, &nodes, &labels);
     Identified { nodes, runs, labels }
 }

@@ -13,15 +13,17 @@ use rod_core::{PhysicalRod, Rod, Sample};
 /// are those of the support. A uniform rod that is straight at rest has more answers there.
 ///
 /// Kinks, rates and the phase diagram are as for the uniform rod. Of the criteria the arc length and the tangent are, too; the angle
-/// between rod and contour where the moment vanishes takes the place of K ([`one_sample`](crate::one_sample)). Neither of them tells BA
-/// from BB: which of the two it is follows from the phases before and after.
+/// between rod and contour where the moment vanishes takes the place of K ([`one_sample`](crate::one_sample)). It tells BA from BB where
+/// stiffness and natural curvature are the same all along the rod. Otherwise each part between kinks is resolved as BA and as BB, and the
+/// contacts that explain the reactions tell which it is. A part that neither explains has the label that the phases before and after
+/// suggest, and no contact points ([`Unresolved`](crate::Unresolved)): so it is where BB turns into BA and noise hides that kink.
 ///
-/// What is not given: contact points of BA and BB ([`Unresolved::NotUniform`](crate::Unresolved::NotUniform)), and errors that all samples
-/// share, such as a bias. Nothing is taken off, and no covariance contains them: subtract the bias of the free rod beforehand. Where they
-/// exceed the noise, criteria contradict labels, such points are not given, and
+/// What is not given: errors that all samples share, such as a bias. Nothing is taken off, and no covariance contains them: subtract the
+/// bias of the free rod beforehand. Where they exceed the noise, criteria contradict labels, such points are not given, and
 /// [`findings`](crate::Reconstruction::findings) tell of it.
 ///
-/// Accuracy: on noise-free samples single contact points are exact to 1e-9 of the rod's length. In noise, each has its covariance.
+/// Accuracy: on noise-free samples single contact points are exact to 1e-9 of the rod's length, both of two contacts to 1e-8. In noise, each
+/// has its covariance.
 ///
 /// ```no_run
 /// use rod_core::{Rod, Sample};

@@ -20,6 +20,8 @@ mod reconstruct;
 mod reconstruction;
 mod session;
 mod settings;
+mod several;
+mod tell_apart;
 mod torn;
 
 pub use each_pass::reconstruct_passes;

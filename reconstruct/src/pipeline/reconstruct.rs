@@ -73,8 +73,12 @@ pub(super) fn answered<I: Inverse>(
             }
         }
     }
-    let runs =
-        identified.runs.iter().filter(|run| !run.0.is_empty()).map(|run| (numbers[run.0.start], run.1)).collect();
+    let mut runs: Vec<(usize, Label)> = Vec::new();
+    for (reading, number) in usable.iter().zip(&numbers) {
+        if runs.last().is_none_or(|run| run.1 != reading.label) {
+            runs.push((*number, reading.label));
+        }
+    }
     let size = [given.force, given.force, given.moment];
     let slope = |kink: &Kink, c: usize| if kink.kind == KinkKind::Kink { size[c] / units.length } else { size[c] };
     let in_units = |kink: &Kink| Kink {

@@ -6,8 +6,24 @@ use rod_core::{Clamp as Held, Cut, PhysicalRod, Pose, Reactions, RodModel, find_
 /// Length of the steps (rod lengths) in which the moment is followed. Two zeros within one step may be missed; the work grows
 /// with its inverse.
 pub(super) const STEP: f64 = 1.0 / 64.0;
-/// Steps up to the tip and a little beyond it: noise puts the zero of a contact at the tip there.
-const STEPS: usize = 64 + 6;
+/// Arc length (L) behind the tip up to which it is: noise puts the zero of a contact at the tip there.
+const BEYOND_TIP: f64 = 6.0 / 64.0;
+
+/// The zeros of the moment beyond the cut `start` at arc length `from`, a little beyond the tip too.
+pub(super) fn zeros<M: RodModel>(model: &M, from: f64, start: Cut, [a, b]: [f64; 2]) -> impl Iterator<Item = f64> {
+    let (mut end, steps) = (start, ((1.0 + BEYOND_TIP - from) / STEP).ceil() as usize);
+    (0..steps).filter_map(move |k| {
+        let (s, start) = (from + k as f64 * STEP, end);
+        let along = |length: f64| model.carry(s, &start, a, b, length);
+        end = along(STEP);
+        if start.moment == 0.0 {
+            return Some(s);
+        }
+        let crosses = start.moment * end.moment < 0.0;
+        let root = || find_root("moment", |length| Ok(along(length).moment), 0.0, STEP, 0.0).ok();
+        crosses.then(root).flatten().map(|root| s + root.at)
+    })
+}
 
 /// The rod as its reactions bend it, as if nothing touched it before.
 pub(super) struct Bent<'a, M> {
@@ -29,20 +45,8 @@ impl<'a, M: RodModel> Bent<'a, M> {
     }
 
     /// The zeros of the moment from the clamp on, a little beyond the tip too.
-    pub fn zeros(&self) -> impl Iterator<Item = f64> + '_ {
-        let mut start = self.base;
-        (0..STEPS).filter_map(move |k| {
-            let s = k as f64 * STEP;
-            let from = start;
-            let along = |length: f64| self.model.carry(s, &from, self.a, self.b, length);
-            start = along(STEP);
-            if from.moment == 0.0 {
-                return Some(s);
-            }
-            let crosses = from.moment * start.moment < 0.0;
-            let root = || find_root("moment", |length| Ok(along(length).moment), 0.0, STEP, 0.0).ok();
-            crosses.then(root).flatten().map(|root| s + root.at)
-        })
+    pub fn zeros(&self) -> impl Iterator<Item = f64> {
+        zeros(self.model, 0.0, self.base, [self.a, self.b])
     }
 
     /// (x, y, phi, moment) at an arc length, its derivatives by the reactions, of which the base of a rod on springs depends too, and those

@@ -1,18 +1,25 @@
 //! What the inversion of a scan has to know of a rod.
 
-use super::bent::Bent;
+use super::bent::{Bent, zeros};
+use super::carried::{Carried, CrossSection, Interval};
 use super::clamp::{Clamp, Gradient};
 use super::moment_zero::MomentZero;
 use super::no_contact::NoContact;
 use nalgebra::{Matrix3, Matrix4x3, Vector3, Vector4};
-use rod_core::{PhysicalRod, RodModel, Section, Uniform};
+use rod_core::{
+    Clamp as Held, Cut, PhysicalRod, Pose, RodModel, Scalar, Section, Uniform, advance, advance_with_sensitivities,
+    inflection,
+};
 
 /// Where the moment of a rod vanishes, and the criterion of a tangential contact, dimensionless and with exact derivatives. Which rod it
 /// is, is a type, so that the uniform one keeps its closed forms.
 pub(crate) trait Inverse {
-    /// Whether the criterion of one tangential contact holds for two as well, and these can be resolved: on a uniform rod, straight at
-    /// rest or bent to an arc.
+    /// Whether the criterion needs no zero of the moment: on a uniform rod, straight at rest or bent to an arc.
     const UNIFORM: bool;
+
+    /// Whether the criterion of one tangential contact holds for the last of several as well: where stiffness and natural curvature are the
+    /// same all along the rod.
+    fn tells_last(&self) -> bool;
 
     /// The zero of the moment that is next to the clamp.
     fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact>;
@@ -20,14 +27,41 @@ pub(crate) trait Inverse {
     /// The zero that is nearest to the tip, if that is a later one than `first`.
     fn by_tip(&self, first: &MomentZero, clamp: &Clamp) -> Option<MomentZero>;
 
-    /// The derivatives of (x, y, phi, moment) at an arc length.
-    fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient;
+    /// The section at an arc length, and the derivatives of (x, y, phi, moment) there.
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, Gradient);
 
     /// 2 F . t - 2 |F| sin rho, where F is the force on the rod at the first zero of the moment, t the rod's tangent there and rho the angle
     /// of friction: 0 where that is a tangential contact, negative where it is one of the tip. Of the uniform rod it is the phase
     /// criterion K (Merker et al. 2020, eq. 20) less 2 |F| sin rho, wherever the zero is. With its derivatives by the reactions; none
     /// where the moment vanishes nowhere.
     fn criterion(&self, clamp: &Clamp, first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)>;
+
+    /// The cross-section next to a clamp with this pose and these reactions; `natural` is as in a [`Clamp`].
+    fn base<T: Carried>(&self, pose: [T; 3], reactions: [T; 3], natural: T) -> CrossSection<T>;
+
+    /// The cross-section at the end of an interval that starts with `start`.
+    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T>;
+
+    /// The cross-section at the tip of a part that starts at arc length `s`, and the derivatives of its bend by the force (A, B).
+    fn tip(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> (CrossSection, [f64; 2]);
+
+    /// The moment at a cross-section.
+    fn moment<T: Scalar>(&self, at: &CrossSection<T>, natural: T) -> T;
+
+    /// The curvature at a cross-section at arc length `s`.
+    fn curvature(&self, at: &CrossSection, s: f64) -> f64;
+
+    /// Arc length of the first zero of the moment beyond a cross-section at `s`, under this force (A, B).
+    fn next_zero(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> Option<f64>;
+
+    /// Whether stiffness or natural curvature jump somewhere.
+    fn has_joints(&self) -> bool;
+
+    /// The cross-section at an arc length before the first contact.
+    fn at(&self, clamp: &Clamp, s: f64) -> CrossSection {
+        let start = self.base(clamp.pose.into(), clamp.reactions.into(), clamp.natural);
+        self.carry(&start, &Interval { from: 0.0, to: s, force: clamp.force() })
+    }
 
     /// The zero at which the tip would be, were it the only contact.
     fn of_tip(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
@@ -40,6 +74,10 @@ pub(crate) trait Inverse {
 impl Inverse for Uniform {
     const UNIFORM: bool = true;
 
+    fn tells_last(&self) -> bool {
+        true
+    }
+
     fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
         MomentZero::of(clamp, &Matrix3::zeros())
     }
@@ -48,13 +86,55 @@ impl Inverse for Uniform {
         first.by_tip(clamp)
     }
 
-    fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient {
-        clamp.gradient_at(s).1
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, Gradient) {
+        clamp.gradient_at(s)
     }
 
     fn criterion(&self, clamp: &Clamp, _first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)> {
         Some(clamp.criterion())
     }
+
+    fn base<T: Carried>(&self, [x, y, phi]: [T; 3], [_, _, m0z]: [T; 3], natural: T) -> CrossSection<T> {
+        CrossSection { x, y, phi, bend: natural - m0z }
+    }
+
+    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T> {
+        let [a, b] = along.force;
+        followed(advance(&section(start), a, b, along.to - along.from))
+    }
+
+    fn tip(&self, start: &CrossSection, s: f64, [a, b]: [f64; 2]) -> (CrossSection, [f64; 2]) {
+        let (end, by) = advance_with_sensitivities(&section(start), a, b, 1.0 - s);
+        (followed(end), [by.by_a[3], by.by_b[3]])
+    }
+
+    fn moment<T: Scalar>(&self, at: &CrossSection<T>, natural: T) -> T {
+        at.bend - natural
+    }
+
+    fn curvature(&self, at: &CrossSection, _s: f64) -> f64 {
+        at.bend
+    }
+
+    fn has_joints(&self) -> bool {
+        false
+    }
+
+    /// That of the curvature.
+    fn next_zero(&self, start: &CrossSection, s: f64, [a, b]: [f64; 2]) -> Option<f64> {
+        Some(s + inflection(&section(start), a, b)?)
+    }
+}
+
+fn section<T>(CrossSection { x, y, phi, bend }: &CrossSection<T>) -> Section<T>
+where
+    T: Copy,
+{
+    Section { x: *x, y: *y, phi: *phi, kappa: *bend }
+}
+
+fn followed<T>(Section { x, y, phi, kappa }: Section<T>) -> CrossSection<T> {
+    CrossSection { x, y, phi, bend: kappa }
 }
 
 /// Any rod on any clamp, followed step by step. The poses are those of the support.
@@ -63,6 +143,14 @@ pub(crate) struct Any<'a, R>(pub &'a R);
 
 impl<R: PhysicalRod> Inverse for Any<'_, R> {
     const UNIFORM: bool = false;
+
+    fn tells_last(&self) -> bool {
+        // without moment, and under the same moment everywhere
+        [0.0, 1.0].into_iter().all(|moment| {
+            let (least, most) = self.0.model().curvature_bounds((0.0, moment), (1.0, moment), 0.0);
+            least == most
+        })
+    }
 
     fn first(&self, clamp: &Clamp) -> Result<MomentZero, NoContact> {
         if clamp.reactions == Vector3::zeros() {
@@ -79,15 +167,17 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
         (from_tip(&nearest) < from_tip(&first.s)).then(|| zero(&bent, clamp, nearest)).flatten()
     }
 
-    fn gradient_at(&self, clamp: &Clamp, s: f64) -> Gradient {
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, Gradient) {
         let bent = Bent::new(self.0, clamp);
         let (at, columns, by_phi0) = bent.by_reactions(s);
         let (sin, cos) = at.phi.sin_cos();
-        Gradient {
+        let kappa = bent.model.curvature_at(s, at.moment);
+        let gradient = Gradient {
             by_reactions: Matrix4x3::from_columns(&columns.map(Vector4::from)),
             by_phi0: by_phi0.into(),
-            by_s: Vector4::new(cos, sin, bent.model.curvature_at(s, at.moment), bent.moment_rate(&at)),
-        }
+            by_s: Vector4::new(cos, sin, kappa, bent.moment_rate(&at)),
+        };
+        (Section { x: at.x, y: at.y, phi: at.phi, kappa }, gradient)
     }
 
     fn criterion(&self, clamp: &Clamp, first: Option<&MomentZero>) -> Option<(f64, Vector3<f64>)> {
@@ -98,6 +188,43 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
         let turns = found.by_reactions.row(2).transpose() * (-2.0 * (b * sin + a * cos));
         let (rubbing, of_rubbing) = clamp.rubbing();
         Some((2.0 * (b * cos - a * sin) - rubbing, by_force + turns - of_rubbing))
+    }
+
+    fn base<T: Carried>(&self, pose: [T; 3], reactions: [T; 3], _natural: T) -> CrossSection<T> {
+        let [x, y, phi] = pose.map(T::to_f64);
+        let compliance = self.0.clamp(Pose { x, y, phi }).law().map_or([[0.0; 3]; 3], |law| law.compliance);
+        let given_way = |i: usize| {
+            compliance[i].into_iter().zip(reactions).fold(pose[i], |at, (by, reaction)| at - T::from_f64(by) * reaction)
+        };
+        CrossSection { x: given_way(0), y: given_way(1), phi: given_way(2), bend: -reactions[2] }
+    }
+
+    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T> {
+        T::carry(self.0.model(), start, along)
+    }
+
+    fn tip(&self, start: &CrossSection, s: f64, [a, b]: [f64; 2]) -> (CrossSection, [f64; 2]) {
+        let &CrossSection { x, y, phi, bend } = start;
+        let start = Cut { x, y, phi, moment: bend };
+        let (Cut { x, y, phi, moment }, by) = self.0.model().carry_with_sensitivities(s, &start, a, b, 1.0 - s);
+        (CrossSection { x, y, phi, bend: moment }, [by.by_a[3], by.by_b[3]])
+    }
+
+    fn moment<T: Scalar>(&self, at: &CrossSection<T>, _natural: T) -> T {
+        at.bend
+    }
+
+    fn curvature(&self, at: &CrossSection, s: f64) -> f64 {
+        self.0.model().curvature_at(s, at.bend)
+    }
+
+    fn has_joints(&self) -> bool {
+        !self.0.model().joints().is_empty()
+    }
+
+    fn next_zero(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> Option<f64> {
+        let &CrossSection { x, y, phi, bend } = start;
+        zeros(self.0.model(), s, Cut { x, y, phi, moment: bend }, force).next()
     }
 }
 
@@ -124,7 +251,21 @@ fn zero<M: RodModel>(bent: &Bent<'_, M>, clamp: &Clamp, s: f64) -> Option<Moment
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rod_core::{ElasticClamp, Elastica, GeneralElastica, Load, Mounted, Pose, Rod, Units};
+    use rod_core::{ElasticClamp, Elastica, GeneralElastica, Load, Mounted, Pose, Rod, RodSection, Units};
+
+    #[test]
+    fn the_criterion_tells_of_the_last_contact_where_the_rod_is_the_same_all_along() {
+        let wire = Rod::new(1.0, 1.0).unwrap();
+        let springs = ElasticClamp::springs(Some(100.0), None, Some(20.0)).unwrap();
+        assert!(Any(&wire).tells_last() && Any(&Mounted::new(wire, springs)).tells_last());
+        assert!(Any(&wire.with_natural_curvature(0.5).unwrap()).tells_last());
+        assert!(!Any(&Rod::tapered(1.0, 0.01, 0.0099, 1.0).unwrap()).tells_last());
+        let section =
+            |bending_stiffness, natural_curvature| RodSection { length: 0.5, bending_stiffness, natural_curvature };
+        for outer in [section(0.9, 0.0), section(1.1, 0.0), section(1.0, 0.1), section(1.0, -0.1)] {
+            assert!(!Any(&Rod::sections(1.0, &[section(1.0, 0.0), outer]).unwrap()).tells_last());
+        }
+    }
 
     /// The rod of the closed forms, followed step by step, gives the same; and all derivatives are those of differences.
     #[test]
@@ -142,7 +283,7 @@ mod tests {
             assert!((closed.s - load.s).abs() < 1e-13 && (found.s - closed.s).abs() < 1e-13);
             assert!((found.by_reactions - closed.by_reactions).norm() < 1e-11);
             assert!((found.s_by_reactions - closed.s_by_reactions).norm() < 1e-11);
-            let (by_steps, closed_form) = (Any(&rod).gradient_at(&clamp, 0.7), Uniform.gradient_at(&clamp, 0.7));
+            let (by_steps, closed_form) = (Any(&rod).gradient_at(&clamp, 0.7).1, Uniform.gradient_at(&clamp, 0.7).1);
             assert!((by_steps.by_reactions - closed_form.by_reactions).norm() < 1e-12);
             assert!((by_steps.by_phi0 - closed_form.by_phi0).norm() < 1e-12);
             let k = Any(&rod).criterion(&clamp, Some(&found)).unwrap();

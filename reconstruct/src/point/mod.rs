@@ -2,10 +2,12 @@
 //! [`single_general`] through any integrator.
 //!
 //! `Clamp` is the rod as its clamp knows it, from pose and reactions up to the first contact; `friction` turns forces; `Inverse` is what a whole scan needs of a
-//! rod, in closed form or step by step; [`Touch`] is a contact point.
+//! rod, in closed form or step by step, for which `carried` takes numbers with derivatives along any rod; [`Touch`] is a contact point.
 
 #[cfg(feature = "std")]
 mod bent;
+#[cfg(feature = "std")]
+mod carried;
 mod clamp;
 mod friction;
 #[cfg(feature = "std")]
@@ -22,13 +24,15 @@ mod through_roller;
 mod touch;
 
 #[cfg(feature = "std")]
+pub(crate) use carried::{Carried, CrossSection, Interval};
+#[cfg(feature = "std")]
 pub(crate) use clamp::Clamp;
 #[cfg(feature = "std")]
 pub(crate) use friction::{normal_part, tangential};
 #[cfg(feature = "std")]
 pub(crate) use inverse::{Any, Inverse};
 #[cfg(feature = "std")]
-pub(crate) use moment_zero::MomentZero;
+pub(crate) use moment_zero::{MomentZero, is_free};
 pub use no_contact::NoContact;
 #[cfg(feature = "std")]
 pub use one_sample::{OneSample, one_sample};

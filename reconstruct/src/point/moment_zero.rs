@@ -25,7 +25,7 @@ const STEP: f64 = 1.0 / 64.0;
 const STEPS: u32 = 96;
 
 /// Whether the reactions are within the noise of zero in each channel.
-pub(super) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
+pub(crate) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
     let sigmas = T::from_f64(NOISE_SIGMAS);
     (0..3).all(|c| clamp.reactions[c].abs() <= sigmas * covariance[(c, c)].max(T::zero()).sqrt())
 }

@@ -4,13 +4,13 @@
 //! numbers, its force and its moment there. So with a known rod the four are not independent: bent by f0x, f0y and m0z alone, it must run
 //! through the roller. The three that are left tell one contact, as they do on a clamp without a roller; the fourth is a check.
 
-use super::bent::STEP;
+use super::bent::zeros;
 use super::moment_zero::NOISE_SIGMAS;
 use super::no_contact::NoContact;
 use super::one_sample::{Felt, OneSample, told};
 use crate::numeric::variance;
 use nalgebra::{Matrix4, Vector4};
-use rod_core::{Cut, Guided, PhysicalRod, Pose, Reactions, RodModel, Roller, Sample, Units, find_root};
+use rod_core::{Cut, Guided, PhysicalRod, Pose, Reactions, RodModel, Roller, Sample, Units};
 
 /// Newton steps to the place where the rod is closest to the roller, or to a stiffness or gain; each doubles the digits.
 const MOST_STEPS: usize = 30;
@@ -22,8 +22,6 @@ const ROUNDS: usize = 3;
 const LONGEST_STEP: f64 = 0.5;
 /// Logarithm of stiffness or gain beyond which there is no estimate: the readings do not tell it.
 const FARTHEST: f64 = 3.0;
-/// Arc length (L) behind the tip up to which the moment is followed: noise puts the zero of a contact at the tip there.
-const BEYOND_TIP: f64 = 0.1;
 
 /// An estimate from one sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -291,19 +289,6 @@ impl<M: RodModel> Felt<4> for Walked<'_, M> {
     }
 
     fn moment_zeros(&self) -> Vec<f64> {
-        let ([a, b], mut start, mut zeros) = (self.force, self.at, Vec::new());
-        let steps = ((1.0 + BEYOND_TIP - self.s) / STEP).ceil() as usize;
-        for k in 0..steps {
-            let (s, from) = (self.s + k as f64 * STEP, start);
-            let along = |length: f64| self.model.carry(s, &from, a, b, length);
-            start = along(STEP);
-            if from.moment == 0.0 {
-                zeros.push(s);
-            } else if from.moment * start.moment < 0.0 {
-                let root = find_root("moment", |length| Ok(along(length).moment), 0.0, STEP, 0.0);
-                zeros.extend(root.map(|root| s + root.at));
-            }
-        }
-        zeros
+        zeros(self.model, self.s, self.at, self.force).collect()
     }
 }

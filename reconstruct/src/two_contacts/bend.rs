@@ -1,13 +1,14 @@
 //! How curved the contour is at the contacts: by its curvature an error along the contour becomes one across.
 
-use super::conditions::two;
+use super::conditions::two_by;
 use super::ends::End;
 use super::pair::{INSTANTS, place};
 use super::part::{Local, Part};
 use super::run::Resolved;
 use super::unknowns::{Gradient, UNKNOWNS, Unknown, Unknowns};
+use crate::point::{CrossSection, Inverse};
 use nalgebra::{DMatrix, DVector, Vector2};
-use rod_core::{Dual, Section};
+use rod_core::Dual;
 
 /// Instants to either side between which the curvature of the contour is computed. More: sharp places are averaged away; fewer: noise
 /// hides the path of the contact.
@@ -28,13 +29,11 @@ struct Place {
     along: DVector<f64>,
 }
 
-fn both(part: &Part, local: &Local) -> [Place; 2] {
-    let values = Unknowns::from_fn(|unknown| Dual::variable(local.values[unknown], unknown as usize));
-    let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
-    let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &values);
+fn both<I: Inverse>(rod: &I, part: &Part, local: &Local) -> [Place; 2] {
+    let two = two_by(rod, local);
     let [a, b] = two.force;
     let turn = if part.tip { b.value.atan2(a.value) } else { two.second.phi.value };
-    let of = |s: &Section<Dual<f64, UNKNOWNS>>, alpha: f64| {
+    let of = |s: &CrossSection<Dual<f64, UNKNOWNS>>, alpha: f64| {
         let (sin, cos) = alpha.sin_cos();
         let by = Unknowns::from_fn(|u: Unknown| cos * s.x.derivatives[u as usize] + sin * s.y.derivatives[u as usize]);
         let mut row = Vec::new();
@@ -53,10 +52,10 @@ struct Paths {
 }
 
 impl Paths {
-    fn new(found: &Resolved, part: &Part) -> Self {
+    fn new<I: Inverse>(rod: &I, found: &Resolved, part: &Part) -> Self {
         let (start, width) = (part.start, part.width());
         Self {
-            places: (0..INSTANTS).map(|k| both(part, &part.local(&found.solution.x, place(k)))).collect(),
+            places: (0..INSTANTS).map(|k| both(rod, part, &part.local(&found.solution.x, place(k)))).collect(),
             covariance: found.solution.covariance.view((start, start), (width, width)) * found.excess,
         }
     }
@@ -89,10 +88,14 @@ impl Paths {
 /// instants, or, where noise hides that path, where the same contact's path is known best, in this part, in the other parts of the run,
 /// or where it goes on as the single contact beside the run. Infinite where noise hides everywhere whether the contact moves: it may
 /// be at a vertex.
-pub(super) fn bends(found: &Resolved, part: &Part) -> Vec<[f64; 2]> {
-    let paths = Paths::new(found, part);
-    let others: Vec<Paths> =
-        found.parts.iter().filter(|other| other.start != part.start).map(|other| Paths::new(found, other)).collect();
+pub(super) fn bends<I: Inverse>(rod: &I, found: &Resolved, part: &Part) -> Vec<[f64; 2]> {
+    let paths = Paths::new(rod, found, part);
+    let others: Vec<Paths> = found
+        .parts
+        .iter()
+        .filter(|other| other.start != part.start)
+        .map(|other| Paths::new(rod, found, other))
+        .collect();
     let mean = [0, 1].map(|i| {
         let beside = found.ends.iter().map(|end| match *end {
             End::First { bend, .. } if i == 0 => bend,

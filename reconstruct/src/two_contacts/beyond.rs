@@ -1,7 +1,6 @@
 //! The rod beyond its first contact.
 
-use crate::point::{Clamp, normal_part, tangential};
-use rod_core::{Section, advance_with_sensitivities, inflection};
+use crate::point::{Clamp, CrossSection, Inverse, normal_part, tangential};
 
 /// Most steps of Newton's method, which converges in 4 to 8 or not at all.
 const STEPS: usize = 30;
@@ -9,18 +8,18 @@ const STEPS: usize = 30;
 const SETTLED: f64 = 1e-14;
 
 /// The rod beyond its first contact: the section there, and the force (A, B) next to the clamp.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Beyond {
-    pub s1: f64,
-    pub first: Section,
+pub(super) struct Beyond<'a, I> {
+    rod: &'a I,
+    s1: f64,
+    first: CrossSection,
     pub force: [f64; 2],
     /// Tangent of the angle of friction.
     friction: f64,
 }
 
-impl Beyond {
-    pub fn new(clamp: &Clamp, s1: f64) -> Self {
-        Self { s1, first: clamp.at(s1), force: clamp.force(), friction: clamp.friction }
+impl<'a, I: Inverse> Beyond<'a, I> {
+    pub fn new(rod: &'a I, clamp: &Clamp, s1: f64) -> Self {
+        Self { rod, s1, first: rod.at(clamp, s1), force: clamp.force(), friction: clamp.friction }
     }
 
     /// The force (A, B) beyond the first contact, which pushes with `f1` from the side of a solid to the left of the rod
@@ -30,12 +29,11 @@ impl Beyond {
         [self.force[0] - a, self.force[1] - b]
     }
 
-    /// Curvature at the tip and its derivative by f1.
-    pub fn tip(&self, f1: f64) -> (Section, f64) {
-        let [a, b] = self.left(f1);
-        let (end, by) = advance_with_sensitivities(&self.first, a, b, 1.0 - self.s1);
+    /// The tip, and the derivative of how it is bent by f1.
+    pub fn tip(&self, f1: f64) -> (CrossSection, f64) {
+        let (end, [by_a, by_b]) = self.rod.tip(&self.first, self.s1, self.left(f1));
         let [of_a, of_b] = tangential(1_f64.copysign(f1), self.first.phi.sin_cos(), self.friction);
-        let by = -by.by_a[3] * of_a - by.by_b[3] * of_b;
+        let by = -by_a * of_a - by_b * of_b;
         (end, if f1 < 0.0 { -by } else { by })
     }
 
@@ -51,7 +49,7 @@ impl Beyond {
         let mut f = guess;
         for _ in 0..STEPS {
             let (end, by) = self.tip(f);
-            let step = end.kappa / by;
+            let step = end.bend / by;
             f -= step;
             if !f.is_finite() {
                 return None;
@@ -65,7 +63,6 @@ impl Beyond {
 
     /// Arc length of the next section without moment: the second contact, if that is tangential.
     pub fn second(&self, f1: f64) -> Option<f64> {
-        let [a, b] = self.left(f1);
-        Some(self.s1 + inflection(&self.first, a, b)?)
+        self.rod.next_zero(&self.first, self.s1, self.left(f1))
     }
 }

@@ -4,6 +4,7 @@
 //! curves. A frictionless contact moves along its own tangent, so that the normal speed of the family vanishes there:
 //! v_n(s) = n(s) . dr(s; tau) / dtau = 0.
 
+use crate::point::Inverse;
 use crate::scan::Estimate;
 use nalgebra::{Matrix2x3, Vector2, Vector3, Vector4};
 use rod_core::Section;
@@ -25,8 +26,8 @@ pub(super) struct NormalSpeed {
 }
 
 impl NormalSpeed {
-    pub fn at(estimate: &Estimate, s: f64) -> Self {
-        let (section, gradient) = estimate.clamp.gradient_at(s);
+    pub fn at<I: Inverse>(rod: &I, estimate: &Estimate, s: f64) -> Self {
+        let (section, gradient) = rod.gradient_at(&estimate.clamp, s);
         let rate: Vector4<f64> = gradient.rate(&estimate.rate);
         let (sin, cos) = section.phi.sin_cos();
         let (normal, tangent) = (Vector2::new(-sin, cos), Vector2::new(cos, sin));
@@ -42,13 +43,13 @@ impl NormalSpeed {
 }
 
 /// All places before arc length `end` where the rod touches the envelope, from the clamp outwards.
-pub(super) fn touches(estimate: &Estimate, end: f64, mut found: impl FnMut(f64, NormalSpeed)) {
-    let mut before = (0.0, NormalSpeed::at(estimate, 0.0));
+pub(super) fn touches<I: Inverse>(rod: &I, estimate: &Estimate, end: f64, mut found: impl FnMut(f64, NormalSpeed)) {
+    let mut before = (0.0, NormalSpeed::at(rod, estimate, 0.0));
     for place in 1..=PLACES {
         let s = end * place as f64 / PLACES as f64;
-        let here = (s, NormalSpeed::at(estimate, s));
+        let here = (s, NormalSpeed::at(rod, estimate, s));
         if before.1.value * here.1.value < 0.0 {
-            let (s, speed) = root(estimate, before, here);
+            let (s, speed) = root(rod, estimate, before, here);
             found(s, speed);
         }
         before = here;
@@ -56,14 +57,19 @@ pub(super) fn touches(estimate: &Estimate, end: f64, mut found: impl FnMut(f64, 
 }
 
 /// The zero of the normal speed between two places where its signs differ.
-fn root(estimate: &Estimate, from: (f64, NormalSpeed), to: (f64, NormalSpeed)) -> (f64, NormalSpeed) {
+fn root<I: Inverse>(
+    rod: &I,
+    estimate: &Estimate,
+    from: (f64, NormalSpeed),
+    to: (f64, NormalSpeed),
+) -> (f64, NormalSpeed) {
     let (mut low, mut high) = (from, to);
     let mut best = if low.1.value.abs() < high.1.value.abs() { low } else { high };
     for _ in 0..STEPS {
         let newton = best.0 - best.1.value / best.1.by_s;
         let inside = newton > low.0 && newton < high.0;
         let s = if inside { newton } else { 0.5 * (low.0 + high.0) };
-        let here = (s, NormalSpeed::at(estimate, s));
+        let here = (s, NormalSpeed::at(rod, estimate, s));
         let settled = (s - best.0).abs() <= 4.0 * f64::EPSILON;
         best = here;
         if settled || here.1.value == 0.0 {

@@ -7,8 +7,8 @@ use super::part::Part;
 use super::trail::Trail;
 use super::unknowns::Unknown;
 use crate::numeric::legendre;
-use crate::point::{MomentZero, normal_part};
-use nalgebra::{DMatrix, DVector, Matrix3};
+use crate::point::{Inverse, normal_part};
+use nalgebra::{DMatrix, DVector};
 
 /// Instants of a stretch at which forces are guessed, its ends among them.
 const INSTANTS: usize = 13;
@@ -27,7 +27,7 @@ fn instant(k: usize) -> f64 {
 
 /// Coefficients to start the least squares from: arc lengths along the trails, and forces from the ends of the run; none where
 /// the forces do not determine a series.
-pub(super) fn guess(parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
+pub(super) fn guess<I: Inverse>(rod: &I, parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
     let mut x = DVector::zeros(parts.iter().map(Part::width).sum());
     let count = parts.len();
     // the force at the ends of each part, as far as it is known
@@ -40,7 +40,7 @@ pub(super) fn guess(parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
             End::First { s, .. } => {
                 let [clamp, _] = parts[k].series.clamps(if side == 0 { -1.0 } else { 1.0 });
                 let [a, b] = clamp.force();
-                let phi = clamp.at(s).phi;
+                let phi = rod.at(&clamp, s).phi;
                 let [normal_a, normal_b] = normal_part([a, b], phi.sin_cos(), clamp.friction);
                 Some(normal_a.hypot(normal_b) * (a * phi.cos() + b * phi.sin()).signum())
             }
@@ -48,7 +48,7 @@ pub(super) fn guess(parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
     }
     let mut forces: Vec<Vec<f64>> = vec![Vec::new(); count];
     for (k, part) in parts.iter().enumerate().filter(|(_, p)| p.tip) {
-        forces[k] = by_tip(part, &choice.trails[k], known[k]);
+        forces[k] = by_tip(rod, part, &choice.trails[k], known[k]);
         let (first, last) = (forces[k][0], forces[k][INSTANTS - 1]);
         if k > 0 {
             known[k - 1][1] = Some(first);
@@ -87,11 +87,11 @@ pub(super) fn guess(parts: &[Part], choice: &Choice) -> Option<DVector<f64>> {
                 }
                 let [clamp, _] = series.clamps(if side == 0 { -1.0 } else { 1.0 });
                 let last = matches!(choice.ends[side], End::Last { .. });
-                last.then(|| MomentZero::of(&clamp, &Matrix3::zeros()).ok().map(|m| m.s)).flatten()
+                last.then(|| rod.first(&clamp).ok().map(|m| m.s)).flatten()
             };
             let beyond = |f: f64, t: f64| {
                 let [clamp, _] = series.clamps(t);
-                Beyond::new(&clamp, trail.at(t)).second(f).filter(|s| *s < 1.0)
+                Beyond::new(rod, &clamp, trail.at(t)).second(f).filter(|s| *s < 1.0)
             };
             let ends = match [end(0), end(1)] {
                 [Some(a), Some(b)] => [a, b],
@@ -119,10 +119,10 @@ fn fitted(forces: &[f64], terms: usize) -> Option<DVector<f64>> {
 }
 
 /// Forces of the first contact for which the moment at the tip vanishes, followed from the end at which the force is known.
-fn by_tip(part: &Part, trail: &Trail, known: [Option<f64>; 2]) -> Vec<f64> {
+fn by_tip<I: Inverse>(rod: &I, part: &Part, trail: &Trail, known: [Option<f64>; 2]) -> Vec<f64> {
     let beyond = |k: usize| {
         let [clamp, _] = part.series.clamps(instant(k));
-        Beyond::new(&clamp, trail.at(instant(k)))
+        Beyond::new(rod, &clamp, trail.at(instant(k)))
     };
     let mut forces = vec![0.0; INSTANTS];
     let backwards = known[0].is_none();
@@ -139,13 +139,13 @@ fn by_tip(part: &Part, trail: &Trail, known: [Option<f64>; 2]) -> Vec<f64> {
 }
 
 /// The smallest force for which the moment at the tip vanishes and the contact there pushes.
-fn scanned(beyond: &Beyond) -> f64 {
+fn scanned<I: Inverse>(beyond: &Beyond<'_, I>) -> f64 {
     let size = LARGEST.0 * beyond.force[0].hypot(beyond.force[1]) + LARGEST.1;
     let force = |k: usize| -size + 2.0 * size * k as f64 / (FORCES - 1) as f64;
     let mut best: Option<f64> = None;
-    let mut before = beyond.tip(force(0)).0.kappa;
+    let mut before = beyond.tip(force(0)).0.bend;
     for k in 1..FORCES {
-        let here = beyond.tip(force(k)).0.kappa;
+        let here = beyond.tip(force(k)).0.bend;
         if here * before <= 0.0
             && let Some(f) = beyond.force_of_tip(0.5 * (force(k) + force(k - 1)))
             && beyond.pushes(f, 0.0)

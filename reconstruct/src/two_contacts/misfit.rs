@@ -3,6 +3,7 @@
 use super::part::Part;
 use super::system::{Solution, System};
 use super::unknowns::Unknown;
+use crate::point::Inverse;
 
 /// Largest misfit that noise explains, as a normal deviate. Larger: contradictory conditions pass, such as those of a missed transition;
 /// smaller: right solutions are rejected, one in 40 at 2.
@@ -18,7 +19,7 @@ pub(super) struct Misfit {
 impl Misfit {
     /// The reactions of a solution have as many degrees of freedom as they have coefficients, less those that the solution takes up: the
     /// trace of what it passes on of each coefficient's error.
-    pub fn of(system: &System<'_>, solution: &Solution) -> Self {
+    pub fn of<I: Inverse>(system: &System<'_, I>, solution: &Solution) -> Self {
         let free = |part: &Part| -> f64 {
             let weight = &part.series.normal;
             let taken = |unknown: Unknown| {

@@ -1,17 +1,17 @@
 //! The two contacts of each sample, from the solution of a run.
 
 use super::bend::bends;
-use super::conditions::two;
+use super::conditions::two_by;
 use super::displaced::Spread;
 use super::part::{Local, Part};
 use super::run::Resolved;
 use super::slip::slides;
-use super::unknowns::{UNKNOWNS, Unknown, Unknowns};
+use super::unknowns::{UNKNOWNS, Unknown};
 use super::unresolved::Unresolved;
 use crate::numeric::variance;
-use crate::point::{Touch, normal_part};
+use crate::point::{CrossSection, Inverse, Touch, normal_part};
 use nalgebra::{Matrix2, Matrix6, SMatrix, SVector, Vector2};
-use rod_core::{Dual, Section};
+use rod_core::Dual;
 
 /// Instants of a stretch at which covariances are computed; they are interpolated linearly in between.
 pub(super) const INSTANTS: usize = 33;
@@ -70,7 +70,8 @@ pub(super) fn place(k: usize) -> f64 {
 /// The contacts of the samples at these path parameters of a part, appended to `pairs`.
 ///
 /// `spread` is the covariance of the contacts by errors that all samples share.
-pub(super) fn answer(
+pub(super) fn answer<I: Inverse>(
+    rod: &I,
     found: &Resolved,
     part: &Part,
     tau: &[f64],
@@ -82,7 +83,7 @@ pub(super) fn answer(
     let covariances: Vec<Matrix6<f64>> = (0..INSTANTS)
         .map(|k| part.covariance(&part.local(x, place(k)), &found.solution.covariance) * found.excess)
         .collect();
-    let bends = bends(found, part);
+    let bends = bends(rod, found, part);
     let strength = |k: usize| {
         let f1 = part.local(x, place(k)).values[Unknown::F1];
         f1 / covariances[k][(F1, F1)].max(f64::MIN_POSITIVE).sqrt()
@@ -94,7 +95,7 @@ pub(super) fn answer(
         pairs.extend(tau.iter().map(|_| Pair { first: Err(error), second: Err(error) }));
         return;
     }
-    if !slides(part, x) {
+    if !slides(rod, part, x) {
         pairs.extend(tau.iter().map(|_| Pair { first: Err(Unresolved::Sticks), second: Err(Unresolved::Sticks) }));
         return;
     }
@@ -112,7 +113,7 @@ pub(super) fn answer(
         };
         let bend = [0, 1].map(|i| bends[k][i].max(bends[k + 1][i]));
         let shared = [0, 1].map(|i| spread[k][i] * (1.0 - w) + spread[k + 1][i] * w);
-        let mut pair = pair(part, &local, &covariance, bend, limits);
+        let mut pair = pair(rod, part, &local, &covariance, bend, limits);
         if local.values[Unknown::F1] * strongest.signum() < VANISHES * covariance[(F1, F1)].max(0.0).sqrt() {
             pair.first = Err(Unresolved::FirstForceVanishes);
         }
@@ -120,11 +121,16 @@ pub(super) fn answer(
     }
 }
 
-fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], limits: &Limits) -> Pair {
-    let values = Unknowns::from_fn(|unknown| Dual::variable(local.values[unknown], unknown as usize));
-    let pose = std::array::from_fn(|i| Dual::constant(local.pose[0][i]));
-    let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &values);
-    let bend = |s: &Section<Dual<f64, UNKNOWNS>>| {
+fn pair<I: Inverse>(
+    rod: &I,
+    part: &Part,
+    local: &Local,
+    covariance: &Matrix6<f64>,
+    bends: [f64; 2],
+    limits: &Limits,
+) -> Pair {
+    let two = two_by(rod, local);
+    let bend = |s: &CrossSection<Dual<f64, UNKNOWNS>>| {
         let by =
             SMatrix::<f64, 2, UNKNOWNS>::from_fn(|r, c| if r == 0 { s.x.derivatives[c] } else { s.y.derivatives[c] });
         (s.x.value, s.y.value, by * covariance * by.transpose())
@@ -143,7 +149,7 @@ fn pair(part: &Part, local: &Local, covariance: &Matrix6<f64>, bends: [f64; 2], 
         covariance: spread1,
         systematic: Matrix2::zeros(),
     };
-    let kappa = two.first.kappa.value;
+    let kappa = rod.curvature(&two.first.map(|number| number.value), first.s);
     let first = judged(first, bends[0].abs() + kappa.abs(), covariance[(S1, S1)].max(0.0).sqrt(), limits);
 
     let [a, b] = two.force;

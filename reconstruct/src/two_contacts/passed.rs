@@ -8,8 +8,8 @@ use super::part::Part;
 use super::system::Solution;
 use super::unknowns::Unknown;
 use crate::phase::Label;
-use crate::point::{Clamp, MomentZero};
-use nalgebra::{Matrix3, Vector2, Vector3};
+use crate::point::{Clamp, Interval, Inverse};
+use nalgebra::{Vector2, Vector3};
 
 /// Straight pieces in place of a rod. They leave it by an eighth of the square of their length times its curvature.
 const PIECES: usize = 24;
@@ -35,16 +35,16 @@ pub(crate) struct Passed {
 
 impl Passed {
     /// From the clamps and labels of stretches with one contact or none on each side of a run, those next to it first.
-    pub fn new(sides: [Vec<(Clamp, Label)>; 2]) -> Self {
+    pub fn new<I: Inverse>(rod: &I, sides: [Vec<(Clamp, Label)>; 2]) -> Self {
         let shapes = |clamps: Vec<(Clamp, Label)>| {
             let step = clamps.len().div_ceil(MOST_SHAPES).max(1);
-            clamps.into_iter().step_by(step).filter_map(|(clamp, label)| shape(&clamp, label)).collect()
+            clamps.into_iter().step_by(step).filter_map(|(clamp, label)| shape(rod, &clamp, label)).collect()
         };
         Self { sides: sides.map(shapes) }
     }
 
     /// Whether the rod comes by beyond the first contact of a part.
-    pub(super) fn contradict(&self, part: &Part, solution: &Solution) -> bool {
+    pub(super) fn contradict<I: Inverse>(&self, rod: &I, part: &Part, solution: &Solution) -> bool {
         if self.sides.iter().all(Vec::is_empty) {
             return false;
         }
@@ -55,7 +55,7 @@ impl Passed {
             if s1 > MIDDLE.1 || f1.abs() < small {
                 return false;
             }
-            let first = two(local.pose[0].into(), local.natural, local.friction, &local.values).first;
+            let first = two(rod, &local).first;
             let covariance = part.covariance(&local, &solution.covariance);
             let sigma = covariance[(Unknown::S1 as usize, Unknown::S1 as usize)].max(0.0).sqrt();
             let (at, along) = (Vector2::new(first.x, first.y), Vector2::new(first.phi.cos(), first.phi.sin()));
@@ -92,21 +92,22 @@ fn nearest(shape: &Shape, at: Vector2<f64>) -> (f64, f64) {
     (best.1, best.0.copysign(best.2))
 }
 
-/// The shape of a rod with one contact or none, beyond which it is straight.
-fn shape(clamp: &Clamp, label: Label) -> Option<Shape> {
+/// The shape of a rod with one contact or none, beyond which it is as at rest.
+fn shape<I: Inverse>(rod: &I, clamp: &Clamp, label: Label) -> Option<Shape> {
     let free = Clamp { reactions: Vector3::zeros(), ..*clamp };
     let (clamp, end) = match label {
         Label::Free => (&free, 1.0),
-        _ => (clamp, MomentZero::of(clamp, &Matrix3::zeros()).ok()?.s.min(1.0)),
+        _ => (clamp, rod.first(clamp).ok()?.s.min(1.0)),
     };
-    let last = clamp.at(end);
+    let last = rod.at(clamp, end);
     let points = std::array::from_fn(|k| {
         let s = k as f64 / PIECES as f64;
         if s <= end {
-            let section = clamp.at(s);
+            let section = rod.at(clamp, s);
             return Vector2::new(section.x, section.y);
         }
-        Vector2::new(last.x + (s - end) * last.phi.cos(), last.y + (s - end) * last.phi.sin())
+        let section = rod.carry(&last, &Interval { from: end, to: s, force: [0.0; 2] });
+        Vector2::new(section.x, section.y)
     });
     points.iter().all(|point: &Vector2<f64>| point.x.is_finite() && point.y.is_finite()).then_some(points)
 }

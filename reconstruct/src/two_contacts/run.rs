@@ -13,6 +13,7 @@ use super::trail::{Trail, trails};
 use super::unknowns::Unknown;
 use super::unresolved::Unresolved;
 use super::weights::Tolerance;
+use crate::point::Inverse;
 use nalgebra::DVector;
 
 /// Terms of arc lengths and forces in the first solution.
@@ -39,7 +40,7 @@ const MOST_MISFIT_CLEAN: f64 = 6.0;
 
 /// A solution whose sum of weighted squares exceeds that of another by less than this cannot be excluded: a likelihood ratio of
 /// exp(-12). Larger: more stretches are given up as ambiguous; smaller: wrong contacts pass.
-const AS_GOOD: f64 = 24.0;
+pub(crate) const AS_GOOD: f64 = 24.0;
 /// Distance of the first contacts of two first solutions along the rod, rod lengths, up to which only the better one goes on.
 const SAME: f64 = 0.005;
 /// Distance of the first contacts of two solutions along the rod, rod lengths, from which on they are not the same.
@@ -62,7 +63,8 @@ pub(super) struct Resolved {
 ///
 /// The least squares start from a trail of the first contact and are solved three times: with few terms, loose conditions and blurred
 /// reactions; with more of each; and as they are.
-pub(super) fn solve(
+pub(super) fn solve<I: Inverse>(
+    rod: &I,
     stretches: Vec<(Series, bool)>,
     beside: [Option<Beside>; 2],
     clean: bool,
@@ -70,7 +72,8 @@ pub(super) fn solve(
 ) -> Result<Resolved, Unresolved> {
     let last = stretches.len() - 1;
     let ends = |k: usize| [beside[0].filter(|_| k == 0), beside[1].filter(|_| k == last)].map(|b| b.map(|b| b.s));
-    let found: Vec<Vec<Trail>> = stretches.iter().enumerate().map(|(k, (series, _))| trails(series, ends(k))).collect();
+    let found: Vec<Vec<Trail>> =
+        stretches.iter().enumerate().map(|(k, (series, _))| trails(rod, series, ends(k))).collect();
     let mut choices = choices(&found, beside);
     if choices.is_empty() {
         return Err(Unresolved::NoTouch);
@@ -80,8 +83,9 @@ pub(super) fn solve(
     if !stretches.iter().any(|(_, tip)| *tip) {
         choices.retain(anchored);
     }
-    // in noise, nothing else tells two contacts from three
-    if !clean {
+    // in noise nothing else tells two contacts from three, nor do reactions that leave their series, where the label is not known either
+    let exact = clean && (rod.tells_last() || stretches.iter().all(|(series, _)| series.is_exact()));
+    if !exact {
         choices.retain(|choice| choice.ends.iter().any(|end| !matches!(end, End::Open)));
     }
     if choices.is_empty() {
@@ -91,8 +95,8 @@ pub(super) fn solve(
         .into_iter()
         .filter_map(|choice| {
             let parts = blurred(parts(&stretches, SHORT[0], |_| FEW_TERMS), BLURS[0]);
-            let guess = guess(&parts, &choice)?;
-            let system = System { parts: &parts, ends: choice.ends, tolerance: ROUGH };
+            let guess = guess(rod, &parts, &choice)?;
+            let system = System { rod, parts: &parts, ends: choice.ends, tolerance: ROUGH };
             let solution = system.solve(guess)?;
             Some((choice, parts, solution))
         })
@@ -114,7 +118,7 @@ pub(super) fn solve(
         .take(REFINED)
         .filter_map(|(choice, few, rough)| {
             let parts = blurred(parts(&stretches, SHORT[1], |series| series.terms() + MORE_TERMS), BLURS[1]);
-            let system = System { parts: &parts, ends: choice.ends, tolerance: MIDDLE };
+            let system = System { rod, parts: &parts, ends: choice.ends, tolerance: MIDDLE };
             let solution = system.solve(longer(&few, &parts, &rough.x))?;
             Some((choice, parts, solution))
         })
@@ -123,25 +127,25 @@ pub(super) fn solve(
     let parts = parts(&stretches, usize::MAX, |series| series.terms() + MORE_TERMS);
     let truncated = stretches.iter().any(|(series, _)| series.truncated);
     let measured: usize = parts.iter().map(|part| 3 * part.series.terms()).sum();
-    let judged = |system: &System<'_>, solution: Solution| {
-        let System { parts, ends, tolerance } = *system;
+    let judged = |system: &System<'_, I>, solution: Solution| {
+        let System { parts, ends, tolerance, .. } = *system;
         let misfit = Misfit::of(system, &solution);
         let good = solution.converged
             && misfit.deviate() < if clean { MOST_MISFIT_CLEAN } else { BY_CHANCE }
-            && parts.iter().all(|part| are_right(part, &solution) && !passed.contradict(part, &solution));
+            && parts.iter().all(|part| are_right(rod, part, &solution) && !passed.contradict(rod, part, &solution));
         good.then(|| Resolved { parts: parts.to_vec(), solution, ends, tolerance, excess: misfit.excess() })
     };
     for (rank, (choice, short, start)) in middle.iter().enumerate() {
         let mut x = longer(short, &parts, &start.x);
-        let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
+        let fine = System { rod, parts: &parts, ends: choice.ends, tolerance: FINE };
         if let Some(found) = fine.solve(x.clone()).and_then(|solution| judged(&fine, solution)) {
             for (_, (choice, short, middle)) in middle.iter().enumerate().filter(|(other, _)| *other != rank) {
-                let fine = System { parts: &parts, ends: choice.ends, tolerance: FINE };
+                let fine = System { rod, parts: &parts, ends: choice.ends, tolerance: FINE };
                 let other = match fine.gauss_newton(longer(short, &parts, &middle.x)) {
                     Some(solution) => judged(&fine, solution).filter(|other| as_good(&other.solution, &found.solution)),
                     // it cannot be excluded by an iteration that does not converge
                     None => {
-                        let rough = System { parts: short, ends: choice.ends, tolerance: MIDDLE };
+                        let rough = System { rod, parts: short, ends: choice.ends, tolerance: MIDDLE };
                         judged(&rough, middle.clone()).filter(|_| as_good(middle, start))
                     }
                 };
@@ -163,7 +167,7 @@ pub(super) fn solve(
         let mut best = None;
         for (blur, floor) in SHORTER_STEPS {
             let parts = blurred(parts.clone(), blur);
-            let system = System { parts: &parts, ends: choice.ends, tolerance: Tolerance { floor, ..FINE } };
+            let system = System { rod, parts: &parts, ends: choice.ends, tolerance: Tolerance { floor, ..FINE } };
             let Some(solution) = system.solve(x.clone()) else { break };
             x = solution.x.clone();
             let Some(found) = judged(&system, solution) else { break };

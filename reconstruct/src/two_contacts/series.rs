@@ -20,6 +20,8 @@ const SPARE: usize = 2;
 /// Smallest standard deviation of the reactions, dimensionless: truncation of the series and rounding. Smaller: the least squares
 /// become ill-conditioned on noise-free scans.
 const EXACT: f64 = 1e-10;
+/// Standard deviation of the reactions about their series, dimensionless, up to which it is rounding. Larger: a kink within a stretch passes.
+const ROUNDED: f64 = 1e-8;
 
 /// The part of the path that a stretch covers, mapped to t from -1 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -167,6 +169,11 @@ impl Series {
             friction,
             ..self.clone()
         }
+    }
+
+    /// Whether the reactions leave it by rounding only.
+    pub fn is_exact(&self) -> bool {
+        !self.truncated && self.variance.max() < ROUNDED * ROUNDED
     }
 
     pub fn terms(&self) -> usize {

@@ -5,7 +5,7 @@ use super::envelope::NormalSpeed;
 use super::part::Part;
 use super::system::Solution;
 use super::unknowns::{Unknown, Unknowns};
-use crate::point::Clamp;
+use crate::point::{Clamp, Inverse};
 use crate::scan::Estimate;
 use nalgebra::Vector3;
 
@@ -28,7 +28,7 @@ const DOUBT: f64 = 2.0;
 ///
 /// The side of a moving contact follows from the slope of the normal speed along the rod, which is the speed of the contact times
 /// the difference of the curvatures of contour and rod.
-pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
+pub(super) fn are_right<I: Inverse>(rod: &I, part: &Part, solution: &Solution) -> bool {
     let place = |k: usize| -WITHIN + 2.0 * WITHIN * k as f64 / (INSTANTS - 1) as f64;
     let (mut good, mut side, mut doubt) = (0, 0.0, 0.0);
     for k in 0..INSTANTS {
@@ -41,8 +41,8 @@ pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
             friction: if i == 0 { local.friction } else { 0.0 },
         };
         let estimate = Estimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
-        let speed = NormalSpeed::at(&estimate, s1);
-        let (_, gradient) = estimate.clamp.gradient_at(s1);
+        let speed = NormalSpeed::at(rod, &estimate, s1);
+        let (_, gradient) = rod.gradient_at(&estimate.clamp, s1);
         let velocity = gradient.rate(&estimate.rate);
         let (sin, cos) = speed.section.phi.sin_cos();
         let along = cos * velocity[0] + sin * velocity[1] + local.rates[Unknown::S1];
@@ -51,7 +51,7 @@ pub(super) fn are_right(part: &Part, solution: &Solution) -> bool {
             side += f1.signum() * speed.by_s * along / INSTANTS as f64;
             doubt += speed.by_s.abs() * part.sigma_of_rate(&local, &solution.covariance) / INSTANTS as f64;
         }
-        let beyond = Beyond::new(&estimate.clamp, s1);
+        let beyond = Beyond::new(rod, &estimate.clamp, s1);
         let pushes = !part.tip || beyond.pushes(f1, small);
         if !part.tip {
             let covariance = part.covariance(&local, &solution.covariance);

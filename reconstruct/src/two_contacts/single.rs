@@ -4,7 +4,7 @@ use super::bend::UNSURE;
 use super::ends::{Beside, End};
 use super::series::Series;
 use crate::numeric::propagated;
-use crate::point::MomentZero;
+use crate::point::{Clamp, Inverse, is_free};
 use crate::scan::{Noise, Track};
 use crate::systematic::Correction;
 use nalgebra::{DVector, Matrix2x3, Matrix3, Vector2};
@@ -45,20 +45,21 @@ impl Single {
     }
 
     /// The contact at the end next to the run.
-    pub fn contact(&self) -> Option<Beside> {
+    pub fn contact<I: Inverse>(&self, rod: &I) -> Option<Beside> {
         let (series, way) = (&self.series, self.way);
         let t = series.interval.local(self.tau);
         let [clamp, _] = series.clamps(t);
         let p = DVector::from_vec(series.interval.basis(t, series.terms()).0);
         let covariance = Matrix3::from_diagonal(&(series.variance * p.dot(&(&series.inverse * &p))));
-        let found = MomentZero::of(&clamp, &covariance).ok()?;
+        let zero = |clamp: &Clamp| rod.first(clamp).ok().filter(|_| !is_free(clamp, &covariance));
+        let found = zero(&clamp)?;
         let normal = found.normal();
         let by: Matrix2x3<f64> = found.by_reactions.fixed_rows::<2>(0).into_owned();
         let sigma = propagated(&(normal.transpose() * by), &covariance).x.sqrt();
         let sigma_s = propagated(&found.s_by_reactions.transpose(), &covariance).x.sqrt();
         let place = Vector2::new(found.section.x, found.section.y);
         // the other end of the neighbour's samples
-        let far = MomentZero::of(&series.clamps(-t)[0], &covariance).ok();
+        let far = zero(&series.clamps(-t)[0]);
         let bend = far.map_or(f64::INFINITY, |far| {
             let passed = (Vector2::new(far.section.x, far.section.y) - place).norm();
             let least = passed - UNSURE * (sigma_s * std::f64::consts::SQRT_2);

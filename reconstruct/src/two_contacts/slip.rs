@@ -3,13 +3,12 @@
 //! The friction of a contact that slides is known, and that of one that sticks, or on which the rod rolls, is not: then one condition is
 //! missing. A contact sticks where the matter of the rod stands still there.
 
-use super::conditions::two;
+use super::conditions::two_moving;
 use super::pair::{INSTANTS, place};
 use super::part::{Local, Part};
-use super::unknowns::{Unknown, Unknowns};
-use crate::point::Clamp;
+use super::unknowns::Unknown;
+use crate::point::{Clamp, Inverse};
 use nalgebra::{DVector, Vector3};
-use rod_core::Dual;
 
 /// Speed along the rod per way of the clamp, below which matter may stand still: the error of series at their ends. Larger: contacts that
 /// slide slowly are given up.
@@ -20,23 +19,20 @@ const SIGMAS: f64 = 3.0;
 
 /// Whether both contacts slide against friction along a part, on the mean: between kinks a contact slides or sticks all the way. Always
 /// without friction.
-pub(super) fn slides(part: &Part, x: &DVector<f64>) -> bool {
+pub(super) fn slides<I: Inverse>(rod: &I, part: &Part, x: &DVector<f64>) -> bool {
     if part.series.friction == 0.0 {
         return true;
     }
     let against = -part.series.friction.signum();
-    let speeds = (0..INSTANTS).map(|k| along(&part.local(x, place(k))));
+    let speeds = (0..INSTANTS).map(|k| along(rod, &part.local(x, place(k))));
     let sum = speeds.fold([0.0; 2], |sum, two| [0, 1].map(|i| sum[i] + against * two[i]));
     let [first, second] = sum.map(|sum| sum / INSTANTS as f64);
-    first > SLOW + SIGMAS * sigma_of_first(part, &part.local(x, 0.0)) && second > SLOW
+    first > SLOW + SIGMAS * sigma_of_first(rod, part, &part.local(x, 0.0)) && second > SLOW
 }
 
 /// The speeds of the rod's matter along the rod at both contacts, per way of the clamp.
-fn along(local: &Local) -> [f64; 2] {
-    // the one derivative is the rate along the scan
-    let inputs = Unknowns::from_fn(|u| Dual::<f64, 1> { value: local.values[u], derivatives: [local.rates[u]] });
-    let pose = std::array::from_fn(|i| Dual { value: local.pose[0][i], derivatives: [local.pose[1][i]] });
-    let two = two(pose, Dual::constant(local.natural), Dual::constant(local.friction), &inputs);
+fn along<I: Inverse>(rod: &I, local: &Local) -> [f64; 2] {
+    let two = two_moving(rod, local);
     // contacts move along the rod besides
     [(&two.first, Unknown::S1), (&two.second, Unknown::S2)].map(|(section, s)| {
         let (sin, cos) = section.phi.value.sin_cos();
@@ -46,11 +42,11 @@ fn along(local: &Local) -> [f64; 2] {
 
 /// Standard deviation of the first one's mean speed by the noise of the rates: the mean of a rate is the difference of the values at both
 /// ends, to which all odd polynomials contribute 1.
-fn sigma_of_first(part: &Part, local: &Local) -> f64 {
+fn sigma_of_first<I: Inverse>(rod: &I, part: &Part, local: &Local) -> f64 {
     let reactions = Vector3::from(Unknown::REACTIONS.map(|unknown| local.values[unknown]));
     let Local { natural, friction, .. } = *local;
     let clamp = Clamp { pose: local.pose[0], reactions, natural, friction };
-    let (section, gradient) = clamp.gradient_at(local.values[Unknown::S1]);
+    let (section, gradient) = rod.gradient_at(&clamp, local.values[Unknown::S1]);
     let (sin, cos) = section.phi.sin_cos();
     let series = &part.series;
     let mean = DVector::from_fn(series.terms(), |j, _| if j % 2 == 1 { 1.0 / series.interval.half } else { 0.0 });

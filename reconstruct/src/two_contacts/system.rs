@@ -7,6 +7,7 @@ use super::normal::Normal;
 use super::part::Part;
 use super::unknowns::{Gradient, Unknown, Unknowns};
 use super::weights::{self, Tolerance};
+use crate::point::Inverse;
 use nalgebra::{DMatrix, DVector};
 use rod_core::Dual;
 
@@ -28,7 +29,8 @@ const SETTLED: f64 = 1e-13;
 const LEAST_SHARE: f64 = 1e-3;
 
 /// A run of stretches, and how its unknowns are weighted.
-pub(super) struct System<'a> {
+pub(super) struct System<'a, I> {
+    pub rod: &'a I,
     pub parts: &'a [Part],
     pub ends: [End; 2],
     pub tolerance: Tolerance,
@@ -44,14 +46,14 @@ pub(super) struct Solution {
     pub converged: bool,
 }
 
-impl System<'_> {
+impl<I: Inverse> System<'_, I> {
     /// Weights of the conditions at all instants, from their noise at x.
     pub fn weights(&self, x: &DVector<f64>) -> Vec<f64> {
         let Tolerance { share, floor, .. } = self.tolerance;
         let of = |part: &Part, t: f64| -> Vec<f64> {
             let local = part.local(x, t);
             let weight = |c: &Condition| 1.0 / (floor * floor + share * share * part.noise(&local, &c.gradient));
-            conditions(&local, part.tip).iter().map(weight).collect()
+            conditions(self.rod, &local, part.tip).iter().map(weight).collect()
         };
         self.parts.iter().flat_map(|part| part.instants().flat_map(move |t| of(part, t))).collect()
     }
@@ -71,7 +73,7 @@ impl System<'_> {
             let mut residual = DVector::<f64>::zeros(each * instants.len());
             for (k, t) in instants.into_iter().enumerate() {
                 let local = part.local(x, t);
-                let conditions = conditions(&local, part.tip);
+                let conditions = conditions(self.rod, &local, part.tip);
                 for (i, (condition, weight)) in conditions.iter().zip(&mut weight).enumerate() {
                     let (at, scale) = (each * k + i, weight.sqrt());
                     row.clear();
@@ -161,7 +163,7 @@ impl System<'_> {
             to.spread(&b, &Gradient::of_values(unit), &mut row);
             normal.add(&row, b.values[unknown] - a.values[unknown], sigma);
         }
-        let (p, q) = (second(&a, from.tip), second(&b, to.tip));
+        let (p, q) = (second(self.rod, &a, from.tip), second(self.rod, &b, to.tip));
         let Chord { across, by: [by_p, by_q] } = Chord::between(&p, &q);
         let mut row = Vec::new();
         from.spread(&a, &by_p, &mut row);
@@ -176,7 +178,7 @@ impl System<'_> {
         match end {
             End::Open => {}
             End::Last { place, normal: there, sigma, way, .. } => {
-                let second = second(&local, part.tip);
+                let second = second(self.rod, &local, part.tip);
                 let [x, y, nx, ny] = [place.x, place.y, there.x, there.y].map(Dual::constant);
                 let Chord { across, by: [_, by] } = Chord::between(&ContourPoint { x, y, normal: [nx, ny] }, &second);
                 part.spread(&local, &by, &mut row);

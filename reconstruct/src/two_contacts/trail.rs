@@ -2,6 +2,7 @@
 
 use super::envelope::{NormalSpeed, touches};
 use super::series::Series;
+use crate::point::Inverse;
 use crate::scan::Estimate;
 use nalgebra::DVector;
 
@@ -49,9 +50,9 @@ struct Root {
 
 /// The likeliest trails along a stretch, best first; `beside`: arc lengths of single contacts at its ends. That the first contact stays
 /// where such a single contact is, is always among them: noise may hide its roots.
-pub(super) fn trails(series: &Series, beside: [Option<f64>; 2]) -> Vec<Trail> {
+pub(super) fn trails<I: Inverse>(rod: &I, series: &Series, beside: [Option<f64>; 2]) -> Vec<Trail> {
     let place = |k: usize| -WITHIN + 2.0 * WITHIN * k as f64 / (INSTANTS - 1) as f64;
-    let roots: Vec<Vec<Root>> = (0..INSTANTS).map(|k| roots(series, place(k))).collect();
+    let roots: Vec<Vec<Root>> = (0..INSTANTS).map(|k| roots(rod, series, place(k))).collect();
     // where the neighbour's contact may go on as the first one, the trail may end there
     let near = |k: usize| roots[k].iter().map(move |root| (place(k), root.s));
     let starts: Vec<_> = (0..ENDS).flat_map(near).chain(beside[0].map(|s| (-1.0, s))).collect();
@@ -91,14 +92,14 @@ fn off(roots: &[Root], s: f64) -> f64 {
 }
 
 /// The roots of the normal speed at t.
-fn roots(series: &Series, t: f64) -> Vec<Root> {
+fn roots<I: Inverse>(rod: &I, series: &Series, t: f64) -> Vec<Root> {
     let [clamp, rate] = series.clamps(t);
     let estimate = Estimate::exact(clamp, rate);
     let (_, d) = series.interval.basis(t, series.terms());
     let d = DVector::from_vec(d);
     let spread = d.dot(&(&series.inverse * &d));
     let mut found = Vec::new();
-    touches(&estimate, 1.0, |s, speed: NormalSpeed| {
+    touches(rod, &estimate, 1.0, |s, speed: NormalSpeed| {
         let noise = speed.by_rate.component_mul(&speed.by_rate).dot(&series.variance) * spread;
         let variance = (noise / (speed.by_s * speed.by_s)).min(MOST_VARIANCE);
         if s > NEAREST {

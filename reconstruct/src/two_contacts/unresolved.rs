@@ -40,9 +40,6 @@ pub enum Unresolved {
     /// The first contact does not go on in a neighbouring stretch, from which no jump divides it: there may be more than two contacts.
     #[error("the first contact does not go on in the neighbouring stretch: there may be more than two")]
     Torn,
-    /// The rod is not uniform and straight at rest.
-    #[error("several contacts are resolved of a uniform rod alone")]
-    NotUniform,
     /// The conditions of two contacts contradict each other or the signs of their forces.
     #[error("no two contacts agree with the reactions")]
     Inconsistent,

@@ -1,0 +1,169 @@
+//! The answers to samples with several contacts.
+
+use super::answers::Answers;
+use super::nearest::Nearest;
+use super::reading::{Reading, Reason};
+use super::torn::torn;
+use crate::phase::{Break, Identified, Label};
+use crate::point::{Inverse, Touch};
+use crate::two_contacts::{Around, Limits, Neighbour, Passed, Piece, Resolution, Unresolved, resolve};
+use std::ops::Range;
+
+/// Samples at the border of two phases that are left out, besides those within the uncertainty of its kink.
+const MARGIN: usize = 3;
+/// The uncertainty of a kink in its standard deviations, which are rather too small: the curvature breaks at a kink, too.
+const SIGMAS: f64 = 4.0;
+/// Largest standard deviation of one of several contacts across the contour, in rod lengths.
+const ACROSS: f64 = 5e-3;
+
+/// Whether the reactions jump before this sample.
+fn jumps(breaks: &[Break], index: usize) -> bool {
+    breaks.iter().any(|here| here.jump && here.index == index)
+}
+
+/// Pieces that are resolved together, and what came of it.
+#[derive(Clone, Debug)]
+pub(super) struct Together {
+    pub pieces: Vec<Piece>,
+    pub found: Resolution,
+}
+
+impl<I: Inverse> Answers<'_, I> {
+    /// The answers to consecutive runs with several contacts. They are resolved in parts between jumps, and between kinks within a phase,
+    /// after which other contacts may be the first and the last.
+    pub(super) fn several(&self, consecutive: Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
+        let runs = &self.identified.runs;
+        let single = |label: Label| label != Label::Free && !label.several();
+        let neighbour = |index: Option<usize>| {
+            let (range, label) = runs.get(index?).filter(|run| single(run.1))?;
+            Some(Neighbour { range: range.clone(), label: *label })
+        };
+        let start = runs[consecutive.start].0.start;
+        let before = neighbour(consecutive.start.checked_sub(1)).filter(|_| !jumps(breaks, start));
+        let after = neighbour(Some(consecutive.end)).filter(|_| !jumps(breaks, runs[consecutive.end - 1].0.end));
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (range, label) in &runs[consecutive] {
+            let inside = breaks.iter().filter(|here| range.start < here.index && here.index < range.end);
+            let mut start = range.start;
+            for end in inside.map(|here| here.index).chain([range.end]) {
+                pieces.push(Piece { range: start..end, label: *label });
+                start = end;
+            }
+        }
+        let from = readings.len();
+        // the numbers of readings at which parts begin, and whether the reactions jump there
+        let mut parts: Vec<(usize, bool)> = vec![(from, true)];
+        let smooth: Vec<&[Piece]> = pieces.chunk_by(|_, next| !jumps(breaks, next.range.start)).collect();
+        for (k, pieces) in smooth.iter().enumerate() {
+            let beside = [before.as_ref().filter(|_| k == 0), after.as_ref().filter(|_| k + 1 == smooth.len())];
+            let resolved = if self.rod.tells_last() {
+                self.as_labelled(pieces, beside, breaks)
+            } else {
+                self.told(pieces, beside, breaks)
+            };
+            for together in resolved {
+                if readings.len() > from {
+                    let start = together.pieces.first().map_or(0, |piece| piece.range.start);
+                    parts.push((readings.len(), jumps(breaks, start)));
+                }
+                self.read(together, readings);
+            }
+        }
+        self.doubt_torn(start, &parts, readings);
+    }
+
+    /// Takes back the answers to neighbouring parts, the first of which starts at sample `start`, that contradict each other.
+    fn doubt_torn(&self, start: usize, parts: &[(usize, bool)], readings: &mut [Reading]) {
+        let Some(&(from, _)) = parts.first() else { return };
+        let tau = &self.track.tau[start..];
+        let ends = parts.iter().skip(1).map(|part| part.0).chain([readings.len()]);
+        let ranges: Vec<Range<usize>> = parts.iter().zip(ends).map(|(part, end)| part.0..end).collect();
+        let several = &readings[from..];
+        let torn: Vec<usize> =
+            (1..parts.len()).filter(|&k| !parts[k].1 && torn(several, tau, parts[k].0 - from, self.units)).collect();
+        for k in torn.into_iter().flat_map(|k| [k - 1, k]) {
+            for reading in &mut readings[ranges[k].clone()] {
+                let reason = Reason::Several(Unresolved::Torn);
+                *reading = Reading { touch: Err(reason), second: Some(Err(reason)), ..*reading };
+            }
+        }
+    }
+
+    /// Pieces without jumps in between, resolved as the phases label them. A kink within a phase divides them.
+    fn as_labelled(&self, pieces: &[Piece], beside: [Option<&Neighbour>; 2], breaks: &[Break]) -> Vec<Together> {
+        let parts: Vec<&[Piece]> = pieces.chunk_by(|piece, next| piece.label != next.label).collect();
+        let resolved = |k: usize| {
+            let here = [beside[0].filter(|_| k == 0), beside[1].filter(|_| k + 1 == parts.len())];
+            self.together(parts[k].to_vec(), here, breaks)
+        };
+        (0..parts.len()).map(resolved).collect()
+    }
+
+    /// By how many samples a border may be misplaced: by the uncertainty of its kink.
+    fn unsure(&self, border: usize) -> usize {
+        let track = self.track;
+        let kink = self.kinks.iter().find(|kink| kink.next == border);
+        let sigma = kink.map_or(0.0, |kink| SIGMAS * kink.sigma_tau);
+        let from = track.tau.get(border).map_or(border, |tau| track.tau.partition_point(|other| *other < tau - sigma));
+        (border - from.min(border)).min(track.len())
+    }
+
+    /// The shapes of the rod on both sides of these pieces, up to where they are not known or jump.
+    fn passed(&self, pieces: &[Piece], breaks: &[Break]) -> Passed {
+        let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return Passed::default() };
+        let Identified { nodes, labels, .. } = self.identified;
+        let (start, end) = (first.range.start, last.range.end);
+        let to = nodes.partition_point(|node| node.index < start);
+        let from = nodes.partition_point(|node| node.index < end);
+        // the jumps next to the pieces are none of those beyond them
+        let jumps = || breaks.iter().filter(|here| here.jump).map(|here| here.index);
+        let least = jumps().rfind(|index| *index < start).unwrap_or(0);
+        let most = jumps().find(|index| *index > end).unwrap_or(self.track.len());
+        let known = |k: &usize| !labels[*k].0.several() && (least..most).contains(&nodes[*k].index);
+        let clamp = |k: usize| (nodes[k].fit.at(self.track.tau[nodes[k].index]).clamp, labels[k].0);
+        let before = (0..to).rev().take_while(known).map(clamp).collect();
+        let after = (from..nodes.len()).take_while(known).map(clamp).collect();
+        Passed::new(self.rod, [before, after])
+    }
+
+    /// Pieces that are joined without a jump, resolved with what is beside them.
+    pub(super) fn together(
+        &self,
+        pieces: Vec<Piece>,
+        neighbours: [Option<&Neighbour>; 2],
+        breaks: &[Break],
+    ) -> Together {
+        let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
+        let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
+        let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
+        let displacements = match (self.shared, pieces.first(), pieces.last()) {
+            (Some(shared), Some(first), Some(last)) => {
+                let stretch = first.range.start..last.range.end;
+                shared.displacements(self.track, &self.identified.nodes, &stretch)
+            }
+            _ => Vec::new(),
+        };
+        let around = Around { neighbours, passed: &self.passed(&pieces, breaks) };
+        let found = resolve(self.rod, self.track, self.noise, &pieces, around, &limits, &displacements);
+        Together { pieces, found }
+    }
+
+    /// The readings of pieces, appended.
+    fn read(&self, Together { pieces, found }: Together, readings: &mut Vec<Reading>) {
+        let sure = |found: Result<Touch, Unresolved>| match found {
+            Ok(touch) => self.sure(touch),
+            Err(Unresolved::TooNoisy { sigma }) => Err(Reason::TooNoisy { sigma: sigma * self.units.length }),
+            Err(reason) => Err(Reason::Several(reason)),
+        };
+        let mut pairs = found.pairs.into_iter();
+        for Piece { range, label } in pieces {
+            // that of the phases, by which the places are found
+            let given = self.identified.runs.iter().find(|run| run.0.contains(&range.start)).map_or(label, |run| run.1);
+            let mut nodes = Nearest::new(self.identified, given, range.start);
+            for (index, pair) in range.zip(pairs.by_ref()) {
+                let reading = self.reading(&mut nodes, index, given, sure(pair.first));
+                readings.push(Reading { label, second: Some(sure(pair.second)), ..reading });
+            }
+        }
+    }
+}
