@@ -34,7 +34,7 @@ pub(super) struct Adjusted {
     pub normal: Joint,
     /// For each criterion, root mean square residual in standard deviations of the noise, 1 at least.
     pub scatter: [f64; CRITERIA],
-    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be.
+    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be; 0 where that is nothing.
     pub misfit: [f64; CRITERIA],
 }
 
@@ -190,7 +190,7 @@ pub(super) fn adjust(
     let normal = upper.transpose() * upper;
     let misfit = std::array::from_fn(|c| {
         let excess = (own[c] * own[c] - 1.0).sqrt();
-        if excess > 0.0 { excess / allowed[c] } else { 0.0 }
+        if excess > 0.0 && allowed[c] > 0.0 { excess / allowed[c] } else { 0.0 }
     });
     Adjusted { errors, factor, normal, scatter, misfit }
 }
