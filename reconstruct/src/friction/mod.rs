@@ -14,5 +14,5 @@ mod there_and_back;
 pub use estimate::FrictionEstimate;
 pub(crate) use known::ANY;
 pub use known::Friction;
-pub(crate) use plateau::{Start, flatness, rubs, start};
+pub(crate) use plateau::{Start, flatness, rub, rubs, start};
 pub use there_and_back::{Pair, without_friction};
