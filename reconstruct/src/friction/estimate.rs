@@ -23,7 +23,7 @@ pub struct FrictionEstimate {
     /// path, a tenth at least, is off.
     pub spread: f64,
     /// Logarithm of the likelihood of the pass with friction over that without, each with the errors that explain it best. Where friction was
-    /// asked for, those without it are found from few places: where it is strong, this number is exact to some percent.
+    /// asked for, those without it are found from few places: where it is strong, this number is exact to a tenth.
     pub gain: f64,
     /// Share of the tangential path along which the rod slides the other way than this sign of friction asks for.
     pub against: f64,
