@@ -19,11 +19,12 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::hint::black_box;
 use std::process::{Command, ExitCode};
 use vibrissa::contact::Derivatives;
-use vibrissa::reconstruct::single;
+use vibrissa::reconstruct::{Ar1, Budget, Friction, NoiseModel, single};
 use vibrissa::rod::{
-    Cone, Cut, NewtonWorkspace, RodModel, RodSection, Sections, Smooth, advance, advance_with_sensitivities, walk,
+    Cone, Cut, NewtonWorkspace, Reactions, RodModel, RodSection, Sections, Smooth, advance, advance_with_sensitivities,
+    walk,
 };
-use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, State, Sweep, equilibrium};
+use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, Settings, State, Sweep, equilibrium, reconstruct};
 
 /// What is kept, beside this file.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.csv");
@@ -32,6 +33,9 @@ const SEGMENT: &str = "segment";
 const DERIVATIVES: &str = "segment with derivatives";
 const EDGES: [&str; 2] = ["sweep past edges: 1000", "sweep past edges: 2000"];
 const SWEPT_OVER: [&str; 2] = ["sweep over an edge of a polygon of 500", "sweep over an edge of a polygon of 2000"];
+/// Coefficients of friction, and what is estimated of the errors that samples share.
+const FRICTIONS: [f64; 3] = [0.0, 0.1, 0.3];
+const ERRORS: [(&str, Option<Budget>); 2] = [("as is", Some(Budget::NONE)), ("with shared errors", None)];
 /// Growth that fails.
 const MOST: f64 = 1.05;
 /// The argument by which this program runs a work, under valgrind, in place of counting.
@@ -60,6 +64,33 @@ fn along(rod: impl RodModel + 'static) -> impl Fn(usize) -> usize {
             black_box(rod.carry_with_sensitivities(1.0, black_box(&start), 0.05 * a, 0.05 * b, -*s));
         }
         times * 1024
+    }
+}
+
+/// The name of a reconstruction.
+fn reconstruction(errors: &str, mu: f64) -> String {
+    let friction = if mu > 0.0 { format!(", friction of {mu} asked for") } else { String::new() };
+    format!("reconstruction of a scan {errors}{friction}")
+}
+
+/// A scan of O1 at q = 0.4 with friction, 8501 samples with the noise of an industrial sensor, reconstructed as often.
+fn reconstructed(budget: Option<Budget>, mu: f64) -> impl Fn(usize) -> usize {
+    move |times| {
+        let (contour, path) = (OBJECTS[0].contour(), path(0.4, 0.8, -0.9));
+        let step = path.length() / 8500.0;
+        let states = Sweep::new(&rod(), &contour, path, step).unwrap().with_friction(mu).unwrap().run().states;
+        // 2.5 mN and 0.06 mN m in units of the paper's wire
+        let sigma = Reactions { f0x: 0.0396, f0y: 0.0396, m0z: 0.0095 };
+        let ar1 = Ar1 { sigma, correlation: 0.45 };
+        let mut sensor = NoiseModel { ar1, ..NoiseModel::default() }.generator(1).unwrap();
+        let samples: Vec<Sample> =
+            states.iter().filter_map(|state| Some(Sample::new(state.pose, sensor.sample(state.reactions)?))).collect();
+        let friction = if mu > 0.0 { Friction::Estimate } else { Friction::None };
+        let settings = Settings { budget, friction, ..Settings::default() };
+        for _ in 0..times {
+            black_box(reconstruct(&rod(), black_box(&samples), &settings).unwrap());
+        }
+        times
     }
 }
 
@@ -205,6 +236,11 @@ fn works() -> Vec<Work> {
         }
         times * samples.len()
     }));
+    for (errors, budget) in ERRORS {
+        for mu in FRICTIONS {
+            works.push(Work::new(reconstruction(errors, mu), [1, 2], reconstructed(budget, mu)));
+        }
+    }
     works
 }
 
@@ -309,6 +345,12 @@ fn main() -> ExitCode {
         "{}",
         verdict("derivatives of a segment, at most 4 times the segment", over(DERIVATIVES, SEGMENT), ..=4.0)
     );
+    for (errors, _) in ERRORS {
+        for mu in &FRICTIONS[1..] {
+            let ratio = over(&reconstruction(errors, *mu), &reconstruction(errors, 0.0));
+            println!("{}", verdict(&format!("{errors}, mu = {mu}, at most 1.6 times the frictionless"), ratio, ..=1.6));
+        }
+    }
     if keep {
         std::fs::write(KEPT, text).unwrap();
         println!("kept in {KEPT}");

@@ -202,7 +202,7 @@ pub(crate) struct Start {
     pub without: f64,
 }
 
-/// The likeliest friction: of size `mu`, if it is known, and of the sign that the direction of the rod asks for, or of either where no place
+/// The likeliest friction at places without: of size `mu`, if it is known, and of the sign that the direction of the rod asks for, or of either where no place
 /// tells that.
 pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], mu: Option<f64>) -> Start {
     let sides = Side::all(rod, track, noise, nodes, None);
@@ -210,12 +210,12 @@ pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[
         Some(mu) => signs(&sides).iter().map(|sign| sign * mu).collect(),
         None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
     };
+    let without = likelihood(nodes);
     let mut judged = nodes.to_vec();
-    let mut likelihoods = [0.0].into_iter().chain(tried).map(|mu| {
-        judge(rod, track, &mut judged, mu);
+    let likelihoods = tried.into_iter().map(|mu| {
+        rub(rod, track, &mut judged, mu);
         (mu, likelihood(&judged))
     });
-    let without = likelihoods.next().map_or(0.0, |first| first.1);
     let (found, likelihood) = likelihoods.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, without));
     let sine = found / found.hypot(1.0);
     let information = level(&sides, sine).1;
@@ -269,7 +269,7 @@ fn tangent(sine: f64) -> f64 {
 }
 
 /// Gives places the evidence that they have with this friction.
-fn judge<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) {
+pub(crate) fn rub<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) {
     for node in nodes {
         node.fit.rub(friction);
         let evidence = Evidence::of(rod, &node.fit.at(track.tau[node.index]));

@@ -185,21 +185,11 @@ impl Evidence {
         ]
     }
 
-    /// The values of the criteria, in the order of [`Criterion`]; NaN where there is none.
-    pub(crate) fn values(&self) -> [f64; CRITERIA] {
-        self.quantities().map(|quantity| if quantity.sigma.is_finite() { quantity.value } else { f64::NAN })
-    }
-
     /// The criteria in the order of [`Criterion`].
     pub(crate) fn quantities(&self) -> [Quantity; CRITERIA] {
         let [f0x, f0y, m0z] = self.force;
         let [length, tangent, motion] = self.again.unwrap_or([Quantity::UNKNOWN; 3]);
         [f0x, f0y, m0z, self.criterion, self.length, self.tangent, self.motion, length, tangent, motion]
-    }
-
-    /// Whether the contacts rub: then the criterion need not vanish where there are several.
-    pub(crate) fn rubs(&self) -> bool {
-        self.rubbing != 0.0
     }
 
     /// Whether there is a zero of the moment nearer to the tip than the first.
@@ -273,16 +263,8 @@ impl Evidence {
 
 /// The speed of the moment zero across its tangent and along it, with standard deviations.
 fn speed<I: Inverse>(rod: &I, estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
-    let of = |clamp: &Clamp, found: &MomentZero| {
-        let (_, gradient) = rod.gradient_at(clamp, found.s);
-        let rate = gradient.rate(&estimate.rate);
-        // the point slides along the rod such that the moment there stays 0
-        let slide = -rate[3] / gradient.by_s[3];
-        let velocity = Vector2::new(rate[0] + gradient.by_s[0] * slide, rate[1] + gradient.by_s[1] * slide);
-        let normal = found.normal();
-        Vector2::new(normal.dot(&velocity), normal.y * velocity.x - normal.x * velocity.y)
-    };
-    let value = of(&estimate.clamp, found);
+    let of = |found: &MomentZero| Vector2::from(found.speeds(&found.velocity(&estimate.rate)));
+    let value = of(found);
     // The dependence on the reactions themselves matters in noise only: differences over one standard deviation.
     let covariance = estimate.covariance();
     let mut by_value = Matrix2x3::zeros();
@@ -295,7 +277,7 @@ fn speed<I: Inverse>(rod: &I, estimate: &Estimate, found: &MomentZero, later: bo
         clamp.reactions[c] += step;
         let found = if later { rod.of_tip(&clamp) } else { rod.first(&clamp) };
         let Ok(found) = found else { return [Quantity::UNKNOWN; 2] };
-        by_value.set_column(c, &((of(&clamp, &found) - value) / step));
+        by_value.set_column(c, &((of(&found) - value) / step));
     }
     let (normal, by_reactions) = (found.normal(), found.by_reactions.fixed_rows::<2>(0).into_owned());
     let floor = FLOOR * (1.0 + 10.0 / found.force) + SINE * value.norm();

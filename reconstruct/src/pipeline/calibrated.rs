@@ -1,13 +1,15 @@
 //! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
 
 use super::settings::{ReconstructError, Settings, positive, possible};
-use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rubs, start};
+use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rub, rubs, start};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Node, places};
 use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
-use crate::systematic::{Budget, Calibration, Correction, Errors, Known, Shared, Source, SourceEstimate, calibrate};
+use crate::systematic::{
+    Budget, Calibration, Correction, Errors, Known, Scan, Shared, Source, SourceEstimate, calibrate, log_likelihood,
+};
 use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
@@ -38,22 +40,23 @@ impl Calibrated {
     /// From the samples of one path of the clamp.
     pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
         let scan = Self::measured(&Uniform, rod, samples, settings)?;
+        if settings.friction != Friction::None {
+            let without = log_likelihood(&scan.scan(rod), &allowed(rod, settings)?, &settings.known);
+            let mut rough = scan.clone().rough(rod, settings)?;
+            rough.friction = rough.compared_with(without);
+            if let Friction::Known { mu, sigma } = settings.friction {
+                rough = rough.against_alone(scan.rough(rod, &alone(settings))?.friction, mu, sigma);
+            }
+            return Ok(rough);
+        }
         let smooth = scan.clone().smooth(rod, settings)?;
         let rubs = |tare: Option<&Correction>| rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes, tare);
         // a bias blurs the plateau
-        if settings.friction == Friction::None && !rubs(None) && !smooth.tare(rod).is_some_and(|tare| rubs(Some(&tare)))
-        {
+        if !rubs(None) && !smooth.tare(rod).is_some_and(|tare| rubs(Some(&tare))) {
             return Ok(smooth);
         }
-        let mut rough = scan.clone().rough(rod, settings)?;
-        if let Friction::Known { mu, sigma } = settings.friction {
-            rough = rough.against_alone(scan.rough(rod, &alone(settings))?.friction, mu, sigma);
-        }
-        let smooth = smooth.compared(&rough);
-        if settings.friction == Friction::None {
-            return Ok(smooth);
-        }
-        Ok(Self { friction: smooth.friction, ..rough })
+        let without = smooth.calibration.as_ref().map(|told| told.1.log_likelihood);
+        Ok(Self { friction: scan.rough(rod, settings)?.compared_with(without), ..smooth })
     }
 
     /// What takes bias and drift off the samples, and nothing else; none where nothing was taken off.
@@ -64,29 +67,25 @@ impl Calibrated {
 
     /// Without friction, and without the errors that all samples share.
     pub fn smooth(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
-        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
-        possible(&budget, &settings.known)?;
-        Ok(self.settled(rod, &budget, &settings.known))
+        Ok(self.settled(rod, &allowed(rod, settings)?, &settings.known))
     }
 
     /// With friction that is known or estimated, and without the errors that all samples share.
     pub fn rough(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
-        let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
-        possible(&budget, &settings.known)?;
-        Ok(self.rubbed(&Uniform, settings).settled(rod, &with_friction(budget, settings), &settings.known))
+        let budget = with_friction(allowed(rod, settings)?, settings);
+        Ok(self.rubbed(&Uniform, settings).settled(rod, &budget, &settings.known))
     }
 
     /// The scan with friction that is known or as its plateau tells it.
-    pub fn rubbed<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
+    pub fn rubbed<I: Inverse>(mut self, rod: &I, settings: &Settings) -> Self {
         let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
         let Start { mu, sigma, scatter, spread, against, likelihood, without } =
             start(rod, &self.track, &self.noise, &self.nodes, mu);
         let track = self.track.with_friction(mu);
-        let nodes = places(rod, &track, &self.noise, &self.breaks);
+        rub(rod, &track, &mut self.nodes, mu);
         let gain = likelihood - without;
         let found = FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against, alone: None };
-        let friction = Some(found);
-        Self { track, nodes, friction, ..self }
+        Self { track, friction: Some(found), ..self }
     }
 
     /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
@@ -113,19 +112,23 @@ impl Calibrated {
         self
     }
 
-    /// What the same scan with friction tells of it.
-    fn compared(self, rough: &Self) -> Self {
-        let likelihood = |scan: &Self| scan.calibration.as_ref().map(|told| told.1.log_likelihood);
-        let gain = likelihood(rough).zip(likelihood(&self)).map(|(with, without)| with - without);
-        let friction = rough.friction.map(|found| FrictionEstimate { gain: gain.unwrap_or(found.gain), ..found });
-        Self { friction, ..self }
+    /// What this scan with friction tells of it, where this is the logarithm of the likelihood without, if shared errors are estimated.
+    fn compared_with(&self, without: Option<f64>) -> Option<FrictionEstimate> {
+        let with = self.calibration.as_ref().map(|told| told.1.log_likelihood);
+        let gain = with.zip(without).map(|(with, without)| with - without);
+        self.friction.map(|found| FrictionEstimate { gain: gain.unwrap_or(found.gain), ..found })
+    }
+
+    fn scan<'a>(&'a self, rod: &'a Rod) -> Scan<'a> {
+        Scan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, nodes: &self.nodes }
     }
 
     /// Without the errors that all samples share.
     fn settled(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
+        let found = calibrate(&self.scan(rod), budget, known);
         let Self { track, noise, breaks, nodes, units, calibration, friction, .. } = &mut self;
         let plateau = track.friction;
-        if let Some((correction, shared, mut told)) = calibrate(rod, track, noise, breaks, nodes, budget, known) {
+        if let Some((correction, shared, mut told)) = found {
             if let Some(correction) = correction {
                 // errors beyond their budgets explain nothing: then friction changes as on the samples as they are
                 let explained = !told.sources.iter().any(SourceEstimate::is_beyond);
@@ -134,7 +137,11 @@ impl Calibrated {
                     (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, &correction, mu);
                 }
                 *track = correction.track(track);
-                *nodes = places(&Uniform, track, noise, breaks);
+                if told.is_applied() {
+                    *nodes = places(&Uniform, track, noise, breaks);
+                } else {
+                    nodes.iter_mut().for_each(|node| node.fit.rub(track.friction));
+                }
                 *units = told.rod(rod).units();
             }
             shared.doubt(nodes);
@@ -197,6 +204,13 @@ impl Calibrated {
 /// The settings without a coefficient of friction that was given.
 fn alone(settings: &Settings) -> Settings {
     Settings { friction: Friction::Estimate, ..*settings }
+}
+
+/// The budget but for friction, if it and what is known are possible.
+fn allowed(rod: &Rod, settings: &Settings) -> Result<Budget, ReconstructError> {
+    let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
+    possible(&budget, &settings.known)?;
+    Ok(budget)
 }
 
 /// The budget with that of friction, of which nothing is known where it is not asked for.

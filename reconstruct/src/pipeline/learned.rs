@@ -4,7 +4,7 @@ use super::reading::Reason;
 use crate::phase::{Label, Node, constrained};
 use crate::point::{Clamp, Touch};
 use crate::scan::Noise;
-use crate::systematic::{Correction, Errors, Shared, of_point};
+use crate::systematic::{Around, Errors, Shared, of_point};
 use nalgebra::{Matrix2, Matrix3};
 use rod_core::{Uniform, Units};
 
@@ -14,8 +14,9 @@ const PLACES: f64 = 3.0;
 /// What is taken off the samples of a live scan, and the errors that are left.
 #[derive(Clone, Debug)]
 pub(super) struct Learned {
-    correction: Correction,
-    taken: Errors,
+    taken: Around,
+    /// The same of corrected samples.
+    left: Around,
     shared: Shared,
     /// Units of the rod as it was found.
     units: Units,
@@ -26,8 +27,8 @@ pub(super) struct Learned {
 impl Learned {
     /// None where what is to be taken off leaves fewer than three channels.
     pub fn new(taken: Errors, shared: Shared, units: Units) -> Option<Self> {
-        let correction = Correction::new(shared.frame, &taken)?;
-        Some(Self { correction, taken, shared, units, point: None })
+        let (taken, left) = (shared.around(&taken)?, shared.around(&Errors::zeros())?);
+        Some(Self { taken, left, shared, units, point: None })
     }
 
     pub fn units(&self) -> Units {
@@ -36,7 +37,7 @@ impl Learned {
 
     /// Gives a place the evidence of corrected samples, with the errors that are left in its standard deviations.
     pub fn judge(&self, tau: f64, node: &mut Node) {
-        let evidence = self.shared.evidence(&self.correction, &self.taken, tau, node, &mut None, PLACES);
+        let evidence = self.shared.evidence(&self.taken, tau, node, &mut None, PLACES);
         node.judged(evidence.weak());
     }
 
@@ -55,13 +56,13 @@ impl Learned {
         } else {
             (measured.clamp, measured.covariance())
         };
-        let here = self.correction.apply(tau, &clamp, &measured.rate);
+        let here = self.taken.here().apply(tau, &clamp, &measured.rate);
         let touch = constrained(&Uniform, &here.0, &covariance, label)?;
         let systematic = match self.point {
             Some((index, of, found)) if index == node.index && of == label => found,
             _ => {
                 let place = measured.moved(here.0, here.1);
-                let found = of_point(self.shared.frame, tau, &place, &covariance, label, &self.shared.factor, 0.0);
+                let found = of_point(&self.left, tau, &place, &covariance, label, &self.shared.factor, 0.0);
                 let earlier = self.point.filter(|point| point.1 == label).map(|point| point.2);
                 let found = found.or(earlier).ok_or(Reason::Unshared)?;
                 self.point = Some((node.index, label, found));

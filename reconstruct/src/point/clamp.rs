@@ -98,6 +98,14 @@ impl<T: Number> Clamp<T> {
         b.atan2(a)
     }
 
+    /// Derivative of that angle by the friction.
+    #[cfg(feature = "std")]
+    pub fn alpha_by_friction(&self, phi: T) -> T {
+        let ([a, b], (sin, cos)) = (self.force(), phi.sin_cos());
+        let turn = (T::one() + self.friction * self.friction).recip();
+        if a * cos + b * sin < T::zero() { turn } else { -turn }
+    }
+
     /// The phase criterion K - 2 |F| sin rho, K = kappa(0)^2 - n^2 - 2 (f0y sin phi0 + f0x cos phi0) of a rod of natural curvature n,
     /// |F| = hypot(f0x, f0y) and rho the angle of friction, and its derivatives by the reactions.
     pub fn criterion(&self) -> (T, Vector3<T>) {

@@ -230,21 +230,24 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
 
 /// The zero of the moment at an arc length; none where the moment is stationary.
 fn zero<M: RodModel>(bent: &Bent<'_, M>, clamp: &Clamp, s: f64) -> Option<MomentZero> {
-    let (at, columns, _) = bent.by_reactions(s);
+    let (at, columns, by_phi0) = bent.by_reactions(s);
     let (rate, kappa) = (bent.moment_rate(&at), bent.model.curvature_at(s, at.moment));
     if rate == 0.0 || !at.x.is_finite() {
         return None;
     }
     let (sin, cos) = at.phi.sin_cos();
     let s_by_reactions = Vector3::from(columns.map(|column| -column[3] / rate));
+    let slide = Vector3::new(cos, sin, kappa);
     let at_s = Matrix3::from_columns(&columns.map(|[x, y, phi, _]| Vector3::new(x, y, phi)));
+    let [x, y, phi, moment] = by_phi0;
     Some(MomentZero {
         s,
         section: Section { x: at.x, y: at.y, phi: at.phi, kappa },
         force: bent.a.hypot(bent.b),
         alpha: clamp.alpha(at.phi),
         s_by_reactions,
-        by_reactions: at_s + Vector3::new(cos, sin, kappa) * s_by_reactions.transpose(),
+        by_reactions: at_s + slide * s_by_reactions.transpose(),
+        by_phi0: Vector3::new(x, y, phi) - slide * (moment / rate),
     })
 }
 

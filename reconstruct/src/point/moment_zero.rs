@@ -6,7 +6,7 @@ use super::touch::Touch;
 use crate::numeric::{Number, propagated};
 use core::cmp::Ordering::Equal;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
-use rod_core::{Section, advance, inflection};
+use rod_core::{Section, inflection, walk};
 
 /// Standard deviations within which a difference counts as noise. Larger: more weak contacts count as a free rod, and fewer
 /// points on the rod are called beyond its tip.
@@ -14,6 +14,8 @@ pub(super) const NOISE_SIGMAS: f64 = 4.0;
 
 /// Newton steps from where the curvature is 0 to where it is the natural one; a natural curvature of 0.1 / L takes 3 to rounding.
 const NEWTON_STEPS: usize = 4;
+/// A step from which on the next one is below rounding, rod lengths.
+const SETTLED: f64 = 1e-9;
 /// Largest distance between the two, rod lengths. Larger: steps that do not converge give contact points anywhere.
 const FARTHEST: f64 = 0.2;
 
@@ -22,7 +24,7 @@ const FARTHEST: f64 = 0.2;
 const BENT: f64 = 0.2;
 /// Length (L) of the steps in which they are, and their number, which ends beyond the tip. Two zeros within one step may be missed.
 const STEP: f64 = 1.0 / 64.0;
-const STEPS: u32 = 96;
+const STEPS: usize = 96;
 
 /// Whether the reactions are within the noise of zero in each channel.
 pub(crate) fn is_free<T: Number>(clamp: &Clamp<T>, covariance: &Matrix3<T>) -> bool {
@@ -36,14 +38,13 @@ fn is_bent<T: Number>(clamp: &Clamp<T>) -> bool {
 
 /// Where the moment of a rod that is bent at rest vanishes, from the clamp on: to the square of a step.
 fn along<T: Number>(clamp: &Clamp<T>) -> impl Iterator<Item = T> {
-    let ([a, b], step) = (clamp.force(), T::from_f64(STEP));
-    let (mut section, natural) = (clamp.section(), clamp.natural);
-    (0..STEPS).filter_map(move |k| {
-        let from = section.kappa - natural;
-        section = advance(&section, a, b, step);
-        let to = section.kappa - natural;
-        let changes = from * to < T::zero();
-        changes.then(|| step * (T::from_f64(f64::from(k)) + from / (from - to)))
+    let ([a, b], step, natural) = (clamp.force(), T::from_f64(STEP), clamp.natural);
+    let start = clamp.section();
+    let mut from = start.kappa - natural;
+    walk(&start, a, b, T::from_f64(STEP * STEPS as f64), STEPS).enumerate().filter_map(move |(k, section)| {
+        let (before, to) = (from, section.kappa - natural);
+        from = to;
+        (before * to < T::zero()).then(|| step * (T::from_f64(k as f64) + before / (before - to)))
     })
 }
 
@@ -58,6 +59,9 @@ pub(crate) struct MomentZero<T = f64> {
     pub s_by_reactions: Vector3<T>,
     /// Derivatives of (x, y, phi) at this point, which moves along the rod with the reactions.
     pub by_reactions: Matrix3<T>,
+    /// The same by the clamp's angle.
+    #[cfg(feature = "std")]
+    pub by_phi0: Vector3<T>,
 }
 
 impl<T: Number> MomentZero<T> {
@@ -116,7 +120,12 @@ impl<T: Number> MomentZero<T> {
             let start = s;
             for _ in 0..NEWTON_STEPS {
                 let (section, gradient) = clamp.slide_at(s);
-                s -= (section.kappa - clamp.natural) / gradient.by_s[3];
+                let step = (section.kappa - clamp.natural) / gradient.by_s[3];
+                s -= step;
+                // the next step would be about the square of this one
+                if step.abs() <= T::from_f64(SETTLED) {
+                    break;
+                }
             }
             // of a weak force the curvature changes too little along the rod
             let near = (s - start).abs() <= T::from_f64(FARTHEST);
@@ -133,8 +142,22 @@ impl<T: Number> MomentZero<T> {
         let s_by_reactions = -at_s.row(3).transpose() / kappa_by_s;
         let slide = Vector3::new(gradient.by_s[0], gradient.by_s[1], gradient.by_s[2]);
         let by_reactions = at_s.fixed_rows::<3>(0) + slide * s_by_reactions.transpose();
+        #[cfg(feature = "std")]
+        let by_phi0 = {
+            let at_s = gradient.by_phi0;
+            at_s.fixed_rows::<3>(0) - slide * (at_s[3] / kappa_by_s)
+        };
         let (force, alpha) = ((a * a + b * b).sqrt(), clamp.alpha(section.phi));
-        Some(Self { s, section, force, alpha, s_by_reactions, by_reactions })
+        Some(Self {
+            s,
+            section,
+            force,
+            alpha,
+            s_by_reactions,
+            by_reactions,
+            #[cfg(feature = "std")]
+            by_phi0,
+        })
     }
 
     /// The contact there, dimensionless.
@@ -144,6 +167,20 @@ impl<T: Number> MomentZero<T> {
         let covariance: Matrix2<T> = propagated(&jacobian, covariance);
         let systematic = Matrix2::zeros();
         Touch { s: self.s, x, y, alpha: self.alpha, force: self.force, covariance, systematic }
+    }
+
+    /// Velocity of this point where the clamp and its reactions change at this rate.
+    #[cfg(feature = "std")]
+    pub fn velocity(&self, rate: &Clamp<T>) -> nalgebra::Vector2<T> {
+        let moved = self.by_reactions * rate.reactions + self.by_phi0 * rate.pose.z;
+        nalgebra::Vector2::new(rate.pose.x + moved.x, rate.pose.y + moved.y)
+    }
+
+    /// The parts of a velocity across the contour, into the solid, and along it.
+    #[cfg(feature = "std")]
+    pub fn speeds(&self, velocity: &nalgebra::Vector2<T>) -> [T; 2] {
+        let normal = self.normal();
+        [normal.dot(velocity), normal.y * velocity.x - normal.x * velocity.y]
     }
 
     /// Normal of the contour there, into the solid.

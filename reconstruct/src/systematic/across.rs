@@ -1,8 +1,8 @@
 //! How far errors that all samples share displace single contact points across the contour.
 
 use super::correction::{Frame, motion, still};
-use super::influence::point_by_errors;
-use super::source::{SOURCES, Source};
+use super::influence::{Around, point_by_errors};
+use super::source::{Errors, SOURCES, Source};
 use crate::phase::{Label, constrained};
 use crate::scan::{Estimate, Track};
 use nalgebra::{Matrix3, Vector3};
@@ -37,7 +37,8 @@ pub fn influences(
     let (track, places) = Track::new(rod, samples);
     let track = track.with_friction(friction);
     let units = rod.units();
-    let Some(frame) = Frame::of(&track) else { return Vec::new() };
+    let around = Frame::of(&track).and_then(|frame| Around::new(frame, &Errors::zeros(), |_| true));
+    let Some(around) = around else { return Vec::new() };
     let noise = Vector3::from(sigma).component_div(&Vector3::new(units.force, units.force, units.moment));
     // without noise there are no ratios
     let least = noise.amax().max(f64::MIN_POSITIVE) * 1e-6;
@@ -45,7 +46,7 @@ pub fn influences(
     let one = |number: usize, label: Label, index: usize| {
         let clamp = track.clamps[index];
         let place = Estimate::exact(clamp, still(motion(&track, index)));
-        let (by, _) = point_by_errors(frame, track.tau[index], &place, &noise, label)?;
+        let (by, _) = point_by_errors(&around, track.tau[index], &place, &noise, label)?;
         let alpha = constrained(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];
         let by = std::array::from_fn(|k| across(k) * units.length / Source::ALL[k].unit(rod));

@@ -1,7 +1,7 @@
 //! The errors that all samples share, from places whose phases are known: least squares with the budget as what is known before.
 
-use super::correction::{Correction, Frame};
-use super::influence::{of_criteria, of_inputs_by_errors};
+use super::correction::Frame;
+use super::influence::{Around, of_criteria};
 use super::source::{Errors, Joint, SOURCES, Source};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
@@ -9,8 +9,8 @@ use crate::scan::Estimate;
 use nalgebra::{DMatrix, DVector, SVector};
 use rod_core::Uniform;
 
-/// Gauss-Newton steps; each weighs the residuals anew.
-const STEPS: usize = 8;
+/// Most Gauss-Newton steps, for a result; each weighs the residuals anew.
+pub(super) const STEPS: usize = 8;
 /// A step below this many prior standard deviations of every source is the last one.
 const SMALL: f64 = 1e-4;
 /// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the phase may be wrong.
@@ -34,19 +34,19 @@ pub(super) struct Adjusted {
     pub normal: Joint,
     /// For each criterion, root mean square residual in standard deviations of the noise, 1 at least.
     pub scatter: [f64; CRITERIA],
-    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be; 0 where noise may have left it.
+    /// For each criterion, what is left of it beyond the noise, in parts of what the budget let it be; 0 where noise may have left it, and where
+    /// the budget lets it be nothing.
     pub misfit: [f64; CRITERIA],
 }
 
-/// The criteria that vanish in a phase.
-fn conditions(label: Label, evidence: &Evidence) -> &'static [Criterion] {
+/// The criteria that vanish in a phase, where the zero of the moment has a later one or not.
+fn conditions(label: Label, again: bool) -> &'static [Criterion] {
     use Criterion::{F0x, F0y, K, Length, LengthByTip, M0z, Tangent, TangentByTip};
     match label {
         Label::Free => &[F0x, F0y, M0z],
-        Label::A if evidence.again() => &[LengthByTip, TangentByTip],
+        Label::A if again => &[LengthByTip, TangentByTip],
         Label::A => &[Length, Tangent],
         Label::B => &[K, Tangent],
-        Label::BB if evidence.rubs() => &[],
         Label::BB => &[K],
         Label::BA => &[],
     }
@@ -71,27 +71,33 @@ struct Residual {
 fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]) -> Vec<Residual> {
     // the reactions of a free rod are what the sensor shows without load, whatever gains, stiffness and the others are
     let without_load = errors.map_with_location(|k, _, error| if k < WITHOUT_LOAD { error } else { 0.0 });
-    let Some(all) = Correction::new(frame, errors).zip(Correction::new(frame, &without_load)) else {
-        return Vec::new();
-    };
+    let all = Around::new(frame, errors, |k| sigmas[k] > 0.0);
+    let free = Around::new(frame, &without_load, |k| k < WITHOUT_LOAD && sigmas[k] > 0.0);
+    let Some((all, free)) = all.zip(free) else { return Vec::new() };
     let mut residuals = Vec::with_capacity(2 * places.len());
     for place in places {
-        let is_free = place.label == Label::Free;
-        let (correction, errors) = if is_free { (&all.1, &without_load) } else { (&all.0, errors) };
-        let here = correction.apply(place.tau, &place.measured.clamp, &place.measured.rate);
-        let evidence = Evidence::of(&Uniform, &place.measured.moved(here.0, here.1));
+        let around = if place.label == Label::Free { &free } else { &all };
+        let here = around.here().apply(place.tau, &place.measured.clamp, &place.measured.rate);
+        // several contacts that rub need not meet the criterion
+        if place.label == Label::BA || place.label == Label::BB && here.0.friction != 0.0 {
+            continue;
+        }
+        let estimate = place.measured.moved(here.0, here.1);
+        // neither a free rod nor several contacts tell of the zero of the moment
+        let zeros = !matches!(place.label, Label::Free | Label::BB);
+        let evidence = if zeros {
+            Evidence::of(&Uniform, &estimate)
+        } else {
+            Evidence::of_sample(&Uniform, &estimate.clamp, &estimate.covariance().diagonal())
+        };
         let quantities = evidence.quantities();
-        let Some(by) = of_inputs_by_errors(frame, errors, place.tau, &place.measured) else { continue };
-        let by = of_criteria(&here, &by);
-        for &criterion in conditions(place.label, &evidence) {
+        let by = of_criteria(&here, &around.of_inputs(place.tau, &place.measured), zeros);
+        for &criterion in conditions(place.label, evidence.again()) {
             let (c, quantity) = (criterion as usize, quantities[criterion as usize]);
             if !(quantity.sigma.is_finite() && quantity.value.is_finite()) {
                 continue;
             }
-            let mut by_errors = by.row(c).transpose().component_mul(sigmas);
-            if is_free {
-                by_errors.iter_mut().skip(WITHOUT_LOAD).for_each(|by| *by = 0.0);
-            }
+            let by_errors = by.row(c).transpose().component_mul(sigmas);
             let sigma = quantity.sigma.max(FINEST * by_errors.norm());
             residuals.push(Residual {
                 criterion: c,
@@ -157,41 +163,54 @@ pub(super) struct Prior {
 
 /// The errors that agree best with what is known before and with what the phases of the places require, from `start` on.
 ///
-/// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise.
+/// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise, and `steps` the most
+/// Gauss-Newton steps.
 pub(super) fn adjust(
     frame: Frame,
     prior: &Prior,
     start: &Errors,
     places: &[Labelled],
     least: &[f64; CRITERIA],
+    steps: usize,
 ) -> Adjusted {
     let Prior { means, sigmas } = prior;
     let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
+    let free: Vec<usize> = (0..SOURCES).filter(|k| sigmas[*k] > 0.0).collect();
     let mut z = (start - means).component_mul(&known);
     // R of the QR decomposition: R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
     let (mut own, mut scatter, mut allowed) = ([1.0; CRITERIA], [1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
     let mut chance = [f64::INFINITY; CRITERIA];
-    for _ in 0..STEPS {
+    for _ in 0..steps {
         let here = residuals(frame, &(means + z.component_mul(sigmas)), sigmas, places);
         (own, allowed, chance) = (scatters(&here), allowances(&here), by_chance(&here));
         scatter = own;
         scatter.iter_mut().zip(least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
-        let mut rows = DMatrix::<f64>::zeros(SOURCES + here.len(), SOURCES);
-        let mut right = DVector::<f64>::zeros(SOURCES + here.len());
-        rows.view_mut((0, 0), (SOURCES, SOURCES)).fill_with_identity();
-        right.rows_mut(0, SOURCES).copy_from(&-z);
-        for (k, residual) in here.iter().enumerate() {
+        let count = free.len();
+        if count == 0 {
+            break;
+        }
+        let mut rows = DMatrix::<f64>::zeros(count + here.len(), count);
+        let mut right = DVector::<f64>::zeros(count + here.len());
+        rows.view_mut((0, 0), (count, count)).fill_with_identity();
+        free.iter().enumerate().for_each(|(i, k)| right[i] = -z[*k]);
+        for (row, residual) in here.iter().enumerate() {
             let by = 1.0 / scatter[residual.criterion];
             let off = residual.z * by;
             let weight = (residual.weight / (1.0 + (off / OUTLYING).powi(2))).sqrt();
-            rows.row_mut(SOURCES + k).copy_from(&(residual.by_errors.transpose() * (weight * by)));
-            right[SOURCES + k] = -weight * off;
+            free.iter().enumerate().for_each(|(i, k)| rows[(count + row, i)] = residual.by_errors[*k] * (weight * by));
+            right[count + row] = -weight * off;
         }
         let decomposed = rows.qr();
-        upper = Joint::from_fn(|i, j| if i <= j { decomposed.r()[(i, j)] } else { 0.0 });
+        let triangle = decomposed.r();
         decomposed.q_tr_mul(&mut right);
-        let Some(step) = upper.solve_upper_triangular(&right.fixed_rows::<SOURCES>(0).into_owned()) else { break };
+        let Some(found) = triangle.solve_upper_triangular(&right.rows(0, count).into_owned()) else { break };
+        let mut step = Errors::zeros();
+        upper = Joint::identity();
+        for (i, k) in free.iter().enumerate() {
+            step[*k] = found[i];
+            (i..count).for_each(|j| upper[(*k, free[j])] = triangle[(i, j)]);
+        }
         z += step;
         if step.amax() < SMALL {
             break;
@@ -204,7 +223,7 @@ pub(super) fn adjust(
     let normal = upper.transpose() * upper;
     let misfit = std::array::from_fn(|c| {
         let excess = (own[c] * own[c] - 1.0).sqrt();
-        if own[c] > chance[c] { excess / allowed[c] } else { 0.0 }
+        if own[c] > chance[c] && allowed[c] > 0.0 { excess / allowed[c] } else { 0.0 }
     });
     Adjusted { errors, factor, normal, scatter, misfit }
 }

@@ -1,11 +1,11 @@
 //! Labels and shared errors in turns.
 
-use super::adjust::{Adjusted, Labelled, Prior, adjust, misfit, root_mean_square};
+use super::adjust::{Adjusted, Labelled, Prior, STEPS, adjust, misfit, root_mean_square};
 use super::budget::Budget;
 use super::calibration::{Calibration, SourceEstimate, ties};
 use super::correction::{Correction, Frame};
 use super::free::stretches;
-use super::influence::{of_criteria, of_inputs_by_errors, of_point, variances};
+use super::influence::{Around, of_criteria, of_point, variances};
 use super::known::Known;
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
 use super::turns::{Found, RAISED, Turns, raise};
@@ -17,6 +17,10 @@ use std::ops::Range;
 
 /// Most places that the errors are estimated from, besides those next to kinks. More: more time.
 const PLACES: usize = 800;
+/// The same where the likelihood alone is asked for, up to the last turn. Fewer: the labels of this turn may not be the likeliest.
+const FEW_PLACES: usize = 80;
+/// Most steps of a turn then: as a rule the errors settle in three.
+const FEW_STEPS: usize = 3;
 /// Way of the clamp, rod lengths, on which the drift of the budget builds up at least: the length of a scan that goes on is not known.
 const WAY: f64 = 1.0;
 /// Fall of the sum of squares from which on the estimates are taken off the samples: chance lets it fall by as much as the number of
@@ -41,7 +45,7 @@ pub(crate) struct Shared {
 impl Shared {
     /// Gives each place the evidence after a correction, with these errors in its standard deviations.
     pub fn judge(&self, errors: &Errors, track: &Track, nodes: &mut [Node]) {
-        let Some(correction) = Correction::new(self.frame, errors) else { return };
+        let Some(around) = self.around(errors) else { return };
         let stride = nodes.len().div_ceil(PLACES).max(1);
         let mut shared = None;
         for (k, node) in nodes.iter_mut().enumerate() {
@@ -49,7 +53,7 @@ impl Shared {
             if k % stride == 0 || node.place.between.is_some() {
                 shared = None;
             }
-            let evidence = self.evidence(&correction, errors, track.tau[node.index], node, &mut shared, 1.0);
+            let evidence = self.evidence(&around, track.tau[node.index], node, &mut shared, 1.0);
             node.judged(evidence);
         }
     }
@@ -58,30 +62,35 @@ impl Shared {
     /// `places` have the same errors.
     pub fn evidence(
         &self,
-        correction: &Correction,
-        errors: &Errors,
+        around: &Around,
         tau: f64,
         node: &Node,
         shared: &mut Option<[f64; CRITERIA]>,
         places: f64,
     ) -> Evidence {
         let measured = node.fit.at(tau);
-        let here = correction.apply(tau, &measured.clamp, &measured.rate);
+        let here = around.here().apply(tau, &measured.clamp, &measured.rate);
         let mut evidence = Evidence::of(&Uniform, &measured.moved(here.0, here.1));
-        if shared.is_none() {
-            let by = of_inputs_by_errors(self.frame, errors, tau, &measured);
-            *shared = by.map(|by| variances(&of_criteria(&here, &by), &self.factor));
-        }
-        if let Some(shared) = shared {
-            let quantities = evidence.quantities();
-            let variances = std::array::from_fn(|c| {
-                let misfit = quantities[c].sigma.powi(2) * (self.scatter[c].powi(2) - 1.0);
-                let both = shared[c] + misfit;
-                if both.is_finite() { both } else { 0.0 }
-            });
-            evidence.widen(&variances, places);
-        }
+        let of_errors = || {
+            if around.is_exact() {
+                return [0.0; CRITERIA];
+            }
+            variances(&of_criteria(&here, &around.of_inputs(tau, &measured), true), &self.factor)
+        };
+        let shared = shared.get_or_insert_with(of_errors);
+        let quantities = evidence.quantities();
+        let variances = std::array::from_fn(|c| {
+            let misfit = quantities[c].sigma.powi(2) * (self.scatter[c].powi(2) - 1.0);
+            let both = shared[c] + misfit;
+            if both.is_finite() { both } else { 0.0 }
+        });
+        evidence.widen(&variances, places);
         evidence
+    }
+
+    /// The correction by these errors, and by these with a step of each of which anything is not known.
+    pub fn around(&self, errors: &Errors) -> Option<Around> {
+        Around::new(self.frame, errors, |k| self.factor.row(k).iter().any(|by| *by != 0.0))
     }
 
     /// Makes kinks as doubtful as the rates of the reactions are.
@@ -100,6 +109,7 @@ impl Shared {
         nodes: &[Node],
         labels: &[(Label, f64)],
     ) -> Vec<Option<Matrix2<f64>>> {
+        let Some(around) = self.around(&Errors::zeros()) else { return vec![None; nodes.len()] };
         let stride = nodes.len().div_ceil(PLACES).max(1);
         let of = |node: &Node, label: Label| {
             let tau = track.tau[node.index];
@@ -107,7 +117,7 @@ impl Shared {
             let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
             let criterion = if label == Label::A { Criterion::Length } else { Criterion::K };
             let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
-            of_point(self.frame, tau, &measured, &covariance, label, &self.factor, misfit)
+            of_point(&around, tau, &measured, &covariance, label, &self.factor, misfit)
         };
         // a force that has hardly begun has no derivatives: such a place takes those of the nearest place of its label
         let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(nodes.len());
@@ -125,47 +135,89 @@ impl Shared {
     }
 }
 
+/// A scan whose labels and shared errors are to be found.
+pub(crate) struct Scan<'a> {
+    pub rod: &'a Rod,
+    pub track: &'a Track,
+    pub noise: &'a Noise,
+    pub breaks: &'a [Break],
+    pub nodes: &'a [Node],
+}
+
 /// The correction of a scan, if it needs one; what is left; and what to tell. None without a budget where nothing is known.
 pub(crate) fn calibrate(
-    rod: &Rod,
-    track: &Track,
-    noise: &Noise,
-    breaks: &[Break],
-    nodes: &[Node],
+    scan: &Scan<'_>,
     budget: &Budget,
     known: &Known,
 ) -> Option<(Option<Correction>, Shared, Calibration)> {
     if budget.is_none() && known.is_nothing() {
         return None;
     }
-    let frame = Frame::of(track)?;
-    let means = known.means(rod);
-    let prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
-    let free = match Correction::new(frame, &means).filter(|_| means != Errors::zeros()) {
-        Some(correction) => stretches(&correction.track(track), noise, breaks, &prior.sigmas),
-        None => stretches(track, noise, breaks, &prior.sigmas),
-    };
-    let stride = nodes.len().div_ceil(PLACES).max(1);
-    let nodes = thinned(nodes, stride);
-    let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
-    let inside: Vec<Node> = nodes.iter().filter(|node| in_free(node)).cloned().collect();
-    let mut turns = Turns { frame, track, nodes: &inside, least: [1.0; CRITERIA] };
-    let tare = turns.labelled(&vec![(Label::Free, 1.0); inside.len()]);
-    let mut tared = adjust(frame, &prior, &means, &tare, &turns.least);
-    if tared.scatter[..3].iter().any(|times| *times > UNLIKE) {
-        tared = adjust(frame, &prior, &means, &[], &turns.least);
-    } else {
-        turns.least = least(frame, &tared, &tare);
-    }
-    turns.nodes = &nodes;
+    let frame = Frame::of(scan.track)?;
+    let (prior, free) = scan.before(frame, budget, known);
+    let nodes = thinned(scan.nodes, PLACES);
+    let (turns, tared) = scan.tared(frame, &prior, &free, &nodes);
     let Found { adjusted: found, prior, raised, labels, likelihood } = turns.found(&prior, &tared);
     let last = turns.labelled(&labels);
     let taken = fewest(frame, &prior, &found, &last, &turns.least);
     let free = free.into_iter().filter(|range| are_free(range, &nodes, &labels)).collect();
-    let calibration = Calibration { log_likelihood: likelihood, ..told(rod, &prior, &raised, &found, &taken, free) };
+    let calibration =
+        Calibration { log_likelihood: likelihood, ..told(scan.rod, &prior, &raised, &found, &taken, free) };
     let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates() };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
+}
+
+/// The logarithm of the likelihood alone, from few places up to the last turn. On O1 at q = 0.4 in noise it differs from that of
+/// [`calibrate`] by 0.04 without friction, by 1.4 with mu = 0.1 (a gain of 48), and by 121 with mu = 0.3 (a gain of 1,414).
+pub(crate) fn log_likelihood(scan: &Scan<'_>, budget: &Budget, known: &Known) -> Option<f64> {
+    if budget.is_none() && known.is_nothing() {
+        return None;
+    }
+    let frame = Frame::of(scan.track)?;
+    let (prior, free) = scan.before(frame, budget, known);
+    let [few, all] = [FEW_PLACES, PLACES].map(|most| thinned(scan.nodes, most));
+    let quick = |nodes| {
+        let (turns, tared) = scan.tared(frame, &prior, &free, nodes);
+        (Turns { steps: FEW_STEPS, ..turns }, tared)
+    };
+    let (turns, tared) = quick(&few);
+    Some(quick(&all).0.last(&prior, &turns.found(&prior, &tared)))
+}
+
+impl Scan<'_> {
+    /// What is known before, and the stretches in which the rod is free.
+    fn before(&self, frame: Frame, budget: &Budget, known: &Known) -> (Prior, Vec<Range<usize>>) {
+        let Self { rod, track, noise, breaks, .. } = *self;
+        let means = known.means(rod);
+        let prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
+        let free = match Correction::new(frame, &means).filter(|_| means != Errors::zeros()) {
+            Some(correction) => stretches(&correction.track(track), noise, breaks, &prior.sigmas),
+            None => stretches(track, noise, breaks, &prior.sigmas),
+        };
+        (prior, free)
+    }
+
+    /// The turns from these places, and where they start from: with the errors that the free stretches tell.
+    fn tared<'a>(
+        &'a self,
+        frame: Frame,
+        prior: &Prior,
+        free: &[Range<usize>],
+        nodes: &'a [Node],
+    ) -> (Turns<'a>, Adjusted) {
+        let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
+        let inside: Vec<Node> = nodes.iter().filter(|node| in_free(node)).cloned().collect();
+        let mut turns = Turns { frame, track: self.track, nodes, least: [1.0; CRITERIA], steps: STEPS };
+        let tare = Turns { nodes: &inside, ..turns }.labelled(&vec![(Label::Free, 1.0); inside.len()]);
+        let mut tared = adjust(frame, prior, &prior.means, &tare, &turns.least, STEPS);
+        if tared.scatter[..3].iter().any(|times| *times > UNLIKE) {
+            tared = adjust(frame, prior, &prior.means, &[], &turns.least, STEPS);
+        } else {
+            turns.least = least(frame, &tared, &tare);
+        }
+        (turns, tared)
+    }
 }
 
 /// What is known of the errors before the first sample of a scan that goes on, whose places are in `track`.
@@ -189,15 +241,15 @@ pub(crate) fn calibrate_labelled(
     let frame = Frame::of(track)?.on_way(WAY);
     let means = known.means(rod);
     let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
-    let mut turns = Turns { frame, track, nodes, least: [1.0; CRITERIA] };
+    let mut turns = Turns { frame, track, nodes, least: [1.0; CRITERIA], steps: STEPS };
     let places = turns.labelled(labels);
-    let mut found = adjust(frame, &prior, &means, &places, &turns.least);
+    let mut found = adjust(frame, &prior, &means, &places, &turns.least, STEPS);
     let free: Vec<Labelled> = turns.labelled(labels).into_iter().filter(|place| place.label == Label::Free).collect();
     turns.least = least(frame, &found, &free);
     let mut raised = [false; SOURCES];
-    found = adjust(frame, &prior, &found.errors, &places, &turns.least);
+    found = adjust(frame, &prior, &found.errors, &places, &turns.least, STEPS);
     if raise(&mut prior, &found.errors, &mut raised) {
-        found = adjust(frame, &prior, &found.errors, &places, &turns.least);
+        found = adjust(frame, &prior, &found.errors, &places, &turns.least, STEPS);
     }
     let calibration = told(rod, &prior, &raised, &found, &found.errors, Vec::new());
     let shared = Shared { frame, factor: found.factor, scatter: found.scatter, rates: turns.rates() };
@@ -232,8 +284,9 @@ fn are_free(stretch: &Range<usize>, nodes: &[Node], labels: &[(Label, f64)]) -> 
     inside.all(|(_, label)| label.0 == Label::Free)
 }
 
-/// Every so many of the places, and the first one after each break.
-fn thinned(nodes: &[Node], stride: usize) -> Vec<Node> {
+/// Every so many of the places, so that at most so many are left, and the first one after each break.
+fn thinned(nodes: &[Node], most: usize) -> Vec<Node> {
+    let stride = nodes.len().div_ceil(most).max(1);
     let kept = nodes.iter().enumerate().filter(|(k, node)| k % stride == 0 || node.place.between.is_some());
     kept.map(|(_, node)| Node { weight: (node.weight * stride as f64).min(1.0), ..node.clone() }).collect()
 }
@@ -258,7 +311,7 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
     loop {
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
         let only = Prior { sigmas: only, ..*prior };
-        let taken = adjust(frame, &only, &restricted(found, prior, &free), places, least).errors;
+        let taken = adjust(frame, &only, &restricted(found, prior, &free), places, least, STEPS).errors;
         if is_enough(&taken) {
             return taken;
         }

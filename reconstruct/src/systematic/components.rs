@@ -2,7 +2,7 @@
 
 use super::calibrate::Shared;
 use super::correction::Correction;
-use super::influence::{OF_POINT, of_inputs_by_errors};
+use super::influence::OF_POINT;
 use super::source::{Errors, Joint};
 use crate::phase::Node;
 use crate::scan::Track;
@@ -28,12 +28,11 @@ impl Shared {
     fn combinations(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Errors> {
         let inside: Vec<&Node> = nodes.iter().filter(|node| stretch.contains(&node.index)).collect();
         let mut squares = Joint::zeros();
+        let Some(around) = self.around(&Errors::zeros()) else { return Vec::new() };
         for node in inside.iter().step_by(inside.len().div_ceil(PLACES).max(1)) {
             let tau = track.tau[node.index];
-            if let Some(by) = of_inputs_by_errors(self.frame, &Errors::zeros(), tau, &node.fit.at(tau)) {
-                let spread = by.fixed_rows::<OF_POINT>(0) * self.factor;
-                squares += spread.transpose() * spread;
-            }
+            let spread = around.of_inputs(tau, &node.fit.at(tau)).fixed_rows::<OF_POINT>(0) * self.factor;
+            squares += spread.transpose() * spread;
         }
         let eigen = SymmetricEigen::new(squares);
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();

@@ -24,7 +24,7 @@ mod turns;
 
 pub use across::{Influence, influences};
 pub use budget::Budget;
-pub(crate) use calibrate::{Shared, calibrate, calibrate_labelled, known_before};
+pub(crate) use calibrate::{Scan, Shared, calibrate, calibrate_labelled, known_before, log_likelihood};
 pub use calibration::{Calibration, SourceEstimate};
 pub(crate) use candidates::{Candidate, candidates};
 pub use combined::Combined;
@@ -33,7 +33,7 @@ pub(crate) use correction::Correction;
 #[cfg(test)]
 pub(crate) use correction::Frame;
 pub use disturb::disturb;
-pub(crate) use influence::of_point;
+pub(crate) use influence::{Around, of_point};
 pub use known::Known;
 pub(crate) use source::Errors;
 pub use source::Source;

@@ -14,12 +14,15 @@ const TURNS: usize = 6;
 pub(super) const RAISED: f64 = 3.0;
 
 /// A scan whose labels and errors are to be found.
+#[derive(Clone, Copy)]
 pub(super) struct Turns<'a> {
     pub frame: Frame,
     pub track: &'a Track,
     pub nodes: &'a [Node],
     /// The smallest residuals of each criterion to be expected, in standard deviations of the noise.
     pub least: [f64; CRITERIA],
+    /// Most Gauss-Newton steps of a turn.
+    pub steps: usize,
 }
 
 /// Labels and errors that agree with each other.
@@ -63,7 +66,7 @@ impl Turns<'_> {
         for _ in 0..TURNS {
             self.left(&adjusted).judge(&adjusted.errors, self.track, &mut judged);
             let now = labels(&judged, false);
-            adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least);
+            adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least, self.steps);
             let again = raise(&mut prior, &adjusted.errors, &mut raised);
             let same = now.iter().zip(&before).all(|(now, before)| now.0 == before.0) && now.len() == before.len();
             before = now;
@@ -73,6 +76,16 @@ impl Turns<'_> {
         }
         let likelihood = self.likelihood(&adjusted, given, judged);
         Found { adjusted, prior, raised, labels: before, likelihood }
+    }
+
+    /// The likelihood after one more turn, on these places, from what was found on others. `given` is what was known before.
+    pub fn last(&self, given: &Prior, found: &Found) -> f64 {
+        let mut judged = self.nodes.to_vec();
+        self.left(&found.adjusted).doubt(&mut judged);
+        self.left(&found.adjusted).judge(&found.adjusted.errors, self.track, &mut judged);
+        let places = self.labelled(&labels(&judged, false));
+        let adjusted = adjust(self.frame, &found.prior, &found.adjusted.errors, &places, &self.least, self.steps);
+        self.likelihood(&adjusted, given, judged)
     }
 
     /// Rates of the free rod's reactions in standard deviations of the noise, which the tangent criterion is of, too.

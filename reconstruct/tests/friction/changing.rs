@@ -75,6 +75,9 @@ fn the_coefficient_is_found_in_noise_as_well_as_stated() {
             let found = found(&samples, Friction::Estimate, budget);
             let against = |finding: &Finding| matches!(finding, Finding::FrictionAgainst { .. });
             assert!(!found.findings().iter().any(against), "{mu}: {:?}", found.findings());
+            // what friction does not change is not measured by what friction lets it be
+            let misfit = |finding: &Finding| matches!(finding, Finding::Misfit { .. });
+            assert!(!found.findings().iter().any(misfit), "{mu}: {:?}", found.findings());
             let friction = estimate(&found);
             let z = (friction.mu - mu) / friction.sigma_of_noise;
             assert!(z.abs() < 5.0 && friction.sigma_of_noise < 1e-4, "{mu}: {friction:?}");
