@@ -76,7 +76,8 @@ fn same(found: &Heard, expected: &Heard) {
         for (found, expected) in found.1.iter().zip(expected.1) {
             assert_eq!(found.is_some(), expected.is_some(), "{k}");
             if let (Some(found), Some(expected)) = (found, expected) {
-                assert!((found - expected).abs() < 1e-9, "{k}: {found} {expected}");
+                // the estimate of shared errors ends within 1e-4 of what is known of them before
+                assert!((found - expected).abs() < 1e-8, "{k}: {found} {expected}");
                 points += 1;
             }
         }
