@@ -348,7 +348,7 @@ fn main() -> ExitCode {
     for (errors, _) in ERRORS {
         for mu in &FRICTIONS[1..] {
             let ratio = over(&reconstruction(errors, *mu), &reconstruction(errors, 0.0));
-            println!("{}", verdict(&format!("{errors}, mu = {mu}, at most 1.6 times the frictionless"), ratio, ..=1.6));
+            println!("{}", verdict(&format!("{errors}, mu = {mu}, at most 1.3 times the frictionless"), ratio, ..=1.3));
         }
     }
     if keep {
