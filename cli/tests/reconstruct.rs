@@ -214,6 +214,31 @@ fn noise_alone_is_no_misfit() {
     }
 }
 
+/// A coarse scan in noise: two contacts are taken for one between two kinks. The points there are off, and the kinks tell where.
+#[test]
+fn kinks_within_a_phase_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    for (name, text) in [("scene.toml", include_str!("../../scenes/O2_q40.toml")), ("noise.toml", NOISE)] {
+        fs::write(directory.path().join(name), text).unwrap();
+    }
+    let simulate = "simulate scene.toml --noise noise.toml --rate 100 --speed 0.005 --seed 3 --out r.csv";
+    assert!(vibrissa(directory.path(), &simulate.split(' ').collect::<Vec<_>>()).status.success());
+    let output = vibrissa(directory.path(), &["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml"]);
+    assert!(
+        complaint(&output).contains("2 kinks within phase B, the first before sample 2126"),
+        "{}",
+        complaint(&output)
+    );
+    // it is more than the standard deviations say
+    let truth = &report(directory.path())["truth"];
+    assert!(truth["single"]["largest"].as_f64().unwrap() > 5e-3, "{truth}");
+    let exact =
+        vibrissa(directory.path(), &["simulate", "scene.toml", "--rate", "100", "--speed", "0.005", "--out", "r.csv"]);
+    assert!(exact.status.success());
+    let output = vibrissa(directory.path(), &["reconstruct", "r.csv", "--rod", "scene.toml"]);
+    assert!(!complaint(&output).contains("within phase B"), "{}", complaint(&output));
+}
+
 #[test]
 fn rows_that_cannot_be_used_keep_their_place() {
     let directory = recorded(&["--rate", "20"]);

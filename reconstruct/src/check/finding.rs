@@ -170,6 +170,13 @@ pub enum Finding {
         /// Share of the samples in contact without one.
         share: f64,
     },
+    /// The reactions of a noisy scan have kinks within the phase of one contact at the side of the rod.
+    KinksWithin {
+        /// How many.
+        count: usize,
+        /// The first sample after the first of them.
+        from: usize,
+    },
     /// Reactions stay exactly the same for many samples, which are left out.
     Frozen {
         /// Share of all samples.
@@ -211,13 +218,13 @@ impl Finding {
 
     /// Whether a part of the result is missing or may be wrong, though recording, units and rod may fit together.
     pub fn is_warning(&self) -> bool {
-        matches!(self, Self::Uncertain { .. } | Self::Frozen { .. })
+        matches!(self, Self::Uncertain { .. } | Self::Frozen { .. } | Self::KinksWithin { .. })
     }
 
     /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {
-            Self::NoContact | Self::NoLine => false,
+            Self::NoContact | Self::NoLine | Self::KinksWithin { .. } => false,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
@@ -347,6 +354,13 @@ impl fmt::Display for Finding {
                 f,
                 "{:.0} % of the samples in contact have no contact point, as where a sign, an axis, a unit or the rod is wrong",
                 100.0 * share
+            ),
+            Self::KinksWithin { count, from } => write!(
+                f,
+                "{} within phase B, the first before sample {from}: there the contact passes to another piece of the contour, or a second one \
+                 comes or goes that noise hides. Then the points up to the next change are wrong by more than they say: scan more slowly, or \
+                 with less noise",
+                if count == 1 { "a kink".to_owned() } else { format!("{count} kinks") }
             ),
             Self::Frozen { share, from } => write!(
                 f,

@@ -4,6 +4,7 @@ use super::reading::{Reading, Reason};
 use super::reconstruction::{Pass, Reconstruction};
 use crate::check::Finding;
 use crate::friction::{FrictionAlone, FrictionEstimate, SPREAD};
+use crate::kink::{Kink, KinkKind};
 use crate::phase::{Basis, Label};
 use crate::scan::Fault;
 use crate::systematic::{Calibration, Source};
@@ -58,10 +59,24 @@ impl Reconstruction {
         if findings.is_empty() {
             findings.extend(self.uncertain());
         }
+        findings.extend(self.kinks_within());
         if let Some(from) = self.readings.iter().position(is_frozen) {
             findings.push(Finding::Frozen { share: frozen as f64 / self.readings.len() as f64, from });
         }
         findings
+    }
+
+    /// The kinks of a noisy scan that are within a phase B: noise may hide another contact there.
+    fn kinks_within(&self) -> Option<Finding> {
+        let is_noisy = self.windows.iter().any(|window| *window > 1);
+        let label = |row: usize| self.readings.get(row).map(|reading| reading.label);
+        let within = |kink: &&Kink| {
+            let sides = [kink.next.checked_sub(1).and_then(label), label(kink.next)];
+            kink.kind == KinkKind::Kink && sides == [Some(Label::B); 2]
+        };
+        let mut kinks = self.kinks.iter().filter(within);
+        let from = kinks.next().filter(|_| is_noisy)?.next;
+        Some(Finding::KinksWithin { count: 1 + kinks.count(), from })
     }
 
     /// The labels that are to be expected wrong, where there are many, with the run that is least sure.

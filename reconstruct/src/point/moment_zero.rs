@@ -44,7 +44,9 @@ fn along<T: Number>(clamp: &Clamp<T>) -> impl Iterator<Item = T> {
     walk(&start, a, b, T::from_f64(STEP * STEPS as f64), STEPS).enumerate().filter_map(move |(k, section)| {
         let (before, to) = (from, section.kappa - natural);
         from = to;
-        (before * to < T::zero()).then(|| step * (T::from_f64(k as f64) + before / (before - to)))
+        // a zero at the end of a step is of that step
+        (before != T::zero() && before * to <= T::zero())
+            .then(|| step * (T::from_f64(k as f64) + before / (before - to)))
     })
 }
 
