@@ -93,7 +93,8 @@ impl Reconstructed {
     pub fn missing(&self) -> Option<&'static str> {
         self.rod.uniform().is_none().then_some(
             "not computed for a rod that is not uniform or not straight at rest: corrections and standard deviations of errors that all \
-             samples share (bias, drift, gain, clamp angle), the check by the physics, and what explains a recording that does not fit",
+             samples share (bias, drift, gain, clamp angle), the check by the physics, what explains a recording that does not fit, and, in \
+             noise, whether BB turns into BA within a stretch of two contacts, whose points may then be off by more than they say",
         )
     }
 
