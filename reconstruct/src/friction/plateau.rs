@@ -202,21 +202,28 @@ pub(crate) struct Start {
     pub without: f64,
 }
 
-/// The likeliest friction at places without: of size `mu`, if it is known, and of the sign that the direction of the rod asks for, or of either where no place
-/// tells that.
-pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], mu: Option<f64>) -> Start {
-    let sides = Side::all(rod, track, noise, nodes, None);
+/// The likeliest friction of places that are judged without, and these places judged with it. Its size is `mu`, if that is known; its sign is the
+/// one that the direction of the rod asks for, or the likelier one where no place tells the direction.
+pub(crate) fn start<I: Inverse>(
+    rod: &I,
+    track: &Track,
+    noise: &Noise,
+    nodes: Vec<Node>,
+    mu: Option<f64>,
+) -> (Start, Vec<Node>) {
+    let sides = Side::all(rod, track, noise, &nodes, None);
     let tried: Vec<f64> = match mu {
         Some(mu) => signs(&sides).iter().map(|sign| sign * mu).collect(),
         None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
     };
-    let without = likelihood(nodes);
-    let mut judged = nodes.to_vec();
-    let likelihoods = tried.into_iter().map(|mu| {
+    let without = likelihood(&nodes);
+    let judged = tried.into_iter().map(|mu| {
+        let mut judged = nodes.clone();
         rub(rod, track, &mut judged, mu);
-        (mu, likelihood(&judged))
+        (mu, likelihood(&judged), judged)
     });
-    let (found, likelihood) = likelihoods.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, without));
+    let best = judged.max_by(|a, b| a.1.total_cmp(&b.1));
+    let (found, likelihood, judged) = best.unwrap_or((0.0, without, nodes));
     let sine = found / found.hypot(1.0);
     let information = level(&sides, sine).1;
     let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
@@ -224,7 +231,8 @@ pub(crate) fn start<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[
     let backwards = |side: &&Side| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
     let all = way(sides.iter());
     let against = if all > 0.0 && found != 0.0 { way(sides.iter().filter(backwards)) / all } else { 0.0 };
-    Start { mu: found, sigma: tangent_by_sine / information.sqrt(), scatter, spread, against, likelihood, without }
+    let sigma = tangent_by_sine / information.sqrt();
+    (Start { mu: found, sigma, scatter, spread, against, likelihood, without }, judged)
 }
 
 fn way<'a>(sides: impl Iterator<Item = &'a Side>) -> f64 {
@@ -269,7 +277,7 @@ fn tangent(sine: f64) -> f64 {
 }
 
 /// Gives places the evidence that they have with this friction.
-pub(crate) fn rub<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) {
+fn rub<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) {
     for node in nodes {
         node.fit.rub(friction);
         let evidence = Evidence::of(rod, &node.fit.at(track.tau[node.index]));

@@ -1,7 +1,7 @@
 //! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
 
 use super::settings::{ReconstructError, Settings, positive, possible};
-use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rub, rubs, start};
+use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rubs, start};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Node, places};
 use crate::point::Inverse;
@@ -77,15 +77,14 @@ impl Calibrated {
     }
 
     /// The scan with friction that is known or as its plateau tells it.
-    pub fn rubbed<I: Inverse>(mut self, rod: &I, settings: &Settings) -> Self {
+    pub fn rubbed<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
-        let Start { mu, sigma, scatter, spread, against, likelihood, without } =
-            start(rod, &self.track, &self.noise, &self.nodes, mu);
+        let (Start { mu, sigma, scatter, spread, against, likelihood, without }, nodes) =
+            start(rod, &self.track, &self.noise, self.nodes, mu);
         let track = self.track.with_friction(mu);
-        rub(rod, &track, &mut self.nodes, mu);
         let gain = likelihood - without;
         let found = FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against, alone: None };
-        Self { track, friction: Some(found), ..self }
+        Self { track, nodes, friction: Some(found), ..self }
     }
 
     /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
