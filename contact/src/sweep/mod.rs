@@ -371,7 +371,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
                 let stopped = stopped(kind, &before, &after.configuration);
-                let is_held = kind == EventKind::Piece && self.is_held_at_border(&before, &after.configuration);
+                let onto = (kind == EventKind::Piece).then(|| after.configuration.clone());
                 let before = self.stepper.look(before);
                 let next = if self.setup().world.rubs() {
                     self.goes_on_rubbing(after, stopped)?
@@ -384,7 +384,9 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
                     }
-                    None if is_held => Err(StopReason::RougherPiece),
+                    None if onto.is_some_and(|onto| self.is_held_at_border(&before.configuration, onto)) => {
+                        Err(StopReason::RougherPiece)
+                    }
                     None => self.snap(before).map(Box::new),
                 }
             }
