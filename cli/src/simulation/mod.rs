@@ -158,9 +158,9 @@ impl<R: SceneRod> Simulation<R> {
             }
         }
         let step = speed / rate;
-        let way = |path: &LegPath| match path.turns_only() && !scene.turns_only() {
-            true => path.length() * scene.rod.units().length,
-            false => path.length(),
+        let way = |path: &LegPath| {
+            let on_the_spot = path.turns_only() && !scene.turns_only();
+            path.length() * if on_the_spot { scene.rod.units().length } else { 1.0 }
         };
         let legs: Vec<(LegPath, f64)> = scene.all_legs().map(|leg| (leg.path, way(&leg.path))).collect();
         let length: f64 = legs.iter().map(|leg| leg.1).sum();

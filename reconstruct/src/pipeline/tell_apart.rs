@@ -90,8 +90,7 @@ fn judged(all: &[Together], chosen: &Together, given: &[Piece]) -> Together {
     };
     let is_as_good = |other: &&Together| other.found.unexplained == 0 && other.found.cost < chosen.found.cost + AS_GOOD;
     if all.iter().find(turned).filter(is_as_good).is_some_and(|other| elsewhere(chosen, other)) {
-        let ambiguous = Err(Unresolved::Ambiguous);
-        answer.found.pairs.fill(Pair { first: ambiguous, second: ambiguous });
+        answer.found.pairs.fill(Pair::without(Unresolved::Ambiguous));
     }
     answer
 }

@@ -48,7 +48,7 @@ pub(crate) trait Carried: Scalar {
 impl Carried for f64 {
     fn carry<M: RodModel>(model: &M, start: &CrossSection, along: &Interval<f64>) -> CrossSection {
         let Interval { from, to, force: [a, b] } = *along;
-        section(model.carry(from, &cut(start), a, b, to - from))
+        of_cut(model.carry(from, &cut(start), a, b, to - from))
     }
 }
 
@@ -115,18 +115,20 @@ impl<const N: usize> Carried for Dual<Dual<f64, N>, 1> {
     }
 }
 
-fn cut(&CrossSection { x, y, phi, bend }: &CrossSection) -> Cut {
+/// The cut at a cross-section that is followed by its moment.
+pub(super) fn cut(&CrossSection { x, y, phi, bend }: &CrossSection) -> Cut {
     Cut { x, y, phi, moment: bend }
 }
 
-fn section(Cut { x, y, phi, moment }: Cut) -> CrossSection {
+/// The cross-section at a cut.
+pub(super) fn of_cut(Cut { x, y, phi, moment }: Cut) -> CrossSection {
     CrossSection { x, y, phi, bend: moment }
 }
 
 fn sensitive<M: RodModel>(model: &M, start: &CrossSection, along: &Interval<f64>) -> (CrossSection, CutSensitivities) {
     let Interval { from, to, force: [a, b] } = *along;
     let (end, by) = model.carry_with_sensitivities(from, &cut(start), a, b, to - from);
-    (section(end), by)
+    (of_cut(end), by)
 }
 
 /// How the end changes where the start and the interval change so.

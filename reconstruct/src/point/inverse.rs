@@ -1,13 +1,13 @@
 //! What the inversion of a scan has to know of a rod.
 
 use super::bent::{Bent, zeros};
-use super::carried::{Carried, CrossSection, Interval};
+use super::carried::{Carried, CrossSection, Interval, cut, of_cut};
 use super::clamp::{Clamp, Gradient};
 use super::moment_zero::MomentZero;
 use super::no_contact::NoContact;
 use nalgebra::{Matrix3, Matrix4x3, Vector3, Vector4};
 use rod_core::{
-    Clamp as Held, Cut, PhysicalRod, Pose, RodModel, Scalar, Section, Uniform, advance, advance_with_sensitivities,
+    Clamp as Held, PhysicalRod, Pose, RodModel, Scalar, Section, Uniform, advance, advance_with_sensitivities,
     inflection,
 };
 
@@ -204,10 +204,8 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
     }
 
     fn tip(&self, start: &CrossSection, s: f64, [a, b]: [f64; 2]) -> (CrossSection, [f64; 2]) {
-        let &CrossSection { x, y, phi, bend } = start;
-        let start = Cut { x, y, phi, moment: bend };
-        let (Cut { x, y, phi, moment }, by) = self.0.model().carry_with_sensitivities(s, &start, a, b, 1.0 - s);
-        (CrossSection { x, y, phi, bend: moment }, [by.by_a[3], by.by_b[3]])
+        let (end, by) = self.0.model().carry_with_sensitivities(s, &cut(start), a, b, 1.0 - s);
+        (of_cut(end), [by.by_a[3], by.by_b[3]])
     }
 
     fn moment<T: Scalar>(&self, at: &CrossSection<T>, _natural: T) -> T {
@@ -223,8 +221,7 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
     }
 
     fn next_zero(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> Option<f64> {
-        let &CrossSection { x, y, phi, bend } = start;
-        zeros(self.0.model(), s, Cut { x, y, phi, moment: bend }, force).next()
+        zeros(self.0.model(), s, cut(start), force).next()
     }
 }
 

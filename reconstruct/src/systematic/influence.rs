@@ -34,8 +34,8 @@ fn inputs((clamp, rate): &(Clamp, Clamp)) -> Inputs {
 fn of_inputs(x: &Inputs) -> (Clamp, Clamp) {
     let three = |k: usize| x.fixed_rows::<3>(k).into_owned();
     (
-        Clamp { pose: three(0), reactions: three(3), natural: x[6], friction: x[7] },
-        Clamp { pose: three(8), reactions: three(11), natural: 0.0, friction: 0.0 },
+        Clamp { pose: three(0), reactions: three(REACTIONS), natural: x[NATURAL], friction: x[FRICTION] },
+        Clamp { pose: three(MOTION), reactions: three(RATES), natural: 0.0, friction: 0.0 },
     )
 }
 

@@ -81,8 +81,9 @@ impl Turns<'_> {
     /// The likelihood after one more turn, on these places, from what was found on others. `given` is what was known before.
     pub fn last(&self, given: &Prior, found: &Found) -> f64 {
         let mut judged = self.nodes.to_vec();
-        self.left(&found.adjusted).doubt(&mut judged);
-        self.left(&found.adjusted).judge(&found.adjusted.errors, self.track, &mut judged);
+        let left = self.left(&found.adjusted);
+        left.doubt(&mut judged);
+        left.judge(&found.adjusted.errors, self.track, &mut judged);
         let places = self.labelled(&labels(&judged, false));
         let adjusted = adjust(self.frame, &found.prior, &found.adjusted.errors, &places, &self.least, self.steps);
         self.likelihood(&adjusted, given, judged)

@@ -53,6 +53,11 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
+    /// No contact, for this reason.
+    pub fn without(why: Unresolved) -> Self {
+        Self { first: Err(why), second: Err(why) }
+    }
+
     fn with_systematic(self, covariance: [Matrix2<f64>; 2]) -> Self {
         let [first, second] = covariance;
         Self {
@@ -91,12 +96,11 @@ pub(super) fn answer<I: Inverse>(
     // the contact pushes from one side along the whole stretch
     let strongest = (0..INSTANTS).map(strength).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
     if strongest.abs() < PRESENT {
-        let error = Unresolved::FirstForceVanishes;
-        pairs.extend(tau.iter().map(|_| Pair { first: Err(error), second: Err(error) }));
+        pairs.extend(tau.iter().map(|_| Pair::without(Unresolved::FirstForceVanishes)));
         return;
     }
     if !slides(rod, part, x) {
-        pairs.extend(tau.iter().map(|_| Pair { first: Err(Unresolved::Sticks), second: Err(Unresolved::Sticks) }));
+        pairs.extend(tau.iter().map(|_| Pair::without(Unresolved::Sticks)));
         return;
     }
     for &tau in tau {

@@ -60,7 +60,7 @@ impl Resolution {
     }
 
     fn nothing(&mut self, samples: usize, why: Unresolved) {
-        self.pairs.extend((0..samples).map(|_| Pair { first: Err(why), second: Err(why) }));
+        self.pairs.extend((0..samples).map(|_| Pair::without(why)));
         self.unexplained += samples;
     }
 }
