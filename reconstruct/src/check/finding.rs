@@ -357,9 +357,9 @@ impl fmt::Display for Finding {
             ),
             Self::KinksWithin { count, from } => write!(
                 f,
-                "{} within phase B, the first before sample {from}: there the contact passes to another piece of the contour, or a second one \
-                 comes or goes that noise hides. Then the points up to the next change are wrong by more than they say: scan more slowly, or \
-                 with less noise",
+                "{} within phase B, the first before sample {from}: there the contact passes to another piece of the contour, or a second \
+                 contact comes or goes. Noise hides which. With a second contact the points up to the next change are off by more than their \
+                 standard deviations say: scan more slowly, or with less noise",
                 if count == 1 { "a kink".to_owned() } else { format!("{count} kinks") }
             ),
             Self::Frozen { share, from } => write!(
