@@ -12,7 +12,7 @@
 //! q is at most P, and the least eigenvalue of -(EI eta')' at least EI (pi / l)^2 with the least EI. Behind the
 //! last contact the least value is zero. So Q > 0 for all variations if, and only if, the sum of these forms and of the contacts' own ones is positive definite in the shifts u_j along
 //! the contour and the turns eta_j: two unknowns a contact. A clamp on springs adds the ways p of its base, with their own p^2 / softness.
-//! A roller counts as the first contact.
+//! A roller counts as the first contact. A contact with friction is held along the contour: there u_j = 0.
 
 use super::{Form, PENALTY, roller};
 use crate::contact_set::Configuration;
@@ -20,7 +20,7 @@ use crate::gap::shape::Shape;
 use crate::scene::rod::holds_between_ends;
 use crate::scene::setup::Setup;
 use crate::scene::springs::{Spring, springs};
-use rod_core::{Clamp, CutSensitivities, PhysicalRod, RodModel, Supports};
+use rod_core::{Clamp, CutSensitivities, Grip, PhysicalRod, RodModel, Supports};
 use smallvec::SmallVec;
 
 /// Least pivot, over the diagonal entry that it came from, that proves a sign. The entries are exact to about 1e-13 of the largest
@@ -64,7 +64,10 @@ pub(super) fn is_positive<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &
             }
         };
         let Form::Moves([uu, uv, vv]) = form else { return false };
-        let (sin, cos) = support.alpha.sin_cos();
+        // friction holds the rod along the contour
+        let rubs = j.checked_sub(lead).is_some_and(|j| configuration.contacts[j].grip != Grip::SMOOTH);
+        let along = if rubs { (0.0, 0.0) } else { support.alpha.sin_cos() };
+        let ([uu, uv], (sin, cos)) = (if rubs { [1.0, 0.0] } else { [uu, uv] }, along);
         let Some(stiffness) = stiffness(rod, shape, j) else { return false };
         (moves[known], moves[known + 1]) = ([0.0, 0.0, cos, sin], [0.0, 1.0, 0.0, 0.0]);
         let (u, eta) = (base + 2 * j, base + 2 * j + 1);

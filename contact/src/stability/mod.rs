@@ -22,7 +22,7 @@ mod condensed;
 mod roller;
 
 use crate::contact_set::Configuration;
-use crate::friction::resists;
+use crate::friction::{UNLOADED, resists};
 use crate::gap::shape::{Node, Shape};
 use crate::scene::rod::{Segment, curvature_behind};
 use crate::scene::setup::Setup;
@@ -76,14 +76,14 @@ impl Judge {
         configuration: &Configuration,
         shape: &Shape,
     ) -> bool {
-        let n = configuration.count();
-        if configuration.rubs() {
-            // the energy of a rod whose contacts all stick, and friction that lets those that slip move in one way only
-            return self.is_positive_by_modes(setup, configuration, shape) && resists(setup, configuration);
+        // without a force the second variation is that of the bending energy alone
+        if (0..configuration.count()).all(|j| configuration.force(j).abs() < UNLOADED) {
+            return true;
         }
-        n == 0
-            || condensed::is_positive(setup, configuration, shape)
-            || self.is_positive_by_modes(setup, configuration, shape)
+        let is_positive = condensed::is_positive(setup, configuration, shape)
+            || self.is_positive_by_modes(setup, configuration, shape);
+        // with friction that of a rod whose contacts all stick, and friction that lets those that slip move in one way only
+        is_positive && (!configuration.rubs() || resists(setup, configuration))
     }
 
     /// The same by the modes alone.
