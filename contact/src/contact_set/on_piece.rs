@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) fn off_piece(world: &World<'_>, configuration: &Configuration) -> Option<usize> {
     (0..configuration.count()).find(|j| {
         let (stretch, t) = (configuration.contacts[*j].stretch, configuration.t(*j));
-        let Range { from, to } = world.range(stretch);
+        let Range { from, to } = world.span(stretch);
         let beyond = (from - t).max(t - to);
         let speed = world.support(stretch, t.clamp(from, to)).speed;
         beyond * if speed > 0.0 { speed } else { 1.0 } > ROUNDING

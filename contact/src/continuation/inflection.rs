@@ -51,7 +51,7 @@ fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Opt
         let support = world.support(stretch, t);
         support.turning / support.speed
     };
-    let range = world.range(stretch);
+    let range = world.span(stretch);
     let (before, after) = (range.clamp(t - NEAR * by_s), range.clamp(t + NEAR * by_s));
     if !(curvature(before) < 0.0 && curvature(after) > 0.0) {
         return None;

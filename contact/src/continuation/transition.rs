@@ -117,7 +117,7 @@ pub(crate) fn breaks(
 
 /// The range of a stretch: of a notch with friction the directions of the force in the cones of both walls.
 pub(super) fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
-    let Range { from, to } = world.range(stretch);
+    let Range { from, to } = world.span(stretch);
     if !world.rubs() || !world.is_notch(stretch) {
         return Range { from, to };
     }
@@ -273,7 +273,7 @@ impl Break {
             Self::TipToTangent(_) => (EventKind::TipToTangent, as_tip(at.clone(), world), at),
             Self::Touch(crossing) => {
                 let j = place(broken, &crossing);
-                let (range, t) = (world.range(crossing.stretch), at.t(j));
+                let (range, t) = (world.span(crossing.stretch), at.t(j));
                 if (t - range.clamp(t)).abs() > BEYOND_END * (1.0 + t.abs()) {
                     // it has gone so deep that it is a neighbour that it met first
                     return Err(NoTransition::NotLocated);

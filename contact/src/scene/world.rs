@@ -7,6 +7,7 @@ use rod_contours::{
 };
 use rod_core::{Support, SupportRate};
 use smallvec::SmallVec;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Depth (L) to which there is solid behind an open contour. A step of the sweep moves no point of the rod as far; a rod that is
@@ -43,7 +44,10 @@ pub(crate) struct World<'a> {
     length: f64,
     /// Coefficients of friction by stretch, if there is any.
     friction: Option<Arc<[Coefficients]>>,
+    /// Whether any object is a closed curve in one piece that is smooth where it closes.
+    has_loops: bool,
 }
+
 
 /// The point of one part of the contour that is closest to a given point.
 #[derive(Clone, Copy, Debug)]
@@ -118,7 +122,8 @@ impl<'a> World<'a> {
         let ends = ends.map(|end| (end.x / length, end.y / length)).collect();
         let index =
             Index::new(objects.iter().map(|object| if is_bounded(object) { object.bounds() } else { Bounds::ALL }));
-        Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length, friction: None }
+        let has_loops = objects.iter().any(|object| object.neighbour(0, true) == Some(0));
+        Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length, friction: None, has_loops }
     }
 
     /// Gives the objects this friction, which is asked once for each piece.
@@ -194,7 +199,7 @@ impl<'a> World<'a> {
     /// The change of [`support`](Self::support) at a fixed parameter with a parameter of the shape of a piece of the same object.
     pub fn support_rate(&self, stretch: usize, t: f64, piece: usize, parameter: &str) -> Option<SupportRate> {
         let (object, own) = self.at(stretch);
-        let unit = self.unit((object, own));
+        let (unit, t) = (self.unit((object, own)), self.within(stretch, t));
         let FrameRate { x, y, alpha } = object.own_frame_rate(own, t * unit, piece, parameter)?;
         Some(SupportRate { x: x / self.length, y: y / self.length, alpha })
     }
@@ -243,6 +248,17 @@ impl<'a> World<'a> {
     }
 
     pub fn support(&self, stretch: usize, t: f64) -> Support {
+        if self.has_loops
+            && let Some((t, turn)) = self.around(stretch, t)
+        {
+            let there = self.support_within(stretch, t);
+            return Support { alpha: there.alpha + turn, ..there };
+        }
+        self.support_within(stretch, t)
+    }
+
+    /// The same on the stretch itself, beyond its ends as its shape goes on there.
+    fn support_within(&self, stretch: usize, t: f64) -> Support {
         let (object, own) = self.at(stretch);
         let unit = self.unit((object, own));
         let Frame { x, y, alpha, speed, turning } = object.own_frame(own, t * unit);
@@ -253,6 +269,34 @@ impl<'a> World<'a> {
             speed: speed / self.length * unit,
             turning: turning * unit,
         }
+    }
+
+    /// Whether a stretch is a loop: a closed curve in one piece that is smooth where it closes. Its parameter goes on beyond both ends, round
+    /// after round.
+    fn is_loop(&self, stretch: usize) -> bool {
+        self.has_loops && self.neighbour(stretch, true) == Some(stretch)
+    }
+
+    /// A parameter of a loop beyond its range as the one within, and the angle by which the tangent has turned on the rounds between.
+    fn around(&self, stretch: usize, t: f64) -> Option<(f64, f64)> {
+        let Range { from, to } = self.range(stretch);
+        if !self.is_loop(stretch) || (from..=to).contains(&t) {
+            return None;
+        }
+        let rounds = ((t - from) / (to - from)).floor();
+        let [first, last] = [from, to].map(|t| self.support_within(stretch, t).alpha);
+        Some((t - rounds * (to - from), rounds * TAU * ((last - first) / TAU).round()))
+    }
+
+    /// A parameter of a loop within its range; of another stretch as it is.
+    fn within(&self, stretch: usize, t: f64) -> f64 {
+        let around = if self.has_loops { self.around(stretch, t) } else { None };
+        around.map_or(t, |(t, _)| t)
+    }
+
+    /// The range within which a contact is on the stretch: without ends on a closed curve that is smooth where it closes.
+    pub fn span(&self, stretch: usize) -> Range {
+        if self.is_loop(stretch) { Range::ALL } else { self.range(stretch) }
     }
 
     /// The closest point of a whole stretch.
@@ -382,7 +426,7 @@ impl<'a> World<'a> {
     /// Whether a stretch is part of a run at the parameter `t`.
     pub fn is_on_run(&self, run: usize, stretch: usize, t: f64) -> bool {
         let (object, own) = self.at(stretch);
-        let unit = self.unit((object, own));
+        let (unit, t) = (self.unit((object, own)), self.within(stretch, t));
         self.object_of_run(run) == self.object(stretch)
             && object.run_holds(run - self.first_run[self.object(stretch)], own, t * unit)
     }
@@ -447,6 +491,7 @@ impl<'a> World<'a> {
         most: f64,
     ) -> Option<f64> {
         let (object, own) = self.at(stretch);
+        let t = self.within(stretch, t);
         let here = self.support(stretch, t);
         let border = self.border(stretch, ahead > 0.0);
         let (sin, cos) = here.alpha.sin_cos();
