@@ -11,8 +11,8 @@ use smallvec::SmallVec;
 
 /// Share of the normal force by which |f_t| may be off the friction's limit there.
 const ON_CONE: f64 = 1e-9;
-/// Rates in the wrong sense that are rounding: of lengths (L) and forces (E I / L^2) per unit of the path. Rates of a first contact are exact
-/// to 1e-13; a limit above 1e-6 would take second-order slips for standing still.
+/// Rates in the wrong sense that are rounding: of lengths (L) and forces (E I / L^2) per unit of the path, relative to 1 + the largest rate.
+/// Rates of a first contact are exact to 1e-13; a limit above 1e-6 would take second-order slips for standing still.
 const RATE: f64 = 1e-9;
 /// Force (E I / L^2) below which a contact is new, or about to leave: then its mode is open.
 pub(crate) const UNLOADED: f64 = 1e-9;
@@ -62,7 +62,7 @@ pub(crate) fn anew<R: PhysicalRod>(
             modes.push(choice[number % choice.len()]);
             number /= choice.len();
         }
-        if all.rates(&modes).is_some_and(|rates| all.admits(&modes, &rates, first_contact)) {
+        if all.rates(&modes).is_some_and(|rates| all.admits(&modes, &rates, first_contact, stopped)) {
             ways.push(with_modes(configuration, &modes, &all.friction));
         }
     }
@@ -187,7 +187,9 @@ impl AllRates {
     }
 
     /// Whether the motion by these modes holds for all contacts.
-    fn admits(&self, modes: &[Mode], rates: &DVector<f64>, first_contact: bool) -> bool {
+    fn admits(&self, modes: &[Mode], rates: &DVector<f64>, first_contact: bool, stopped: Option<usize>) -> bool {
+        // next to a fold all rates are large, and so is their rounding
+        let rounding = RATE * (1.0 + rates.amax());
         (0..self.n).all(|j| {
             let (force_rate, friction_rate) = (rates[3 * j + 1], rates[3 * self.n + j]);
             let is_new = self.force[j] < UNLOADED;
@@ -202,10 +204,12 @@ impl AllRates {
                     if first_contact && slip.abs() < RATE {
                         return ratio.signum() == 1.0_f64.copysign(self.cos_chi);
                     }
-                    ratio.signum() * slip <= RATE
+                    ratio.signum() * slip <= rounding
                 }
                 // a straight rod cannot stretch: its axial force is not determined, and what the equations give for it is rounding
                 Mode::Sticks if first_contact => false,
+                // as it stops, its force moves along the border of the cone: to first order it moves as if it slipped on
+                Mode::Sticks if stopped == Some(j) => true,
                 Mode::Sticks if is_new => friction_rate.abs() <= self.limit[j] * force_rate,
                 Mode::Sticks => {
                     let (limit, friction) = (self.limit[j] * self.force[j], self.friction[j]);
@@ -215,7 +219,7 @@ impl AllRates {
                         return false;
                     }
                     // a coefficient at rest larger than that of slipping lets the rod stick as it stops
-                    inside || 1.0_f64.copysign(friction) * friction_rate - self.limit[j] * force_rate <= RATE
+                    inside || 1.0_f64.copysign(friction) * friction_rate - self.limit[j] * force_rate <= rounding
                 }
             }
         })

@@ -48,7 +48,6 @@ pub(crate) struct World<'a> {
     has_loops: bool,
 }
 
-
 /// The point of one part of the contour that is closest to a given point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Foot {

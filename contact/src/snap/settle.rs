@@ -57,10 +57,12 @@ pub(crate) fn rest<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     scanner: &mut Scanner,
     tau: f64,
-    accept: impl Fn(&Seen) -> bool,
+    accept: impl Fn(&World<'_>, &Seen) -> bool,
 ) -> Option<Seen> {
     let guesses = chain.settle(&corrector.setup.world, tau);
-    guesses.into_iter().find_map(|guess| settle(corrector, scanner, guess).filter(&accept))
+    guesses
+        .into_iter()
+        .find_map(|guess| settle(corrector, scanner, guess).filter(|found| accept(&corrector.setup.world, found)))
 }
 
 /// What to mend first: a force that pulls before all, then what is furthest off.

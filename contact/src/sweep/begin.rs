@@ -80,7 +80,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// Keeps what an approach came to, if it holds and is not known yet.
     fn keep(&mut self, found: &mut Vec<Candidate>, approach: Approach, reached: Option<Configuration>) {
         let Some(configuration) = reached else { return };
-        let known = found.iter().any(|known| same(&known.configuration, &configuration));
+        let known = found.iter().any(|known| same(&self.setup().world, &known.configuration, &configuration));
         if known || !self.stepper.look(configuration.clone()).scan.is_outside() {
             return;
         }
@@ -128,7 +128,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn let_go(&mut self, bend: f64) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let mut chain = Chain::at_rest(corrector.setup.rod.model(), &corrector.setup.clamp(0.0), bend);
-        rest(&mut chain, corrector, scanner, 0.0, |_| true).map(|seen| seen.configuration)
+        rest(&mut chain, corrector, scanner, 0.0, |_, _| true).map(|seen| seen.configuration)
     }
 }
 

@@ -75,6 +75,6 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let landed = settle(corrector, scanner, guess)?;
         let lower = energy(self.setup(), &landed.configuration) < energy(self.setup(), fold);
-        (lower && !same(&landed.configuration, fold)).then_some(landed)
+        (lower && !same(&self.setup().world, &landed.configuration, fold)).then_some(landed)
     }
 }

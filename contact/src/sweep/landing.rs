@@ -10,9 +10,10 @@ use crate::event::EventKind;
 use crate::friction::{UNLOADED, smooth};
 use crate::gap::GAP_TOLERANCE;
 use crate::scene::setup::Setup;
+use crate::scene::world::World;
 use crate::snap::chain::Chain;
 use crate::snap::settle::{rest, settle};
-use rod_core::{PhysicalRod, Pose};
+use rod_core::{Grip, PhysicalRod, Pose};
 
 /// Distances (path parameter) beyond a fold at which the descent starts, tried in order. The chain has its own fold, up to the
 /// square of a link's length away, and must be beyond it. A longer distance may miss an equilibrium that ends soon.
@@ -102,7 +103,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn slide_over(&mut self, last: &Configuration) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let guess = across_corner(last.clone(), &corrector.setup.world)?;
-        let landed = settle(corrector, scanner, guess).filter(|landed| !same(&landed.configuration, last))?;
+        let landed = settle(corrector, scanner, guess)?;
+        if same(&corrector.setup.world, &landed.configuration, last) {
+            return None;
+        }
         self.goes_on(landed)
     }
 
@@ -163,12 +167,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let mut chain = Chain::of(&corrector.setup, last, tau + kick);
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(BEND);
-        let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_| true);
-        let elsewhere = |found: &Seen| !same(&found.configuration, last);
+        let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_, _| true);
+        let elsewhere = |world: &World<'_>, found: &Seen| !same(world, &found.configuration, last);
         let back = ahead.as_ref().and_then(|ahead| {
             let mut back = ahead.configuration.clone();
             back.set_tau(tau);
-            settle(corrector, scanner, back).filter(elsewhere)
+            settle(corrector, scanner, back).filter(|found| elsewhere(&corrector.setup.world, found))
         });
         let at_pose = back.or_else(|| {
             chain.clamp = corrector.setup.path.at(tau);
@@ -184,7 +188,25 @@ struct Landed {
     ahead: Option<Seen>,
 }
 
-/// Whether two configurations at one pose are the same equilibrium.
-pub(super) fn same(a: &Configuration, b: &Configuration) -> bool {
-    a.contacts == b.contacts && a.z.iter().zip(&b.z).all(|(u, v)| (u - v).abs() < 1e-4 * (1.0 + v.abs()))
+/// Change of an unknown, relative to 1 + its size, up to which two configurations are one.
+const SAME: f64 = 1e-4;
+
+/// Whether two configurations at one pose are the same equilibrium: the parameters of a closed curve may differ by rounds.
+pub(super) fn same(world: &World<'_>, a: &Configuration, b: &Configuration) -> bool {
+    let near = |u: f64, v: f64| (u - v).abs() < SAME * (1.0 + v.abs());
+    let alike = |j: usize| {
+        let (one, other) = (&a.contacts[j], &b.contacts[j]);
+        let [p, q] = [(a, one), (b, other)].map(|(set, held)| world.support(held.stretch, set.t(j)));
+        let grips = match (one.grip, other.grip) {
+            (Grip::Sticks { .. }, Grip::Sticks { .. }) => true,
+            (one, other) => one == other,
+        };
+        one.stretch == other.stretch && a.is_tip(j) == b.is_tip(j) && grips && near(p.x, q.x) && near(p.y, q.y)
+            // on a joint the parameter is the direction of the force
+            && (p.speed != 0.0 || near(a.t(j), b.t(j)))
+    };
+    let is_parameter = |i: &usize| i.is_multiple_of(3) && *i < 3 * a.count();
+    a.count() == b.count()
+        && (0..a.count()).all(alike)
+        && (0..a.z.len()).filter(|i| !is_parameter(i)).all(|i| near(a.z[i], b.z[i]))
 }

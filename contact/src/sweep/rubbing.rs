@@ -132,7 +132,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         }
         let before = last.segments(self.setup());
         let dragged = drags(&mut self.stepper.corrector, &landed.configuration, &before);
-        let elsewhere = dragged.filter(|dragged| !same(dragged, last));
+        let elsewhere = dragged.filter(|dragged| !same(&self.setup().world, dragged, last));
         for way in elsewhere.into_iter().chain([smooth(&landed.configuration)]) {
             let seen = self.stepper.look(way);
             if let Ok(Some(point)) = self.goes_on_rubbing(seen, None) {
