@@ -2,7 +2,7 @@
 
 use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Corrector, Tangent};
-use crate::scene::world::World;
+use crate::scene::setup::Setup;
 use rod_core::{PhysicalRod, RodError, find_root};
 use std::cell::RefCell;
 
@@ -32,13 +32,13 @@ pub(crate) fn locate_fold<R: PhysicalRod>(
     locate_zero(corrector, from, tangent, to, |_, _, tangent| tangent.by_tau())
 }
 
-/// The first point between `from` and `to` where a rate along the branch, positive at `from`, vanishes: found as a fold is.
+/// The first point between `from` and `to` where something that is positive at `from` vanishes along the branch: found as a fold is.
 pub(crate) fn locate_zero<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,
     tangent: &Tangent,
     to: &Configuration,
-    rate: impl Fn(&World<'_>, &Configuration, &Tangent) -> f64,
+    rate: impl Fn(&Setup<'_, R>, &Configuration, &Tangent) -> f64,
 ) -> Option<Configuration> {
     let whole = tangent.along(&to.z, &from.z);
     let guess = |distance: f64| {
@@ -69,7 +69,7 @@ fn between<R: PhysicalRod>(
     tangent: &Tangent,
     guess: impl Fn(f64) -> Configuration,
     (firsts, lasts): (&[f64], &[f64]),
-    (tolerance, rate): (f64, &impl Fn(&World<'_>, &Configuration, &Tangent) -> f64),
+    (tolerance, rate): (f64, &impl Fn(&Setup<'_, R>, &Configuration, &Tangent) -> f64),
 ) -> Option<(Configuration, Tangent)> {
     let corrector = RefCell::new(corrector);
     let point = |distance: f64| {
@@ -81,7 +81,7 @@ fn between<R: PhysicalRod>(
             return None;
         }
         let there = corrector.inspect(&here, condition).0;
-        let rate = rate(&corrector.setup.world, &here, &there);
+        let rate = rate(&corrector.setup, &here, &there);
         Some((there, here, rate))
     };
     let slope = |distance: f64| {
@@ -100,7 +100,6 @@ mod tests {
     use super::*;
     use crate::contact_set::Held;
     use crate::path::ClampPath;
-    use crate::scene::setup::Setup;
     use rod_contours::{Composite, Parabola};
     use rod_core::{Hold, Pose, Rod};
     use std::f64::consts::FRAC_PI_2;

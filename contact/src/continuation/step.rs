@@ -13,8 +13,9 @@ use crate::event::EventKind;
 use crate::friction::{reversed, slip_rate};
 use crate::gap::passing::Passing;
 use crate::gap::scan::{Scan, Scanner};
-use crate::scene::world::World;
-use crate::stability::wraps;
+use crate::scene::rod::Segment;
+use crate::scene::setup::Setup;
+use crate::stability::{clearance, wraps};
 use rod_core::{Clamp, Grip, PhysicalRod, Rod, RodModel, SolveReport};
 use smallvec::SmallVec;
 
@@ -99,6 +100,8 @@ pub(crate) enum Step {
     Changed(Box<Change>),
     /// The branch ends here, in a fold, or loses its stability.
     Ended(Box<Seen>),
+    /// The branch can be followed up to here, and no further.
+    Stopped(StopReason, Box<Seen>),
 }
 
 impl Point {
@@ -114,7 +117,7 @@ impl Step {
         match self {
             Self::Moved(next) => &next.configuration,
             Self::Changed(change) => &change.before,
-            Self::Ended(last) => &last.configuration,
+            Self::Ended(last) | Self::Stopped(_, last) => &last.configuration,
         }
     }
 
@@ -123,7 +126,7 @@ impl Step {
         match self {
             Self::Moved(next) => &next.scan,
             Self::Changed(change) => &change.after.scan,
-            Self::Ended(last) => &last.scan,
+            Self::Ended(last) | Self::Stopped(_, last) => &last.scan,
         }
     }
 
@@ -285,11 +288,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         }
         if !self.is_stable(&next, &scan) {
             let long = length > PROBE;
-            return if long {
-                Err(Refused::TooLong(Obstacle::Unstable))
-            } else {
-                self.end(from, &next).map_err(Refused::Ended)
-            };
+            return if long { Err(Refused::TooLong(Obstacle::Unstable)) } else { Ok(self.end(from)) };
         }
         if let Some(transition) = self.runs_together(&next, &tangent).or_else(|| self.joined(&next, &tangent)) {
             return Ok(self.changed(transition));
@@ -318,21 +317,35 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         far.then(|| self.scanner.passes(setup, &from.configuration, &from.scan, now)).flatten()
     }
 
-    /// The end of the branch at `from`, from where `next`, just beyond, is not stable.
-    fn end(&mut self, from: &Point, next: &Configuration) -> Result<Step, StopReason> {
-        match wraps(&self.corrector.setup, next, &next.segments(&self.corrector.setup)) {
-            // a rod that is bent at rest may go on along a line, from the contact to its tip
-            Some(last) if last + 1 == next.count() && self.may_part(&from.configuration) => {
-                let parted = parted(&mut self.corrector, &from.configuration);
-                Ok(parted.map_or_else(|| from.ends(), |transition| self.changed(transition)))
-            }
-            Some(_) => Err(StopReason::LineContact),
-            // Mostly the fold is just ahead, and known better than the loss of stability is.
-            None => {
-                let fold = self.fold_ahead(from).and_then(|fold| self.clean(fold));
-                Ok(fold.map_or_else(|| from.ends(), |fold| Step::Ended(Box::new(fold))))
-            }
+    /// The end of the branch at `from`, from where it is not stable any more. Mostly a fold, or the place where a contact lies down, is just
+    /// ahead, and known better than the loss of stability is.
+    fn end(&mut self, from: &Point) -> Step {
+        self.end_ahead(from).unwrap_or_else(|| from.ends())
+    }
+
+    /// Where a contact comes to lie along a line on the way to `next`, if one does: there the rod, or what is straight of it, parts from it at
+    /// an inflection of the contour, or cannot be followed any more.
+    fn lies_down(
+        &mut self,
+        from: &Point,
+        next: &Configuration,
+        segments: &[Segment],
+    ) -> Result<Option<(f64, Step)>, NoTransition> {
+        let Some(j) = wraps(&self.corrector.setup, next, segments) else { return Ok(None) };
+        let above = |setup: &Setup<'_, R>, here: &Configuration, _: &Tangent| clearance(setup, here, j);
+        let at = locate_zero(&mut self.corrector, &from.configuration, &from.tangent, next, above)
+            .ok_or(NoTransition::NotLocated)?;
+        let along = from.tangent.along(&at.z, &from.configuration.z);
+        // there the gap beside the contact is of the third order, and nothing proves it
+        let mut holds = true;
+        breaks(&self.corrector.setup.world, &at, &[], |_| holds = false);
+        let at = if holds { self.look(at) } else { return Err(NoTransition::NotLocated) };
+        // a rod that is bent at rest may go on along a line, from the contact to its tip
+        if j + 1 < next.count() || !self.may_part(&from.configuration) {
+            return Ok(Some((along, Step::Stopped(StopReason::LineContact, Box::new(at)))));
         }
+        let parted = parted(&mut self.corrector, &at.configuration);
+        Ok(Some((along, parted.map_or_else(|| Step::Ended(Box::new(at)), |transition| self.changed(transition)))))
     }
 
     /// Whether the last contact may part into two: where the rod is straight at rest, and does not roll there.
@@ -480,18 +493,23 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)
     }
 
-    /// The fold that follows `from` closely, if one does.
-    fn fold_ahead(&mut self, from: &Point) -> Option<Configuration> {
+    /// The fold that follows `from` closely, or the place where a contact lies down along a line, if there is one.
+    fn end_ahead(&mut self, from: &Point) -> Option<Step> {
         let Point { configuration, tangent, .. } = from;
-        for distance in [1e-4, 1e-3, 1e-2] {
+        for distance in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
             let mut next = tangent.ahead(configuration, distance);
             let plane = Condition::Plane { tangent, from: &configuration.z, distance };
             if !self.corrector.correct(&mut next, plane).status.is_solved() {
                 return None;
             }
             let slope = self.corrector.inspect(&next, plane).0.by_tau();
+            let segments = next.segments(&self.corrector.setup);
+            if let Ok(Some((_, step))) = self.lies_down(from, &next, &segments) {
+                return Some(step);
+            }
             if slope < 0.0 {
-                return locate_fold(&mut self.corrector, configuration, tangent, &next);
+                let fold = locate_fold(&mut self.corrector, configuration, tangent, &next)?;
+                return self.clean(fold).map(|fold| Step::Ended(Box::new(fold)));
             }
         }
         None
@@ -534,6 +552,11 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             first = Some(stopped);
         }
         // Nothing else may be broken there: a shorter step would have met it first.
+        if let Some((along, step)) = self.lies_down(from, next, scan.segments())?
+            && first.as_ref().is_none_or(|first| along < first.along)
+        {
+            return Ok(Some(step));
+        }
         if tangent.by_tau() < 0.0 {
             // behind a kink the branch may lead back at once
             let fold = if kink {
@@ -566,8 +589,8 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     ) -> Result<Option<Transition>, NoTransition> {
         let Some(j) = reversed(&self.corrector.setup.world, next, tangent) else { return Ok(None) };
         let Grip::Slips { ratio } = next.contacts[j].grip else { return Ok(None) };
-        let forward = |world: &World<'_>, here: &Configuration, there: &Tangent| {
-            -ratio.signum() * slip_rate(world, here, there, j)
+        let forward = |setup: &Setup<'_, R>, here: &Configuration, there: &Tangent| {
+            -ratio.signum() * slip_rate(&setup.world, here, there, j)
         };
         let at = locate_zero(&mut self.corrector, &from.configuration, &from.tangent, next, forward)
             .ok_or(NoTransition::NotLocated)?;

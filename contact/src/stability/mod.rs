@@ -459,21 +459,33 @@ fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
     std::array::from_fn(f)
 }
 
+/// How the contour turns at contact j, and the curvature towards it of the rod, cut into `segments`, over its speed: (w, v kappa). Where the
+/// first is no more than the second, the rod touches along a line. None at the tip.
+fn bends<R: PhysicalRod>(
+    setup: &Setup<'_, R>,
+    configuration: &Configuration,
+    segments: &[Segment],
+    j: usize,
+) -> Option<(f64, f64)> {
+    let Hold::Tangent { offset } = configuration.contacts[j].hold else { return None };
+    let Support { speed, turning, .. } = configuration.supports(&setup.world).support(j, configuration.t(j));
+    let kappa = curvature_behind(setup.rod.model(), segments, (j, configuration.count()));
+    Some((turning, speed * offset.cos() * kappa))
+}
+
+/// By how much the contour bends away from the rod at contact j: w - v kappa; infinite at the tip.
+pub(crate) fn clearance<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, j: usize) -> f64 {
+    bends(setup, configuration, &configuration.segments(setup), j).map_or(f64::INFINITY, |(w, bent)| w - bent)
+}
+
 /// The contact where the rod, cut into `segments`, is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
 pub(crate) fn wraps<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     configuration: &Configuration,
     segments: &[Segment],
 ) -> Option<usize> {
-    let supports = configuration.supports(&setup.world);
-    configuration.contacts.iter().enumerate().position(|(j, contact)| match contact.hold {
-        Hold::Tangent { offset } => {
-            let support = supports.support(j, configuration.t(j));
-            let kappa = offset.cos() * curvature_behind(setup.rod.model(), segments, (j, configuration.count()));
-            support.turning <= support.speed * kappa && !lies_flat(support.turning, kappa)
-        }
-        Hold::Tip => false,
-    })
+    (0..configuration.count())
+        .find(|&j| bends(setup, configuration, segments, j).is_some_and(|(w, bent)| w <= bent && !lies_flat(w, bent)))
 }
 
 /// Whether the rod lies on a straight edge without bend: behind its last contact it is straight, and so it is up to a tip that

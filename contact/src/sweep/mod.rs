@@ -390,6 +390,10 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                     None => self.snap(before).map(Box::new),
                 }
             }
+            Step::Stopped(reason, last) => {
+                self.reached = last.configuration.tau();
+                Err(reason)
+            }
             Step::Ended(last) => {
                 self.crowd.count(&last.configuration, &self.stepper.corrector.setup.world)?;
                 self.snap(*last).map(Box::new)
