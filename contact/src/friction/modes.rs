@@ -5,8 +5,9 @@
 
 use crate::contact_set::{Configuration, Unknowns};
 use crate::scene::setup::Setup;
+use crate::scene::springs::springs;
 use nalgebra::{DMatrix, DVector};
-use rod_core::{Grip, PhysicalRod, Pose, RodModel, System};
+use rod_core::{Clamp, Grip, PhysicalRod, Pose, RodModel, System};
 use smallvec::SmallVec;
 
 /// Share of the normal force by which |f_t| may be off the friction's limit there.
@@ -53,7 +54,7 @@ pub(crate) fn anew<R: PhysicalRod>(
     let choices: SmallVec<[SmallVec<[Mode; 3]>; 6]> =
         (0..n).map(|j| choice(setup, configuration, j, stopped)).collect();
     let all = AllRates::new(setup, configuration);
-    let first_contact = n == 1 && configuration.force(0).abs() < UNLOADED && setup.rod.model().is_straight();
+    let first_contact = n == 1 && configuration.force(0).abs() < UNLOADED && all.is_stretched;
     let mut ways = Vec::new();
     let mut modes: SmallVec<[Mode; 6]> = SmallVec::new();
     for mut number in 0..choices.iter().map(SmallVec::len).product() {
@@ -62,6 +63,8 @@ pub(crate) fn anew<R: PhysicalRod>(
             modes.push(choice[number % choice.len()]);
             number /= choice.len();
         }
+        if std::env::var("DBG").is_ok() { let r = all.rates(&modes); eprintln!("modes tau {} {modes:?} stopped {stopped:?} first {first_contact} force {:?} fric {:?} rates {:?} slips {:?} admits {:?}", configuration.tau(), all.force, all.friction, r.as_ref().map(|r| r.as_slice().to_vec()), r.as_ref().map(|r| (0..n).map(|j| all.slip(r, j)).collect::<Vec<_>>()), r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))); }
+        if std::env::var("DBG").is_ok() { let r = all.rates(&modes); eprintln!("modes tau {} {modes:?} stopped {stopped:?} first {first_contact} force {:?} fric {:?} rates {:?} slips {:?} admits {:?}", configuration.tau(), all.force, all.friction, r.as_ref().map(|r| r.as_slice().to_vec()), r.as_ref().map(|r| (0..n).map(|j| all.slip(r, j)).collect::<Vec<_>>()), r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))); }
         if all.rates(&modes).is_some_and(|rates| all.admits(&modes, &rates, first_contact, stopped)) {
             ways.push(with_modes(configuration, &modes, &all.friction));
         }
@@ -112,6 +115,12 @@ fn with_modes(configuration: &Configuration, modes: &[Mode], friction: &[f64]) -
     chosen
 }
 
+/// Whether a clamp gives way to a force in the direction `phi`.
+fn gives_way(clamp: impl Clamp, phi: f64) -> bool {
+    let (sin, cos) = phi.sin_cos();
+    springs(clamp.law()).iter().any(|spring| (spring.way[0] * cos + spring.way[1] * sin).abs() > RATE)
+}
+
 /// The equations of an equilibrium and their derivatives with all contacts sticking.
 struct AllRates {
     n: usize,
@@ -125,6 +134,8 @@ struct AllRates {
     /// cos(slope angle - tangent angle) at the first contact, and the velocity of the clamp along the rod.
     cos_chi: f64,
     pushed: f64,
+    /// Whether the rod is straight up to the first contact and its clamp does not give way along it: then it cannot become longer.
+    is_stretched: bool,
 }
 
 impl AllRates {
@@ -140,13 +151,14 @@ impl AllRates {
         let (mut residual, mut matrix) = (Unknowns::from_elem(0.0, size), vec![0.0; size * size]);
         problem.evaluate(stuck.of_contacts(), &mut residual, Some(&mut matrix));
         let rate = setup.path.rate(configuration.tau());
-        let (mut cos_chi, mut pushed) = (1.0, 0.0);
+        let (mut cos_chi, mut pushed, mut is_stretched) = (1.0, 0.0, false);
         if n > 0 {
             let support = setup.world.support(configuration.contacts[0].stretch, configuration.t(0));
             let phi = configuration.slope_along(0, &support);
             cos_chi = (phi - support.alpha).cos();
             let Pose { x, y, .. } = rate;
             pushed = x * phi.cos() + y * phi.sin();
+            is_stretched = setup.rod.model().is_straight() && !gives_way(setup.clamp(configuration.tau()), phi);
         }
         let limit = |j: usize| setup.world.coefficients(configuration.contacts[j].stretch).at_rest;
         Self {
@@ -158,6 +170,7 @@ impl AllRates {
             limit: (0..n).map(limit).collect(),
             cos_chi,
             pushed,
+            is_stretched,
         }
     }
 
