@@ -60,7 +60,7 @@ const NEAR_ROLLER: f64 = 6e-2;
 const AT_ONCE: f64 = 1e-12;
 /// Arclength by which a touch may lie before the start of the step. The proof at the start leaves a depth of 1e-12 L open, which
 /// a slowly closing gap takes so long to pass.
-const BEFORE: f64 = 1e-6;
+pub(crate) const BEFORE: f64 = 1e-6;
 /// Arclength below which a step is not tested for thin things that it passes over: what is thinner is not met anyway.
 const LEAST_SWEPT: f64 = 1e-8;
 /// Way along the path, and longest way along the branch, after which a new contact set must still hold.

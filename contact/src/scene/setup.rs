@@ -41,6 +41,12 @@ impl<'a, R: PhysicalRod> Setup<'a, R> {
         Self { path: path.into(), ..self.clone() }
     }
 
+    /// The same without friction.
+    pub fn without_friction(mut self) -> Self {
+        self.world.polish();
+        self
+    }
+
     /// The same, where all that is behind an open contour is solid: for a rod that has not come there along the path.
     pub fn filled(&self) -> Self {
         let mut filled = self.clone();

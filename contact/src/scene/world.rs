@@ -138,6 +138,11 @@ impl<'a> World<'a> {
         Ok(())
     }
 
+    /// Takes the friction away.
+    pub fn polish(&mut self) {
+        self.friction = None;
+    }
+
     /// Whether the objects have friction.
     #[inline(always)]
     pub fn rubs(&self) -> bool {

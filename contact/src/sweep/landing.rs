@@ -1,10 +1,12 @@
 //! A snap: the equilibrium ends, and the rod slips or jumps to another one.
 
-use super::{AT_END, Sweep};
-use crate::contact_set::Configuration;
+use super::Sweep;
+use super::first_law::Ended;
 use crate::contact_set::edit::{across_corner, beyond_corner, off_corner};
+use crate::contact_set::{Configuration, Held, Unknown};
 use crate::continuation::inflection::is_at_inflection;
-use crate::continuation::step::{FIRST_STEP, Point, Seen, Stepper};
+use crate::continuation::step::{BEFORE, FIRST_STEP, Point, Seen, Stepper};
+use crate::continuation::transition::on;
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::friction::{UNLOADED, smooth};
@@ -14,6 +16,7 @@ use crate::scene::world::World;
 use crate::snap::chain::Chain;
 use crate::snap::settle::{rest, settle};
 use rod_core::{Grip, PhysicalRod, Pose};
+use smallvec::SmallVec;
 
 /// Distances (path parameter) beyond a fold at which the descent starts, tried in order. The chain has its own fold, up to the
 /// square of a link's length away, and must be beyond it. A longer distance may miss an equilibrium that ends soon.
@@ -28,107 +31,149 @@ const FARTHEST_SLIP: f64 = 0.05;
 const SHORTEST_SLIP: f64 = 1e-9;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads.
+    /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads. A landing with more energy than it has is none.
     pub(super) fn snap(&mut self, last: Seen) -> Result<Point, StopReason> {
+        let last = self.ended(last);
         // the descent and the solves about it know no friction
-        let (here, rubbing) = (&smooth(&last.configuration), &last.configuration.clone());
-        let tau = here.tau();
-        if let Some(landed) = self.slip(here) {
+        let here = &smooth(&last.seen.configuration);
+        if let Some(landed) = self.slip(here, &last) {
             return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
-        let mut beyond = None;
-        // a free rod has no fold to get over
-        let kicks = TOUCH_KICK.into_iter().filter(|_| here.count() == 0).chain(KICK);
-        for kick in kicks {
-            // from inside an object the descent leads anywhere
-            if self.is_clamp_inside(tau + kick) {
-                continue;
-            }
-            let Landed { at_pose, ahead } = self.land(here, tau, kick);
-            // a free rod that touches something and stays free has gone past it
-            let elsewhere = |landed: &Seen| here.count() + landed.configuration.count() > 0;
-            // one that does not hold further on would only lead back
-            if let Some(landed) = at_pose.filter(elsewhere).and_then(|landed| self.goes_on_landed(landed, rubbing)) {
-                return Ok(self.jumped(last, landed));
-            }
-            beyond = beyond.or(ahead.filter(elsewhere));
+        if let Some(landed) = self.descended(here, &last) {
+            return Ok(if here.count() == 0 { self.met(landed) } else { self.jumped(last, landed) });
         }
-        let follows = !self.setup().world.rubs();
-        let behind = if follows { self.behind_next_fold(here) } else { None };
-        if let Some(landed) = behind.and_then(|landed| self.goes_on(landed)) {
-            return Ok(self.jumped(last, landed));
-        }
-        // Where the new branch starts only just beyond the fold, it is entered there. And a rod that does not come to
-        // rest in the descent, but could be free, will be.
-        let landed = beyond.or_else(|| self.free(tau).filter(|_| here.count() > 0).map(|free| self.stepper.look(free)));
-        if let Some(landed) = landed {
-            let end = self.setup().path.length();
-            let is_beyond = landed.configuration.tau() > end + AT_END && tau <= end;
-            let back = if is_beyond { self.back_to_end(&landed.configuration) } else { None };
-            let landed = back.unwrap_or(landed);
-            let held_back = if follows { None } else { self.goes_on_landed(landed.clone(), rubbing) };
-            let landed = held_back.unwrap_or_else(|| self.stepper.point(landed));
-            return Ok(self.jumped(last, landed));
-        }
-        if let Some(landed) = self.slip_off(here) {
+        if let Some(landed) = self.slip_off(here, &last) {
             return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
-        if let Some(landed) = self.slide_over(here) {
+        if let Some(landed) = self.slide_over(here, &last) {
             return Ok(self.jumped(last, landed));
         }
-        self.reached = tau;
+        self.reached = here.tau();
         Err(if is_at_inflection(&self.setup().world, here) {
             StopReason::LineContact
-        } else if last.scan.is_by_an_end() {
+        } else if last.seen.scan.is_by_an_end() {
             StopReason::EndOfContour
         } else {
             StopReason::NoLanding
         })
     }
 
+    /// Where the descent leads from `here`, which is `last` without friction.
+    fn descended(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
+        let (tau, is_free) = (here.tau(), here.count() == 0);
+        // a free rod has no fold to get over
+        let kicks = TOUCH_KICK.into_iter().filter(|_| is_free).chain(KICK);
+        let mut beyond: SmallVec<[Seen; 4]> = SmallVec::new();
+        for kick in kicks {
+            // from inside an object the descent leads anywhere
+            if self.is_clamp_inside(tau + kick) {
+                continue;
+            }
+            let Landed { at_pose, ahead } = self.land(here, tau, kick);
+            if is_free {
+                // one that touches something and stays free has gone past it
+                let mut found = at_pose.into_iter().chain(ahead).filter(|landed| landed.configuration.count() > 0);
+                if let Some(met) = found.find_map(|landed| self.first_touch(&landed.configuration, (tau, kick))) {
+                    return Some(met);
+                }
+                continue;
+            }
+            // one that does not hold further on would only lead back
+            if let Some(landed) = at_pose.and_then(|landed| self.goes_on_landed(landed, last)) {
+                return Some(landed);
+            }
+            beyond.extend(ahead);
+        }
+        if !self.setup().world.rubs()
+            && let Some(landed) = self.behind_next_fold(here).and_then(|landed| self.goes_on_landed(landed, last))
+        {
+            return Some(landed);
+        }
+        // what was found further on is brought back; not on the way back itself
+        let is_silent = self.is_silent;
+        for ahead in beyond.iter().filter(|_| !is_silent) {
+            let back = self
+                .brought_back(&ahead.configuration, tau)
+                .filter(|back| !same(&self.setup().world, &back.configuration, here));
+            if let Some(landed) = back.and_then(|landed| self.goes_on_landed(landed, last)) {
+                return Some(landed);
+            }
+        }
+        // a rod that does not come to rest in the descent, but could be free, will be
+        let free = self.free(tau).filter(|_| !is_free).map(|free| self.stepper.look(free));
+        free.and_then(|free| self.goes_on_landed(free, last))
+    }
+
+    /// Where a free rod, found in contact within `kick` of `tau`, meets the first of its contacts: there that has no force yet.
+    fn first_touch(&mut self, found: &Configuration, (tau, kick): (f64, f64)) -> Option<Point> {
+        let touch = |j: usize| {
+            let mut alone = Configuration::free(found.tau());
+            let unknowns = [found.t(j), found.force(j), found.get(Unknown::ArcLength(j))];
+            alone.insert(0, Held::smooth(found.contacts[j].stretch, found.contacts[j].hold), unknowns);
+            let at = on(&mut self.stepper.corrector, alone, Unknown::Force(0), 0.0).ok()?;
+            (tau - BEFORE..=tau + kick).contains(&at.tau()).then_some(at)
+        };
+        let touched = (0..found.count()).filter_map(touch).min_by(|a, b| a.tau().total_cmp(&b.tau()))?;
+        let seen = self.stepper.look(touched);
+        if !seen.scan.is_outside() {
+            return None;
+        }
+        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None).ok().flatten() } else { self.goes_on(seen) }
+    }
+
+    /// The free rod has come to a first contact.
+    fn met(&mut self, touching: Point) -> Point {
+        let free = self.stepper.look(Configuration::free(touching.configuration.tau()));
+        let free = self.ended(free);
+        self.landed(EventKind::FirstContact, free, touching)
+    }
+
     /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
     /// which needs no descent to find.
-    fn slip(&mut self, last: &Configuration) -> Option<Point> {
-        let guess = beyond_corner(last.clone(), &self.setup().world)?;
-        self.slipped(last, guess)
+    fn slip(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
+        let guess = beyond_corner(here.clone(), &self.setup().world)?;
+        self.slipped(here, last, guess)
     }
 
     /// A corner slips off the tip, which rests on a piece beside it: where the descent, whose links are longer than such a slip,
     /// comes to no rest.
-    fn slip_off(&mut self, last: &Configuration) -> Option<Point> {
-        off_corner(last, &self.setup().world).into_iter().find_map(|guess| self.slipped(last, guess))
+    fn slip_off(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
+        off_corner(here, &self.setup().world).into_iter().find_map(|guess| self.slipped(here, last, guess))
     }
 
     /// The tip, come to a convex corner, slides over it until the rod lies on the corner: where the descent comes to no rest.
-    fn slide_over(&mut self, last: &Configuration) -> Option<Point> {
+    fn slide_over(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let guess = across_corner(last.clone(), &corrector.setup.world)?;
+        let guess = across_corner(here.clone(), &corrector.setup.world)?;
         let landed = settle(corrector, scanner, guess)?;
-        if same(&corrector.setup.world, &landed.configuration, last) {
+        if same(&corrector.setup.world, &landed.configuration, here) {
             return None;
         }
-        self.goes_on(landed)
+        self.goes_on_landed(landed, last)
     }
 
-    /// The equilibrium by `guess`, if it is a slip away from `last`.
-    fn slipped(&mut self, last: &Configuration, guess: Configuration) -> Option<Point> {
+    /// The equilibrium by `guess`, if it is a slip away from `here`, which is `last` without friction.
+    fn slipped(&mut self, here: &Configuration, last: &Ended, guess: Configuration) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let here = last.contacts.last()?.stretch;
+        let piece = here.contacts.last()?.stretch;
         let landed = settle(corrector, scanner, guess)?;
         let rubs = corrector.setup.world.rubs();
         let Seen { configuration, .. } = &landed;
         let n = configuration.count();
-        let tip = n.checked_sub(1).filter(|_| configuration.ends_at_tip() && n == last.count())?;
+        let tip = n.checked_sub(1).filter(|_| configuration.ends_at_tip() && n == here.count())?;
         let (world, there) = (&corrector.setup.world, configuration.contacts[tip].stretch);
-        let from = world.support(here, last.t(last.count() - 1));
+        let from = world.support(piece, here.t(here.count() - 1));
         let to = world.support(there, configuration.t(tip));
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
-        let slips = there != here && (SHORTEST_SLIP..FARTHEST_SLIP).contains(&way);
-        if slips && rubs {
+        if there == piece || !(SHORTEST_SLIP..FARTHEST_SLIP).contains(&way) {
+            return None;
+        }
+        if rubs {
             return self.goes_on_landed(landed, last);
         }
-        slips.then(|| self.stepper.point(landed))
+        let landed = self.stepper.point(landed);
+        self.fallen(last.energy, Some(landed))
     }
 
     /// Whether the clamp is inside an object at `tau`.
@@ -140,11 +185,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         inside
     }
 
-    fn jumped(&mut self, last: Seen, landed: Point) -> Point {
-        let before = &last.configuration;
+    fn jumped(&mut self, last: Ended, landed: Point) -> Point {
+        let before = &last.seen.configuration;
         let bears = (0..before.count()).any(|j| before.force(j) > UNLOADED);
         let kind = match (before.count(), landed.configuration.count()) {
-            (0, _) => EventKind::FirstContact,
             // with friction its contact may come to rest at the very pose where it ends
             (_, 0) if !bears => EventKind::Release,
             (_, 0) => EventKind::SnapOff,
@@ -153,8 +197,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.landed(kind, last, landed)
     }
 
-    fn landed(&mut self, kind: EventKind, last: Seen, landed: Point) -> Point {
-        let before = self.stepper.point(last);
+    fn landed(&mut self, kind: EventKind, last: Ended, landed: Point) -> Point {
+        let before = self.stepper.point(last.seen);
         self.announce(kind, &before, &landed);
         self.stepper.h = FIRST_STEP;
         landed

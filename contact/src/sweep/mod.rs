@@ -3,6 +3,7 @@
 mod begin;
 mod bistable;
 mod crowd;
+mod first_law;
 mod follower;
 mod landing;
 mod leg;
@@ -58,6 +59,8 @@ pub struct Sweep<'a, R = Rod> {
     ahead: Option<Step>,
     pending: VecDeque<Item>,
     over: bool,
+    /// Whether it only brings an equilibrium to another pose.
+    is_silent: bool,
     /// Path parameter of the last state, or of a snap without landing: how far it came.
     reached: f64,
     crowd: Crowd,
@@ -186,6 +189,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
             ahead: None,
             pending: VecDeque::new(),
             over: false,
+            is_silent: false,
             reached: 0.0,
             crowd: Crowd::NONE,
             dissipated: Some(0.0),

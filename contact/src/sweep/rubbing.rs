@@ -1,6 +1,7 @@
 //! What a sweep does where there is friction: it chooses the modes of the contacts anew at every event.
 
 use super::Sweep;
+use super::first_law::Ended;
 use super::landing::same;
 use crate::contact_set::Configuration;
 use crate::continuation::step::{Point, Seen, Step};
@@ -123,19 +124,23 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         Ok(point)
     }
 
-    /// The point from which the sweep goes on where the rod has landed: each contact is held back in the sense in which it came from the shape
-    /// of `last`. Where there is no such equilibrium, or where it is `last` itself, which has ended, all contacts stick without a force along the
-    /// contour.
-    pub(super) fn goes_on_landed(&mut self, landed: Seen, last: &Configuration) -> Option<Point> {
+    /// The point from which the sweep goes on where the rod has landed, with no more energy than it had in `last`. With friction each contact is
+    /// held back in the sense in which it came from there. Where there is no such equilibrium, or where it is `last` itself, which has ended, all
+    /// contacts stick without a force along the contour.
+    pub(super) fn goes_on_landed(&mut self, landed: Seen, last: &Ended) -> Option<Point> {
+        if !self.may_fall(last.energy, &landed.configuration) {
+            return None;
+        }
         if !self.setup().world.rubs() || landed.configuration.count() == 0 {
             return self.goes_on(landed);
         }
-        let before = last.segments(self.setup());
+        let before = last.seen.configuration.segments(self.setup());
         let dragged = drags(&mut self.stepper.corrector, &landed.configuration, &before);
-        let elsewhere = dragged.filter(|dragged| !same(&self.setup().world, dragged, last));
+        let elsewhere = dragged.filter(|dragged| !same(&self.setup().world, dragged, &last.seen.configuration));
         for way in elsewhere.into_iter().chain([smooth(&landed.configuration)]) {
             let seen = self.stepper.look(way);
-            if let Ok(Some(point)) = self.goes_on_rubbing(seen, None) {
+            let point = self.goes_on_rubbing(seen, None).ok().flatten();
+            if let Some(point) = self.fallen(last.energy, point) {
                 return Some(point);
             }
         }

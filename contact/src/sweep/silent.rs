@@ -2,15 +2,27 @@
 
 use super::{AT_END, Sweep};
 use crate::contact_set::Configuration;
-use crate::continuation::step::Seen;
+use crate::continuation::step::{Seen, Stepper};
 use crate::path::ClampPath;
-use rod_core::{PhysicalRod, Pose};
+use crate::scene::setup::Setup;
+use crate::snap::settle::settle;
+use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium that the rod comes to at `end` of another way of the clamp, from one on it. A `start` without contacts
     /// is the rod free there.
     pub(super) fn led(&mut self, way: ClampPath, start: Configuration, end: f64) -> Option<Configuration> {
-        let mut silent = Self::from_setup(self.setup().along(way), self.stepper.steps_left, f64::INFINITY, 0);
+        self.led_in(self.setup().along(way), start, end)
+    }
+
+    /// The same without friction.
+    fn led_without_friction(&mut self, way: ClampPath, start: Configuration, end: f64) -> Option<Configuration> {
+        self.led_in(self.setup().along(way).without_friction(), start, end)
+    }
+
+    fn led_in(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
+        let mut silent = Sweep::from_setup(setup, self.stepper.steps_left, f64::INFINITY, 0);
+        silent.is_silent = true;
         let mut point = Box::new(silent.at_rest(start));
         let led = loop {
             if point.configuration.tau() >= end {
@@ -26,20 +38,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         led
     }
 
-    /// A rod that has landed further on than the leg goes, at the end of the leg: the clamp goes back there. None where it does not
-    /// come to it.
-    pub(super) fn back_to_end(&mut self, landed: &Configuration) -> Option<Seen> {
+    /// An equilibrium without friction, found further along the path, brought back to `tau` with its clamp. None where it does not come to it.
+    pub(super) fn brought_back(&mut self, ahead: &Configuration, tau: f64) -> Option<Seen> {
         let path = &self.setup().path;
-        let (beyond, end) = (landed.tau(), path.length());
-        let Pose { x, y, phi } = path.rate(end);
-        // beyond its end a path is straight
-        let back = ClampPath::along(path.at(beyond), Pose { x: -x, y: -y, phi: -phi });
-        let mut start = landed.clone();
+        let way = ClampPath::between(path.at(ahead.tau()), path.at(tau))?;
+        let (mut start, end) = (ahead.clone(), way.length());
         start.set_tau(0.0);
-        let way = beyond - end;
-        let mut there = self.led(back, start, way).filter(|there| there.tau() <= way + AT_END)?;
-        there.set_tau(end);
-        let seen = self.stepper.look(there);
-        seen.scan.is_outside().then_some(seen)
+        let mut there = self.led_without_friction(way, start, end).filter(|there| there.tau() <= end + AT_END)?;
+        there.set_tau(tau);
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        settle(corrector, scanner, there)
     }
 }
