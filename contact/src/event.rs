@@ -66,7 +66,8 @@ pub struct Event {
     /// after a snap whose new branch starts only beyond the fold, where it starts, and at an inflection of the contour,
     /// where the two contacts are (were) 0.01 lengths of the rod apart. Poses to report in between have no state.
     pub after: State,
-    /// Work (J) that friction has taken since the sweep began; none without friction ([`Sweep::dissipated`](crate::Sweep::dissipated)).
+    /// Energy (J) lost since the sweep began by friction and jumps, that of this event included; none without friction
+    /// ([`Sweep::dissipated`](crate::Sweep::dissipated)).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub dissipated: Option<f64>,
 }

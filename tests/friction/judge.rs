@@ -394,7 +394,9 @@ impl Judge<'_> {
                     continue;
                 }
                 let ended = event.as_ref().and_then(|event| event.dissipated);
-                let said = ended.zip(begun).map(|(ended, begun)| ended - begun);
+                // the jump of the event is in it too
+                let jump = event.as_ref().map_or(0.0, |event| (event.before.energy - event.after.energy).max(0.0));
+                let said = ended.zip(begun).map(|(ended, begun)| ended - begun - jump);
                 if let Err(what) = self.energy(&stretch, said, &mut counts) {
                     wrong.push(format!("{what} before {place}"));
                 }

@@ -91,7 +91,9 @@ fn energy_is_balanced() {
     let balance = file["energy_balance"].as_array().unwrap();
     for (pair, known) in outcome.events.windows(2).zip(balance) {
         let energy = pair[1].before.energy - pair[0].after.energy;
-        let dissipated = pair[1].dissipated.unwrap() - pair[0].dissipated.unwrap();
+        // with what the rod loses in the jump at the end
+        let jump = pair[1].before.energy - pair[1].after.energy;
+        let dissipated = pair[1].dissipated.unwrap() - pair[0].dissipated.unwrap() - jump;
         // the first phase of the file begins 1e-4 beyond the touch; the last interval, at the fold, has its error of quadrature
         let (first, last) = (pair[0].from().contacts == 0, pair[1].to().contacts == 0);
         let tolerance = if last {

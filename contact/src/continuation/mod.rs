@@ -4,6 +4,7 @@
 mod between;
 pub(crate) mod branch;
 pub(crate) mod certify;
+mod dip;
 pub(crate) mod fold;
 pub(crate) mod inflection;
 mod joint;

@@ -4,6 +4,7 @@ use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::continuation::certify::Quality;
+use crate::continuation::dip::dips;
 use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::joint::{self, Passed};
@@ -245,6 +246,9 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             tangent.cosine(&from.tangent.direction) < LEAST_COSINE || turns_twice(from, &next, &tangent, length);
         if bends && !kink {
             return Err(Refused::TooLong(Obstacle::Turns));
+        }
+        if !kink && dips(&self.corrector.setup.world, from, (&next, &tangent), length) {
+            return Err(Refused::TooLong(Obstacle::NotLocated));
         }
         let mut scan = self.scan(&next);
         if next.count() == 0 {

@@ -36,14 +36,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let last = self.ended(last);
         // the descent and the solves about it know no friction
         let here = &smooth(&last.seen.configuration);
-        if let Some(landed) = self.slip(here, &last) {
+        // the links of the descent are longer than a slip over a corner
+        if let Some(landed) = self.slip(here, &last).or_else(|| self.slip_off(here, &last)) {
             return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
         if let Some(landed) = self.descended(here, &last) {
             return Ok(if here.count() == 0 { self.met(landed) } else { self.jumped(last, landed) });
-        }
-        if let Some(landed) = self.slip_off(here, &last) {
-            return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
         if let Some(landed) = self.slide_over(here, &last) {
             return Ok(self.jumped(last, landed));
@@ -135,8 +133,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.slipped(here, last, guess)
     }
 
-    /// A corner slips off the tip, which rests on a piece beside it: where the descent, whose links are longer than such a slip,
-    /// comes to no rest.
+    /// A corner slips off the tip, which rests on a piece beside it.
     fn slip_off(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
         off_corner(here, &self.setup().world).into_iter().find_map(|guess| self.slipped(here, last, guess))
     }

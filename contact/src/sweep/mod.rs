@@ -64,7 +64,7 @@ pub struct Sweep<'a, R = Rod> {
     /// Path parameter of the last state, or of a snap without landing: how far it came.
     reached: f64,
     crowd: Crowd,
-    /// Work (E I / L) that friction has taken so far; none where a point on the way was not found.
+    /// Energy (E I / L) that friction and jumps have taken so far; none where a point on the way was not found.
     dissipated: Option<f64>,
 }
 
@@ -254,10 +254,11 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         Ok(self)
     }
 
-    /// The work (J) that friction has taken so far: the integral of |f_t dg| over all contacts that slip. None without friction, and where it is
-    /// not known. The jump of a snap is not in it: what a rod loses there is the difference of the energies before and after.
+    /// The energy (J) that is lost so far: the work of friction, the integral of |f_t dg| over all contacts that slip, and at each jump, where
+    /// the clamp does no work, the energy before less that after. A rod jumps where its equilibrium ends (`snap`, `snap-off`, `slip-over`),
+    /// and where a contact begins to slip whose kinetic coefficient is below the static one. None without friction, and where it is not known.
     ///
-    /// Along a branch of equilibria the clamp's work is the change of the energy of rod and clamp plus this, within 1e-12 E I / L for each of the
+    /// The clamp's work is the change of the energy of rod and clamp plus this, within 1e-12 E I / L for each of the
     /// phases of a scan of the paper, but for the last step before a fold.
     pub fn dissipated(&self) -> Option<f64> {
         let energy = self.setup().rod.units().energy;

@@ -31,10 +31,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.reported += 1;
     }
 
+    /// Hands out an event. What the rod loses in it, its jump at a pose included, is dissipated.
     pub(super) fn announce(&mut self, kind: EventKind, before: &Point, after: &Point) {
+        let [before, after] = [before, after].map(|point| self.state(point));
+        if before.pose == after.pose {
+            let lost = (before.energy - after.energy).max(0.0) / self.setup().rod.units().energy;
+            self.dissipated = self.dissipated.map(|work| work + lost);
+        }
         let dissipated = self.dissipated();
-        let event = Event { kind, before: self.state(before), after: self.state(after), dissipated };
-        self.pending.push_back(Item::Event(event));
+        self.pending.push_back(Item::Event(Event { kind, before, after, dissipated }));
     }
 
     pub(super) fn state(&self, point: &Point) -> State {

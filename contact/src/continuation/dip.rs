@@ -1,0 +1,115 @@
+//! A condition of the contact set that holds at both ends of a step and breaks in between, by the cubic through values and rates there.
+
+use crate::contact_set::{Configuration, Unknown};
+use crate::continuation::branch::Tangent;
+use crate::continuation::step::Point;
+use crate::friction::{sense, slip_rate};
+use crate::scene::world::World;
+use rod_core::{Grip, arc_length};
+
+/// How far a cubic or its slope may go below zero, relative to 1 + its values: about the error of a cubic on a step. Conditions that break
+/// less are passed over, others halve the step.
+const ERROR: f64 = 1e-6;
+
+/// A quantity at both ends of a step, and its rates there times the length of the step.
+#[derive(Clone, Copy)]
+struct Course {
+    ends: [f64; 2],
+    rates: [f64; 2],
+}
+
+impl Course {
+    /// This quantity times `own` plus another one times `others`.
+    fn mixed(&self, own: f64, others: f64, other: &Self) -> Self {
+        let sum = |a: [f64; 2], b: [f64; 2]| [own * a[0] + others * b[0], own * a[1] + others * b[1]];
+        Self { ends: sum(self.ends, other.ends), rates: sum(self.rates, other.rates) }
+    }
+
+    /// Whether it is not negative at the ends, and is in between.
+    fn dips(&self) -> bool {
+        let Self { ends: [p, q], rates: [u, v] } = *self;
+        // without a fall at the start and a rise at the end its least value is at an end
+        if u >= 0.0 || v <= 0.0 {
+            return false;
+        }
+        let room = ERROR * (1.0 + p.abs().max(q.abs()));
+        let (b, c) = (3.0 * (q - p) - 2.0 * u - v, u + v - 2.0 * (q - p));
+        let value = |x: f64| p + x * (u + x * (b + x * c));
+        // the root of its slope u + 2 b x + 3 c x^2 at which that rises
+        let root = (b * b - 3.0 * c * u).max(0.0).sqrt();
+        let lowest = if b >= 0.0 { -u / (b + root) } else { (root - b) / (3.0 * c) };
+        p > -room && q > -room && value(lowest.clamp(0.0, 1.0)) < -room
+    }
+}
+
+/// Whether a rate, not negative at both ends of a step, is negative in between, where it leads as far as `way`, per length of the step.
+fn turns_back([first, last]: [f64; 2], way: f64) -> bool {
+    // first + x (linear + x square)
+    let (linear, square) = (6.0 * way - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * way);
+    let lowest = -0.5 * linear / square;
+    let room = ERROR * (1.0 + first.abs().max(last.abs()));
+    first > -room
+        && last > -room
+        && square > 0.0
+        && (0.0..1.0).contains(&lowest)
+        && first + 0.5 * linear * lowest < -room
+}
+
+/// Whether a contact would pull, leave its cone of friction or slip against its mode somewhere within a step, although it does not at its ends.
+pub(super) fn dips(world: &World<'_>, from: &Point, (next, after): (&Configuration, &Tangent), length: f64) -> bool {
+    let (here, size) = (&from.configuration, next.z.len());
+    let stretch = from.tangent.component(&after.direction);
+    let course = |i: usize| Course {
+        ends: [here.z[i], next.z[i]],
+        rates: [from.tangent.rate(i) * length, after.rate(i) / stretch * length],
+    };
+    (0..here.count()).any(|j| {
+        let force = course(Unknown::Force(j).index(size));
+        let rubs = match here.contacts[j].grip {
+            Grip::SMOOTH => false,
+            Grip::Sticks { .. } => {
+                let (friction, limit) =
+                    (course(here.friction_index(j)), world.coefficients(here.contacts[j].stretch).at_rest);
+                [1.0, -1.0].into_iter().any(|side| force.mixed(limit, side, &friction).dips())
+            }
+            Grip::Slips { ratio } => {
+                let forward = -ratio.signum();
+                let rates = [slip_rate(world, here, &from.tangent, j), slip_rate(world, next, after, j) / stretch];
+                turns_back(rates.map(|rate| forward * rate), forward * slipped(world, here, next, j) / length)
+            }
+        };
+        rubs || force.dips()
+    })
+}
+
+/// How far contact j has slipped from one point of a branch to another.
+fn slipped(world: &World<'_>, from: &Configuration, to: &Configuration, j: usize) -> f64 {
+    let stretch = from.contacts[j].stretch;
+    let along = arc_length(|t| world.support(stretch, t).speed, from.t(j), to.t(j));
+    let sense = sense(from, j, &world.support(stretch, from.t(j)));
+    along - if from.is_tip(j) { 0.0 } else { sense * (to.s(j) - from.s(j)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_that_touches_zero_does_not_dip() {
+        let parabola = |least: f64| Course { ends: [least + 0.25; 2], rates: [-1.0, 1.0] };
+        assert!(!parabola(0.0).dips() && !parabola(1e-3).dips() && parabola(-1e-3).dips());
+        // (x - 1/4)^2 (x + 1), shifted
+        let cubic = |least: f64| Course { ends: [least + 0.0625, least + 1.125], rates: [-0.4375, 3.5625] };
+        assert!(!cubic(0.0).dips() && cubic(-1e-3).dips());
+        // rising from zero, and falling to it
+        assert!(!Course { ends: [0.0, 1.0], rates: [1.0, 1.0] }.dips());
+        assert!(!Course { ends: [1.0, 0.0], rates: [-1.0, -1.0] }.dips());
+    }
+
+    #[test]
+    fn a_rate_that_is_negative_in_the_middle_turns_back() {
+        // r = 4 (x - 1/2)^2 - c leads 1/3 - c
+        let turns = |c: f64| turns_back([1.0 - c; 2], 1.0 / 3.0 - c);
+        assert!(!turns(0.0) && !turns(-0.1) && turns(0.01));
+    }
+}
