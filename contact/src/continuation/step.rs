@@ -462,7 +462,12 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             // to the last bit, so that the sweep knows it has arrived
             next.set_tau(target);
         }
-        let ahead = ahead?;
+        let mut ahead = ahead?;
+        if next.rubs() {
+            // whether a contact still slips forward hangs on more digits than those of a Jacobian that is one correction old
+            let own = if land { Condition::Fixed { unknown: Unknown::Path, value: target } } else { condition };
+            ahead = self.corrector.inspect(&next, own).0;
+        }
         if !joint::passes(&self.corrector, configuration, &next) {
             let length = tangent.along(&next.z, &configuration.z);
             return Some(Ahead { next, tangent: ahead, report, length, kink: false });

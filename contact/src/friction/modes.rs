@@ -87,6 +87,18 @@ pub(crate) fn anew<R: PhysicalRod>(
                 r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))
             );
         }
+        if std::env::var("DBG").is_ok() {
+            let r = all.rates(&modes);
+            eprintln!(
+                "modes tau {} {modes:?} stopped {stopped:?} first {first_contact} force {:?} fric {:?} rates {:?} slips {:?} admits {:?}",
+                configuration.tau(),
+                all.force,
+                all.friction,
+                r.as_ref().map(|r| r.as_slice().to_vec()),
+                r.as_ref().map(|r| (0..n).map(|j| all.slip(r, j)).collect::<Vec<_>>()),
+                r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))
+            );
+        }
         if all.rates(&modes).is_some_and(|rates| all.admits(&modes, &rates, first_contact, stopped)) {
             ways.push(with_modes(configuration, &modes, &all.friction));
         }
@@ -223,10 +235,10 @@ impl AllRates {
 
     /// Whether the motion by these modes holds for all contacts.
     fn admits(&self, modes: &[Mode], rates: &DVector<f64>, first_contact: bool, stopped: Option<usize>) -> bool {
-        // next to a fold all rates are large, and so is their rounding
-        let rounding = RATE * (1.0 + rates.amax());
         (0..self.n).all(|j| {
             let (force_rate, friction_rate) = (rates[3 * j + 1], rates[3 * self.n + j]);
+            // next to a fold rates are large, and so is their rounding
+            let rounding = |rates: [f64; 2]| RATE * (1.0 + rates[0].abs() + rates[1].abs());
             let is_new = self.force[j] < UNLOADED;
             if is_new && force_rate <= 0.0 {
                 return false;
@@ -239,7 +251,7 @@ impl AllRates {
                     if first_contact && slip.abs() < RATE {
                         return ratio.signum() == 1.0_f64.copysign(self.cos_chi);
                     }
-                    ratio.signum() * slip <= rounding
+                    ratio.signum() * slip <= rounding([rates[3 * j], rates[3 * j + 2]])
                 }
                 // a straight rod cannot stretch: its axial force is not determined, and what the equations give for it is rounding
                 Mode::Sticks if first_contact => false,
@@ -254,7 +266,8 @@ impl AllRates {
                         return false;
                     }
                     // a coefficient at rest larger than that of slipping lets the rod stick as it stops
-                    inside || 1.0_f64.copysign(friction) * friction_rate - self.limit[j] * force_rate <= rounding
+                    let leaves = 1.0_f64.copysign(friction) * friction_rate - self.limit[j] * force_rate;
+                    inside || leaves <= rounding([friction_rate, self.limit[j] * force_rate])
                 }
             }
         })
