@@ -502,7 +502,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)
     }
 
-    /// The fold that follows `from` closely, or the place where a contact lies down along a line, if there is one.
+    /// The fold that follows `from` closely, or the place where a contact lies down along a line or comes to rest, if there is one.
     fn end_ahead(&mut self, from: &Point) -> Option<Step> {
         let Point { configuration, tangent, .. } = from;
         for distance in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
@@ -511,14 +511,13 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             if !self.corrector.correct(&mut next, plane).status.is_solved() {
                 return None;
             }
-            let slope = self.corrector.inspect(&next, plane).0.by_tau();
-            let segments = next.segments(&self.corrector.setup);
-            if let Ok(Some((_, step))) = self.lies_down(from, &next, &segments) {
-                return Some(step);
-            }
-            if slope < 0.0 {
-                let fold = locate_fold(&mut self.corrector, configuration, tangent, &next)?;
-                return self.clean(fold).map(|fold| Step::Ended(Box::new(fold)));
+            let after = self.corrector.inspect(&next, plane).0;
+            let scan = self.scan(&next);
+            match self.first_transition(from, &next, &scan, (&after, false), distance) {
+                Ok(None) => {}
+                Ok(Some(Step::Changed(change))) if change.kind != EventKind::Stick => return None,
+                Ok(step) => return step,
+                Err(_) => return None,
             }
         }
         None

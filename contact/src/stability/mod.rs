@@ -52,6 +52,9 @@ const MOST_HALVINGS: u32 = 24;
 /// Curvature (1 / L) of a rod on a straight edge by rounding, with a condition number of 1e7.
 const FLAT: f64 = 1e-9;
 
+/// Arc length (L) behind a contact up to which a rod that is straight there must be straight at rest.
+const BESIDE: f64 = 1e-3;
+
 /// Number of points of the rod whose recurrences run at once.
 const LANES: usize = 4;
 /// One number a lane.
@@ -215,7 +218,7 @@ fn form(
         Hold::Tangent { offset } => {
             let kappa = offset.cos() * curvature_behind(rod, &shape.segments, (j, configuration.count()));
             let divisor = w - v * kappa;
-            if lies_flat(w, kappa) {
+            if w == 0.0 && is_straight(rod, configuration, (j, kappa)) {
                 Form::Flat
             } else if divisor > 0.0 {
                 let scale = f / divisor;
@@ -484,14 +487,22 @@ pub(crate) fn wraps<R: PhysicalRod>(
     configuration: &Configuration,
     segments: &[Segment],
 ) -> Option<usize> {
-    (0..configuration.count())
-        .find(|&j| bends(setup, configuration, segments, j).is_some_and(|(w, bent)| w <= bent && !lies_flat(w, bent)))
+    let rod = setup.rod.model();
+    (0..configuration.count()).find(|&j| {
+        bends(setup, configuration, segments, j).is_some_and(|(w, bent)| {
+            // an edge along which the rod bends neither way but by rounding
+            let grazes = w == 0.0 && bent.abs() < FLAT;
+            (w <= bent || grazes) && !(grazes && is_straight(rod, configuration, (j, bent)))
+        })
+    })
 }
 
-/// Whether the rod lies on a straight edge without bend: behind its last contact it is straight, and so it is up to a tip that
-/// only pushes along it.
-fn lies_flat(turning: f64, kappa: f64) -> bool {
-    turning == 0.0 && kappa.abs() < FLAT
+/// Whether the rod, of curvature `kappa` behind contact j, is straight there: behind its last contact a rod without natural curvature is, and so it
+/// is up to a tip that only pushes along it. One whose curvature merely vanishes at the contact is not.
+fn is_straight(rod: &impl RodModel, configuration: &Configuration, (j, kappa): (usize, f64)) -> bool {
+    let is_last = j + 1 == configuration.count();
+    let at_rest = || [0.0, BESIDE].map(|beyond| rod.natural_curvature((configuration.s(j) + beyond).min(1.0)));
+    kappa.abs() < FLAT && !(is_last && at_rest().iter().any(|natural| natural.abs() >= FLAT))
 }
 
 #[cfg(test)]

@@ -28,6 +28,7 @@ use crate::friction::Friction;
 use crate::path::Path;
 use crate::scene::setup::Setup;
 use crate::scene::way::Way;
+use crate::stability::wraps;
 use crate::state::State;
 use crowd::Crowd;
 use leg::{Leg, legs};
@@ -376,7 +377,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
                 let stopped = stopped(kind, &before, &after.configuration);
-                let onto = (kind == EventKind::Piece).then(|| after.configuration.clone());
+                let landing = after.configuration.clone();
+                let onto = (kind == EventKind::Piece).then(|| landing.clone());
                 let before = self.stepper.look(before);
                 let next = if self.setup().world.rubs() {
                     self.goes_on_rubbing(after, stopped)?
@@ -388,6 +390,10 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                         let before = self.stepper.point(before);
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
+                    }
+                    None if wraps(self.setup(), &landing, &landing.segments(self.setup())).is_some() => {
+                        self.reached = landing.tau();
+                        Err(StopReason::LineContact)
                     }
                     None if onto.is_some_and(|onto| self.is_held_at_border(&before.configuration, onto)) => {
                         Err(StopReason::RougherPiece)

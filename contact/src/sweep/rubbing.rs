@@ -7,8 +7,8 @@ use crate::contact_set::Configuration;
 use crate::continuation::step::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{Motion, anew, dissipated, drags, smooth};
-use rod_core::PhysicalRod;
+use crate::friction::{Motion, UNLOADED, anew, dissipated, drags, smooth};
+use rod_core::{Grip, PhysicalRod};
 
 /// Change of a force along the contour, relative to 1 + normal force, above which an equilibrium is solved anew.
 const CHANGED: f64 = 1e-9;
@@ -21,6 +21,16 @@ pub(super) fn stopped(kind: EventKind, before: &Configuration, after: &Configura
 /// Whether contact j slips before and sticks after.
 fn rests(before: &Configuration, after: &Configuration, j: usize) -> bool {
     after.contacts[j].grip.sticks() && !before.contacts[j].grip.sticks()
+}
+
+/// Number of contacts under a force that go on in another mode.
+fn changed(before: &Configuration, after: &Configuration) -> usize {
+    let changes = |j: &usize| match (before.contacts[*j].grip, after.contacts[*j].grip) {
+        (Grip::Sticks { .. }, Grip::Sticks { .. }) => false,
+        (Grip::Slips { ratio }, Grip::Slips { ratio: then }) => ratio * then <= 0.0,
+        _ => true,
+    };
+    (0..after.count()).filter(|j| before.force(*j) >= UNLOADED).filter(changes).count()
 }
 
 /// What happens to the modes of the contacts where the path turns, if anything does.
@@ -45,13 +55,14 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             Motion::Jams => return Err(StopReason::Jammed),
             Motion::TooMany => return Err(StopReason::Undetermined),
         };
-        // what slips goes on to slip where it can, although friction at rest could hold it
-        let mut ways: Vec<_> =
-            ways.into_iter().map(|way| (self.held_at_rest(&seen.configuration, &way), way)).collect();
-        ways.sort_by_key(|(held, _)| *held);
-        let mut found: Option<(usize, Point)> = None;
-        for (held, mut way) in ways {
-            if found.as_ref().is_some_and(|(fewest, _)| held > *fewest) {
+        // what slips goes on to slip where it can, although friction at rest could hold it; then a contact goes on as it did
+        let rank =
+            |way: &Configuration| (self.held_at_rest(&seen.configuration, way), changed(&seen.configuration, way));
+        let mut ways: Vec<_> = ways.into_iter().map(|way| (rank(&way), way)).collect();
+        ways.sort_by_key(|(rank, _)| *rank);
+        let mut found: Option<((usize, usize), Point)> = None;
+        for (rank, mut way) in ways {
+            if found.as_ref().is_some_and(|(least, _)| rank > *least) {
                 break;
             }
             // a coefficient that has changed at once moves the rod
@@ -65,7 +76,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 if found.is_some() {
                     return Err(StopReason::Undetermined);
                 }
-                found = Some((held, point));
+                found = Some((rank, point));
             }
         }
         Ok(found.map(|(_, point)| point))
