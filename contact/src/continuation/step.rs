@@ -17,7 +17,7 @@ use crate::gap::scan::{Scan, Scanner};
 use crate::scene::rod::Segment;
 use crate::scene::setup::Setup;
 use crate::stability::{clearance, wraps};
-use rod_core::{Clamp, Grip, PhysicalRod, Rod, RodModel, SolveReport};
+use rod_core::{Clamp, PhysicalRod, Rod, RodModel, SolveReport};
 use smallvec::SmallVec;
 
 /// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
@@ -588,24 +588,29 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         change.map(|change| Some(Step::Changed(change))).ok_or(NoTransition::NotLocated)
     }
 
-    /// Where a contact that slips comes to rest within the step to `next`, if one does.
+    /// Where the first contact that slips comes to rest within the step to `next`, if one does.
     fn stop_within(
         &mut self,
         from: &Point,
         next: &Configuration,
         tangent: &Tangent,
     ) -> Result<Option<Transition>, NoTransition> {
-        let Some(j) = reversed(&self.corrector.setup.world, next, tangent) else { return Ok(None) };
-        let Grip::Slips { ratio } = next.contacts[j].grip else { return Ok(None) };
-        let forward = |setup: &Setup<'_, R>, here: &Configuration, there: &Tangent| {
-            -ratio.signum() * slip_rate(&setup.world, here, there, j)
-        };
-        let at = locate_zero(&mut self.corrector, &from.configuration, &from.tangent, next, forward)
-            .ok_or(NoTransition::NotLocated)?;
-        let along = from.tangent.along(&at.z, &from.configuration.z);
-        let mut after = at.clone();
-        after.set_sticking(j, at.friction(j));
-        Ok(Some(Transition { kind: EventKind::Stick, before: at, after, along }))
+        let mut first: Option<Transition> = None;
+        let stopped: SmallVec<[(usize, f64); 2]> = reversed(&self.corrector.setup.world, next, tangent).collect();
+        for (j, ratio) in stopped {
+            let forward = |setup: &Setup<'_, R>, here: &Configuration, there: &Tangent| {
+                -ratio.signum() * slip_rate(&setup.world, here, there, j)
+            };
+            let at = locate_zero(&mut self.corrector, &from.configuration, &from.tangent, next, forward)
+                .ok_or(NoTransition::NotLocated)?;
+            let along = from.tangent.along(&at.z, &from.configuration.z);
+            if first.as_ref().is_none_or(|first| along < first.along) {
+                let mut after = at.clone();
+                after.set_sticking(j, at.friction(j));
+                first = Some(Transition { kind: EventKind::Stick, before: at, after, along });
+            }
+        }
+        Ok(first)
     }
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
@@ -642,7 +647,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         breaks(&self.corrector.setup.world, &probe, &scan.crossings, |_| holds = false);
         if probe.rubs() {
             let there = self.corrector.inspect(&probe, plane).0;
-            holds &= reversed(&self.corrector.setup.world, &probe, &there).is_none();
+            holds &= reversed(&self.corrector.setup.world, &probe, &there).next().is_none();
         }
         holds && self.is_stable(&probe, &scan)
     }

@@ -27,13 +27,17 @@ pub(crate) fn slip_rate(world: &World<'_>, configuration: &Configuration, tangen
     along - sense(configuration, j, &support) * tangent.rate_of(Unknown::ArcLength(j))
 }
 
-/// The first contact that slips against its friction's sense: it has stopped on the way here.
-pub(crate) fn reversed(world: &World<'_>, configuration: &Configuration, tangent: &Tangent) -> Option<usize> {
-    (0..configuration.count()).find(|&j| match configuration.contacts[j].grip {
+/// The contacts that slip against the sense of their friction, each with its f_t / f: they have stopped on the way here.
+pub(crate) fn reversed<'a>(
+    world: &'a World<'_>,
+    configuration: &'a Configuration,
+    tangent: &'a Tangent,
+) -> impl Iterator<Item = (usize, f64)> + 'a {
+    configuration.contacts.iter().enumerate().filter_map(|(j, held)| match held.grip {
         Grip::Slips { ratio } if ratio != 0.0 => {
-            ratio.signum() * slip_rate(world, configuration, tangent, j) > WRONG_WAY
+            (ratio.signum() * slip_rate(world, configuration, tangent, j) > WRONG_WAY).then_some((j, ratio))
         }
-        _ => false,
+        _ => None,
     })
 }
 
