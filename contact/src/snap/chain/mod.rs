@@ -214,10 +214,10 @@ impl Chain {
         guesses
     }
 
-    /// The force at each near node of the chain come to rest.
+    /// The force at each near node of the chain come to rest, or where it is after the last step: it has swung, and moves slowly by then.
     fn come_to_rest(&mut self, world: &World<'_>) -> Option<Vec<(Near, f64)>> {
         let (mut time_step, mut reach, mut work) = (TIME_STEP, REACH, MOST_WORK);
-        let mut longest = LONGEST_TIME_STEP;
+        let (mut longest, mut last) = (LONGEST_TIME_STEP, None);
         for taken in 0..MOST_STEPS {
             let (way, forces) = self.step(world, time_step, reach, &mut work)?;
             // what a slow chain cannot get to costs it nothing
@@ -233,7 +233,8 @@ impl Chain {
                 time_step *= 0.5;
                 longest = time_step;
             }
+            last = Some(forces);
         }
-        None
+        last
     }
 }
