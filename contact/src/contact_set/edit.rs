@@ -8,6 +8,8 @@ use rod_core::{Hold, Section};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
+/// Length (L) plus turn (rad) of a piece or corner that a contact passes within the rounding of a pose.
+const SLIVER: f64 = 1e-9;
 /// Rounding of an arc length (L).
 const AT_TIP: f64 = 1e-12;
 
@@ -35,6 +37,19 @@ pub(crate) fn onto_neighbour(
     configuration.contacts[j].stretch = next;
     configuration.set(Unknown::Parameter(j), enters);
     configuration
+}
+
+/// A contact that has come from one stretch onto another, that is shorter than [`SLIVER`], at the other end of that. None where there is no such
+/// contact, and where the contour ends.
+pub(crate) fn over_sliver(before: &Configuration, after: &Configuration, world: &World<'_>) -> Option<Configuration> {
+    let passes = |j: &usize| before.contacts[*j].stretch != after.contacts[*j].stretch;
+    let j = (0..before.count().min(after.count())).find(passes)?;
+    let sliver = after.contacts[j].stretch;
+    let upwards = world.neighbour(before.contacts[j].stretch, true) == Some(sliver);
+    let [from, to] = [false, true].map(|upper| world.support(sliver, world.border(sliver, upper)));
+    let length = (to.x - from.x).hypot(to.y - from.y) + (to.alpha - from.alpha).abs();
+    let beyond = world.neighbour(sliver, upwards).filter(|_| length < SLIVER)?;
+    Some(onto_neighbour(after.clone(), j, upwards, beyond, world))
 }
 
 /// The tip, at an end of its piece where there is a convex corner, on the piece beyond that: on the corner itself it cannot

@@ -25,6 +25,8 @@ const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
 const TOUCH_KICK: [f64; 2] = [1e-4, 5e-4];
 /// Bend (rad over the length) given to a straight rod that is met head-on: without one the chain does not buckle.
 const BEND: f64 = 0.05;
+/// Way (path parameter) behind the first touch of a flat contour at which the contact begins: its force is about this times 3 E I / L^2.
+const FLAT_WAY: f64 = 1e-9;
 /// Longest and shortest way (L) of a tip that slips over a corner. A longer way is reported as a snap; a shorter one would lead
 /// back at once.
 const FARTHEST_SLIP: f64 = 0.05;
@@ -71,8 +73,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             if is_free {
                 // one that touches something and stays free has gone past it
                 let mut found = at_pose.into_iter().chain(ahead).filter(|landed| landed.configuration.count() > 0);
-                if let Some(met) = found.find_map(|landed| self.first_touch(&landed.configuration, (tau, kick))) {
-                    return Some(met);
+                let met = found.find_map(|landed| {
+                    let ahead = landed.configuration;
+                    self.first_touch(&ahead, (tau, kick)).or_else(|| self.flat_touch(ahead, tau))
+                });
+                if met.is_some() {
+                    return met;
                 }
                 continue;
             }
@@ -116,6 +122,24 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if !seen.scan.is_outside() {
             return None;
         }
+        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None).ok().flatten() } else { self.goes_on(seen) }
+    }
+
+    /// A free rod that is met by a contour without curvature there: the touch has no isolated solution. The contact, found further on, is followed
+    /// back until its force is one of rounding.
+    fn flat_touch(&mut self, mut near: Configuration, tau: f64) -> Option<Point> {
+        let mut way = near.tau() - tau;
+        while way > FLAT_WAY {
+            way *= 0.1;
+            let mut nearer = near.clone();
+            nearer.set_tau(tau + way);
+            let Stepper { corrector, scanner, .. } = &mut self.stepper;
+            match settle(corrector, scanner, nearer).filter(|nearer| nearer.configuration.count() > 0) {
+                Some(nearer) => near = nearer.configuration,
+                None => break,
+            }
+        }
+        let seen = self.stepper.look(near);
         if self.setup().world.rubs() { self.goes_on_rubbing(seen, None).ok().flatten() } else { self.goes_on(seen) }
     }
 

@@ -19,7 +19,7 @@ pub use outcome::{Item, Outcome};
 pub use start::{Approach, Start, StartCandidate};
 
 use crate::contact_set::Configuration;
-use crate::contact_set::edit::beside_corner;
+use crate::contact_set::edit::{beside_corner, over_sliver};
 use crate::continuation::branch::Corrector;
 use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
 use crate::error::{ContactError, Stop, StopReason};
@@ -385,6 +385,10 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 } else {
                     self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside)))
                 };
+                let next = match next {
+                    None if kind == EventKind::Piece => self.beyond_sliver(&before.configuration, &landing)?,
+                    next => next,
+                };
                 match next {
                     Some(after) => {
                         let before = self.stepper.point(before);
@@ -410,6 +414,13 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 self.snap(*last).map(Box::new)
             }
         }
+    }
+
+    /// The point behind a piece or corner that is too small to follow, which a contact has come to from another one.
+    fn beyond_sliver(&mut self, before: &Configuration, after: &Configuration) -> Result<Option<Point>, StopReason> {
+        let Some(beyond) = over_sliver(before, after, &self.setup().world) else { return Ok(None) };
+        let seen = self.stepper.look(beyond);
+        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None) } else { Ok(self.goes_on(seen)) }
     }
 
     /// The point of a new contact set, if the sweep can go on with it.
