@@ -25,3 +25,4 @@ mod regression;
 mod rods;
 mod size;
 mod symmetry;
+mod transitions;

@@ -395,7 +395,8 @@ impl Judge<'_> {
                 }
                 let ended = event.as_ref().and_then(|event| event.dissipated);
                 // the jump of the event is in it too
-                let jump = event.as_ref().map_or(0.0, |event| (event.before.energy - event.after.energy).max(0.0));
+                let jumps = event.as_ref().filter(|event| event.before.pose == event.after.pose);
+                let jump = jumps.map_or(0.0, |event| (event.before.energy - event.after.energy).max(0.0));
                 let said = ended.zip(begun).map(|(ended, begun)| ended - begun - jump);
                 if let Err(what) = self.energy(&stretch, said, &mut counts) {
                     wrong.push(format!("{what} before {place}"));

@@ -395,7 +395,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
                     }
-                    None if wraps(self.setup(), &landing, &landing.segments(self.setup())).is_some() => {
+                    None if kind == EventKind::Piece && self.lies_down(&landing) => {
                         self.reached = landing.tau();
                         Err(StopReason::LineContact)
                     }
@@ -414,6 +414,11 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 self.snap(*last).map(Box::new)
             }
         }
+    }
+
+    /// Whether a contact lies along a line.
+    fn lies_down(&self, configuration: &Configuration) -> bool {
+        wraps(self.setup(), configuration, &configuration.segments(self.setup())).is_some()
     }
 
     /// The point behind a piece or corner that is too small to follow, which a contact has come to from another one.
