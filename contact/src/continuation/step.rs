@@ -618,7 +618,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         // the next transition may follow closely, but not at once
         point.tangent.by_tau() > 0.0
             && !runs_off(point)
-            && [1.0, 1e-2, 1e-4].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
+            && [1.0, 1e-2, 1e-4, 1e-6].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
     }
 
     /// The stable equilibrium a little way along the tangent of a point at a fold, if the pose grows on that way.

@@ -4,6 +4,7 @@ use super::Sweep;
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
 use crate::continuation::step::{Point, Seen};
+use crate::scene::rod::Segment;
 use rod_core::PhysicalRod;
 
 /// Gain of energy (E I / L), relative to 1 + the energy, that is rounding. Energies of two solutions at one pose agree to 1e-13.
@@ -19,6 +20,20 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn ended(&self, seen: Seen) -> Ended {
         let energy = energy(self.setup(), &seen.configuration);
         Ended { seen, energy }
+    }
+
+    /// The same with the work that the clamp does at most on its way to another equilibrium further on, where its reactions on the way are between
+    /// those at both ends.
+    pub(super) fn ended_pushed(&self, last: &Ended, ahead: &Configuration) -> Ended {
+        let (setup, from) = (self.setup(), &last.seen.configuration);
+        let [a, b] = [from.tau(), ahead.tau()].map(|tau| setup.path.at(tau));
+        let work = [from, ahead].map(|configuration| {
+            let Segment { start, a: along, b: across, .. } = configuration.segments(setup)[0];
+            // f0x = -B, f0y = A, m0z = -M
+            across * (a.x - b.x) + along * (b.y - a.y) + start.moment * (a.phi - b.phi)
+        });
+        let most = work[0].max(work[1]).max(0.0) * setup.rod.units().energy;
+        Ended { seen: last.seen.clone(), energy: last.energy + most }
     }
 
     /// Whether a rod with this energy (J) may come to another equilibrium by itself: energy of rod and clamp only falls.

@@ -103,6 +103,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 return Some(landed);
             }
         }
+        // where the new branch begins only just beyond, it is entered there
+        for ahead in beyond {
+            let pushed = self.ended_pushed(last, &ahead.configuration);
+            if let Some(landed) = self.goes_on_landed(ahead, &pushed) {
+                return Some(landed);
+            }
+        }
         // a rod that does not come to rest in the descent, but could be free, will be
         let free = self.free(tau).filter(|_| !is_free).map(|free| self.stepper.look(free));
         free.and_then(|free| self.goes_on_landed(free, last))
