@@ -20,7 +20,7 @@ const SCENES: [(&str, &str, usize); 14] = [
     ("ripples", "B BB BA B BA B BA B BB BA BBA BA B BB BBB BB BA BBA BBBA BBB BB BBB BBA BA BBA BB B A", 4),
     (
         "saw",
-        "B BA B BA B BB BBB BB BA B BB BBB BA B BB BBB BB BBA BB BBB BB BBB BB BBA BB BBB BB BBB BB BA BBA BB B",
+        "B BA B BA B BB BBB BB BA B BB BBB BA B BB BBB BB BBA BB BBB BB BBB BB BBA BB BBB BB BBB BB BA BBA BB B A",
         3,
     ),
     ("scallops", "A B BB BA B BB BA B BB BA BBA BA B BB BBB BB BA BBA BB BBB BB BBB BBA BBBA BBA BB BBB BB BA B", 4),

@@ -39,6 +39,19 @@ pub(crate) fn onto_neighbour(
     configuration
 }
 
+/// The contact sets with one contact that is at the border of its stretch on the next one.
+pub(crate) fn passed(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
+    let mut passed = SmallVec::new();
+    for (j, held) in configuration.contacts.iter().enumerate() {
+        for upwards in [false, true] {
+            let is_there = (configuration.t(j) - world.border(held.stretch, upwards)).abs() < SLIVER;
+            let next = world.neighbour(held.stretch, upwards).filter(|next| is_there && !world.is_notch(*next));
+            passed.extend(next.map(|next| onto_neighbour(configuration.clone(), j, upwards, next, world)));
+        }
+    }
+    passed
+}
+
 /// A contact that has come from one stretch onto another, that is shorter than [`SLIVER`], at the other end of that. None where there is no such
 /// contact, and where the contour ends.
 pub(crate) fn over_sliver(before: &Configuration, after: &Configuration, world: &World<'_>) -> Option<Configuration> {

@@ -2,7 +2,7 @@
 
 use super::Sweep;
 use super::first_law::Ended;
-use crate::contact_set::edit::{across_corner, beyond_corner, off_corner};
+use crate::contact_set::edit::{across_corner, beyond_corner, off_corner, passed};
 use crate::contact_set::{Configuration, Held, Unknown};
 use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::step::{BEFORE, FIRST_STEP, Point, Seen, Stepper};
@@ -38,12 +38,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let last = self.ended(last);
         // the descent and the solves about it know no friction
         let here = &smooth(&last.seen.configuration);
+        if let Some(lighter) = self.lightened(&last.seen.configuration) {
+            return Ok(self.landed(EventKind::Release, last, lighter));
+        }
         // the links of the descent are longer than a slip over a corner
         if let Some(landed) = self.slip(here, &last).or_else(|| self.slip_off(here, &last)) {
             return Ok(self.landed(EventKind::SlipOver, last, landed));
         }
         if let Some(landed) = self.descended(here, &last) {
-            return Ok(if here.count() == 0 { self.met(landed) } else { self.jumped(last, landed) });
+            return Ok(if here.count() == 0 { self.met(last, landed) } else { self.jumped(last, landed) });
         }
         if let Some(landed) = self.slide_over(here, &last) {
             return Ok(self.jumped(last, landed));
@@ -129,32 +132,50 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if !seen.scan.is_outside() {
             return None;
         }
-        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None).ok().flatten() } else { self.goes_on(seen) }
+        self.goes_on_from(seen).ok().flatten()
     }
 
     /// A free rod that is met by a contour without curvature there: the touch has no isolated solution. The contact, found further on, is followed
     /// back until its force is one of rounding.
-    fn flat_touch(&mut self, mut near: Configuration, tau: f64) -> Option<Point> {
-        let mut way = near.tau() - tau;
+    fn flat_touch(&mut self, near: Configuration, tau: f64) -> Option<Point> {
+        let (mut way, mut followed) = (near.tau() - tau, vec![near]);
         while way > FLAT_WAY {
             way *= 0.1;
-            let mut nearer = near.clone();
+            let mut nearer = followed[followed.len() - 1].clone();
             nearer.set_tau(tau + way);
             let Stepper { corrector, scanner, .. } = &mut self.stepper;
             match settle(corrector, scanner, nearer).filter(|nearer| nearer.configuration.count() > 0) {
-                Some(nearer) => near = nearer.configuration,
+                Some(nearer) => followed.push(nearer.configuration),
                 None => break,
             }
         }
-        let seen = self.stepper.look(near);
-        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None).ok().flatten() } else { self.goes_on(seen) }
+        followed.into_iter().rev().find_map(|near| {
+            let seen = self.stepper.look(near);
+            self.goes_on_from(seen).ok().flatten()
+        })
     }
 
     /// The free rod has come to a first contact.
-    fn met(&mut self, touching: Point) -> Point {
-        let free = self.stepper.look(Configuration::free(touching.configuration.tau()));
-        let free = self.ended(free);
+    fn met(&mut self, last: Ended, touching: Point) -> Point {
+        let there = self.stepper.look(Configuration::free(touching.configuration.tau()));
+        // a rod that is met head-on buckles: in contact it is only further on
+        let free = if there.scan.is_outside() { self.ended(there) } else { last };
         self.landed(EventKind::FirstContact, free, touching)
+    }
+
+    /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
+    /// that comes to lie flat on an edge.
+    fn lightened(&mut self, last: &Configuration) -> Option<Point> {
+        let mut lighter = last.clone();
+        (0..last.count()).rev().filter(|j| last.force(*j) < UNLOADED).for_each(|j| lighter.remove(j));
+        if lighter.count() == 0 || lighter.count() == last.count() {
+            return None;
+        }
+        let passed = passed(&lighter, &self.setup().world);
+        [lighter].into_iter().chain(passed).find_map(|lighter| {
+            let seen = self.stepper.look(lighter);
+            if seen.scan.is_outside() { self.goes_on_from(seen).ok().flatten() } else { None }
+        })
     }
 
     /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,

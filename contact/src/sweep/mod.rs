@@ -425,6 +425,11 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     fn beyond_sliver(&mut self, before: &Configuration, after: &Configuration) -> Result<Option<Point>, StopReason> {
         let Some(beyond) = over_sliver(before, after, &self.setup().world) else { return Ok(None) };
         let seen = self.stepper.look(beyond);
+        self.goes_on_from(seen)
+    }
+
+    /// The point from which the sweep goes on with the contacts of `seen`, with or without friction.
+    fn goes_on_from(&mut self, seen: Seen) -> Result<Option<Point>, StopReason> {
         if self.setup().world.rubs() { self.goes_on_rubbing(seen, None) } else { Ok(self.goes_on(seen)) }
     }
 
