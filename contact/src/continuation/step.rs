@@ -344,8 +344,12 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         let mut holds = true;
         breaks(&self.corrector.setup.world, &at, &[], |_| holds = false);
         let at = if holds { self.look(at) } else { return Err(NoTransition::NotLocated) };
+        // between contacts a rod without friction jumps to another place, if there is one
+        if j + 1 < next.count() && !next.rubs() {
+            return Ok(Some((along, Step::Ended(Box::new(at)))));
+        }
         // a rod that is bent at rest may go on along a line, from the contact to its tip
-        if j + 1 < next.count() || !self.may_part(&from.configuration) {
+        if !self.may_part(&from.configuration) {
             return Ok(Some((along, Step::Stopped(StopReason::LineContact, Box::new(at)))));
         }
         let parted = parted(&mut self.corrector, &at.configuration);

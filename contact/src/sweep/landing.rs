@@ -15,6 +15,7 @@ use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::snap::chain::Chain;
 use crate::snap::settle::{rest, settle};
+use crate::stability::clearance;
 use rod_core::{Grip, PhysicalRod, Pose};
 use smallvec::SmallVec;
 
@@ -27,6 +28,10 @@ const TOUCH_KICK: [f64; 2] = [1e-4, 5e-4];
 const BEND: f64 = 0.05;
 /// Way (path parameter) behind the first touch of a flat contour at which the contact begins: its force is about this times 3 E I / L^2.
 const FLAT_WAY: f64 = 1e-9;
+/// Force (E I / L^2) above which the contact there is one of a rod that is pushed along its axis.
+const FLAT_FORCE: f64 = 1e-5;
+/// Difference of the curvatures of contour and rod (1 / L) at a contact below which the rod touches along a line.
+const ALONG: f64 = 1e-6;
 /// Longest and shortest way (L) of a tip that slips over a corner. A longer way is reported as a snap; a shorter one would lead
 /// back at once.
 const FARTHEST_SLIP: f64 = 0.05;
@@ -52,7 +57,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             return Ok(self.jumped(last, landed));
         }
         self.reached = here.tau();
-        Err(if is_at_inflection(&self.setup().world, here) {
+        Err(if is_at_inflection(&self.setup().world, here) || self.is_along(here) {
             StopReason::LineContact
         } else if last.seen.scan.is_by_an_end() {
             StopReason::EndOfContour
@@ -149,6 +154,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 None => break,
             }
         }
+        // a rod that is met head-on bears its buckling load from the start: it is taken where it has buckled
+        if followed.last().is_some_and(|nearest| (0..nearest.count()).any(|j| nearest.force(j) > FLAT_FORCE)) {
+            followed.truncate(1);
+        }
         followed.into_iter().rev().find_map(|near| {
             let seen = self.stepper.look(near);
             self.goes_on_from(seen).ok().flatten()
@@ -161,6 +170,11 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         // a rod that is met head-on buckles: in contact it is only further on
         let free = if there.scan.is_outside() { self.ended(there) } else { last };
         self.landed(EventKind::FirstContact, free, touching)
+    }
+
+    /// Whether the rod is as curved as the contour at a contact, and touches it along a line.
+    fn is_along(&self, last: &Configuration) -> bool {
+        (0..last.count()).any(|j| clearance(self.setup(), last, j) < ALONG)
     }
 
     /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
