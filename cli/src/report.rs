@@ -13,7 +13,7 @@ impl<R: SceneRod> Scan<R> {
     pub fn report(&self) -> String {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
         let incomplete = if self.is_complete() { "" } else { "incomplete, " };
-        let phases = if self.is_empty() { "no phase".to_owned() } else { self.cycle().titled() };
+        let phases = if self.is_empty() { "no phase".to_owned() } else { self.titled_phases() };
         let mut text = format!("{}: {incomplete}{phases};", self.scene.name);
         text += &format!(" {}, {}\n", counted(states, "state"), counted(events, "event"));
         if let Some(note) = self.touches_nothing() {
@@ -31,6 +31,12 @@ impl<R: SceneRod> Scan<R> {
             text += &self.event_table();
         }
         text
+    }
+
+    /// The phases, and the name of their cycle if there is one, as in `free A B BB B A free (cycle C1 of Merker et al. 2020)`.
+    fn titled_phases(&self) -> String {
+        let name = self.cycle().name();
+        name.map_or_else(|| self.phases(), |name| format!("{} (cycle {name} of Merker et al. 2020)", self.phases()))
     }
 
     /// A line where the rod is free all along.

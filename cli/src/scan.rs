@@ -2,8 +2,8 @@
 
 use crate::interval::{self, Interval};
 use crate::{Cycle, Error, Interrupt, Interrupted, Scene, SceneRod};
-use vibrissa::Rod;
-use vibrissa::contact::{Item, Outcome};
+use vibrissa::contact::{Item, Outcome, Phase};
+use vibrissa::{Event, Rod, State};
 
 /// A scene and all its states and events.
 #[derive(Debug)]
@@ -70,9 +70,17 @@ impl<R: SceneRod> Scan<R> {
         self.outcome.states.is_empty() && self.outcome.events.is_empty()
     }
 
-    /// The phases in order.
+    /// The phases in order without the free rod before and after.
     pub fn cycle(&self) -> Cycle {
         Cycle::of(&self.outcome)
+    }
+
+    /// All phases in order, as in `free A B BB B A free`; those of the Python package.
+    pub fn phases(&self) -> String {
+        let first = self.outcome.states.first().map(State::phase);
+        let mut phases: Vec<Phase> = first.into_iter().chain(self.outcome.events.iter().map(Event::to)).collect();
+        phases.dedup();
+        phases.iter().map(Phase::to_string).collect::<Vec<_>>().join(" ")
     }
 
     /// The parts of the scan between transitions.

@@ -61,7 +61,7 @@ fn the_first_scene_is_swept_as_it_is_and_never_written_over_a_file() {
     let output = run(&["sweep", "scene.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let report = String::from_utf8(output.stdout).unwrap();
-    assert!(report.starts_with("scene: A B A; ") && output.stderr.is_empty(), "{report}");
+    assert!(report.starts_with("scene: free A B A free; ") && output.stderr.is_empty(), "{report}");
 
     fs::write(directory.path().join("mine.toml"), "mine").unwrap();
     let output = run(&["init", "mine.toml"]);

@@ -164,7 +164,7 @@ fn a_sweep_that_is_not_interrupted_says_that_it_is_complete() {
     staged.publish().unwrap();
     let summary = json(&directory.path().join("sweep.json"));
     assert_eq!((&summary["complete"], &summary["stop"]), (&true.into(), &Value::Null));
-    assert_eq!((&summary["states"], &summary["phases"]), (&41.into(), &"A B".into()));
+    assert_eq!((&summary["states"], &summary["phases"]), (&41.into(), &"free A B".into()));
 }
 
 #[test]

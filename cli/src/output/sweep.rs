@@ -69,7 +69,7 @@ impl<'a, R: SceneRod> From<&'a Scan<R>> for SweepRecord<'a> {
             start: scan.outcome.start.as_ref().map(StartRecord::new),
             states: scan.outcome.states.len(),
             events: scan.outcome.events.len(),
-            phases: (!scan.is_empty()).then(|| scan.cycle().to_string()),
+            phases: (!scan.is_empty()).then(|| scan.phases()),
         }
     }
 }

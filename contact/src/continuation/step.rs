@@ -66,6 +66,7 @@ pub(crate) const BEFORE: f64 = 1e-6;
 const LEAST_SWEPT: f64 = 1e-8;
 /// Way along the path, and longest way along the branch, after which a new contact set must still hold.
 const PROBE: f64 = 1e-6;
+const PROBES: [f64; 4] = [PROBE, 1e-8, 1e-10, 1e-12];
 const FARTHEST_PROBE: f64 = 1e-3;
 
 /// A point of the sweep: an equilibrium, what the scan saw, and where the branch goes from there.
@@ -619,10 +620,13 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        // the next transition may follow closely, but not at once
-        point.tangent.by_tau() > 0.0
-            && !runs_off(point)
-            && [1.0, 1e-2, 1e-4, 1e-6].into_iter().any(|part| self.holds_ahead(point, part * PROBE))
+        self.goes_on_for(point).is_some()
+    }
+
+    /// The longest of the [`PROBES`] along the path on which it holds, by its number: the next transition may follow closely, but not at once.
+    pub fn goes_on_for(&mut self, point: &Point) -> Option<usize> {
+        let leads_on = point.tangent.by_tau() > 0.0 && !runs_off(point);
+        leads_on.then(|| PROBES.into_iter().position(|way| self.holds_ahead(point, way))).flatten()
     }
 
     /// The stable equilibrium a little way along the tangent of a point at a fold, if the pose grows on that way.

@@ -122,7 +122,13 @@ fn choice<R: PhysicalRod>(
         return SmallVec::from_slice(&[Mode::Slips(0.0)]);
     }
     if rest * force < NEGLIGIBLE && force >= UNLOADED {
-        return SmallVec::from_slice(&[Mode::Slips(slips), Mode::Slips(-slips)]);
+        return match configuration.contacts[j].grip {
+            // it turns back at once
+            Grip::Sticks { .. } if stopped == Some(j) => {
+                SmallVec::from_slice(&[Mode::Slips(-slips.copysign(friction))])
+            }
+            _ => SmallVec::from_slice(&[Mode::Slips(slips), Mode::Slips(-slips)]),
+        };
     }
     if stopped == Some(j) {
         return SmallVec::from_slice(&[Mode::Sticks]);
@@ -285,8 +291,9 @@ pub(crate) fn resists<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Conf
     let n = configuration.count();
     let slipping: SmallVec<[(usize, f64); 6]> = (0..n)
         .filter_map(|j| match configuration.contacts[j].grip {
-            Grip::Slips { ratio } => Some((j, ratio)),
-            Grip::Sticks { .. } => None,
+            // a contact that bears nothing holds nothing back
+            Grip::Slips { ratio } if configuration.force(j) >= UNLOADED => Some((j, ratio)),
+            _ => None,
         })
         .collect();
     let k = slipping.len();

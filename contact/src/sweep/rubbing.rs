@@ -60,9 +60,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             |way: &Configuration| (self.held_at_rest(&seen.configuration, way), changed(&seen.configuration, way));
         let mut ways: Vec<_> = ways.into_iter().map(|way| (rank(&way), way)).collect();
         ways.sort_by_key(|(rank, _)| *rank);
-        let mut found: Option<((usize, usize), Point)> = None;
+        // the least rank, and of two such motions the one that holds for longer; none of two that hold as long
+        let mut found: Option<((usize, usize), usize, Option<Point>)> = None;
         for (rank, mut way) in ways {
-            if found.as_ref().is_some_and(|(least, _)| rank > *least) {
+            if found.as_ref().is_some_and(|(least, ..)| rank > *least) {
                 break;
             }
             // a coefficient that has changed at once moves the rod
@@ -72,14 +73,18 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             if moved && !self.stepper.corrector.at_pose(&mut way, tau).status.is_solved() {
                 continue;
             }
-            if let Some(point) = self.goes_on_as(way) {
-                if found.is_some() {
-                    return Err(StopReason::Undetermined);
-                }
-                found = Some((rank, point));
+            let point = self.at_rest(way);
+            let Some(probe) = self.stepper.goes_on_for(&point) else { continue };
+            match &mut found {
+                Some((_, longest, both)) if probe == *longest => *both = None,
+                Some((_, longest, _)) if probe > *longest => {}
+                _ => found = Some((rank, probe, Some(point))),
             }
         }
-        Ok(found.map(|(_, point)| point))
+        match found {
+            Some((.., None)) => Err(StopReason::Undetermined),
+            found => Ok(found.and_then(|(.., point)| point)),
+        }
     }
 
     /// Whether a side of the rod that comes from one piece to another would be taken back from there: on the rougher one it would roll back, on the
