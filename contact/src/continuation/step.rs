@@ -66,7 +66,8 @@ pub(crate) const BEFORE: f64 = 1e-6;
 const LEAST_SWEPT: f64 = 1e-8;
 /// Way along the path, and longest way along the branch, after which a new contact set must still hold.
 const PROBE: f64 = 1e-6;
-const PROBES: [f64; 4] = [PROBE, 1e-8, 1e-10, 1e-12];
+const PROBES: [f64; 3] = [PROBE, 1e-8, 1e-10];
+const SHORTEST_STICK: f64 = 1e-12;
 const FARTHEST_PROBE: f64 = 1e-3;
 
 /// A point of the sweep: an equilibrium, what the scan saw, and where the branch goes from there.
@@ -620,13 +621,19 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        self.goes_on_for(point).is_some()
+        self.holds_for(point, &PROBES).is_some()
     }
 
-    /// The longest of the [`PROBES`] along the path on which it holds, by its number: the next transition may follow closely, but not at once.
-    pub fn goes_on_for(&mut self, point: &Point) -> Option<usize> {
+    /// The same with friction: the number of the longest probe along the path on which it holds. A contact with hardly any friction sticks for a
+    /// short way only.
+    pub fn goes_on_rubbing_for(&mut self, point: &Point) -> Option<usize> {
+        self.holds_for(point, &[&PROBES[..], &[SHORTEST_STICK]].concat())
+    }
+
+    /// The next transition may follow closely, but not at once.
+    fn holds_for(&mut self, point: &Point, probes: &[f64]) -> Option<usize> {
         let leads_on = point.tangent.by_tau() > 0.0 && !runs_off(point);
-        leads_on.then(|| PROBES.into_iter().position(|way| self.holds_ahead(point, way))).flatten()
+        leads_on.then(|| probes.iter().position(|way| self.holds_ahead(point, *way))).flatten()
     }
 
     /// The stable equilibrium a little way along the tangent of a point at a fold, if the pose grows on that way.

@@ -63,42 +63,6 @@ pub(crate) fn anew<R: PhysicalRod>(
             modes.push(choice[number % choice.len()]);
             number /= choice.len();
         }
-        if std::env::var("DBG").is_ok() {
-            let r = all.rates(&modes);
-            eprintln!(
-                "modes tau {} {modes:?} stopped {stopped:?} first {first_contact} force {:?} fric {:?} rates {:?} slips {:?} admits {:?}",
-                configuration.tau(),
-                all.force,
-                all.friction,
-                r.as_ref().map(|r| r.as_slice().to_vec()),
-                r.as_ref().map(|r| (0..n).map(|j| all.slip(r, j)).collect::<Vec<_>>()),
-                r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))
-            );
-        }
-        if std::env::var("DBG").is_ok() {
-            let r = all.rates(&modes);
-            eprintln!(
-                "modes tau {} {modes:?} stopped {stopped:?} first {first_contact} force {:?} fric {:?} rates {:?} slips {:?} admits {:?}",
-                configuration.tau(),
-                all.force,
-                all.friction,
-                r.as_ref().map(|r| r.as_slice().to_vec()),
-                r.as_ref().map(|r| (0..n).map(|j| all.slip(r, j)).collect::<Vec<_>>()),
-                r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))
-            );
-        }
-        if std::env::var("DBG").is_ok() {
-            let r = all.rates(&modes);
-            eprintln!(
-                "modes tau {} {modes:?} stopped {stopped:?} first {first_contact} force {:?} fric {:?} rates {:?} slips {:?} admits {:?}",
-                configuration.tau(),
-                all.force,
-                all.friction,
-                r.as_ref().map(|r| r.as_slice().to_vec()),
-                r.as_ref().map(|r| (0..n).map(|j| all.slip(r, j)).collect::<Vec<_>>()),
-                r.as_ref().map(|r| all.admits(&modes, r, first_contact, stopped))
-            );
-        }
         if all.rates(&modes).is_some_and(|rates| all.admits(&modes, &rates, first_contact, stopped)) {
             ways.push(with_modes(configuration, &modes, &all.friction));
         }

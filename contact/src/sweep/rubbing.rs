@@ -74,7 +74,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 continue;
             }
             let point = self.at_rest(way);
-            let Some(probe) = self.stepper.goes_on_for(&point) else { continue };
+            let Some(probe) = self.stepper.goes_on_rubbing_for(&point) else { continue };
             match &mut found {
                 Some((_, longest, both)) if probe == *longest => *both = None,
                 Some((_, longest, _)) if probe > *longest => {}
