@@ -47,3 +47,4 @@ mod sharp_scenes;
 mod simulate;
 mod starts;
 mod studies;
+mod transitions;

@@ -57,13 +57,13 @@ impl PyEvent {
         PyState { state: self.event.before.clone() }
     }
 
-    /// The first state after; after a snap its pose may be up to 0.05 rod lengths further along the path.
+    /// The first state after; after a snap whose new branch begins only there its pose may be up to 0.05 rod lengths further along the path.
     #[getter]
     fn after(&self) -> PyState {
         PyState { state: self.event.after.clone() }
     }
 
-    /// The work (J) that friction has taken since the sweep began; None without friction.
+    /// The energy (J) lost since the sweep began by friction and jumps, that of this event included; None without friction.
     #[getter]
     fn dissipated(&self) -> Option<f64> {
         self.event.dissipated

@@ -84,14 +84,14 @@ impl PyScan {
     /// The transitions as a structured array.
     ///
     /// Fields: ``kind``; ``from``, ``to``: the phases; ``x0``, ``y0`` (m), ``phi0`` (rad), ``f0x``, ``f0y`` (N), ``m0z`` (N m) just
-    /// before; the same with ``_after`` just after; ``leg`` of the path; ``dissipated``: work of friction since the sweep began (J, NaN
-    /// without friction).
+    /// before; the same with ``_after`` just after; ``leg`` of the path; ``dissipated``: energy lost by friction and
+    /// jumps since the sweep began, that of the event included (J, NaN without friction).
     #[getter]
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.table(py, 1, || structured(py, EVENT, self.outcome.events.iter()))
     }
 
-    /// The work (J) that friction took; None without friction, and where it is not known. The jump of a snap is not in it.
+    /// The energy (J) lost by friction and jumps; None without friction, and where it is not known.
     #[getter]
     fn dissipated(&self) -> Option<f64> {
         self.outcome.dissipated

@@ -28,7 +28,7 @@ pub struct Outcome {
     pub states: Vec<State>,
     /// Transitions in order.
     pub events: Vec<Event>,
-    /// Work (J) that friction took ([`Sweep::dissipated`](crate::Sweep::dissipated)).
+    /// Energy (J) lost by friction and jumps ([`Sweep::dissipated`](crate::Sweep::dissipated)).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub dissipated: Option<f64>,
     /// Why it stopped before the end of the path, if it did.
