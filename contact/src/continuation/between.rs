@@ -2,9 +2,9 @@
 
 use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
-use crate::continuation::branch::{Condition, Tangent};
+use crate::continuation::branch::{Condition, LEAST_COSINE, Tangent};
 use crate::continuation::certify::{Quality, state};
-use crate::continuation::step::{LARGEST_CORRECTION, LARGEST_RESIDUAL, LEAST_COSINE, Point, STEEPEST, Step, Stepper};
+use crate::continuation::step::{LARGEST_CORRECTION, LARGEST_RESIDUAL, Point, STEEPEST, Step, Stepper};
 use crate::continuation::transition::breaks;
 use crate::gap::scan::{Scan, Scanner};
 use crate::state::State;

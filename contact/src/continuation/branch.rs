@@ -10,6 +10,9 @@ use rod_core::{
 #[cfg(feature = "argmin")]
 use rod_core::{TrustRegionSearch, solve_by_trust_region};
 
+/// Least cosine of the angle between the tangents at both ends of a step: 26 degrees. Sharper turns may be another branch.
+pub(crate) const LEAST_COSINE: f64 = 0.9;
+
 /// The condition that picks a point of the branch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Condition<'a> {

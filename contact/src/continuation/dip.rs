@@ -2,10 +2,9 @@
 
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::Tangent;
-use crate::continuation::step::Point;
-use crate::friction::{sense, slip_rate};
+use crate::friction::{slip, slip_rate};
 use crate::scene::world::World;
-use rod_core::{Grip, arc_length};
+use rod_core::Grip;
 
 /// How far a cubic or its slope may go below zero, relative to 1 + its values: about the error of a cubic on a step. Conditions that break
 /// less are passed over, others halve the step.
@@ -42,26 +41,33 @@ impl Course {
     }
 }
 
-/// Whether a rate, not negative at both ends of a step, is negative in between, where it leads as far as `way`, per length of the step.
-fn turns_back([first, last]: [f64; 2], way: f64) -> bool {
-    // first + x (linear + x square)
-    let (linear, square) = (6.0 * way - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * way);
+/// The least rate of a quantity within a step, by its rates at both ends and its mean rate: that of the cubic with these. None where
+/// it is at an end.
+pub(super) fn least_rate([first, last]: [f64; 2], mean: f64) -> Option<f64> {
+    // first + x (linear + x square) with x from 0 to 1
+    let (linear, square) = (6.0 * mean - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * mean);
     let lowest = -0.5 * linear / square;
+    (square > 0.0 && (0.0..1.0).contains(&lowest)).then_some(first + 0.5 * linear * lowest)
+}
+
+/// Whether a rate is not negative at both ends of a step, and is in between.
+fn turns_back([first, last]: [f64; 2], mean: f64) -> bool {
     let room = ERROR * (1.0 + first.abs().max(last.abs()));
-    first > -room
-        && last > -room
-        && square > 0.0
-        && (0.0..1.0).contains(&lowest)
-        && first + 0.5 * linear * lowest < -room
+    first > -room && last > -room && least_rate([first, last], mean).is_some_and(|least| least < -room)
 }
 
 /// Whether a contact would pull, leave its cone of friction or slip against its mode somewhere within a step, although it does not at its ends.
-pub(super) fn dips(world: &World<'_>, from: &Point, (next, after): (&Configuration, &Tangent), length: f64) -> bool {
-    let (here, size) = (&from.configuration, next.z.len());
-    let stretch = from.tangent.component(&after.direction);
+pub(super) fn dips(
+    world: &World<'_>,
+    (here, start): (&Configuration, &Tangent),
+    (next, after): (&Configuration, &Tangent),
+    length: f64,
+) -> bool {
+    let size = next.z.len();
+    let stretch = start.component(&after.direction);
     let course = |i: usize| Course {
         ends: [here.z[i], next.z[i]],
-        rates: [from.tangent.rate(i) * length, after.rate(i) / stretch * length],
+        rates: [start.rate(i) * length, after.rate(i) / stretch * length],
     };
     (0..here.count()).any(|j| {
         let force = course(Unknown::Force(j).index(size));
@@ -74,20 +80,12 @@ pub(super) fn dips(world: &World<'_>, from: &Point, (next, after): (&Configurati
             }
             Grip::Slips { ratio } => {
                 let forward = -ratio.signum();
-                let rates = [slip_rate(world, here, &from.tangent, j), slip_rate(world, next, after, j) / stretch];
-                turns_back(rates.map(|rate| forward * rate), forward * slipped(world, here, next, j) / length)
+                let rates = [slip_rate(world, here, start, j), slip_rate(world, next, after, j) / stretch];
+                turns_back(rates.map(|rate| forward * rate), forward * slip(world, here, next, j) / length)
             }
         };
         rubs || force.dips()
     })
-}
-
-/// How far contact j has slipped from one point of a branch to another.
-fn slipped(world: &World<'_>, from: &Configuration, to: &Configuration, j: usize) -> f64 {
-    let stretch = from.contacts[j].stretch;
-    let along = arc_length(|t| world.support(stretch, t).speed, from.t(j), to.t(j));
-    let sense = sense(from, j, &world.support(stretch, from.t(j)));
-    along - if from.is_tip(j) { 0.0 } else { sense * (to.s(j) - from.s(j)) }
 }
 
 #[cfg(test)]

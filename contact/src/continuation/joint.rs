@@ -1,8 +1,7 @@
 //! A contact that slides over a joint of the rod, where its stiffness or natural curvature jumps: there the branch has a kink.
 
 use crate::contact_set::{Configuration, Unknown};
-use crate::continuation::branch::{Condition, Corrector, Tangent};
-use crate::continuation::step::LEAST_COSINE;
+use crate::continuation::branch::{Condition, Corrector, LEAST_COSINE, Tangent};
 use rod_core::{PhysicalRod, RodModel, SolveReport};
 
 /// Arc length (L) behind a joint at which a contact counts as being on its other side.

@@ -2,9 +2,9 @@
 
 use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
-use crate::continuation::branch::{Condition, Corrector, Tangent};
+use crate::continuation::branch::{Condition, Corrector, LEAST_COSINE, Tangent};
 use crate::continuation::certify::Quality;
-use crate::continuation::dip::dips;
+use crate::continuation::dip::{dips, least_rate};
 use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::joint::{self, Passed};
@@ -41,8 +41,6 @@ const CLOSE: f64 = 4e-3;
 const JOINED: [f64; 7] = [0.0, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5];
 /// Distance (L) of the tip from two objects at which it counts as caught between them.
 const BETWEEN: f64 = 1e-6;
-/// Least cosine of the angle between the tangents at both ends of a step: 26 degrees. Sharper turns may be another branch.
-pub(crate) const LEAST_COSINE: f64 = 0.9;
 /// Largest distance of the corrected from the predicted point, over the length of the step. A larger one may be another branch.
 pub(crate) const LARGEST_CORRECTION: f64 = 0.3;
 /// Least d tau / d arclength at which a step aims at a pose. Closer to a fold the pose is ill-conditioned.
@@ -66,8 +64,8 @@ pub(crate) const BEFORE: f64 = 1e-6;
 const LEAST_SWEPT: f64 = 1e-8;
 /// Way along the path, and longest way along the branch, after which a new contact set must still hold.
 const PROBE: f64 = 1e-6;
-const PROBES: [f64; 3] = [PROBE, 1e-8, 1e-10];
-const SHORTEST_STICK: f64 = 1e-12;
+/// A contact with hardly any friction sticks for a short way only: with friction all these ways are tried, without it all but the last.
+const PROBES: [f64; 4] = [PROBE, 1e-8, 1e-10, 1e-12];
 const FARTHEST_PROBE: f64 = 1e-3;
 
 /// A point of the sweep: an equilibrium, what the scan saw, and where the branch goes from there.
@@ -249,7 +247,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         if bends && !kink {
             return Err(Refused::TooLong(Obstacle::Turns));
         }
-        if !kink && dips(&self.corrector.setup.world, from, (&next, &tangent), length) {
+        if !kink && dips(&self.corrector.setup.world, (&from.configuration, &from.tangent), (&next, &tangent), length) {
             return Err(Refused::TooLong(Obstacle::NotLocated));
         }
         let mut scan = self.scan(&next);
@@ -621,13 +619,12 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        self.holds_for(point, &PROBES).is_some()
+        self.holds_for(point, &PROBES[..3]).is_some()
     }
 
-    /// The same with friction: the number of the longest probe along the path on which it holds. A contact with hardly any friction sticks for a
-    /// short way only.
+    /// The same with friction: the number of the longest probe along the path on which it holds.
     pub fn goes_on_rubbing_for(&mut self, point: &Point) -> Option<usize> {
-        self.holds_for(point, &[&PROBES[..], &[SHORTEST_STICK]].concat())
+        self.holds_for(point, &PROBES)
     }
 
     /// The next transition may follow closely, but not at once.
@@ -674,11 +671,8 @@ fn turns_twice(from: &Point, next: &Configuration, after: &Tangent, length: f64)
     let chord = (next.tau() - from.configuration.tau()) / length;
     let stretch = from.tangent.component(&after.direction);
     let (first, last) = (from.tangent.by_tau(), after.by_tau() / stretch);
-    // its slope is first + x (linear + x square) with x from 0 to 1
-    let (linear, square) = (6.0 * chord - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * chord);
-    let lowest = -0.5 * linear / square;
     // next to buckling tau hardly changes at all, and falls by rounding
-    square > 0.0 && last > 0.0 && (0.0..1.0).contains(&lowest) && first + 0.5 * linear * lowest < -STEEPEST
+    last > 0.0 && least_rate([first, last], chord).is_some_and(|least| least < -STEEPEST)
 }
 
 /// Whether the last contact, which is at s = 1, is about to leave the rod.

@@ -22,5 +22,5 @@ pub use law::{Coefficients, Friction};
 
 pub(crate) use landed::{drags, smooth};
 pub(crate) use modes::{Motion, UNLOADED, anew, resists};
-pub(crate) use rates::{reversed, sense, slip_coordinate, slip_rate};
+pub(crate) use rates::{reversed, slip, slip_coordinate, slip_rate};
 pub(crate) use work::dissipated;

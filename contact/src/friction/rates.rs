@@ -1,4 +1,4 @@
-//! How fast contacts slip along a branch.
+//! How fast and how far contacts slip along a branch.
 
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::Tangent;
@@ -10,7 +10,7 @@ use rod_core::{Grip, Hold, Support, arc_length};
 const WRONG_WAY: f64 = 1e-10;
 
 /// 1 where the rod runs in the sense of the contour at contact j, -1 where it runs against it.
-pub(crate) fn sense(configuration: &Configuration, j: usize, support: &Support) -> f64 {
+fn sense(configuration: &Configuration, j: usize, support: &Support) -> f64 {
     match configuration.contacts[j].hold {
         Hold::Tangent { offset } => 1.0_f64.copysign(offset.cos()),
         Hold::Tip => 1.0_f64.copysign((configuration.slope(j) - support.alpha).cos()),
@@ -25,6 +25,16 @@ pub(crate) fn slip_rate(world: &World<'_>, configuration: &Configuration, tangen
         return along;
     }
     along - sense(configuration, j, &support) * tangent.rate_of(Unknown::ArcLength(j))
+}
+
+/// How far (L) contact j has slipped from one point of a branch to another.
+pub(crate) fn slip(world: &World<'_>, from: &Configuration, to: &Configuration, j: usize) -> f64 {
+    let stretch = from.contacts[j].stretch;
+    let along = arc_length(|t| world.support(stretch, t).speed, from.t(j), to.t(j));
+    if from.is_tip(j) {
+        return along;
+    }
+    along - sense(from, j, &world.support(stretch, from.t(j))) * (to.s(j) - from.s(j))
 }
 
 /// The contacts that slip against the sense of their friction, each with its f_t / f: they have stopped on the way here.

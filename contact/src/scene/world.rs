@@ -283,8 +283,11 @@ impl<'a> World<'a> {
 
     /// A parameter of a loop beyond its range as the one within, and the angle by which the tangent has turned on the rounds between.
     fn around(&self, stretch: usize, t: f64) -> Option<(f64, f64)> {
+        if !self.is_loop(stretch) {
+            return None;
+        }
         let Range { from, to } = self.range(stretch);
-        if !self.is_loop(stretch) || (from..=to).contains(&t) {
+        if (from..=to).contains(&t) {
             return None;
         }
         let rounds = ((t - from) / (to - from)).floor();
@@ -294,8 +297,7 @@ impl<'a> World<'a> {
 
     /// A parameter of a loop within its range; of another stretch as it is.
     fn within(&self, stretch: usize, t: f64) -> f64 {
-        let around = if self.has_loops { self.around(stretch, t) } else { None };
-        around.map_or(t, |(t, _)| t)
+        self.around(stretch, t).map_or(t, |(t, _)| t)
     }
 
     /// The range within which a contact is on the stretch: without ends on a closed curve that is smooth where it closes.

@@ -97,8 +97,9 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let back = (1..=tries).find_map(|k| free.free(-BACK.1 * k as f64))?;
         let way = ClampPath::between(way.at(back.tau()), way.at(0.0))?;
         let end = way.length();
-        let mut brought =
-            self.led(way, Configuration::free(0.0), end).filter(|brought| brought.tau() <= end + AT_END)?;
+        let mut brought = self
+            .led(self.setup().along(way), Configuration::free(0.0), end)
+            .filter(|brought| brought.tau() <= end + AT_END)?;
         brought.set_tau(0.0);
         // the pose is the same but for rounding
         let mut exact = brought.clone();

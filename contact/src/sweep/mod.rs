@@ -377,32 +377,31 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                 let beside = beside_corner(&after.configuration, &self.setup().world);
                 self.stepper.h = FIRST_STEP;
                 let stopped = stopped(kind, &before, &after.configuration);
-                let landing = after.configuration.clone();
-                let onto = (kind == EventKind::Piece).then(|| landing.clone());
+                let onto = (kind == EventKind::Piece).then(|| after.configuration.clone());
                 let before = self.stepper.look(before);
                 let next = if self.setup().world.rubs() {
                     self.goes_on_rubbing(after, stopped)?
                 } else {
                     self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside)))
                 };
-                let next = match next {
-                    None if kind == EventKind::Piece => self.beyond_sliver(&before.configuration, &landing)?,
-                    next => next,
+                let next = match (next, &onto) {
+                    (None, Some(onto)) => self.beyond_sliver(&before.configuration, onto)?,
+                    (next, _) => next,
                 };
-                match next {
-                    Some(after) => {
+                match (next, onto) {
+                    (Some(after), _) => {
                         let before = self.stepper.point(before);
                         self.announce(kind, &before, &after);
                         Ok(Box::new(after))
                     }
-                    None if kind == EventKind::Piece && self.lies_down(&landing) => {
-                        self.reached = landing.tau();
+                    (None, Some(onto)) if self.lies_down(&onto) => {
+                        self.reached = onto.tau();
                         Err(StopReason::LineContact)
                     }
-                    None if onto.is_some_and(|onto| self.is_held_at_border(&before.configuration, onto)) => {
+                    (None, Some(onto)) if self.is_held_at_border(&before.configuration, &onto) => {
                         Err(StopReason::RougherPiece)
                     }
-                    None => self.snap(before).map(Box::new),
+                    (None, _) => self.snap(before).map(Box::new),
                 }
             }
             Step::Stopped(reason, last) => {

@@ -89,20 +89,20 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// Whether a side of the rod that comes from one piece to another would be taken back from there: on the rougher one it would roll back, on the
     /// smoother one slip forward. Then it stays on their border, and the force along the contour lies between what the two can bear.
-    pub(super) fn is_held_at_border(&mut self, before: &Configuration, mut after: Configuration) -> bool {
+    pub(super) fn is_held_at_border(&mut self, before: &Configuration, after: &Configuration) -> bool {
         let world = &self.setup().world;
         let roughness = |here: &Configuration, j: usize| world.coefficients(here.contacts[j].stretch);
-        let passes = |j: &usize| !before.is_tip(*j) && roughness(before, *j) != roughness(&after, *j);
+        let passes = |j: &usize| !before.is_tip(*j) && roughness(before, *j) != roughness(after, *j);
         let Some(j) = (0..before.count().min(after.count())).find(passes) else { return false };
-        let (from, onto) = (roughness(before, j), roughness(&after, j));
+        let (from, onto) = (roughness(before, j), roughness(after, j));
         if onto.at_rest >= from.at_rest {
             return true;
         }
         // with the force that the smoother piece can bear it is back on the rougher one, or jumps away
-        let (range, tau) = (world.range(after.contacts[j].stretch), after.tau());
-        after.set_slipping(j, onto.slipping.copysign(after.friction(j)));
-        let is_solved = self.stepper.corrector.at_pose(&mut after, tau).status.is_solved();
-        is_solved && range.clamp(after.t(j)) != after.t(j)
+        let (range, mut slipping) = (world.range(after.contacts[j].stretch), after.clone());
+        slipping.set_slipping(j, onto.slipping.copysign(after.friction(j)));
+        let is_solved = self.stepper.corrector.at_pose(&mut slipping, after.tau()).status.is_solved();
+        is_solved && range.clamp(slipping.t(j)) != slipping.t(j)
     }
 
     /// Number of contacts that slip before, and after stick where friction at rest is larger than in motion.

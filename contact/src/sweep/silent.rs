@@ -9,18 +9,9 @@ use crate::snap::settle::settle;
 use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The equilibrium that the rod comes to at `end` of another way of the clamp, from one on it. A `start` without contacts
-    /// is the rod free there.
-    pub(super) fn led(&mut self, way: ClampPath, start: Configuration, end: f64) -> Option<Configuration> {
-        self.led_in(self.setup().along(way), start, end)
-    }
-
-    /// The same without friction.
-    fn led_without_friction(&mut self, way: ClampPath, start: Configuration, end: f64) -> Option<Configuration> {
-        self.led_in(self.setup().along(way).without_friction(), start, end)
-    }
-
-    fn led_in(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
+    /// The equilibrium that the rod comes to at `end` of another way of the clamp, that of `setup`, from one on it. A `start` without
+    /// contacts is the rod free there.
+    pub(super) fn led(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
         let mut silent = Sweep::from_setup(setup, self.stepper.steps_left, f64::INFINITY, 0);
         silent.is_silent = true;
         let mut point = Box::new(silent.at_rest(start));
@@ -44,7 +35,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let way = ClampPath::between(path.at(ahead.tau()), path.at(tau))?;
         let (mut start, end) = (ahead.clone(), way.length());
         start.set_tau(0.0);
-        let mut there = self.led_without_friction(way, start, end).filter(|there| there.tau() <= end + AT_END)?;
+        let setup = self.setup().along(way).without_friction();
+        let mut there = self.led(setup, start, end).filter(|there| there.tau() <= end + AT_END)?;
         there.set_tau(tau);
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         settle(corrector, scanner, there)
