@@ -72,9 +72,11 @@ fn a_way_cut_in_legs_is_the_same_way() {
 
 #[test]
 fn reported_poses_do_not_decide() {
-    let outcome = swept("step_b", 1.0);
-    for share in [0.5, 0.1, 5.0] {
-        assert_same(&outcome, &swept("step_b", share));
+    for name in ["step_a", "step_b"] {
+        let outcome = swept(name, 1.0);
+        for share in [0.5, 0.1, 5.0] {
+            assert_same(&outcome, &swept(name, share));
+        }
     }
 }
 

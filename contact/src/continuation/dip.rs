@@ -1,14 +1,24 @@
-//! A condition of the contact set that holds at both ends of a step and breaks in between, by the cubic through values and rates there.
+//! A condition of the contact set that holds at both ends of a step and breaks in between, by values and rates there.
 
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::Tangent;
 use crate::friction::{slip, slip_rate};
+use crate::scene::rod::Segment;
+use crate::scene::setup::Setup;
 use crate::scene::world::World;
-use rod_core::Grip;
+use crate::stability::clearance;
+use rod_core::{Grip, PhysicalRod};
 
 /// How far a cubic or its slope may go below zero, relative to 1 + its values: about the error of a cubic on a step. Conditions that break
 /// less are passed over, others halve the step.
 const ERROR: f64 = 1e-6;
+
+/// Part of a step over which the rate of a clearance is a difference.
+const NUDGE: f64 = 1e-4;
+/// Clearance (1 / L) above which it does not vanish within a step at whose ends it is about the same.
+const FAR: f64 = 1.0;
+/// Least clearance within a step, over the larger one at its ends, that the tangents at its ends tell for certain.
+const CERTAIN: f64 = 0.1;
 
 /// A quantity at both ends of a step, and its rates there times the length of the step.
 #[derive(Clone, Copy)]
@@ -22,6 +32,12 @@ impl Course {
     fn mixed(&self, own: f64, others: f64, other: &Self) -> Self {
         let sum = |a: [f64; 2], b: [f64; 2]| [own * a[0] + others * b[0], own * a[1] + others * b[1]];
         Self { ends: sum(self.ends, other.ends), rates: sum(self.rates, other.rates) }
+    }
+
+    /// Where the tangents at both ends meet, if it falls at the start and rises at the end. A convex course, with kinks or without, stays above.
+    fn least_of_tangents(&self) -> Option<f64> {
+        let Self { ends: [p, q], rates: [u, v] } = *self;
+        (u < 0.0 && v > 0.0).then(|| p + u * (q - v - p) / (u - v))
     }
 
     /// Whether it is not negative at the ends, and is in between.
@@ -88,6 +104,30 @@ pub(super) fn dips(
     })
 }
 
+/// Whether a contact might lie along a line somewhere within a step, although it does not at its ends. Its clearance has kinks: those of the
+/// curvature of a spline or a rod.
+pub(super) fn may_lie_down<R: PhysicalRod>(
+    setup: &Setup<'_, R>,
+    (here, start): (&Configuration, &Tangent),
+    (next, after): (&Configuration, &Tangent),
+    segments: [&[Segment]; 2],
+    length: f64,
+) -> bool {
+    let stretch = start.component(&after.direction);
+    (0..here.count()).any(|j| {
+        let ends = [(here, segments[0]), (next, segments[1])].map(|(at, cut)| clearance(setup, at, cut, j));
+        let [closer, farther] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        if farther < ERROR || closer >= FAR.max(0.5 * farther) {
+            return false;
+        }
+        let beside = |at: Configuration| clearance(setup, &at, &at.segments(setup), j);
+        let ahead = beside(start.ahead(here, NUDGE * length));
+        let back = beside(after.ahead(next, -NUDGE * length / stretch));
+        let rates = [ahead - ends[0], ends[1] - back].map(|change| change / NUDGE);
+        Course { ends, rates }.least_of_tangents().is_some_and(|least| least < CERTAIN * farther)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,5 +149,13 @@ mod tests {
         // r = 4 (x - 1/2)^2 - c leads 1/3 - c
         let turns = |c: f64| turns_back([1.0 - c; 2], 1.0 / 3.0 - c);
         assert!(!turns(0.0) && !turns(-0.1) && turns(0.01));
+    }
+    #[test]
+    fn the_tangents_of_a_kink_tell_its_depth() {
+        // |x - 1/4| + c, and what falls or rises only
+        let kink = |c: f64| Course { ends: [0.25 + c, 0.75 + c], rates: [-1.0, 1.0] };
+        assert!((kink(-0.01).least_of_tangents().unwrap() + 0.01).abs() < 1e-15);
+        assert!((kink(0.02).least_of_tangents().unwrap() - 0.02).abs() < 1e-15);
+        assert!(Course { ends: [1.0, 0.5], rates: [-1.0, -0.1] }.least_of_tangents().is_none());
     }
 }

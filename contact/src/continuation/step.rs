@@ -4,7 +4,7 @@ use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::{Condition, Corrector, LEAST_COSINE, Tangent};
 use crate::continuation::certify::Quality;
-use crate::continuation::dip::{dips, least_rate};
+use crate::continuation::dip::{dips, least_rate, may_lie_down};
 use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::{parted, run_together};
 use crate::continuation::joint::{self, Passed};
@@ -334,9 +334,17 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         from: &Point,
         next: &Configuration,
         segments: &[Segment],
+        (tangent, kink): (&Tangent, bool),
+        length: f64,
     ) -> Result<Option<(f64, Step)>, NoTransition> {
-        let Some(j) = wraps(&self.corrector.setup, next, segments) else { return Ok(None) };
-        let above = |setup: &Setup<'_, R>, here: &Configuration, _: &Tangent| clearance(setup, here, j);
+        let setup = &self.corrector.setup;
+        let Some(j) = wraps(setup, next, segments) else {
+            let (here, there) = ((&from.configuration, &from.tangent), (next, tangent));
+            let between = !kink && may_lie_down(setup, here, there, [from.scan.segments(), segments], length);
+            return if between { Err(NoTransition::NotLocated) } else { Ok(None) };
+        };
+        let above =
+            |setup: &Setup<'_, R>, here: &Configuration, _: &Tangent| clearance(setup, here, &here.segments(setup), j);
         let at = locate_zero(&mut self.corrector, &from.configuration, &from.tangent, next, above)
             .ok_or(NoTransition::NotLocated)?;
         let along = from.tangent.along(&at.z, &from.configuration.z);
@@ -564,7 +572,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
             first = Some(stopped);
         }
         // Nothing else may be broken there: a shorter step would have met it first.
-        if let Some((along, step)) = self.lies_down(from, next, scan.segments())?
+        if let Some((along, step)) = self.lies_down(from, next, scan.segments(), (tangent, kink), length)?
             && first.as_ref().is_none_or(|first| along < first.along)
         {
             return Ok(Some(step));

@@ -462,8 +462,8 @@ fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
     std::array::from_fn(f)
 }
 
-/// How the contour turns at contact j, and the curvature towards it of the rod, cut into `segments`, over its speed: (w, v kappa). Where the
-/// first is no more than the second, the rod touches along a line. None at the tip.
+/// The curvatures (1 / L) of the contour at contact j and, towards it, of the rod, cut into `segments`. Where the first is no more than the second,
+/// the rod touches along a line. None at the tip.
 fn bends<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     configuration: &Configuration,
@@ -473,12 +473,17 @@ fn bends<R: PhysicalRod>(
     let Hold::Tangent { offset } = configuration.contacts[j].hold else { return None };
     let Support { speed, turning, .. } = configuration.supports(&setup.world).support(j, configuration.t(j));
     let kappa = curvature_behind(setup.rod.model(), segments, (j, configuration.count()));
-    Some((turning, speed * offset.cos() * kappa))
+    Some((turning / speed, offset.cos() * kappa))
 }
 
-/// By how much the contour bends away from the rod at contact j: w - v kappa; infinite at the tip.
-pub(crate) fn clearance<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration, j: usize) -> f64 {
-    bends(setup, configuration, &configuration.segments(setup), j).map_or(f64::INFINITY, |(w, bent)| w - bent)
+/// By how much the contour is more curved (1 / L) than the rod, cut into `segments`, at contact j; infinite at the tip.
+pub(crate) fn clearance<R: PhysicalRod>(
+    setup: &Setup<'_, R>,
+    configuration: &Configuration,
+    segments: &[Segment],
+    j: usize,
+) -> f64 {
+    bends(setup, configuration, segments, j).map_or(f64::INFINITY, |(contour, rod)| contour - rod)
 }
 
 /// The contact where the rod, cut into `segments`, is as curved, towards the solid, as the contour that it lies on: it then touches along a line.
@@ -487,12 +492,12 @@ pub(crate) fn wraps<R: PhysicalRod>(
     configuration: &Configuration,
     segments: &[Segment],
 ) -> Option<usize> {
-    let rod = setup.rod.model();
+    let model = setup.rod.model();
     (0..configuration.count()).find(|&j| {
-        bends(setup, configuration, segments, j).is_some_and(|(w, bent)| {
+        bends(setup, configuration, segments, j).is_some_and(|(contour, rod)| {
             // an edge along which the rod bends neither way but by rounding
-            let grazes = w == 0.0 && bent.abs() < FLAT;
-            (w <= bent || grazes) && !(grazes && is_straight(rod, configuration, (j, bent)))
+            let grazes = contour == 0.0 && rod.abs() < FLAT;
+            (contour <= rod || grazes) && !(grazes && is_straight(model, configuration, (j, rod)))
         })
     })
 }

@@ -174,7 +174,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// Whether the rod is as curved as the contour at a contact, and touches it along a line.
     fn is_along(&self, last: &Configuration) -> bool {
-        (0..last.count()).any(|j| clearance(self.setup(), last, j) < ALONG)
+        let segments = last.segments(self.setup());
+        (0..last.count()).any(|j| clearance(self.setup(), last, &segments, j) < ALONG)
     }
 
     /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
