@@ -138,6 +138,11 @@ fn forces(scene: &Scene, state: &State) -> f64 {
     state.contacts.iter().map(|contact| contact.force * scene.length).sum()
 }
 
+/// Whether the tip is in a notch.
+fn in_notch(state: &State) -> bool {
+    state.contacts.last().is_some_and(|contact| contact.kind == ContactKind::Notch)
+}
+
 /// What an event gains or loses that it must not.
 fn energy(scene: &Scene, event: &Event) -> Vec<String> {
     let Event { kind, before, after, .. } = event;
@@ -160,9 +165,10 @@ fn energy(scene: &Scene, event: &Event) -> Vec<String> {
     if gained > ENERGY * scale + way * scale || way > FARTHEST {
         wrong.push(format!("gains {gained:e} from {} on {way:e} of the path", one.energy));
     }
-    // a contact that begins to slip is held back by less than before where the static coefficient is the larger one
+    // a contact that begins to slip, as a tip that leaves a notch does, is held back by less than before where the static coefficient is the larger one
     let loosens = |[at_rest, slipping]: &[f64; 2]| at_rest > slipping;
-    let loosened = *kind == EventKind::Slip && scene.friction.as_ref().is_some_and(|all| all.iter().any(loosens));
+    let begins = *kind == EventKind::Slip || (*kind == EventKind::Piece && in_notch(before) && !in_notch(after));
+    let loosened = begins && scene.friction.as_ref().is_some_and(|all| all.iter().any(loosens));
     let jumps = loosened || matches!(kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
     if !jumps && gained.abs() > 1e-7 * scale {
         wrong.push(format!("is no jump and loses {:e}", -gained));

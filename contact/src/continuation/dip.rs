@@ -6,8 +6,8 @@ use crate::friction::{slip, slip_rate};
 use crate::scene::rod::Segment;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
-use crate::stability::clearance;
-use rod_core::{Grip, PhysicalRod};
+use crate::stability::{bends, clearance};
+use rod_core::{Grip, PhysicalRod, Support};
 
 /// How far a cubic or its slope may go below zero, relative to 1 + its values: about the error of a cubic on a step. Conditions that break
 /// less are passed over, others halve the step.
@@ -15,8 +15,10 @@ const ERROR: f64 = 1e-6;
 
 /// Part of a step over which the rate of a clearance is a difference.
 const NUDGE: f64 = 1e-4;
-/// Clearance (1 / L) above which it does not vanish within a step at whose ends it is about the same.
+/// Clearance (1 / L) above which it does not vanish within a step at whose ends it is about the same, unless the contour has a hollow between them.
 const FAR: f64 = 1.0;
+/// Ratio of curvatures of the contour that tells such a hollow.
+const FLATTER: f64 = 0.9;
 /// Least clearance within a step, over the larger one at its ends, that the tangents at its ends tell for certain.
 const CERTAIN: f64 = 0.1;
 
@@ -104,6 +106,16 @@ pub(super) fn dips(
     })
 }
 
+/// Whether the contour is less curved (1 / L) halfway between the places of contact j at both ends of a step than the `least` at these: it has a
+/// hollow there, or a flat part between bumps.
+fn flattens(world: &World<'_>, here: &Configuration, next: &Configuration, (j, least): (usize, f64)) -> bool {
+    let halfway = || world.support(here.contacts[j].stretch, 0.5 * (here.t(j) + next.t(j)));
+    least > 0.0 && {
+        let Support { turning, speed, .. } = halfway();
+        turning < FLATTER * least * speed
+    }
+}
+
 /// Whether a contact might lie along a line somewhere within a step, although it does not at its ends. Its clearance has kinks: those of the
 /// curvature of a spline or a rod.
 pub(super) fn may_lie_down<R: PhysicalRod>(
@@ -115,9 +127,13 @@ pub(super) fn may_lie_down<R: PhysicalRod>(
 ) -> bool {
     let stretch = start.component(&after.direction);
     (0..here.count()).any(|j| {
-        let ends = [(here, segments[0]), (next, segments[1])].map(|(at, cut)| clearance(setup, at, cut, j));
+        let at_ends = [bends(setup, here, segments[0], j), bends(setup, next, segments[1], j)];
+        let [Some(first), Some(last)] = at_ends else { return false };
+        let ends = [first, last].map(|(contour, rod)| contour - rod);
         let [closer, farther] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        if farther < ERROR || closer >= FAR.max(0.5 * farther) {
+        let is_far =
+            || closer >= FAR.max(0.5 * farther) && !flattens(&setup.world, here, next, (j, first.0.min(last.0)));
+        if farther < ERROR || is_far() {
             return false;
         }
         let beside = |at: Configuration| clearance(setup, &at, &at.segments(setup), j);

@@ -64,8 +64,10 @@ pub(crate) const BEFORE: f64 = 1e-6;
 const LEAST_SWEPT: f64 = 1e-8;
 /// Way along the path, and longest way along the branch, after which a new contact set must still hold.
 const PROBE: f64 = 1e-6;
-/// A contact with hardly any friction sticks for a short way only: with friction all these ways are tried, without it all but the last.
-const PROBES: [f64; 4] = [PROBE, 1e-8, 1e-10, 1e-12];
+const PROBES: [f64; 3] = [PROBE, 1e-8, 1e-10];
+/// The same with friction. A contact with hardly any sticks for a short way only; its force changes so fast that a longer probe fails, and
+/// a shorter one tells rounding.
+const RUBBING_PROBES: [f64; 5] = [PROBE, 1e-7, 1e-8, 1e-10, 1e-12];
 const FARTHEST_PROBE: f64 = 1e-3;
 
 /// A point of the sweep: an equilibrium, what the scan saw, and where the branch goes from there.
@@ -627,12 +629,12 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
 
     /// Whether the sweep can go on with a new contact set: whether it still holds a little further along the path.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        self.holds_for(point, &PROBES[..3]).is_some()
+        self.holds_for(point, &PROBES).is_some()
     }
 
     /// The same with friction: the number of the longest probe along the path on which it holds.
     pub fn goes_on_rubbing_for(&mut self, point: &Point) -> Option<usize> {
-        self.holds_for(point, &PROBES)
+        self.holds_for(point, &RUBBING_PROBES)
     }
 
     /// The next transition may follow closely, but not at once.

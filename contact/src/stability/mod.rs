@@ -464,7 +464,7 @@ fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
 
 /// The curvatures (1 / L) of the contour at contact j and, towards it, of the rod, cut into `segments`. Where the first is no more than the second,
 /// the rod touches along a line. None at the tip.
-fn bends<R: PhysicalRod>(
+pub(crate) fn bends<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     configuration: &Configuration,
     segments: &[Segment],
