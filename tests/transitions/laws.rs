@@ -11,7 +11,14 @@ use vibrissa::contact::{Item, Stop};
 /// Difference of poses (L, rad) of one event in two frames from which on it counts.
 const SAME_POSE: f64 = 1e-10;
 
-fn each(seeds: std::ops::Range<u64>, wrong: impl Fn(u64, &Scene, &[Result<Item, Stop>]) -> Vec<String> + Sync) {
+/// Scenes whose events once depended on frame, legs or step: a hollow of a spline within a step (three), a stop at which the force changes fast
+/// (two), a contact that lies down within a step.
+const ONCE_DIFFERENT: [u64; 6] = [500_276, 500_859, 501_612, 500_064, 500_651, 326];
+
+fn each(
+    seeds: impl IntoParallelIterator<Item = u64>,
+    wrong: impl Fn(u64, &Scene, &[Result<Item, Stop>]) -> Vec<String> + Sync,
+) {
     let wrong: Vec<String> = seeds
         .into_par_iter()
         .flat_map_iter(|seed| {
@@ -30,7 +37,7 @@ fn no_transition_gains_energy_and_no_contact_moves_against_its_mode() {
 
 #[test]
 fn events_do_not_depend_on_frame_legs_or_step() {
-    each(0..24, |_, scene, items| {
+    each((0..24).chain(ONCE_DIFFERENT).collect::<Vec<_>>(), |_, scene, items| {
         let own = Run::of(scene, &Frame::OWN, items);
         let differs = |(name, run): &(&str, Run)| match own.differs(run) {
             Ok(off) => (off > SAME_POSE).then(|| format!("{name}: poses differ by {off:e}")),
