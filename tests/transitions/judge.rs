@@ -52,7 +52,7 @@ impl Shape {
             let rate = |at: &At, s: f64| {
                 let moment = origin.2 + a * (at.x - origin.0) + b * (at.y - origin.1);
                 // one side of a joint
-                let (stiffness, natural) = scene.material.at(s.clamp(points[points.len() - 1].0 + 1e-13, to - 1e-13));
+                let (stiffness, natural) = scene.material.at(s.max(points[points.len() - 1].0 + 1e-13).min(to - 1e-13));
                 let phi = moment / stiffness + natural;
                 At { x: at.phi.cos(), y: at.phi.sin(), phi, energy: 0.5 * moment * moment / stiffness }
             };

@@ -15,6 +15,9 @@ const SAME_POSE: f64 = 1e-10;
 /// (two), a contact that lies down within a step.
 const ONCE_DIFFERENT: [u64; 6] = [500_276, 500_859, 501_612, 500_064, 500_651, 326];
 
+/// Scenes in which a contact once began to slip and pushed another one against its mode, which gave energy to the rod.
+const ONCE_GAINED: [u64; 4] = [700_455, 700_690, 700_831, 701_286];
+
 fn each(
     seeds: impl IntoParallelIterator<Item = u64>,
     wrong: impl Fn(u64, &Scene, &[Result<Item, Stop>]) -> Vec<String> + Sync,
@@ -32,7 +35,7 @@ fn each(
 
 #[test]
 fn no_transition_gains_energy_and_no_contact_moves_against_its_mode() {
-    each(0..120, |_, scene, items| faults(scene, items));
+    each((0..120).chain(ONCE_GAINED).collect::<Vec<_>>(), |_, scene, items| faults(scene, items));
 }
 
 #[test]
@@ -83,12 +86,16 @@ struct Outcome {
     events: usize,
 }
 
-/// `SEEDS=0..1000 cargo test -p vibrissa --test suite transitions::laws::many -- --ignored --nocapture`; with `FRAMES=1` each scene in all frames.
+/// `SEEDS=0..1000 cargo test -p vibrissa --test suite transitions::laws::many -- --ignored --nocapture`; with `FRAMES=1` each scene in all frames. Single
+/// seeds as `SEEDS=89,293`.
 #[test]
 #[ignore = "takes minutes"]
 fn many() {
     let seeds = std::env::var("SEEDS").unwrap_or_else(|_| "0..1000".into());
-    let (from, to) = seeds.split_once("..").unwrap();
+    let seeds: Vec<u64> = match seeds.split_once("..") {
+        Some((from, to)) => (from.parse().unwrap()..to.parse().unwrap()).collect(),
+        None => seeds.split(',').map(|seed| seed.parse().unwrap()).collect(),
+    };
     let in_frames = std::env::var("FRAMES").is_ok();
     let one = |seed: u64| {
         let scene = scene(seed);
@@ -108,7 +115,6 @@ fn many() {
         let (rubs, events) = (scene.friction.is_some(), own.count());
         Outcome { rubs, end: own.end, wrong, differs, scatter, time, events }
     };
-    let seeds: std::ops::Range<u64> = from.parse().unwrap()..to.parse().unwrap();
     let all: Vec<Outcome> = seeds.into_par_iter().map(one).collect();
     for rubs in [false, true] {
         let these: Vec<&Outcome> = all.iter().filter(|outcome| outcome.rubs == rubs).collect();
@@ -125,7 +131,7 @@ fn many() {
             count(&|outcome| !outcome.wrong.is_empty()),
             count(&|outcome| !outcome.differs.is_empty()),
             count(&|outcome| outcome.differs.is_empty() && outcome.scatter > SAME_POSE),
-            times[times.len() - 1] / times[times.len() / 2],
+            times.last().zip(times.get(times.len() / 2)).map_or(0.0, |(last, median)| last / median),
         );
     }
     for what in all.iter().flat_map(|outcome| outcome.wrong.iter().chain(&outcome.differs)) {

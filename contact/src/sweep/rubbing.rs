@@ -4,6 +4,7 @@ use super::Sweep;
 use super::first_law::Ended;
 use super::landing::same;
 use crate::contact_set::Configuration;
+use crate::continuation::certify::energy;
 use crate::continuation::step::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
@@ -71,6 +72,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 .any(|j| (way.friction(j) - seen.configuration.friction(j)).abs() > CHANGED * (1.0 + way.force(j)));
             let tau = way.tau();
             if moved && !self.stepper.corrector.at_pose(&mut way, tau).status.is_solved() {
+                continue;
+            }
+            // a contact that would go against its mode on the way there takes no energy but gives some
+            if moved && !self.may_fall(energy(self.setup(), &seen.configuration), &way) {
                 continue;
             }
             let point = self.at_rest(way);
