@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scan = Scan::run(scene)?;
     let samples: Vec<Sample> =
         scan.outcome.states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();
-    let found = reconstruct(&scan.scene.rod, &samples, &Settings::default())?;
+    let found = reconstruct(scan.scene.rod.at_clamp(), &samples, &Settings::default())?;
     let way = |index: usize| samples.get(index).map_or(f64::NAN, |at| 1e3 * (at.pose.x - start.x).abs());
     let line = |value: &dyn Fn(usize) -> f64| -> Line {
         (0..samples.len()).step_by(20).map(|index| (way(index), value(index))).collect()

@@ -2,21 +2,17 @@
 
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::reconstruction::{budget, read};
-use crate::{UNFINISHED, read_any, read_setup, say, scan_of, signals, stopped, warn};
+use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, stopped, warn};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::Settings;
 use vibrissa_cli::{
-    BudgetStudy, Error, OutputError, Recording, RodCalibration, Setup, Staged, read_known_rod, read_noise,
+    BudgetStudy, Error, OutputError, Recording, RodCalibration, Setup, Staged, read_noise, read_uniform_rod,
 };
 
 /// What may be done with a rod that `calibrate` does not take.
 const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa reconstruct --rod` takes any \
      rod, as it is";
-
-/// What may be done with a scene that `budget` does not take.
-const NOT_EXPECTED: &str = "`budget` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa simulate --noise` and `vibrissa \
-     reconstruct --truth` show what noise does to the contacts of any rod";
 
 pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
     let Calibrate { recordings, rod, setup, noise, free, friction, out, moved, written } = arguments;
@@ -24,21 +20,21 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
     if crate::is_standard(&out) {
         return Err(OutputError::NoFile { file: out }.into());
     }
-    let given = read_known_rod(&rod, NOT_CALIBRATED)?;
+    let (uniform, known) = read_uniform_rod(&rod, NOT_CALIBRATED)?;
     let setup = setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
-    let mut scan = scan_of(&given, rod, moved, setup, written.into())?;
+    let mut scan = scan_of(uniform, known, rod, moved, setup, written.into())?;
     scan.inputs.extend(recordings.iter().chain(&noise).cloned());
     vibrissa_cli::check_output(&out, &scan.inputs)?;
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let settings = Settings {
         noise: noise.map(|model| model.channels()),
-        budget: budget(&scan.setup, &given.rod),
-        known: given.known,
+        budget: budget(&scan.setup, &uniform),
+        known,
         friction,
         ..Settings::default()
     };
     let recordings: Vec<Recording> = recordings.iter().map(|file| read(file, &scan)).collect::<Result<_, Error>>()?;
-    let found = RodCalibration::new(&recordings, &given, &settings, &free)?;
+    let found = RodCalibration::new(&recordings, uniform, known, &settings, &free)?;
     say(&found.report());
     if found.combined.contradicts() {
         say("nothing is written\n");
@@ -53,12 +49,13 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
 pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     let Expect { scene, setup, noise, friction, rate, speed, runs, seed, out } = arguments;
     signals::end();
-    let scene = read_any(&scene)?.uniform(NOT_EXPECTED)?;
+    let scene = read_scene(&scene)?;
+    let rod = BudgetStudy::rod(&scene)?;
     scene.check_single_leg()?;
     scene.check_start()?;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(&setup).chain(&noise).cloned().collect();
     let read = setup.as_deref().map(read_setup).transpose()?;
-    let budget = read.and_then(|setup| budget(&setup, &scene.rod));
+    let budget = read.and_then(|setup| budget(&setup, &rod));
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let staged = Staged::new(&out)?.keeping(inputs);

@@ -55,10 +55,7 @@ pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
-pub use scene::{
-    AnyRod, AnyScene, GivenRod, KnownRod, Leg, LegPath, Scene, SceneFriction, SceneRod, read_given_rod, read_known_rod,
-    read_rod,
-};
+pub use scene::{CalibratedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_rod, read_uniform_rod};
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use shapes::shapes_list;
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};

@@ -17,12 +17,13 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
+use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
-    AnyScene, Error, FakeScan, Interrupted, KnownRod, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene,
-    SceneError, SceneRod, Sensor, SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun,
-    check_output, read_known_rod, read_noise, shapes_list, write_first_scene, write_profile_table, write_profiles,
+    Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError, Sensor,
+    SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun, check_output, read_noise,
+    read_uniform_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
@@ -113,9 +114,9 @@ fn man(command: Option<&str>) -> Result<ExitCode, Error> {
 }
 
 /// Reads a scene, and tells of what may be a mistake in it.
-fn read_any(file: &Path) -> Result<AnyScene, SceneError> {
-    let scene = AnyScene::read(file)?;
-    scene.warnings().iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+fn read_scene(file: &Path) -> Result<Scene, SceneError> {
+    let scene = Scene::read(file)?;
+    scene.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
     Ok(scene)
 }
 
@@ -126,14 +127,7 @@ fn read_setup(file: &Path) -> Result<Setup, SceneError> {
 }
 
 fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
-    match read_any(file)? {
-        AnyScene::Uniform(scene) => sweep_scene(scene, out),
-        AnyScene::Mounted(scene) => sweep_scene(scene, out),
-        AnyScene::Guided(scene) => sweep_scene(scene, out),
-    }
-}
-
-fn sweep_scene<R: SceneRod>(scene: Scene<R>, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+    let scene = read_scene(file)?;
     scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let caught = signals::ask();
@@ -161,19 +155,7 @@ fn contour(
     object: Option<usize>,
 ) -> Result<ExitCode, Error> {
     signals::end();
-    match read_any(file)? {
-        AnyScene::Uniform(scene) => contour_of(scene, out, tolerance, object),
-        AnyScene::Mounted(scene) => contour_of(scene, out, tolerance, object),
-        AnyScene::Guided(scene) => contour_of(scene, out, tolerance, object),
-    }
-}
-
-fn contour_of<R: SceneRod>(
-    scene: Scene<R>,
-    out: Option<PathBuf>,
-    tolerance: Option<f64>,
-    object: Option<usize>,
-) -> Result<ExitCode, Error> {
+    let scene = read_scene(file)?;
     let profiles = scene.profiles(tolerance, object)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
     let tell: fn(&str) = if is_standard(&out) { tell_beside } else { say };
@@ -194,15 +176,8 @@ fn contour_of<R: SceneRod>(
 }
 
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
-    match read_any(&arguments.scene)? {
-        AnyScene::Uniform(scene) => simulate_scene(scene, arguments),
-        AnyScene::Mounted(scene) => simulate_scene(scene, arguments),
-        AnyScene::Guided(scene) => simulate_scene(scene, arguments),
-    }
-}
-
-fn simulate_scene<R: SceneRod>(scene: Scene<R>, arguments: Simulate) -> Result<ExitCode, Error> {
-    let Simulate { noise, rate, speed, seed, sigmas, out, .. } = arguments;
+    let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
+    let scene = read_scene(&scene)?;
     scene.check_start()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let standard = is_standard(&out);
@@ -244,7 +219,8 @@ const NOT_PLAYED: &str = "a sensor feels the moment about a point of the support
 fn live(arguments: Live) -> Result<ExitCode, Error> {
     let Live { sensor: address, rod, moved, setup, as_is, out, written } = arguments;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let mut scan = scan_of(&read_known_rod(&rod, NOT_LIVE)?, rod, moved, setup, written.into())?;
+    let (uniform, known) = read_uniform_rod(&rod, NOT_LIVE)?;
+    let mut scan = scan_of(uniform, known, rod, moved, setup, written.into())?;
     if as_is {
         (scan.budget, scan.known) = (Budget::NONE, Known::NOTHING);
     }
@@ -260,48 +236,46 @@ fn live(arguments: Live) -> Result<ExitCode, Error> {
 }
 
 /// A scan with a sensor whose rod stands in `file`.
-fn scan_of(given: &KnownRod, file: PathBuf, moved: Moved, setup: Setup, read: ReadOptions) -> Result<LiveScan, Error> {
+fn scan_of(
+    rod: Rod,
+    known: Known,
+    file: PathBuf,
+    moved: Moved,
+    setup: Setup,
+    read: ReadOptions,
+) -> Result<LiveScan, Error> {
     let Moved { stage, path } = moved;
     let told = match (&path, &stage) {
         (Some(scene), _) => {
-            let scene = read_any(scene)?;
+            let scene = read_scene(scene)?;
             scene.check_single_leg()?;
-            Some(*scene.path())
+            Some(scene.path)
         }
         // a file with nothing but a rod is no scene: then the path is missed where it is needed
-        (None, Some(StageSpec::Constant(_))) => read_any(&file).ok().map(|scene| *scene.path()),
+        (None, Some(StageSpec::Constant(_))) => read_scene(&file).ok().map(|scene| scene.path),
         (None, _) => None,
     };
     let table = if let Some(StageSpec::Table(table)) = &stage { Some(table.clone()) } else { None };
     let inputs = [file].into_iter().chain(setup.files.iter().cloned()).chain(path).chain(table).collect();
-    let KnownRod { rod, known } = *given;
     let budget = setup.errors.unwrap_or_default().budget(&rod);
     Ok(LiveScan { rod, budget, known, setup, stage, path: told, read, inputs })
 }
 
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     let FakeSensor { scene, protocol, rate, speed, faster, noise, seed, setup, port, scaling_port } = arguments;
-    let scene = read_any(&scene)?;
+    let scene = read_scene(&scene)?;
     scene.check_rigid(NOT_PLAYED)?;
     scene.check_single_leg()?;
     scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let name = scene.name().to_owned();
+    let name = scene.name.clone();
     let interrupt = signals::ask().interrupt;
     let tell: &mut dyn FnMut(&str) = &mut |line| say(&format!("{line}\n"));
     let is_over = || interrupt.is_raised();
-    let Played { samples, sent, stop } = match scene {
-        AnyScene::Uniform(scene) => {
-            let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
-            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
-        }
-        AnyScene::Mounted(scene) => {
-            let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
-            FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?
-        }
-        AnyScene::Guided(scene) => return Err(scene.no_roller().into()),
-    };
+    let simulation = Simulation { scene, noise, rate, speed, seed, sigmas: false };
+    let Played { samples, sent, stop } =
+        FakeScan { simulation, setup, protocol, faster, port, scaling_port }.run(tell, &is_over)?;
     say(&format!("{sent} of {samples} samples sent\n"));
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
 }
@@ -365,7 +339,7 @@ fn paper(out: &Path) -> Result<ExitCode, Error> {
 }
 
 /// Tells of the sweeps that stopped early.
-fn verdict<'a, R: 'a>(scans: impl IntoIterator<Item = &'a Scan<R>>) -> ExitCode {
+fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for scan in scans {
         if let Some(stop) = &scan.outcome.stop {

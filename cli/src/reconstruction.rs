@@ -2,31 +2,32 @@
 
 use crate::arguments::{Reconstruct, Trust};
 use crate::progress::stage;
-use crate::{UNFINISHED, complain, read_any, read_setup, say, scan_of, signals, warn};
+use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::{Budget, Known};
+use vibrissa::rod::AnyRod;
 use vibrissa::{Rod, Settings};
 use vibrissa_cli::{
-    AnyScene, Error, GivenRod, KnownRod, LiveScan, Merged, OptionError, Reconstructed, Recording, Setup, Staged,
-    read_given_rod, read_noise,
+    CalibratedRod, Error, LiveScan, Merged, OptionError, Reconstructed, Recording, Scene, Setup, Staged,
+    read_calibrated_rod, read_noise,
 };
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let Reconstruct { recordings, rod, truth, out, align, moved, trust, written } = arguments;
     signals::end();
-    let (given, on_clamp) = read_given_rod(&rod)?;
+    let given = read_calibrated_rod(&rod)?;
     let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
-    if on_clamp.uniform().is_none() && !trust.as_is {
+    if given.rod.uniform().is_none() && !trust.as_is {
         refuse_errors(&setup)?;
     }
     let settings = settings(&trust, &given, &setup)?;
-    let mut scan = scan_of(&given, rod, moved, setup, written.into())?;
+    let mut scan = scan_of(*given.rod.at_clamp(), given.known, rod, moved, setup, written.into())?;
     scan.inputs.extend(recordings.iter().chain(&trust.noise).cloned());
     if let Some(file) = &truth {
-        let scene = read_any(file)?;
+        let scene = read_scene(file)?;
         scene.check_start()?;
-        scan.inputs.extend(scene.files().iter().cloned());
+        scan.inputs.extend(scene.files.iter().cloned());
     }
     if align.is_some() && recordings.len() == 1 {
         warn("warning: --align is for several recordings: it is not used\n");
@@ -34,7 +35,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let mut found = Vec::with_capacity(recordings.len());
     let mut left_out = Vec::new();
     for file in &recordings {
-        match one(file, &scan, &on_clamp, &settings, truth.as_deref()) {
+        match one(file, &scan, &given.rod, &settings, truth.as_deref()) {
             Ok(one) => found.push(one),
             Err(error) => left_out.push(error),
         }
@@ -93,7 +94,7 @@ fn refuse_errors(setup: &Setup) -> Result<(), Error> {
 fn one(
     file: &Path,
     scan: &LiveScan,
-    rod: &GivenRod,
+    rod: &AnyRod,
     settings: &Settings,
     truth: Option<&Path>,
 ) -> Result<Reconstructed, Error> {
@@ -108,7 +109,7 @@ fn one(
     }
     if let Some(scene) = truth {
         stage(&format!("{name}: comparing with the scene"));
-        found.compare(AnyScene::read(scene)?)?;
+        found.compare(Scene::read(scene)?)?;
     }
     Ok(found)
 }
@@ -140,7 +141,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
 }
 
 /// The settings of a reconstruction.
-fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, Error> {
+fn settings(trust: &Trust, given: &CalibratedRod, setup: &Setup) -> Result<Settings, Error> {
     let Trust { as_is, noise, friction, false_alarms, largest_sigma, .. } = trust;
     let noise = noise.as_deref().map(read_noise).transpose()?;
     let default = Settings::default();
@@ -151,7 +152,7 @@ fn settings(trust: &Trust, given: &KnownRod, setup: &Setup) -> Result<Settings, 
         noise: noise.map(|model| model.channels()),
         false_alarms: false_alarms.unwrap_or(default.false_alarms),
         largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
-        budget: if *as_is { Some(Budget::NONE) } else { budget(setup, &given.rod) },
+        budget: if *as_is { Some(Budget::NONE) } else { budget(setup, given.rod.at_clamp()) },
         known: if *as_is { Known::NOTHING } else { given.known },
         friction: *friction,
     })

@@ -1,14 +1,14 @@
 //! What a command says when it is done.
 
+use crate::Scan;
 use crate::table::{Table, counted};
-use crate::{Scan, SceneRod};
 use vibrissa::contact::{Contact, Start, StartCandidate};
 use vibrissa::{Rod, State};
 
 /// From this gap on, lengths of the rod, all along the path, rod, objects or path are most likely in another unit than m.
 const FAR: f64 = 10.0;
 
-impl<R: SceneRod> Scan<R> {
+impl Scan {
     /// A line on the phases, one on each thing a user should know, and the table of events.
     pub fn report(&self) -> String {
         let (states, events) = (self.outcome.states.len(), self.outcome.events.len());
@@ -44,7 +44,7 @@ impl<R: SceneRod> Scan<R> {
         let states = &self.outcome.states;
         let is_free = self.outcome.events.is_empty() && states.iter().all(|state| state.contacts.is_empty());
         let gap = states.iter().map(|state| state.certificate.min_gap.seen).reduce(f64::min)?;
-        let length = self.scene.rod.units().length;
+        let length = self.scene.rod.length();
         let hint = if gap > FAR * length { "; are all lengths in m?" } else { "" };
         (is_free && self.is_complete()).then(|| {
             let [gap, length] = [gap, length].map(|length| 1e3 * length);
@@ -87,7 +87,7 @@ impl<R: SceneRod> Scan<R> {
                 format!("{:.9}", 1e3 * pose.x),
                 format!("{:.9}", 1e3 * pose.y),
                 format!("{:.9}", pose.phi.to_degrees()),
-                format!("{:.12}", pose.x / self.scene.rod.units().length),
+                format!("{:.12}", pose.x / self.scene.rod.length()),
                 of_size(reactions.f0x, forces),
                 of_size(reactions.f0y, forces),
                 of_size(1e3 * reactions.m0z, moments),

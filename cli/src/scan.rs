@@ -1,27 +1,27 @@
 //! A scene that was swept.
 
 use crate::interval::{self, Interval};
-use crate::{Cycle, Error, Interrupt, Interrupted, Scene, SceneRod};
+use crate::{Cycle, Error, Interrupt, Interrupted, Scene};
 use vibrissa::contact::{Item, Outcome, Phase};
-use vibrissa::{Event, Rod, State};
+use vibrissa::{Event, State};
 
 /// A scene and all its states and events.
 #[derive(Debug)]
-pub struct Scan<R = Rod> {
+pub struct Scan {
     /// What was asked.
-    pub scene: Scene<R>,
+    pub scene: Scene,
     /// What came out.
     pub outcome: Outcome,
     /// Where the sweep was when it was interrupted, if it was.
     pub interrupted: Option<Interrupted>,
 }
 
-impl<R: SceneRod> Scan<R> {
+impl Scan {
     /// Sweeps the scene to its end, or to where the sweep must stop.
     ///
     /// # Errors
     /// [`Error::Contact`] where the scene's step is no step.
-    pub fn run(scene: Scene<R>) -> Result<Self, Error> {
+    pub fn run(scene: Scene) -> Result<Self, Error> {
         Self::run_until(scene, &Interrupt::default())
     }
 
@@ -29,7 +29,7 @@ impl<R: SceneRod> Scan<R> {
     ///
     /// # Errors
     /// As [`run`](Self::run).
-    pub fn run_until(scene: Scene<R>, interrupt: &Interrupt) -> Result<Self, Error> {
+    pub fn run_until(scene: Scene, interrupt: &Interrupt) -> Result<Self, Error> {
         let mut outcome = Outcome::default();
         let (mut pose, mut interrupted) = (None, None);
         let mut sweep = scene.sweep()?;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::contour::description::Shape;
-use vibrissa_cli::AnyScene;
+use vibrissa_cli::Scene;
 
 fn scenes(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
@@ -16,11 +16,7 @@ fn every_scene_can_be_read_and_drawn() {
     let files = [scenes("scenes"), scenes("docs/shapes")].concat();
     assert!(files.len() > 9 + Shape::NAMES.len());
     for file in files {
-        let profiles = match AnyScene::read(&file).unwrap_or_else(|error| panic!("{error}")) {
-            AnyScene::Uniform(scene) => scene.profiles(None, None),
-            AnyScene::Mounted(scene) => scene.profiles(None, None),
-            AnyScene::Guided(scene) => scene.profiles(None, None),
-        };
+        let profiles = Scene::read(&file).unwrap_or_else(|error| panic!("{error}")).profiles(None, None);
         assert!(!profiles.unwrap().is_empty(), "{}", file.display());
     }
 }
@@ -35,9 +31,12 @@ fn the_rods_of_the_documentation_can_be_read() {
         let blocks: Vec<&str> = text.split("```toml\n").skip(1).filter_map(|block| block.split("```").next()).collect();
         assert_eq!(blocks.len(), count, "{page}");
         for block in blocks {
-            let scene = AnyScene::parse(page.as_ref(), &format!("{block}\n{rest}"))
+            let scene = Scene::parse(page.as_ref(), &format!("{block}\n{rest}"))
                 .unwrap_or_else(|error| panic!("{error}\n{block}"));
-            assert!(!matches!(scene, AnyScene::Uniform(_)) && scene.warnings().is_empty(), "{block}");
+            assert!(
+                !(scene.rod.uniform().is_some() && scene.rod.is_held_rigidly()) && scene.warnings.is_empty(),
+                "{block}"
+            );
         }
     }
 }

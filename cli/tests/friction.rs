@@ -4,18 +4,12 @@ use crate::common::{edited, refused_beside, vibrissa};
 use std::collections::BTreeSet;
 use vibrissa::contact::{EventKind, Outcome};
 use vibrissa::{Event, State};
-use vibrissa_cli::{AnyScene, Scene, SceneRod};
+use vibrissa_cli::Scene;
 
 /// The sweep of a scene, in at most so many steps.
 fn swept(scene: &str) -> Outcome {
-    fn run<R: SceneRod>(scene: &Scene<R>) -> Outcome {
-        scene.sweep().unwrap().with_most_steps(20_000).run()
-    }
-    match AnyScene::parse("scene.toml".as_ref(), scene).unwrap() {
-        AnyScene::Uniform(scene) => run(&scene),
-        AnyScene::Mounted(scene) => run(&scene),
-        AnyScene::Guided(scene) => run(&scene),
-    }
+    let scene = Scene::parse("scene.toml".as_ref(), scene).unwrap();
+    scene.sweep().unwrap().with_most_steps(20_000).run()
 }
 
 /// All states of a sweep, those at events with it.

@@ -84,7 +84,8 @@ fn truth(directory: &Path, rate: f64, speed: f64) -> Vec<Sample> {
 /// quantum (N, N m) at most, a point by what that makes of it.
 fn agrees(directory: &Path, truth: &[Sample], quantum: [f64; 2]) {
     let scene = Scene::read(&directory.join("scene.toml")).unwrap();
-    let recording = Recording::read(&directory.join("out/recording.csv"), &scene.rod, &ReadOptions::default()).unwrap();
+    let recording =
+        Recording::read(&directory.join("out/recording.csv"), scene.rod.at_clamp(), &ReadOptions::default()).unwrap();
     let samples: Vec<&Sample> = recording.samples().collect();
     let first = samples[0].t.unwrap();
     assert_eq!(samples.len(), recording.rows.len());
@@ -107,8 +108,8 @@ fn agrees(directory: &Path, truth: &[Sample], quantum: [f64; 2]) {
         // far enough from first contact for a point to be a linear function of the reactions
         let covariance = nalgebra::Matrix3::from_diagonal(&squares);
         let (Ok(found), Ok(exact)) = (
-            single(&scene.rod, sample.pose, sample.reactions, &covariance),
-            single(&scene.rod, known.pose, known.reactions, &nalgebra::Matrix3::zeros()),
+            single(scene.rod.at_clamp(), sample.pose, sample.reactions, &covariance),
+            single(scene.rod.at_clamp(), known.pose, known.reactions, &nalgebra::Matrix3::zeros()),
         ) else {
             continue;
         };

@@ -37,7 +37,7 @@ fn felt() -> Felt {
     );
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let scene = Scene::read(&dir.join("scene.toml")).unwrap();
-    let recording = Recording::read(&dir.join("felt.csv"), &scene.rod, &ReadOptions::default()).unwrap();
+    let recording = Recording::read(&dir.join("felt.csv"), scene.rod.at_clamp(), &ReadOptions::default()).unwrap();
     let file = AtiFile::read(&data("data/turned.cal")).unwrap();
     let matrix = file.calibration(None).unwrap().matrix::<6, f64>().unwrap();
     let matrix = Matrix6::from_fn(|i, j| matrix.rows()[i][j]);

@@ -62,7 +62,7 @@ fn tally(states: &[State], white: Reactions, settings: &Settings) -> Tally {
     let mut sensor = NoiseModel { white, ..NoiseModel::default() }.generator(1).unwrap();
     let samples: Vec<Sample> =
         states.iter().map(|state| Sample::new(state.pose, sensor.sample(state.reactions).unwrap())).collect();
-    let found = reconstruct(&rod, &samples, settings).unwrap();
+    let found = reconstruct(rod.at_clamp(), &samples, settings).unwrap();
     let mut tally = Tally { samples: states.len(), ..Tally::default() };
     for (state, reading) in states.iter().zip(&found.readings) {
         let phase = state.phase();
@@ -131,7 +131,7 @@ fn flagged_by_kinks_alone(name: &str) -> f64 {
     let states = swept(name, 4e-6);
     let samples: Vec<Sample> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/saw.toml");
-    let found = reconstruct(&Scene::read(&scene).unwrap().rod, &samples, &Settings::default()).unwrap();
+    let found = reconstruct(Scene::read(&scene).unwrap().rod.at_clamp(), &samples, &Settings::default()).unwrap();
     let truth = |index: usize| Label::of(states[index].phase().contacts, states[index].phase().tip);
     let (mut several, mut single, mut flagged) = (false, 0_u32, 0_u32);
     for (index, state) in states.iter().enumerate().take(states.len() - 2).skip(2) {

@@ -1,7 +1,7 @@
 //! Scenes whose rod is not uniform or not straight at rest, or whose clamp gives way.
 
 use crate::common::{edited, refused_beside, vibrissa};
-use vibrissa_cli::{AnyScene, Scan};
+use vibrissa_cli::{Scan, Scene};
 
 /// The scene with another table `[rod]`.
 fn with_rod(rod: &str) -> String {
@@ -97,9 +97,8 @@ fn a_rod_of_each_kind_is_swept() {
         format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"),
         format!("{TWO}[clamp]\nstiffness_x = 500\nstiffness_y = 300\nstiffness_phi = 0.2\n"),
     ] {
-        let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap() else {
-            panic!("uniform: {rod}")
-        };
+        let scene = Scene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap();
+        assert!(scene.rod.varying().is_some() || scene.rod.springs().is_some(), "uniform: {rod}");
         let scan = Scan::run(scene).unwrap();
         assert!(scan.is_complete() && !scan.outcome.events.is_empty(), "{rod}\n{}", scan.report());
         let held = scan.outcome.states.iter().filter(|state| !state.contacts.is_empty());
@@ -115,10 +114,9 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
     let modulus = "bending_stiffness = 6.320e-4\n";
     let wire = with_rod(&format!("length = 0.1\n{modulus}"));
     let section = with_rod(&format!("length = 0.1\n[[rod.section]]\nlength = 0.1\n{modulus}"));
-    let events = |text: &str| match AnyScene::parse("scene.toml".as_ref(), text).unwrap() {
-        AnyScene::Uniform(scene) => Scan::run(scene).unwrap().outcome.events,
-        AnyScene::Mounted(scene) => Scan::run(scene).unwrap().outcome.events,
-        AnyScene::Guided(scene) => Scan::run(scene).unwrap().outcome.events,
+    let events = |text: &str| {
+        let scene = Scene::parse("scene.toml".as_ref(), text).unwrap();
+        Scan::run(scene).unwrap().outcome.events
     };
     let (wire, section) = (events(&wire), events(&section));
     assert_eq!(wire.len(), section.len());
@@ -148,11 +146,11 @@ fn a_uniform_rod_is_uniform_however_it_is_written() {
         (sections(wire, "diameter = 0.4e-3\nyoungs_modulus = 206e9\n"), false),
         (format!("{WIRE}tip_diameter = 0.4e-3\n"), false),
     ] {
-        let scene = AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap();
-        assert_eq!(matches!(scene, AnyScene::Uniform(_)), uniform, "{rod}");
-        if let AnyScene::Uniform(scene) = scene {
-            assert_eq!(scene.rod.diameter().is_some(), rod.contains("diameter"), "{rod}");
-            assert_eq!(scene.rod.length(), 0.1);
+        let scene = Scene::parse("scene.toml".as_ref(), &with_rod(&rod)).unwrap();
+        assert_eq!(scene.rod.uniform().is_some(), uniform, "{rod}");
+        if let Some(uniform) = scene.rod.uniform() {
+            assert_eq!(uniform.diameter().is_some(), rod.contains("diameter"), "{rod}");
+            assert_eq!(uniform.length(), 0.1);
         }
     }
 }
@@ -164,8 +162,8 @@ fn implausible_sections_are_told() {
         .replace("length = 0.04", "length = 0.4")
         .replace("206e9", "206");
     let scene =
-        AnyScene::parse("scene.toml".as_ref(), &with_rod(&rod.replace("length = 0.1\n", "length = 0.46\n"))).unwrap();
-    let warnings = scene.warnings();
+        Scene::parse("scene.toml".as_ref(), &with_rod(&rod.replace("length = 0.1\n", "length = 0.46\n"))).unwrap();
+    let warnings = &scene.warnings;
     assert!(
         warnings[0].contains("rod.section[2].diameter: diameter is 0.3 m, expected 1e-7 to 1e-1 m"),
         "{warnings:?}"
@@ -176,10 +174,11 @@ fn implausible_sections_are_told() {
 
 #[test]
 fn a_clamp_gives_way_by_its_springs() {
-    let of = |clamp: &str| AnyScene::parse("scene.toml".as_ref(), &with_rod(&format!("{WIRE}{clamp}"))).unwrap();
-    assert!(matches!(of("[clamp]\n"), AnyScene::Uniform(_)));
-    assert!(matches!(of("[clamp]\nstiffness_x = inf\n"), AnyScene::Uniform(_)));
-    let AnyScene::Mounted(scene) = of("[clamp]\nstiffness_phi = 0.2\n") else { panic!("rigid") };
+    let of = |clamp: &str| Scene::parse("scene.toml".as_ref(), &with_rod(&format!("{WIRE}{clamp}"))).unwrap();
+    assert!(of("[clamp]\n").rod.is_held_rigidly());
+    assert!(of("[clamp]\nstiffness_x = inf\n").rod.is_held_rigidly());
+    let scene = of("[clamp]\nstiffness_phi = 0.2\n");
+    assert!(scene.rod.springs().is_some() && scene.rod.uniform().is_some());
     let scan = Scan::run(scene).unwrap();
     for state in scan.outcome.states.iter().filter(|state| !state.contacts.is_empty()) {
         let base = state.elastica(&scan.scene.rod).unwrap().at(0.0);
@@ -199,7 +198,8 @@ fn the_reaction_of_a_roller_is_written() {
     let written = |name: &str| std::fs::read_to_string(dir.path().join("out/roller").join(name)).unwrap();
     let header = written("states.csv").lines().next().unwrap().to_owned();
     assert!(header.ends_with(",leg,roller,roller_s"), "{header}");
-    let AnyScene::Guided(scene) = AnyScene::parse("roller.toml".as_ref(), &scene).unwrap() else { panic!("no roller") };
+    let scene = Scene::parse("roller.toml".as_ref(), &scene).unwrap();
+    assert!(scene.rod.roller().is_some());
     let states = Scan::run(scene).unwrap().outcome.states;
     assert!(states.iter().any(|state| state.roller.as_ref().unwrap().force.abs() > 1.0));
     for (line, state) in written("states.jsonl").lines().zip(&states) {
@@ -236,7 +236,8 @@ fn a_scan_on_springs_is_reconstructed() {
     let said = |arguments: &[&str]| String::from_utf8(vibrissa(dir.path(), arguments).stdout).unwrap();
     said(&["simulate", "soft.toml", "--rate", "100", "--speed", "0.01", "--out", "felt.csv"]);
     let of = |rod: &str| said(&["reconstruct", "felt.csv", "--rod", rod, "--as-is", "--out", "found"]);
-    let AnyScene::Mounted(scene) = AnyScene::parse("soft.toml".as_ref(), &scene).unwrap() else { panic!("rigid") };
+    let scene = Scene::parse("soft.toml".as_ref(), &scene).unwrap();
+    assert!(scene.rod.springs().is_some());
     let mut phases: Vec<String> =
         Scan::run(scene).unwrap().outcome.states.iter().map(|state| state.phase().to_string()).collect();
     phases.dedup();
@@ -280,7 +281,8 @@ fn there_and_back(rod: &str, noise: Option<&str>) -> (Vec<Answer>, serde_json::V
         assert!(dir.path().join("found").join(file).metadata().unwrap().len() > 100, "{file}");
     }
     let read = |file: &str| std::fs::read_to_string(dir.path().join("found").join(file)).unwrap();
-    let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), &scene).unwrap() else { panic!("uniform") };
+    let scene = Scene::parse("scene.toml".as_ref(), &scene).unwrap();
+    assert!(scene.rod.varying().is_some());
     let mut states = Scan::run(scene).unwrap().outcome.states.into_iter().peekable();
     let several = |label: &str| if label.len() == 2 { "several".to_owned() } else { label.to_owned() };
     let answer = |line: &str| {

@@ -116,7 +116,7 @@ fn what_is_written_can_be_read() {
     let arguments = ["--noise", "noise.toml", "--rate", "100", "--sigmas", "--out", "r.csv"];
     assert_eq!(simulate(directory.path(), &arguments).status.code(), Some(0));
     let rod = Scene::parse("scene.toml".as_ref(), SCENE).unwrap().rod;
-    let recording = Recording::read(&file, &rod, &ReadOptions::default()).unwrap();
+    let recording = Recording::read(&file, rod.at_clamp(), &ReadOptions::default()).unwrap();
     assert!(recording.warnings().is_empty(), "{:?}", recording.warnings());
     let read: Vec<Vec<f64>> = recording
         .samples()

@@ -3,21 +3,15 @@
 use std::path::Path;
 use vibrissa::Event;
 use vibrissa::contact::{EventKind, Outcome, SlipMode};
-use vibrissa_cli::{AnyScene, Scene, SceneRod};
+use vibrissa_cli::Scene;
 
 /// The sweep of a scene file with its steps times `share`.
 fn swept(name: &str, share: f64) -> Outcome {
-    fn run<R: SceneRod>(mut scene: Scene<R>, share: f64) -> Outcome {
-        scene.step *= share;
-        scene.legs.iter_mut().for_each(|leg| leg.step *= share);
-        scene.sweep().unwrap().run()
-    }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/transitions");
-    match AnyScene::read(&folder.join(format!("{name}.toml"))).unwrap() {
-        AnyScene::Uniform(scene) => run(scene, share),
-        AnyScene::Mounted(scene) => run(scene, share),
-        AnyScene::Guided(scene) => run(scene, share),
-    }
+    let mut scene = Scene::read(&folder.join(format!("{name}.toml"))).unwrap();
+    scene.step *= share;
+    scene.legs.iter_mut().for_each(|leg| leg.step *= share);
+    scene.sweep().unwrap().run()
 }
 
 /// Whether the energy rises at a pose.

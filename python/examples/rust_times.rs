@@ -31,9 +31,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         black_box(Sweep::new(&scene.rod, &scene.objects, scene.path, step)?.run());
         Ok(())
     })?;
-    let recording = Recording::read(Path::new(recording), &scene.rod, &ReadOptions::default())?;
+    let recording = Recording::read(Path::new(recording), scene.rod.at_clamp(), &ReadOptions::default())?;
     let reconstructed = shortest(reconstructions.parse()?, || {
-        black_box(Reconstructed::new(recording.clone(), scene.rod, &Settings::default())?);
+        black_box(Reconstructed::new(recording.clone(), scene.rod.clone(), &Settings::default())?);
         Ok(())
     })?;
     println!("{swept} {reconstructed}");

@@ -3,15 +3,14 @@
 use crate::array::{Column, Floats, Get, structured, whole};
 use crate::composite::contours;
 use crate::event::PyEvent;
-use crate::rod::{PyRod, for_rod};
+use crate::rod::PyRod;
 use crate::state::PyState;
 use crate::{errors, running, shape};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Derivatives, Quantity, TransitionDerivatives};
-use vibrissa::rod::{ContactRate, RodParameter};
+use vibrissa::rod::{AnyRod, ContactRate, RodParameter};
 use vibrissa::{Composite, Pose};
-use vibrissa_cli::AnyRod;
 
 const RATE: &[Column<ContactRate>] = &[
     Column { name: "x", get: Get::Float(|rate| rate.x) },
@@ -55,7 +54,7 @@ impl PyDerivatives {
         ask: impl FnOnce(&Derivatives<'_>) -> Result<T, ContactError> + Send,
     ) -> PyResult<T> {
         let Self { rod, objects, state, .. } = self;
-        let found = || for_rod!(rod, rod => ask(&Derivatives::new(rod, &objects[..], &state.state)?));
+        let found = || ask(&Derivatives::new(rod, &objects[..], &state.state)?);
         running::run(py, found)?.map_err(errors::value)
     }
 }
@@ -172,8 +171,7 @@ impl PyDerivatives {
             By::Quantity(quantity) => self.ask(py, |derivatives| derivatives.by(quantity))?,
             By::Rod(parameter) => {
                 let Self { rod, objects, state, .. } = self;
-                let by =
-                    || for_rod!(rod, rod => Derivatives::new(rod, &objects[..], &state.state)?.by_rod(rod, parameter));
+                let by = || Derivatives::new(rod, &objects[..], &state.state)?.by_rod(rod, parameter);
                 running::run(py, by)?.map_err(errors::value)?
             }
         };
@@ -216,7 +214,7 @@ impl PyTransitionDerivatives {
         ask: impl FnOnce(&TransitionDerivatives<'_>) -> Result<T, ContactError> + Send,
     ) -> PyResult<T> {
         let Self { rod, objects, event, rate } = self;
-        let found = || for_rod!(rod, rod => ask(&TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?));
+        let found = || ask(&TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?);
         running::run(py, found)?.map_err(errors::value)
     }
 }
@@ -271,11 +269,7 @@ impl PyTransitionDerivatives {
             By::Quantity(quantity) => self.ask(py, |derivatives| derivatives.by(quantity)),
             By::Rod(parameter) => {
                 let Self { rod, objects, event, rate } = self;
-                let by = || {
-                    for_rod!(rod, rod => {
-                        TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?.by_rod(rod, parameter)
-                    })
-                };
+                let by = || TransitionDerivatives::new(rod, &objects[..], &event.event, *rate)?.by_rod(rod, parameter);
                 running::run(py, by)?.map_err(errors::value)
             }
         }

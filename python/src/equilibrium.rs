@@ -2,7 +2,7 @@
 
 use crate::composite::contours;
 use crate::pose::PyPose;
-use crate::rod::{PyRod, for_rod};
+use crate::rod::PyRod;
 use crate::state::{PyContact, PyState};
 use crate::{errors, running, shape};
 use pyo3::prelude::*;
@@ -74,7 +74,7 @@ pub fn equilibrium(
 ) -> PyResult<PyEquilibrium> {
     let objects = contours(&shape::objects(objects)?);
     let guess: Vec<Contact> = guess.iter().map(|contact| contact.get().contact()).collect::<PyResult<_>>()?;
-    let solve = || for_rod!(&rod.rod, rod => vibrissa::equilibrium(rod, &objects[..], pose.0, &guess));
+    let solve = || vibrissa::equilibrium(&rod.rod, &objects[..], pose.0, &guess);
     let found = running::run(py, solve)?;
     let found = found.map_err(errors::value)?;
     let (solved, iterations) = (found.report.status.is_solved(), found.report.iterations);

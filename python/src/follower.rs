@@ -4,14 +4,14 @@ use crate::composite::contours;
 use crate::event::PyEvent;
 use crate::friction::Given;
 use crate::pose::PyPose;
-use crate::rod::{PyRod, for_rod};
+use crate::rod::PyRod;
 use crate::state::PyState;
 use crate::{errors, running, shape};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use vibrissa::contact::{Item, Stop};
-use vibrissa::rod::{Mounted, VaryingRod};
-use vibrissa::{Composite, Follower, Pose, Rod, State};
+use vibrissa::contact::Item;
+use vibrissa::rod::AnyRod;
+use vibrissa::{Composite, Follower};
 use vibrissa_cli::SceneFriction;
 
 /// A rod in equilibrium whose clamp is moved from pose to pose, for controllers.
@@ -49,52 +49,8 @@ use vibrissa_cli::SceneFriction;
 #[pyclass(frozen, name = "Follower", module = "vibrissa")]
 pub struct PyFollower {
     /// It borrows from `objects`, hence stands before them: fields are dropped in order.
-    follower: Mutex<AnyFollower>,
+    follower: Mutex<Follower<'static, AnyRod>>,
     objects: Arc<[Composite]>,
-}
-
-/// A follower with a rod of either kind.
-#[derive(Clone)]
-enum AnyFollower {
-    Uniform(Follower<'static, Rod>),
-    Mounted(Follower<'static, Mounted<VaryingRod>>),
-}
-
-impl From<Follower<'static, Rod>> for AnyFollower {
-    fn from(follower: Follower<'static, Rod>) -> Self {
-        Self::Uniform(follower)
-    }
-}
-
-impl From<Follower<'static, Mounted<VaryingRod>>> for AnyFollower {
-    fn from(follower: Follower<'static, Mounted<VaryingRod>>) -> Self {
-        Self::Mounted(follower)
-    }
-}
-
-impl AnyFollower {
-    fn state(&self) -> &State {
-        match self {
-            Self::Uniform(follower) => follower.state(),
-            Self::Mounted(follower) => follower.state(),
-        }
-    }
-
-    fn rubbing(self, friction: Option<SceneFriction>) -> PyResult<Self> {
-        let Some(friction) = friction else { return Ok(self) };
-        let made = match self {
-            Self::Uniform(follower) => follower.with_friction(friction).map(Self::Uniform),
-            Self::Mounted(follower) => follower.with_friction(friction).map(Self::Mounted),
-        };
-        made.map_err(errors::value)
-    }
-
-    fn to(&mut self, pose: Pose) -> Result<Vec<Item>, Stop> {
-        match self {
-            Self::Uniform(follower) => follower.to(pose),
-            Self::Mounted(follower) => follower.to(pose),
-        }
-    }
 }
 
 /// The objects for a follower that is dropped before they are.
@@ -104,9 +60,19 @@ fn borrowed(objects: &Arc<[Composite]>) -> &'static [Composite] {
     unsafe { &*Arc::as_ptr(objects) }
 }
 
+fn rubbing(
+    follower: Follower<'static, AnyRod>,
+    friction: Option<SceneFriction>,
+) -> PyResult<Follower<'static, AnyRod>> {
+    match friction {
+        Some(friction) => follower.with_friction(friction).map_err(errors::value),
+        None => Ok(follower),
+    }
+}
+
 impl PyFollower {
     /// To be called without the interpreter: whoever has the lock may be waiting for it, in a shape of Python.
-    fn locked(&self) -> MutexGuard<'_, AnyFollower> {
+    fn locked(&self) -> MutexGuard<'_, Follower<'static, AnyRod>> {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -124,9 +90,9 @@ impl PyFollower {
     ) -> PyResult<Self> {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
         let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
-        let make = || for_rod!(&rod.rod, rod => Follower::new(rod, borrowed(&objects), pose.0).map(AnyFollower::from));
+        let make = || Follower::new(&rod.rod, borrowed(&objects), pose.0);
         let made = running::run(py, make)?.map_err(|stop| errors::stopped(py, &stop, None))?;
-        Ok(Self { follower: Mutex::new(made.rubbing(friction)?), objects })
+        Ok(Self { follower: Mutex::new(rubbing(made, friction)?), objects })
     }
 
     /// A rod in an equilibrium that is known.
@@ -162,10 +128,9 @@ impl PyFollower {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
         let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
         let state = &state.state;
-        let make =
-            || for_rod!(&rod.rod, rod => Follower::from_state(rod, borrowed(&objects), state).map(AnyFollower::from));
+        let make = || Follower::from_state(&rod.rod, borrowed(&objects), state);
         let made = running::run(py, make)?;
-        Ok(Self { follower: Mutex::new(made.map_err(errors::value)?.rubbing(friction)?), objects })
+        Ok(Self { follower: Mutex::new(rubbing(made.map_err(errors::value)?, friction)?), objects })
     }
 
     /// The equilibrium that the rod is in.

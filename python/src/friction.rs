@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString, PyTuple};
 use toml::{Table, Value};
 use vibrissa::contact::{Coefficients, ContactError};
-use vibrissa::rod::PhysicalRod;
+use vibrissa::rod::AnyRod;
 use vibrissa::{Composite, Sweep};
 use vibrissa_cli::SceneFriction;
 
@@ -99,10 +99,10 @@ impl Given {
 }
 
 /// The sweep, with friction if there is any.
-pub fn rubbing<'a, R: PhysicalRod>(
-    sweep: Sweep<'a, R>,
+pub fn rubbing<'a>(
+    sweep: Sweep<'a, AnyRod>,
     friction: Option<&SceneFriction>,
-) -> Result<Sweep<'a, R>, ContactError> {
+) -> Result<Sweep<'a, AnyRod>, ContactError> {
     match friction {
         Some(friction) => sweep.with_friction(friction.clone()),
         None => Ok(sweep),

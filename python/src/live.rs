@@ -8,8 +8,8 @@ use crate::{errors, running};
 use pyo3::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use vibrissa::reconstruct::{Budget, Known, LiveSession, LiveSettings, Reading};
-use vibrissa::rod::{Mounted, PhysicalRod, Reactions};
-use vibrissa::{Pose, Rod, Sample};
+use vibrissa::rod::{AnyRod, PhysicalRod, Reactions};
+use vibrissa::{Pose, Sample};
 
 /// Phases and single contact points while samples come, a fixed number of samples late. Several contacts are recognised, but
 /// resolved by :func:`reconstruct` only.
@@ -37,7 +37,7 @@ pub struct PyLive {
     session: Mutex<LiveSession<Pose>>,
     delay: usize,
     /// Its clamp puts the base of the rod where it is.
-    mounted: Mounted<Rod>,
+    rod: AnyRod,
 }
 
 impl PyLive {
@@ -62,8 +62,7 @@ impl PyLive {
     #[new]
     #[pyo3(signature = (rod, free, *, half_window=None, as_is=false))]
     fn new(py: Python<'_>, rod: &PyRod, free: Samples, half_window: Option<f64>, as_is: bool) -> PyResult<Self> {
-        let mounted = rod.uniform_mounted()?;
-        let rod = mounted.rod();
+        let (any, rod) = (rod.rod.clone(), rod.uniform()?);
         let budget = if as_is { Budget::NONE } else { Budget::laboratory(rod) };
         let made = running::run(py, || {
             let found = LiveSettings::of_free_rod(rod, &free.0, Reactions::default())?;
@@ -71,7 +70,7 @@ impl PyLive {
             LiveSession::with_errors(rod, &settings, &budget, &Known::NOTHING)
         })?;
         let session = made.map_err(errors::value)?;
-        Ok(Self { delay: session.delay(), session: Mutex::new(session), mounted })
+        Ok(Self { delay: session.delay(), session: Mutex::new(session), rod: any })
     }
 
     /// Number of usable samples after a sample at which its answer comes.
@@ -94,7 +93,7 @@ impl PyLive {
     fn push<'py>(&self, py: Python<'py>, samples: Samples) -> PyResult<Bound<'py, PyAny>> {
         self.due(py, |session, answer| {
             for sample in &samples.0 {
-                let at_base = Sample { pose: self.mounted.base(sample.pose, &sample.reactions), ..*sample };
+                let at_base = Sample { pose: self.rod.base(sample.pose, &sample.reactions), ..*sample };
                 session.push(sample.pose, Some(&at_base), &mut *answer);
             }
         })

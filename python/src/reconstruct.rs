@@ -324,7 +324,7 @@ pub fn reconstruct(
         Ok(recording) => recording.get().recording.clone(),
         Err(_) => recording(samples.extract()?),
     };
-    let given = rod.given()?;
+    let given = rod.rod.clone();
     let reconstructed = || Reconstructed::new(recording, given, &settings);
     let found = running::run(py, reconstructed)?.map_err(errors::value)?;
     if !found.check.fits() {

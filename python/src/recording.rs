@@ -60,7 +60,7 @@ impl PyRecording {
         let setup = setup.map_or_else(|| Ok(Setup::default()), |file| Setup::read(&file)).map_err(errors::file)?;
         let stage: Option<StageSpec> = stage.map(str::parse).transpose().map_err(errors::value)?;
         let path = path.and_then(|path| path.get().path.straight());
-        let rod = *rod.given()?.alike();
+        let rod = *rod.rod.at_clamp();
         let (budget, known, read) = (Budget::laboratory(&rod), Known::NOTHING, ReadOptions::default());
         let scan = LiveScan { rod, budget, known, setup, stage, path, read, inputs: Vec::new() };
         let recording = running::run(py, || Recording::any(&file, &scan))?.map_err(|error| match error {

@@ -10,19 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 use toml::{Table, Value};
 use vibrissa::Rod;
-use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, RodSection, VaryingRod};
-use vibrissa_cli::{AnyRod, GivenRod};
-
-/// Something that is computed for a rod of either kind.
-macro_rules! for_rod {
-    ($any:expr, $rod:ident => $computed:expr) => {
-        match $any {
-            vibrissa_cli::AnyRod::Uniform($rod) => $computed,
-            vibrissa_cli::AnyRod::Mounted($rod) => $computed,
-        }
-    };
-}
-pub(crate) use for_rod;
+use vibrissa::rod::{AnyRod, ClampSpec, CurvatureSpec, RodFault, RodSpec, SectionSpec, StiffnessSpec};
 
 /// The curvature at rest: a number (1/m), or points of arc length (m) and curvature (1/m).
 #[derive(Clone, PartialEq, IntoPyObject)]
@@ -51,6 +39,15 @@ impl<'py> FromPyObject<'py> for Curvature {
     }
 }
 
+impl From<&Curvature> for CurvatureSpec {
+    fn from(curvature: &Curvature) -> Self {
+        match curvature {
+            Curvature::Constant(curvature) => Self::Constant(*curvature),
+            Curvature::Points(points) => Self::Points(points.clone()),
+        }
+    }
+}
+
 impl Curvature {
     fn value(&self) -> Value {
         match self {
@@ -71,19 +68,16 @@ type Stiffness = [Option<f64>; 3];
 
 const STIFFNESS: [&str; 3] = ["bending_stiffness", "diameter", "youngs_modulus"];
 
-/// The stiffness of a rod or section as a rod of that length.
-fn stiff(length: f64, written: Stiffness) -> PyResult<Rod> {
-    let rod = match written {
-        [Some(stiffness), None, None] => Rod::new(length, stiffness),
-        [None, Some(diameter), Some(modulus)] => Rod::from_diameter(length, diameter, modulus),
-        [Some(_), ..] => {
-            let message =
-                "bending_stiffness is given beside diameter or youngs_modulus, expected either it or those two";
-            return Err(errors::value(message));
-        }
-        _ => return Err(errors::value("expected bending_stiffness, or diameter and youngs_modulus")),
-    };
-    rod.map_err(errors::value)
+fn stiffness_spec([bending_stiffness, diameter, youngs_modulus]: Stiffness) -> StiffnessSpec {
+    StiffnessSpec { bending_stiffness, diameter, youngs_modulus }
+}
+
+/// What is wrong with a rod, with the number of the section.
+fn wrong(fault: RodFault) -> PyErr {
+    errors::value(match fault.section {
+        Some(index) => format!("sections[{index}]: {fault}"),
+        None => fault.to_string(),
+    })
 }
 
 fn put(table: &mut Table, names: &[&str], values: &[Option<f64>]) {
@@ -138,9 +132,9 @@ impl PySection {
         [self.diameter.is_none().then_some(self.bending_stiffness), self.diameter, self.youngs_modulus]
     }
 
-    fn section(&self) -> RodSection {
-        let Self { length, bending_stiffness, natural_curvature, .. } = *self;
-        RodSection { length, bending_stiffness, natural_curvature }
+    fn spec(&self) -> SectionSpec {
+        let natural_curvature = (self.natural_curvature != 0.0).then_some(self.natural_curvature);
+        SectionSpec { length: self.length, stiffness: stiffness_spec(self.stiffness()), natural_curvature }
     }
 
     fn table(&self) -> Table {
@@ -171,11 +165,10 @@ impl PySection {
         youngs_modulus: Option<f64>,
         natural_curvature: f64,
     ) -> PyResult<Self> {
-        let rod = stiff(length, [bending_stiffness, diameter, youngs_modulus])?;
-        let bending_stiffness = rod.bending_stiffness();
-        let made = Self { length, bending_stiffness, diameter, youngs_modulus, natural_curvature };
-        Rod::sections(length, &[made.section()]).map_err(errors::value)?;
-        Ok(made)
+        let stiffness = stiffness_spec([bending_stiffness, diameter, youngs_modulus]);
+        let spec = SectionSpec { length, stiffness, natural_curvature: Some(natural_curvature) };
+        let bending_stiffness = spec.build().map_err(wrong)?.bending_stiffness;
+        Ok(Self { length, bending_stiffness, diameter, youngs_modulus, natural_curvature })
     }
 
     fn __repr__(&self) -> String {
@@ -307,67 +300,15 @@ impl PyRod {
         table
     }
 
-    /// The rod on its clamp for what takes only a uniform one that is straight at rest.
-    pub fn uniform_mounted(&self) -> PyResult<Mounted<Rod>> {
-        match &self.rod {
-            AnyRod::Uniform(rod) => Ok(Mounted::new(*rod, ElasticClamp::default())),
-            AnyRod::Mounted(mounted) if self.varying()?.is_none() => {
-                Ok(Mounted::new(stiff(self.length, self.stiffness)?, *mounted.springs()))
-            }
-            AnyRod::Mounted(_) => Err(errors::value(format!(
+    /// The rod for what takes only a uniform one that is straight at rest, on whatever clamp.
+    pub fn uniform(&self) -> PyResult<&Rod> {
+        self.rod.uniform().ok_or_else(|| {
+            errors::value(format!(
                 "rod is {}, not uniform or not straight at rest, expected a uniform, straight one: only from its reactions scans are \
                  reconstructed",
                 self.__repr__()
-            ))),
-        }
-    }
-
-    /// The rod on its clamp for recordings of it.
-    pub fn given(&self) -> PyResult<GivenRod> {
-        match &self.rod {
-            AnyRod::Mounted(mounted) if self.varying()?.is_some() => {
-                GivenRod::varying(mounted.clone()).map_err(errors::value)
-            }
-            _ => Ok(self.uniform_mounted()?.into()),
-        }
-    }
-
-    fn varying(&self) -> PyResult<Option<VaryingRod>> {
-        let Self { length, stiffness, tip_diameter, ref natural_curvature, ref sections, .. } = *self;
-        let [_, diameter, modulus] = stiffness;
-        if !sections.is_empty() {
-            if stiffness.iter().chain([&tip_diameter]).any(Option::is_some) {
-                return Err(errors::value(
-                    "stiffness or diameter is given beside sections, expected it in the sections alone",
-                ));
-            }
-            if natural_curvature.is_some() && sections.iter().any(|section| section.natural_curvature != 0.0) {
-                return Err(errors::value(
-                    "natural_curvature is given beside that of a section, expected one of the two",
-                ));
-            }
-            let diameters: Option<Vec<f64>> = sections.iter().map(|section| section.diameter).collect();
-            let sections: Vec<_> = sections.iter().map(PySection::section).collect();
-            let rod = Rod::sections(length, &sections);
-            let rod = match diameters {
-                Some(diameters) => rod.and_then(|rod| rod.with_section_diameters(&diameters)),
-                None => rod,
-            };
-            return rod.map(Some).map_err(errors::value);
-        }
-        let rod = stiff(length, stiffness)?;
-        match (tip_diameter, diameter.zip(modulus)) {
-            (Some(tip), Some((diameter, modulus))) => {
-                Rod::tapered(length, diameter, tip, modulus).map(Some).map_err(errors::value)
-            }
-            (Some(_), None) => Err(errors::value(
-                "tip_diameter is given beside bending_stiffness, expected diameter and youngs_modulus of a wire that tapers",
-            )),
-            (None, _) if natural_curvature.is_some() => {
-                rod.with_natural_curvature(0.0).map(Some).map_err(errors::value)
-            }
-            (None, _) => Ok(None),
-        }
+            ))
+        })
     }
 }
 
@@ -390,42 +331,18 @@ impl PyRod {
         yield_stress: Option<f64>,
         clamp: Option<PyElasticClamp>,
     ) -> PyResult<Self> {
-        let sections = sections.unwrap_or_default();
-        let stiffness = [bending_stiffness, diameter, youngs_modulus];
-        let none = Rod::new(1.0, 1.0).map_err(errors::value)?;
-        let rod = AnyRod::Uniform(none);
-        let mut made = Self { rod, length, stiffness, tip_diameter, natural_curvature, sections, yield_stress, clamp };
-        let springs = made.clamp.as_ref().map_or_else(|| Ok(ElasticClamp::default()), PyElasticClamp::clamp)?;
-        made.rod = match made.varying()? {
-            None if springs.is_rigid() => AnyRod::Uniform(match yield_stress {
-                None => stiff(length, stiffness)?,
-                Some(stress) => stiff(length, stiffness)?.with_yield_stress(stress).map_err(errors::value)?,
-            }),
-            _ if yield_stress.is_some() => {
-                return Err(errors::value(
-                    "yield_stress is given for a rod that is not uniform, not straight at rest or not on a rigid clamp, expected it with a \
-                     uniform, straight rod on a rigid clamp alone",
-                ));
-            }
-            None => {
-                let straight = stiff(length, stiffness)?.with_natural_curvature(0.0).map_err(errors::value)?;
-                AnyRod::Mounted(Mounted::new(straight, springs))
-            }
-            Some(rod) => {
-                let bent = match &made.natural_curvature {
-                    None => rod,
-                    Some(Curvature::Constant(curvature)) => {
-                        rod.with_natural_curvature(*curvature).map_err(errors::value)?
-                    }
-                    Some(Curvature::Points(points)) => {
-                        let curvature = NaturalCurvature::points(points).map_err(errors::value)?;
-                        rod.with_natural_curvature(curvature).map_err(errors::value)?
-                    }
-                };
-                AnyRod::Mounted(Mounted::new(bent, springs))
-            }
+        let (sections, stiffness) = (sections.unwrap_or_default(), [bending_stiffness, diameter, youngs_modulus]);
+        let spec = RodSpec {
+            length,
+            stiffness: stiffness_spec(stiffness),
+            tip_diameter,
+            natural_curvature: natural_curvature.as_ref().map(CurvatureSpec::from),
+            sections: sections.iter().map(PySection::spec).collect(),
+            yield_stress,
+            clamp: ClampSpec::Springs(clamp.as_ref().map(PyElasticClamp::clamp).transpose()?.unwrap_or_default()),
         };
-        Ok(made)
+        let rod = spec.build().map_err(wrong)?;
+        Ok(Self { rod, length, stiffness, tip_diameter, natural_curvature, sections, yield_stress, clamp })
     }
 
     /// Length in m.
@@ -436,11 +353,8 @@ impl PyRod {
 
     /// Bending stiffness E I in N m^2, at the clamp.
     #[getter]
-    fn bending_stiffness(&self) -> PyResult<f64> {
-        match self.sections.first() {
-            Some(section) => Ok(section.bending_stiffness),
-            None => Ok(stiff(self.length, self.stiffness)?.bending_stiffness()),
-        }
+    fn bending_stiffness(&self) -> f64 {
+        self.rod.at_clamp().bending_stiffness()
     }
 
     /// Diameter of the wire in m, at the clamp; None where it is not known.
@@ -488,7 +402,7 @@ impl PyRod {
     /// Whether the rod is uniform and straight at rest, on a rigid clamp.
     #[getter]
     fn is_uniform(&self) -> bool {
-        matches!(self.rod, AnyRod::Uniform(_))
+        self.rod.uniform().is_some() && self.rod.is_held_rigidly()
     }
 
     fn __repr__(&self) -> String {

@@ -19,7 +19,7 @@ use toml::{Table, Value};
 use vibrissa::contact::Chain;
 use vibrissa::contour::Motion;
 use vibrissa::{ClampPath, Pose};
-use vibrissa_cli::{AnyScene, LegPath, Scene, SceneFriction};
+use vibrissa_cli::{LegPath, Scene, SceneFriction};
 
 /// A rod, objects and the path of the clamp.
 ///
@@ -56,17 +56,12 @@ pub struct PyScene {
 }
 
 impl PyScene {
-    fn of(py: Python<'_>, scene: AnyScene, text: &str, directory: &Path) -> PyResult<Self> {
-        match scene {
-            AnyScene::Uniform(scene) => Self::of_scene(py, scene, text, directory),
-            AnyScene::Mounted(scene) => Self::of_scene(py, scene, text, directory),
-            AnyScene::Guided(_) => Err(errors::value(
+    fn of(py: Python<'_>, scene: Scene, text: &str, directory: &Path) -> PyResult<Self> {
+        if scene.rod.roller().is_some() {
+            return Err(errors::value(
                 "clamp.roller is a roller ahead of the clamp, which is not known in Python, expected no field roller",
-            )),
+            ));
         }
-    }
-
-    fn of_scene<R>(py: Python<'_>, scene: Scene<R>, text: &str, directory: &Path) -> PyResult<Self> {
         let tables: Table = text.parse().map_err(errors::value)?;
         let Scene { name, objects, path, step, legs, friction, warnings, .. } = scene;
         let mut written = written_objects(&tables, directory).into_iter();
@@ -283,7 +278,7 @@ impl PyScene {
     ///     It is no scene; the text tells line, column and field.
     #[staticmethod]
     fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
-        let scene = AnyScene::read(&file).map_err(errors::file)?;
+        let scene = Scene::read(&file).map_err(errors::file)?;
         Self::of(py, scene, &std::fs::read_to_string(&file)?, &Self::directory(&file))
     }
 
@@ -307,7 +302,7 @@ impl PyScene {
     #[staticmethod]
     #[pyo3(signature = (text, file=PathBuf::from("scene.toml")), text_signature = "(text, file='scene.toml')")]
     fn parse(py: Python<'_>, text: &str, file: PathBuf) -> PyResult<Self> {
-        let scene = AnyScene::parse(&file, text).map_err(errors::file)?;
+        let scene = Scene::parse(&file, text).map_err(errors::file)?;
         Self::of(py, scene, text, &Self::directory(&file))
     }
 

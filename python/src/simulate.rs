@@ -3,7 +3,6 @@
 use crate::array::{structured, whole};
 use crate::composite::contours;
 use crate::friction::{Given, rubbing};
-use crate::rod::for_rod;
 use crate::running::Watch;
 use crate::samples::SAMPLE;
 use crate::scene::PyScene;
@@ -12,7 +11,7 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use vibrissa::contact::{Item, Stop};
 use vibrissa::reconstruct::{NoiseGenerator, NoiseModel};
-use vibrissa::rod::{PhysicalRod, Reactions};
+use vibrissa::rod::{AnyRod, Reactions};
 use vibrissa::{ClampPath, Pose, Sample, Sweep};
 use vibrissa_cli::read_noise;
 
@@ -28,15 +27,15 @@ pub fn model(noise: &Bound<'_, PyAny>) -> PyResult<NoiseModel> {
 }
 
 /// The sweep and the sensor, without the interpreter.
-struct Recorder<'a, R> {
-    sweep: Sweep<'a, R>,
+struct Recorder<'a> {
+    sweep: Sweep<'a, AnyRod>,
     path: ClampPath,
     sensor: NoiseGenerator,
     step: f64,
     rate: f64,
 }
 
-impl<R: PhysicalRod> Recorder<'_, R> {
+impl Recorder<'_> {
     fn run(mut self) -> (Vec<Sample>, Option<Stop>) {
         let (mut samples, mut next, mut watch) = (Vec::new(), 0, Watch::new());
         let start = self.path.at(0.0);
@@ -123,10 +122,8 @@ pub fn simulate<'py>(
     };
     let made = running::run(py, || {
         let sensor = noise.generator(seed).map_err(errors::value)?;
-        for_rod!(rod, rod => {
-            let sweep = Sweep::new(rod, &objects[..], path, step).and_then(|sweep| rubbing(sweep, friction.as_ref())).map_err(errors::value)?;
-            Ok::<_, PyErr>(Recorder { sweep, path, sensor, step, rate }.run())
-        })
+        let sweep = Sweep::new(rod, &objects[..], path, step).and_then(|sweep| rubbing(sweep, friction.as_ref()));
+        Ok::<_, PyErr>(Recorder { sweep: sweep.map_err(errors::value)?, path, sensor, step, rate }.run())
     })?;
     match made? {
         (_, Some(stop)) => Err(errors::stopped(py, &stop, None)),

@@ -1,7 +1,7 @@
 //! The contact point of each sample, as if it had a single contact.
 
 use crate::array::{Column, Get, structured};
-use crate::rod::{PyRod, for_rod};
+use crate::rod::PyRod;
 use crate::running;
 use crate::samples::Samples;
 use pyo3::prelude::*;
@@ -10,7 +10,6 @@ use vibrissa::Sample;
 use vibrissa::reconstruct::nalgebra::Matrix3;
 use vibrissa::reconstruct::{OneSample, Touch, one_sample, single as invert};
 use vibrissa::rod::Reactions;
-use vibrissa_cli::AnyRod;
 
 /// A point, where there is one, whether a single contact gives such reactions, and of which kind.
 struct Point {
@@ -78,13 +77,11 @@ pub fn single<'py>(py: Python<'py>, rod: &PyRod, samples: Samples) -> PyResult<B
         let covariance = sample.sigma.map_or_else(Matrix3::zeros, |Reactions { f0x, f0y, m0z }| {
             Matrix3::from_diagonal(&[f0x, f0y, m0z].map(|sigma| sigma * sigma).into())
         });
-        let one = for_rod!(&rod.rod, rod => one_sample(rod, pose, reactions, &covariance));
+        let one = one_sample(&rod.rod, pose, reactions, &covariance);
         let kind = one.as_ref().map_or(Cow::Borrowed("none"), |one| Cow::Owned(one.to_string()));
         // the closed form of a uniform rod, as in Rust
-        let closed = match &rod.rod {
-            AnyRod::Uniform(rod) => Some(invert(rod, pose, reactions, &covariance)),
-            AnyRod::Mounted(_) => None,
-        };
+        let closed = rod.rod.uniform().filter(|_| rod.rod.is_held_rigidly());
+        let closed = closed.map(|rod| invert(rod, pose, reactions, &covariance));
         match (closed, one) {
             (Some(Ok(touch)), _) => Point { touch: Some(touch), fits: true, kind },
             (Some(Err(none)), _) => Point { touch: none.touch(), fits: false, kind },

@@ -4,13 +4,13 @@ use crate::array::{Column, Get, whole};
 use crate::errors;
 use crate::made::{Reduced, made};
 use crate::pose::tuple;
-use crate::rod::{PyRod, for_rod};
+use crate::rod::PyRod;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 use vibrissa::State;
 use vibrissa::contact::{Contact, ContactFriction, ContactKind, SlipMode};
-use vibrissa_cli::AnyRod;
+use vibrissa::rod::AnyRod;
 
 /// Columns of a state: those of the command's `states.csv`, and how the solve went.
 pub const STATE: &[Column<State>] = &[
@@ -65,12 +65,10 @@ pub fn points<'py>(py: Python<'py>, state: &State, rod: &AnyRod, n: usize) -> Py
         return Err(errors::value(format!("n is {n}, expected at most {MOST_POINTS} points")));
     }
     let mut points = Array2::zeros((n, 3));
-    for_rod!(rod, rod => {
-        let elastica = state.elastica(rod).map_err(errors::value)?;
-        for (mut row, section) in points.rows_mut().into_iter().zip(elastica.sample(n)) {
-            (row[0], row[1], row[2]) = (section.x, section.y, section.phi);
-        }
-    });
+    let elastica = state.elastica(rod).map_err(errors::value)?;
+    for (mut row, section) in points.rows_mut().into_iter().zip(elastica.sample(n)) {
+        (row[0], row[1], row[2]) = (section.x, section.y, section.phi);
+    }
     Ok(points.into_pyarray(py))
 }
 

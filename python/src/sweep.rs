@@ -5,7 +5,7 @@ use crate::composite::{PyComposite, contours};
 use crate::errors;
 use crate::friction::{Given, rubbing};
 use crate::path::PyPath;
-use crate::rod::{PyRod, for_rod};
+use crate::rod::PyRod;
 use crate::running::{self, Watch};
 use crate::scan::PyScan;
 use crate::shape::objects;
@@ -13,7 +13,7 @@ use crate::state::PyState;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Item, Outcome};
-use vibrissa::rod::PhysicalRod;
+use vibrissa::rod::AnyRod;
 use vibrissa::{Composite, State, Sweep};
 use vibrissa_cli::SceneFriction;
 
@@ -40,8 +40,8 @@ impl<'py> FromPyObject<'py> for Steps {
 }
 
 /// What a sweep is asked to do, without the interpreter.
-struct Task<'a, R> {
-    rod: &'a R,
+struct Task<'a> {
+    rod: &'a AnyRod,
     objects: &'a [Composite],
     path: &'a PyPath,
     steps: &'a Steps,
@@ -50,7 +50,7 @@ struct Task<'a, R> {
     most_steps: Option<u64>,
 }
 
-impl<R: PhysicalRod> Task<'_, R> {
+impl Task<'_> {
     fn run(&self) -> Result<Outcome, ContactError> {
         let Self { rod, objects, path, start, .. } = *self;
         let sweep = match (self.steps, start) {
@@ -180,8 +180,7 @@ pub fn run<'py>(
         )));
     }
     let any = &rod.get().rod;
-    let run =
-        || for_rod!(any, rod => Task { rod, objects: &contours, path: way, steps, start, friction, most_steps }.run());
+    let run = || Task { rod: any, objects: &contours, path: way, steps, start, friction, most_steps }.run();
     let outcome = running::run(py, run)?.map_err(errors::value)?;
     let objects = objects.iter().map(|object| object.clone().unbind()).collect();
     let given = (rod.clone().unbind(), objects, path.clone().unbind());

@@ -223,3 +223,27 @@ def test_what_is_no_section() -> None:
             vibrissa.Section(*arguments)
     with pytest.raises(ValueError, match="natural_curvature"):
         vibrissa.Section(0.1, 1.0, natural_curvature=math.inf)
+
+
+@pytest.mark.parametrize(
+    "rod",
+    [
+        vibrissa.Rod(0.1, diameter=5e-4, youngs_modulus=206e9, tip_diameter=5e-4),
+        vibrissa.Rod(0.1, diameter=5e-4, youngs_modulus=206e9, natural_curvature=0.0),
+        vibrissa.Rod(0.1, sections=[vibrissa.Section(length, diameter=5e-4, youngs_modulus=206e9) for length in (0.03, 0.07)]),
+    ],
+    ids=["cone of equal ends", "curvature 0", "equal sections"],
+)
+def test_a_rod_is_uniform_however_it_is_written(rod: vibrissa.Rod) -> None:
+    plain = vibrissa.Rod(0.1, diameter=5e-4, youngs_modulus=206e9)
+    assert rod.is_uniform and plain.is_uniform
+    noise = {"white": {"force": 2.5e-3, "m0z": 6e-5}}
+    samples, alike = (
+        vibrissa.simulate(vibrissa.Scene(one, DISC, PATH, 1e-3), rate=1000.0, speed=0.01, noise=noise) for one in (rod, plain)
+    )
+    assert samples.tobytes() == alike.tobytes()
+    # what only uniform rods have: corrections of errors that samples share, and answers while a sensor is read
+    found, of_plain = (vibrissa.reconstruct(one, samples) for one in (rod, plain))
+    assert len(found.calibration) > 0 and np.array_equal(found.calibration, of_plain.calibration)
+    assert np.array_equal(found.readings["x"], of_plain.readings["x"], equal_nan=True)
+    assert vibrissa.Live(rod, samples[:1000]).delay == vibrissa.Live(plain, samples[:1000]).delay

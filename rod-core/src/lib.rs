@@ -25,6 +25,8 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod agm;
+#[cfg(feature = "std")]
+mod any_rod;
 #[cfg(feature = "argmin")]
 mod argmin_newton;
 mod basis;
@@ -65,6 +67,8 @@ mod rod;
 mod sample;
 mod scalar;
 mod segment;
+#[cfg(feature = "std")]
+mod spec;
 #[cfg(feature = "argmin")]
 mod trust_region;
 mod units;
@@ -76,6 +80,8 @@ mod walk;
 #[cfg(feature = "argmin")]
 pub use {argmin, nalgebra};
 
+#[cfg(feature = "std")]
+pub use any_rod::{AnyClamp, AnyRod};
 #[cfg(feature = "argmin")]
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
@@ -112,6 +118,8 @@ pub use rod::Rod;
 pub use sample::Sample;
 pub use scalar::Scalar;
 pub use segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
+#[cfg(feature = "std")]
+pub use spec::{ClampSpec, CurvatureSpec, RodFault, RodSpec, SectionSpec, StiffnessSpec};
 #[cfg(feature = "argmin")]
 pub use trust_region::{Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region};
 pub use units::Units;

@@ -4,7 +4,7 @@ use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};
 use super::truth::Truth;
-use crate::{Error, Scene, SceneFriction};
+use crate::{Error, Scene, SceneError, SceneFriction};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Friction, Known, NoiseModel, reconstruct_passes};
 use vibrissa::rod::{Reactions, Units};
@@ -74,13 +74,25 @@ pub struct Expected {
     pub(super) runs: Vec<Trial>,
 }
 
+/// What may be done with another scene.
+const INSTEAD: &str = "`budget` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa simulate --noise` and `vibrissa \
+     reconstruct --truth` show what noise does to the contacts of any rod";
+
 impl BudgetStudy {
+    /// The rod of a scene, if its errors are known.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] where it is not uniform, not straight at rest or not on a rigid clamp.
+    pub fn rod(scene: &Scene) -> Result<Rod, SceneError> {
+        scene.uniform(INSTEAD)
+    }
+
     /// Simulates, forecasts and tries.
     ///
     /// # Errors
-    /// [`Error::Budget`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
+    /// [`Error::Scene`] where the rod is not uniform, not straight at rest or not on a rigid clamp; [`Error::Budget`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
     pub fn run(self) -> Result<Expected, Error> {
-        let rod = self.scene.rod;
+        let rod = Self::rod(&self.scene)?;
         let rubs = self.scene.friction.as_ref().is_some_and(SceneFriction::rubs);
         let friction = self.friction.unwrap_or(if rubs { Friction::Estimate } else { Friction::None });
         let errors = self.budget.unwrap_or_else(|| Budget::laboratory(&rod));

@@ -59,7 +59,7 @@ impl Trials<'_> {
             .collect();
         let error = |source: Source| drawn[source as usize] * self.budget.of(source);
         // a length or stiffness below 0: the budget is no small error
-        let Ok((given, disturbed)) = disturb(&self.scene.rod, &self.truth.samples, error) else {
+        let Ok((given, disturbed)) = disturb(self.scene.rod.at_clamp(), &self.truth.samples, error) else {
             return Ok(Trial::default());
         };
         let (read, labels) = self.truth.read(&disturbed, self.noise, seed.wrapping_add(1))?;

@@ -2,7 +2,7 @@
 
 use super::freed::{Freed, limited, with_held};
 use crate::figure::Residual;
-use crate::{Error, KnownRod, Reconstructed, Recording};
+use crate::{Error, Reconstructed, Recording};
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Calibration, Combined, Known};
 use vibrissa::{Rod, Settings};
@@ -45,10 +45,15 @@ impl RodCalibration {
     ///
     /// # Errors
     /// [`Error::Calibrate`], [`Error::Reconstruction`].
-    pub fn new(recordings: &[Recording], given: &KnownRod, settings: &Settings, free: &[Freed]) -> Result<Self, Error> {
-        let rod = given.rod;
+    pub fn new(
+        recordings: &[Recording],
+        rod: Rod,
+        given: Known,
+        settings: &Settings,
+        free: &[Freed],
+    ) -> Result<Self, Error> {
         let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(&rod));
-        let known = if free.is_empty() { given.known } else { limited(&given.known, &budget, free) };
+        let known = if free.is_empty() { given } else { limited(&given, &budget, free) };
         let (mut each, mut findings) = (Vec::<(usize, Calibration)>::new(), Vec::new());
         for (number, recording) in recordings.iter().enumerate() {
             let settings = Settings { known, ..*settings };
@@ -60,7 +65,7 @@ impl RodCalibration {
         let combined = Combined::of(&each).ok_or(CalibrateError::Nothing)?;
         findings.extend(contradictions(&combined));
         let (found, known) = combined.known(&rod);
-        let known = with_held(known, &given.known, free);
+        let known = with_held(known, &given, free);
         let after = Settings { known, ..*settings };
         let before = Settings { budget: Some(Budget::NONE), known: Known::NOTHING, ..*settings };
         let mut residuals = [Vec::new(), Vec::new()];

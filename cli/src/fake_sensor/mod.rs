@@ -2,14 +2,13 @@
 
 mod pty;
 
-use crate::{Error, SceneRod, SensorCalibration, Setup, Simulation, Tick};
+use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
 use pty::play_pty;
 use rod_fake_sensor::{FakeBota, FakeGsv8, FakeRdt, FakeRdtSettings};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
-use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::hw::device::rdt::{RdtRecord, RdtScaling};
 use vibrissa::hw::{Dimension, OutOfPlane, Scale, Unit};
@@ -33,9 +32,9 @@ pub enum FakeProtocol {
 
 /// A sensor to be played.
 #[derive(Debug)]
-pub struct FakeScan<R = Rod> {
+pub struct FakeScan {
     /// What it feels, and at which rate it is asked. The clamp is rigid: on springs the base would move against the sensor.
-    pub simulation: Simulation<R>,
+    pub simulation: Simulation,
     /// How it is mounted, and what its counts are.
     pub setup: Setup,
     /// What it speaks.
@@ -96,7 +95,7 @@ pub enum FakeError {
 /// One million counts a unit, as ATI's devices are delivered.
 const COUNTS: f64 = 1e6;
 
-impl<R: SceneRod + Send + 'static> FakeScan<R> {
+impl FakeScan {
     /// Makes the first 4096 samples, then plays until all samples are sent or `stopped` says so; a sensor that waits to be started waits. `tell` is handed lines to
     /// show, the first of them the address.
     ///
@@ -164,8 +163,8 @@ fn unit(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
 }
 
 /// Makes the channels of all samples, in order, and closes `begun` once [`AHEAD`] or all are made. How many, and why no more.
-fn make<R: SceneRod>(
-    simulation: &Simulation<R>,
+fn make(
+    simulation: &Simulation,
     setup: &Setup,
     scale: Scale,
     sender: &SyncSender<[f64; 6]>,
@@ -222,7 +221,7 @@ fn play_rdt(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::AnyScene;
+    use crate::Scene;
     use vibrissa::reconstruct::NoiseModel;
 
     /// A rod that tapers is felt as `simulate` says.
@@ -231,9 +230,8 @@ mod tests {
         let scene = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\ntip_diameter = 0.2e-3\nyoungs_modulus = 206e9\n\
                      [[contour.piece]]\nshape = \"parabola\"\nvertex = [0.0, 0.0]\ncoefficient = 50.0\n\
                      [sweep]\nfrom = [0.06, -0.04]\nto = [0.03, -0.04]\nangle = 90.0\nstep = 1e-3\n";
-        let AnyScene::Mounted(scene) = AnyScene::parse("scene.toml".as_ref(), scene).unwrap() else {
-            panic!("uniform")
-        };
+        let scene = Scene::parse("scene.toml".as_ref(), scene).unwrap();
+        assert!(scene.rod.uniform().is_none());
         let simulation =
             Simulation { scene, noise: NoiseModel::default(), rate: 100.0, speed: 0.01, seed: 0, sigmas: false };
         let felt: Vec<Reactions> = simulation.ticks().unwrap().map(|tick| tick.unwrap().reactions.unwrap()).collect();

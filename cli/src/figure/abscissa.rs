@@ -1,6 +1,6 @@
 //! What a scan is plotted against.
 
-use crate::{Scene, SceneRod};
+use crate::Scene;
 use vibrissa::{ClampPath, Pose, State};
 
 /// The coordinate of the clamp that changes most along a path.
@@ -43,13 +43,13 @@ impl Abscissa {
 }
 
 /// What the states of a sweep are plotted against: a coordinate of the clamp; of several legs, which may go to and fro, the way so far.
-pub(super) enum Course<'a, R> {
+pub(super) enum Course<'a> {
     Coordinate(&'a ClampPath, Abscissa),
-    Way(&'a Scene<R>),
+    Way(&'a Scene),
 }
 
-impl<'a, R: SceneRod> Course<'a, R> {
-    pub fn of(scene: &'a Scene<R>) -> Self {
+impl<'a> Course<'a> {
+    pub fn of(scene: &'a Scene) -> Self {
         if scene.legs.is_empty() { Self::Coordinate(&scene.path, Abscissa::of(&scene.path)) } else { Self::Way(scene) }
     }
 

@@ -33,7 +33,7 @@ pub(crate) struct Residual {
 impl Residual {
     /// Those of a recording, with the labels of another reconstruction of it.
     pub fn all(found: &Reconstructed, labelled: &Reconstructed) -> Vec<Self> {
-        let mut travel = Travel::new(found.rod.alike());
+        let mut travel = Travel::new(found.rod.at_clamp());
         let ways: Vec<Option<f64>> = found.samples.iter().map(|sample| travel.go(&sample.pose).ok()).collect();
         let one = |number: usize| {
             let evidence = found.found.evidence(number)?;

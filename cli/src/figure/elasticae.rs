@@ -10,12 +10,12 @@ use super::outline;
 use super::palette::{INK, TRANSITION, WHITE, colour};
 use super::plane::Window;
 use super::support;
-use crate::{Interval, Scan, SceneRod};
+use crate::{Interval, Scan};
 use std::f64::consts::{FRAC_PI_2, PI};
 use vibrissa::State;
 use vibrissa::contact::{EventKind, Phase};
 use vibrissa::contour::Bounds;
-use vibrissa::rod::RodError;
+use vibrissa::rod::{AnyRod, RodError};
 
 /// Most shapes drawn, besides those at transitions.
 const MOST: usize = 60;
@@ -33,7 +33,7 @@ const LENGTHWISE: f64 = 0.8;
 type Curve = Vec<(f64, f64)>;
 
 /// Height (pixels) at which the shapes fill an area of this width.
-pub(super) fn height<R: SceneRod>(scan: &Scan<R>, width: u32) -> Result<f64, FigureError> {
+pub(super) fn height(scan: &Scan, width: u32) -> Result<f64, FigureError> {
     let every = scan.outcome.states.len().div_ceil(MOST).max(1);
     let mut seen = clamps(scan);
     for state in scan.outcome.states.iter().step_by(every) {
@@ -47,12 +47,12 @@ pub(super) fn height<R: SceneRod>(scan: &Scan<R>, width: u32) -> Result<f64, Fig
 }
 
 /// Where the clamp starts, turns and ends, mm.
-fn clamps<R: SceneRod>(scan: &Scan<R>) -> Curve {
+fn clamps(scan: &Scan) -> Curve {
     scan.scene.poses().into_iter().map(|pose| (1e3 * pose.x, 1e3 * pose.y)).collect()
 }
 
 /// Draws the left half of a sweep's figure into a part of `root`.
-pub(super) fn draw<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>) -> Result<(), FigureError> {
+pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), FigureError> {
     let (rod, intervals) = (&scan.scene.rod, scan.intervals());
     let every = scan.outcome.states.len().div_ceil(MOST).max(1);
     let mut shapes = Vec::new();
@@ -86,7 +86,7 @@ pub(super) fn draw<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>
 }
 
 /// The points (mm), and those of closed objects that are not much larger than what they span.
-fn with_closed_objects<R: SceneRod>(scan: &Scan<R>, mut seen: Curve) -> Curve {
+fn with_closed_objects(scan: &Scan, mut seen: Curve) -> Curve {
     let [x, y] = [span(seen.iter().map(|point| point.0), 0.0), span(seen.iter().map(|point| point.1), 0.0)];
     let more = (x.end - x.start).max(y.end - y.start);
     let around = |range: &std::ops::Range<f64>| (1e-3 * (range.start - more), 1e-3 * (range.end + more));
@@ -118,7 +118,7 @@ fn transitions<'a>(intervals: &[Interval<'a>]) -> (Vec<&'a State>, Vec<&'a State
 }
 
 /// The shape of the rod in mm.
-fn curve(state: &State, rod: &impl SceneRod) -> Result<Curve, RodError> {
+fn curve(state: &State, rod: &AnyRod) -> Result<Curve, RodError> {
     Ok(state.elastica(rod)?.sample(POINTS).map(|section| (1e3 * section.x, 1e3 * section.y)).collect())
 }
 
@@ -135,7 +135,7 @@ fn window(area: &Area<'_>, points: &[(f64, f64)]) -> Window {
 /// Where the name of an interval goes (m), and the direction (rad) in which it keeps off: behind the clamp, in the
 /// middle of the interval; where the clamp moves along the rod, beside it; where it only turns, off the tip and the
 /// solid.
-fn place<R: SceneRod>(scan: &Scan<R>, interval: &Interval<'_>, middle: &State) -> Result<((f64, f64), f64), RodError> {
+fn place(scan: &Scan, interval: &Interval<'_>, middle: &State) -> Result<((f64, f64), f64), RodError> {
     let (path, from, to) = (&scan.scene.path, interval.from, interval.to);
     if path.turns_only() {
         let rod = middle.elastica(&scan.scene.rod)?;
@@ -150,12 +150,7 @@ fn place<R: SceneRod>(scan: &Scan<R>, interval: &Interval<'_>, middle: &State) -
 }
 
 /// Writes each phase where it was.
-fn name_phases<R: SceneRod>(
-    root: &Area<'_>,
-    chart: &Chart<'_>,
-    scan: &Scan<R>,
-    intervals: &[Interval<'_>],
-) -> Result<(), FigureError> {
+fn name_phases(root: &Area<'_>, chart: &Chart<'_>, scan: &Scan, intervals: &[Interval<'_>]) -> Result<(), FigureError> {
     // a clamp that goes to and fro has several phases at one place
     if !scan.scene.legs.is_empty() {
         return Ok(());

@@ -4,7 +4,7 @@ use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
 use super::palette::{self, FAINT, INK, MUTED, label_colour};
 use super::plane::Window;
-use crate::{Comparison, Reconstructed};
+use crate::{Comparison, Reconstructed, naive_touch};
 use vibrissa::Label;
 use vibrissa::reconstruct::Touch;
 use vibrissa::reconstruct::score::Deviation;
@@ -30,7 +30,7 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
     let second = || several().filter_map(|reading| reading.second?.ok()).map(millimetres);
     let naive = found.samples.iter().zip(&found.found.readings).filter(|(_, reading)| reading.label.several());
     let naive: Vec<(f64, f64)> =
-        naive.filter_map(|(sample, _)| found.rod.naive_touch(sample)).map(millimetres).collect();
+        naive.filter_map(|(sample, _)| naive_touch(&found.rod, sample)).map(millimetres).collect();
 
     let all = || single(Label::A).chain(single(Label::B)).chain(first()).chain(second());
     let (x, y) = (span(all().map(|point| point.0), 0.06), span(all().map(|point| point.1), 0.1));
@@ -71,7 +71,7 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
         cloud::dots(&chart, &window, first(), FIRST)?;
         cloud::dots(&chart, &window, second(), SECOND)?;
         match &found.comparison {
-            Some(comparison) => cloud::contours(&chart, &window, comparison.scene.objects()),
+            Some(comparison) => cloud::contours(&chart, &window, &comparison.scene.objects),
             None => Ok(()),
         }
     })

@@ -5,9 +5,9 @@ use super::chart::Chart;
 use super::element::Element;
 use super::palette::{INK, WHITE};
 use super::plane::Window;
-use crate::SceneRod;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use vibrissa::State;
+use vibrissa::rod::{AnyRod, PhysicalRod};
 
 /// Distance of the plate from the base of the rod, half of its width, and half of the width of the spring, pixels.
 const BEHIND: f64 = 44.0;
@@ -30,7 +30,7 @@ const GAP: f64 = 2.0;
 const LINE: u32 = 2;
 
 /// Draws what holds the rod in a state.
-pub(super) fn draw<R: SceneRod>(chart: &Chart<'_>, window: &Window, rod: &R, state: &State) -> Result<(), FigureError> {
+pub(super) fn draw(chart: &Chart<'_>, window: &Window, rod: &AnyRod, state: &State) -> Result<(), FigureError> {
     if let Some(springs) = rod.springs() {
         let base = rod.base(state.pose, &state.reactions);
         let compliance = springs.compliance();
@@ -104,17 +104,13 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use crate::{AnyScene, Scan, figure};
+    use crate::{Scan, Scene, figure};
 
     /// The figure of a sweep with this table `[clamp]`.
     fn drawn(clamp: &str) -> String {
         let scene = include_str!("../../../scenes/O1_q40.toml").replace("step = 1e-3", "step = 1e-2");
-        match AnyScene::parse("scene.toml".as_ref(), &format!("{scene}\n{clamp}")).unwrap() {
-            AnyScene::Uniform(scene) => figure::sweep(&Scan::run(scene).unwrap()),
-            AnyScene::Mounted(scene) => figure::sweep(&Scan::run(scene).unwrap()),
-            AnyScene::Guided(scene) => figure::sweep(&Scan::run(scene).unwrap()),
-        }
-        .unwrap()
+        let scene = Scene::parse("scene.toml".as_ref(), &format!("{scene}\n{clamp}")).unwrap();
+        figure::sweep(&Scan::run(scene).unwrap()).unwrap()
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
 use super::trace::{self, Along, Trace};
-use crate::{Scan, SceneRod};
+use crate::Scan;
 use std::ops::Range;
 use vibrissa::State;
 
@@ -20,7 +20,7 @@ const EDGE: i32 = 24;
 const LEFT: u32 = 860;
 
 /// Draws a sweep.
-pub(crate) fn sweep<R: SceneRod>(scan: &Scan<R>) -> Result<String, FigureError> {
+pub(crate) fn sweep(scan: &Scan) -> Result<String, FigureError> {
     let along = Along::of(scan);
     let legend = Legend::of(&scan.intervals(), &along.all_modes(), WIDTH as i32 - 2 * EDGE);
     let height = f64::from(HEAD + legend.height() + GAP) + elasticae::height(scan, LEFT)?;
@@ -35,7 +35,7 @@ pub(crate) fn sweep<R: SceneRod>(scan: &Scan<R>) -> Result<String, FigureError> 
 }
 
 /// The name of the scene and its phases, as many as there is room for.
-fn title<R: SceneRod>(scan: &Scan<R>) -> String {
+fn title(scan: &Scan) -> String {
     let stop = match (&scan.interrupted, &scan.outcome.stop) {
         (Some(_), _) => ", interrupted",
         (None, Some(_)) => ", stopped early",
@@ -56,7 +56,7 @@ fn title<R: SceneRod>(scan: &Scan<R>) -> String {
 type Quantity = fn(&State) -> f64;
 
 /// The three reactions above each other.
-fn reactions<R: SceneRod>(root: &Area<'_>, area: &Area<'_>, scan: &Scan<R>, along: &Along) -> Result<(), FigureError> {
+fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan, along: &Along) -> Result<(), FigureError> {
     let quantities: [(&str, Quantity); 3] = [
         ("f_{0x} in N", |state| state.reactions.f0x),
         ("f_{0y} in N", |state| state.reactions.f0y),

@@ -6,8 +6,8 @@ use super::chart::{Chart, Room};
 use super::element::{Element, ShapeStyle};
 use super::labels::Labels;
 use super::palette::{FAINT, INK, TRANSITION, colour, mode_colour};
+use crate::Scan;
 use crate::interval::Interval;
-use crate::{Scan, SceneRod};
 use std::ops::Range;
 use vibrissa::State;
 use vibrissa::contact::SlipMode;
@@ -69,7 +69,7 @@ pub(crate) fn trimmings(phases: bool, foot: bool) -> u32 {
 
 impl Along {
     /// A sweep, with its transitions as marks.
-    pub fn of<R: SceneRod>(scan: &Scan<R>) -> Self {
+    pub fn of(scan: &Scan) -> Self {
         let course = Course::of(&scan.scene);
         let intervals = scan.intervals();
         let ends = |part: &Interval<'_>| {
@@ -106,7 +106,7 @@ fn modes<'a>(part: &Interval<'a>) -> impl Iterator<Item = (usize, SlipMode)> + '
 }
 
 /// A quantity along a sweep, coloured by phase; a wide, pale line where a contact sticks or rolls.
-pub(crate) fn parts<R: SceneRod>(scan: &Scan<R>, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
+pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
     let course = Course::of(&scan.scene);
     let point = |state: &&State| (course.value(state), quantity(state));
     let intervals = scan.intervals();

@@ -12,13 +12,13 @@ pub use profile::{write_profile_table, write_profiles};
 pub use staged::{OutputError, Staged};
 pub use stages::abandon;
 
-use crate::{Error, Scan, SceneRod, figure};
+use crate::{Error, Scan, figure};
 use records::{CONTACT_COLUMNS, EventRecord, ROLLER_COLUMNS, STATE_COLUMNS, StateRecord, contact_rows, state_row};
 use std::io::{self, Write};
 use std::path::Path;
 use sweep::SweepRecord;
 
-impl<R: SceneRod> Scan<R> {
+impl Scan {
     /// Writes states.jsonl, states.csv, contacts.csv, events.jsonl, sweep.svg and sweep.json into `folder` of the staged directory.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl<R: SceneRod> Scan<R> {
     /// Those of `out`.
     pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut columns = STATE_COLUMNS.to_vec();
-        if self.scene.rod.has_roller() {
+        if self.scene.rod.roller().is_some() {
             columns.extend(ROLLER_COLUMNS);
         }
         write_csv(out, &columns, self.outcome.states.iter().enumerate().map(state_row))

@@ -1,6 +1,6 @@
 //! What sweep.json says of a sweep as a whole.
 
-use crate::{Scan, SceneRod};
+use crate::Scan;
 use serde::Serialize;
 use vibrissa::Pose;
 use vibrissa::contact::{Start, StartCandidate};
@@ -57,8 +57,8 @@ impl StopRecord {
     }
 }
 
-impl<'a, R: SceneRod> From<&'a Scan<R>> for SweepRecord<'a> {
-    fn from(scan: &'a Scan<R>) -> Self {
+impl<'a> From<&'a Scan> for SweepRecord<'a> {
+    fn from(scan: &'a Scan) -> Self {
         let interrupted = scan.interrupted.map(|at| StopRecord::new("interrupted".into(), at.pose, at.to_string()));
         let stop = scan.outcome.stop.as_ref();
         let stopped = || stop.map(|stop| StopRecord::new(stop.reason.to_string(), Some(stop.pose), stop.to_string()));

@@ -39,7 +39,7 @@ impl<'a> Resolved<'a> {
         let scene = &scan.scan.scene;
         let states = Sweep::new(&scene.rod, &scene.objects, scene.path, STEP)?.run().states;
         let samples: Vec<Sample> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();
-        let found = reconstruct(&scene.rod, &samples, &Settings::default())?;
+        let found = reconstruct(scene.rod.at_clamp(), &samples, &Settings::default())?;
         let mut resolved = Self {
             scan,
             single: Vec::new(),

@@ -3,7 +3,7 @@
 mod reach;
 mod trace;
 
-use crate::{Scene, SceneRod};
+use crate::Scene;
 use reach::Reach;
 use trace::Tracer;
 
@@ -72,7 +72,7 @@ pub struct Profile {
     pub joints: Vec<[f64; 2]>,
 }
 
-impl<R: SceneRod> Scene<R> {
+impl Scene {
     /// The contours of all objects, or of one (by its number, from 1), as points so close together that no chord is farther
     /// than `tolerance` (m, by default 1e-6 of the rod's length) from the contour.
     ///
@@ -82,7 +82,7 @@ impl<R: SceneRod> Scene<R> {
     /// # Errors
     /// [`ProfileError`].
     pub fn profiles(&self, tolerance: Option<f64>, object: Option<usize>) -> Result<Vec<Profile>, ProfileError> {
-        let length = self.rod.units().length;
+        let length = self.rod.length();
         let tolerance = tolerance.unwrap_or(TOLERANCE * length);
         let least = FINEST * length;
         if !(tolerance.is_finite() && tolerance >= least) {

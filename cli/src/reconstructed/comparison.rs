@@ -1,6 +1,6 @@
 //! The result of a comparison with the truth.
 
-use crate::AnyScene;
+use crate::Scene;
 use std::path::PathBuf;
 use vibrissa::contact::{EventKind, Stop};
 use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore};
@@ -36,7 +36,7 @@ pub struct Transition {
 #[derive(Debug)]
 pub struct Comparison {
     /// The scene.
-    pub scene: AnyScene,
+    pub scene: Scene,
     /// Why its sweep stopped before the end of the path, if it did. Samples beyond are not compared.
     pub stop: Option<Stop>,
     /// Samples that are not on the path of the scene.

@@ -1,10 +1,16 @@
 //! Contact points as if every sample had a single contact.
 
 use nalgebra::Matrix3;
-use vibrissa::Rod;
-use vibrissa::reconstruct::{Touch, single};
+use vibrissa::Sample;
+use vibrissa::reconstruct::{Touch, one_sample, single};
+use vibrissa::rod::AnyRod;
 
-/// The contact point of a sample if it had a single contact.
-pub(crate) fn naive_touch(rod: &Rod, sample: &vibrissa::Sample) -> Option<Touch> {
-    single(rod, sample.pose, sample.reactions, &Matrix3::zeros()).map_or_else(|none| none.touch(), Some)
+/// The contact point of a sample as if it were a single one: where the moment vanishes first. For a uniform rod the pose is that of the base,
+/// for another one that of the support.
+pub(crate) fn naive_touch(rod: &AnyRod, sample: &Sample) -> Option<Touch> {
+    let (Sample { pose, reactions, .. }, exact) = (*sample, Matrix3::zeros());
+    match rod.uniform() {
+        Some(rod) => single(rod, pose, reactions, &exact).map_or_else(|none| none.touch(), Some),
+        None => one_sample(rod, pose, reactions, &exact).ok()?.touch(),
+    }
 }

@@ -179,7 +179,7 @@ impl PhysicsRecord {
         let line = check.line.map(|line| LineRecord {
             slope: line.slope,
             slope_sigma: line.slope_sigma,
-            slope_by_bending_stiffness: line.slope / rod.alike().bending_stiffness(),
+            slope_by_bending_stiffness: line.slope / rod.at_clamp().bending_stiffness(),
             intercept: line.intercept,
             intercept_sigma: line.intercept_sigma,
             share: line.share,
@@ -279,7 +279,7 @@ impl From<&Comparison> for TruthRecord {
         let confusion = &truth.confusion;
         let counts = Label::ALL.map(|of| Label::ALL.map(|found| confusion.count(of, found)).to_vec()).to_vec();
         Self {
-            scene: truth.scene.name().to_owned(),
+            scene: truth.scene.name.clone(),
             stopped: truth.stop.as_ref().map(ToString::to_string),
             compared: confusion.total(),
             off_path: truth.off_path,
@@ -341,7 +341,7 @@ impl Answered {
 impl ReportRecord {
     pub fn of(found: &Reconstructed) -> Self {
         let Reconstructed { recording, rod, rows, found: result, .. } = found;
-        let rod = rod.alike();
+        let rod = rod.at_clamp();
         let mut faults = BTreeMap::new();
         for fault in recording.faults() {
             *faults.entry(fault.problem.name()).or_insert(0) += 1;

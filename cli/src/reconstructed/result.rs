@@ -1,7 +1,7 @@
 //! The reconstruction of a recording.
 
 use super::comparison::Comparison;
-use crate::{Error, GivenRod, Recording};
+use crate::{Error, Recording};
 use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
@@ -9,7 +9,7 @@ use vibrissa::reconstruct::{
     Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, ReconstructError, Reconstruction, Travel,
     explanations, plausibility_with_friction, reconstruct_general, reconstruct_passes,
 };
-use vibrissa::rod::{Mounted, VaryingRod};
+use vibrissa::rod::{AnyRod, PhysicalRod};
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
 
 /// Most explanations that are told, and the least likelihood of one.
@@ -34,7 +34,7 @@ pub struct Reconstructed {
     /// The recording.
     pub recording: Recording,
     /// The rod that is assumed.
-    pub rod: GivenRod,
+    pub rod: AnyRod,
     /// The samples of its usable rows. Of a uniform rod on springs the poses are those of its base.
     pub samples: Vec<Sample>,
     /// Numbers of those rows, from 0.
@@ -60,17 +60,14 @@ impl Reconstructed {
     ///
     /// # Errors
     /// [`Error::Reconstruction`]: too few samples are of use, or a setting is not possible.
-    pub fn new(recording: Recording, rod: impl Into<GivenRod>, settings: &Settings) -> Result<Self, Error> {
+    pub fn new(recording: Recording, rod: impl Into<AnyRod>, settings: &Settings) -> Result<Self, Error> {
         let rod = rod.into();
-        let recording = match &rod {
-            GivenRod::Uniform(rod) if !rod.springs().is_rigid() => recording.at_base(rod),
-            _ => recording,
-        };
+        let recording = if rod.uniform().is_some() { recording.at_base(&rod) } else { recording };
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));
         let (rows, samples): (Vec<usize>, Vec<Sample>) = usable.unzip();
-        let found = match &rod {
-            GivenRod::Uniform(rod) => uniform(rod.rod(), &samples, settings),
-            GivenRod::Varying { rod, .. } => varying(rod, &samples, settings),
+        let found = match rod.uniform() {
+            Some(uniform) => of_uniform(uniform, &samples, settings),
+            None => of_varying(&rod, &samples, settings),
         };
         let (found, check) = found.map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
         let contour = found.contour(&Assembly::default());
@@ -141,13 +138,18 @@ impl Reconstructed {
 
     /// The pose of the support of the clamp at a sample, as it was recorded.
     pub fn pose(&self, sample: usize) -> Pose {
-        let sample = &self.samples[sample];
-        self.rod.support(sample.pose, &sample.reactions)
+        let Sample { pose, reactions, .. } = self.samples[sample];
+        if self.rod.uniform().is_none() || self.rod.springs().is_none() {
+            return pose;
+        }
+        // the springs yield by the reactions, wherever the support is
+        let there = self.rod.base(pose, &reactions);
+        Pose { x: 2.0 * pose.x - there.x, y: 2.0 * pose.y - there.y, phi: 2.0 * pose.phi - there.phi }
     }
 
     /// The poses of the support of the clamp at the kinks, interpolated between the samples on either side.
     pub(crate) fn kink_poses(&self) -> Vec<Pose> {
-        let mut travel = Travel::new(self.rod.alike());
+        let mut travel = Travel::new(self.rod.at_clamp());
         let ways: Vec<f64> = self.samples.iter().map(|s| travel.go(&s.pose).unwrap_or(f64::NAN)).collect();
         let pose = |kink: &Kink| {
             let after = kink.next.clamp(1, self.samples.len() - 1);
@@ -165,7 +167,7 @@ impl Reconstructed {
 type Checked = Result<(Reconstruction, Plausibility), ReconstructError>;
 
 /// With the errors that all samples share taken off, unless gross mistakes leave no sense in them.
-fn uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
+fn of_uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
     let is_gross = |check: &Plausibility| check.findings.iter().any(Finding::is_gross);
     let mut found = reconstruct_passes(rod, samples, settings)?;
     let friction = found.frictions();
@@ -187,7 +189,7 @@ fn uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
 }
 
 /// With the samples as they are.
-fn varying(rod: &Mounted<VaryingRod>, samples: &[Sample], settings: &Settings) -> Checked {
+fn of_varying(rod: &AnyRod, samples: &[Sample], settings: &Settings) -> Checked {
     let found = reconstruct_general(rod, samples, settings)?;
     let check = Plausibility { findings: found.findings(), ..Plausibility::default() };
     Ok((found, check))

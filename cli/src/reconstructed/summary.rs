@@ -112,7 +112,7 @@ impl Reconstructed {
 
     fn tell_physics(&self, text: &mut String) -> std::fmt::Result {
         if let Some(line) = &self.check.line {
-            let stiffness = self.rod.alike().bending_stiffness();
+            let stiffness = self.rod.at_clamp().bending_stiffness();
             writeln!(
                 text,
                 "physics: m0z^2 = {:.4e} +- {:.1e} N^2 m^2 + 2 ({:.4} +- {:.4}) EI (f0y sin phi0 + f0x cos phi0) in {:.0} % \
@@ -161,7 +161,7 @@ pub(crate) fn hardly_told(mu: f64, sigma: f64, others: &[(Source, f64)]) -> Stri
 impl Comparison {
     fn tell(&self, text: &mut String) -> std::fmt::Result {
         let Self { scene, confusion, either, off_path, kinks, .. } = self;
-        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name(), confusion.total())?;
+        writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name, confusion.total())?;
         if let Some(stop) = &self.stop {
             writeln!(text, "its sweep stopped early, samples beyond are not compared: {stop}")?;
         }
@@ -188,7 +188,7 @@ impl Comparison {
             kinks.found,
             kinks.found - real.min(kinks.found)
         )?;
-        let unit = if scene.path().turns_only() { "error mrad" } else { "error mm" };
+        let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
         let mut table = Table::new(["transition", "kind", "x0 mm", "y0 mm", "phi0 deg", unit]);
         for Transition { from, to, kind, pose, error } in &self.transitions {
             table.row([

@@ -1,8 +1,9 @@
 //! The comparison of a reconstruction with the scene that the recording is of.
 
 use super::comparison::{Comparison, Transition, TruthError};
+use super::naive::naive_touch;
 use super::result::Reconstructed;
-use crate::{AnyScene, Error, Scan, Scene, SceneRod};
+use crate::{Error, Scan, Scene};
 use rayon::prelude::*;
 use vibrissa::contact::EventKind;
 use vibrissa::reconstruct::Touch;
@@ -23,22 +24,15 @@ impl Reconstructed {
     ///
     /// # Errors
     /// [`Error::Contact`], [`Error::Truth`]; [`Error::Scene`] for a scene with a roller.
-    pub fn compare(&mut self, scene: AnyScene) -> Result<(), Error> {
-        self.comparison = Some(match scene {
-            AnyScene::Uniform(scene) => Comparison::of(self, scene, AnyScene::Uniform)?,
-            AnyScene::Mounted(scene) => Comparison::of(self, scene, AnyScene::Mounted)?,
-            AnyScene::Guided(scene) => return Err(scene.no_roller().into()),
-        });
+    pub fn compare(&mut self, scene: Scene) -> Result<(), Error> {
+        scene.check_no_roller()?;
+        self.comparison = Some(Comparison::of(self, scene)?);
         Ok(())
     }
 }
 
 impl Comparison {
-    fn of<R: SceneRod>(
-        found: &Reconstructed,
-        scene: Scene<R>,
-        any: impl FnOnce(Scene<R>) -> AnyScene,
-    ) -> Result<Self, Error> {
+    fn of(found: &Reconstructed, scene: Scene) -> Result<Self, Error> {
         let scan = Scan::run(scene)?;
         let truth = Truth::of(&scan);
         let poses: Vec<Pose> = (0..found.samples.len()).map(|sample| found.pose(sample)).collect();
@@ -63,7 +57,7 @@ impl Comparison {
         });
         let second = deviation(objects, readings().filter_map(|reading| reading.second?.ok()));
         let several = found.samples.par_iter().zip(&found.found.readings).filter(|(_, r)| r.label.several());
-        let naive = deviation(objects, several.filter_map(|(sample, _)| found.rod.naive_touch(sample)));
+        let naive = deviation(objects, several.filter_map(|(sample, _)| naive_touch(&found.rod, sample)));
         let kinks = found.found.kinks.iter().zip(found.kink_poses());
         let kinks: Vec<f64> =
             kinks.filter_map(|(kink, pose)| truth.way(*legs.get(kink.next)?.as_ref()?, pose)).collect();
@@ -81,7 +75,7 @@ impl Comparison {
             kinks_of_events: KinkScore::of(&kinks, &all, MARGIN),
             transitions: truth.transitions(&found.found.runs, &ways),
             stop: scan.outcome.stop.clone(),
-            scene: any(scan.scene),
+            scene: scan.scene,
         })
     }
 }
@@ -97,8 +91,8 @@ fn least(values: &[f64]) -> usize {
 }
 
 /// What happened along the path.
-struct Truth<'a, R> {
-    scan: &'a Scan<R>,
+struct Truth<'a> {
+    scan: &'a Scan,
     /// Length of the rod, m.
     length: f64,
     /// A length of the rod in the unit of ways along the path.
@@ -117,8 +111,8 @@ struct Happening<'a> {
     kinks: bool,
 }
 
-impl<'a, R: SceneRod> Truth<'a, R> {
-    fn of(scan: &'a Scan<R>) -> Self {
+impl<'a> Truth<'a> {
+    fn of(scan: &'a Scan) -> Self {
         let happening = |event: &'a Event| {
             let [from, to] = [event.from(), event.to()].map(|phase| Label::of(phase.contacts, phase.tip));
             let jumps = matches!(event.kind, EventKind::Snap | EventKind::SnapOff | EventKind::SlipOver);
@@ -128,7 +122,7 @@ impl<'a, R: SceneRod> Truth<'a, R> {
         let events: Vec<Happening<'a>> = scan.outcome.events.iter().map(happening).collect();
         let phase = scan.outcome.states.first().map(|state| state.phase()).unwrap_or_default();
         let start = Label::of(phase.contacts, phase.tip);
-        let length = scan.scene.rod.units().length;
+        let length = scan.scene.rod.length();
         Self { scan, length, unit: if scan.scene.turns_only() { 1.0 } else { length }, start, events }
     }
 

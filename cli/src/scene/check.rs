@@ -1,9 +1,7 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, SweepTable};
-use super::kind::AnyRod;
-use super::rod_table::{self, Held};
-use super::{AnyScene, Scene, files, friction, leg, object, plausible};
+use super::{Scene, files, friction, leg, object, plausible, rod_table};
 use crate::toml_file::{Fault, Source};
 use std::ops::Range;
 use std::path::Path;
@@ -19,7 +17,7 @@ const LEAST_RADIUS: f64 = 1e-12;
 
 /// Files that the objects name are looked for in `directory`. What is wrong may come from a number of another field that is not plausible: the
 /// message then names that one, too.
-pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<AnyScene, Fault> {
+pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<Scene, Fault> {
     let unlikely = plausible::scene(&document.tables);
     let also = unlikely.first().map(|also| (also.clone(), source.place(also.clone()).without_place()));
     checked(name, source, document, directory, unlikely).map_err(|fault| match also {
@@ -34,7 +32,7 @@ fn checked(
     document: Document,
     directory: &Path,
     unlikely: Vec<Fault>,
-) -> Result<AnyScene, Fault> {
+) -> Result<Scene, Fault> {
     let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
     let Document { tables, contour, objects: pieces } = document;
     let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
@@ -48,22 +46,11 @@ fn checked(
     let legs = leg::all(tables.sweep.get_ref(), path.at(path.length()), rod.length())?;
     let (friction, large) = friction::friction(&tables, &contour, &pieces, &objects)?;
     let warnings = unlikely.into_iter().chain(large).map(|fault| source.place(fault).to_string()).collect();
-    Ok(match rod {
-        Held::Clamped(AnyRod::Uniform(rod)) => {
-            AnyScene::Uniform(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
-        }
-        Held::Clamped(AnyRod::Mounted(rod)) => {
-            AnyScene::Mounted(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
-        }
-        Held::Guided(_) if friction.is_some() => {
-            let roller = tables.clamp.as_ref().and_then(|clamp| clamp.get_ref().roller.as_ref());
-            let span = roller.map_or(0..0, Spanned::span);
-            return Err(Fault::new(span, "a roller ahead of the clamp beside friction, expected one of the two"));
-        }
-        Held::Guided(rod) => {
-            AnyScene::Guided(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
-        }
-    })
+    let roller = tables.clamp.as_ref().and_then(|clamp| clamp.get_ref().roller.as_ref());
+    if let Some(roller) = roller.filter(|_| friction.is_some()) {
+        return Err(Fault::new(roller.span(), "a roller ahead of the clamp beside friction, expected one of the two"));
+    }
+    Ok(Scene { name, rod, objects, path, step, legs, friction, warnings, files, source })
 }
 
 fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {

@@ -1,6 +1,5 @@
 //! A rod with what a calibration knows of it and of its sensor.
 
-use super::given_rod::GivenRod;
 use super::rod::RodFile;
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
@@ -11,13 +10,14 @@ use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
 use vibrissa::reconstruct::{Known, Source};
+use vibrissa::rod::AnyRod;
 
-/// A rod, and what `vibrissa calibrate` found of the errors of rod, sensor, clamp and stage.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KnownRod {
+/// A rod on its clamp, and what `vibrissa calibrate` found of the errors of rod, sensor, clamp and stage.
+#[derive(Clone, Debug)]
+pub struct CalibratedRod {
     /// The rod.
-    pub rod: Rod,
-    /// Nothing where the file has no table `[calibration]`.
+    pub rod: AnyRod,
+    /// Nothing where the file has no table `[calibration]`, which only a uniform rod that is straight at rest may have.
     pub known: Known,
 }
 
@@ -47,22 +47,21 @@ pub(crate) fn written(source: Source, rod: &Rod) -> (&'static str, f64) {
     }
 }
 
-/// The rod of any kind in a TOML file, on the springs of its table `[clamp]`, and what its table `[calibration]` knows; only of a uniform
-/// rod that is straight at rest there is such a table. The [`KnownRod`] of another one is [`GivenRod::alike`].
+/// The rod of any kind in a TOML file, on the springs of its table `[clamp]`, with its table `[calibration]`.
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, holds no rod, or its calibration or its clamp is wrong.
-pub fn read_given_rod(file: &Path) -> Result<(KnownRod, GivenRod), SceneError> {
-    parse_given(file, &toml_file::text("the rod", file)?)
+pub fn read_calibrated_rod(file: &Path) -> Result<CalibratedRod, SceneError> {
+    parse_any(file, &toml_file::text("the rod", file)?)
 }
 
-fn parse_given(file: &Path, text: &str) -> Result<(KnownRod, GivenRod), SceneError> {
+fn parse_any(file: &Path, text: &str) -> Result<CalibratedRod, SceneError> {
     toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        let given = file.given()?;
-        match (&given, &file.calibration) {
-            (GivenRod::Varying { .. }, Some(table)) => Err(Fault::new(table.span(), NO_CALIBRATION)),
-            _ => Ok((file.known(*given.alike())?, given)),
+        let rod = file.any()?;
+        match (rod.uniform(), &file.calibration) {
+            (None, Some(table)) => Err(Fault::new(table.span(), NO_CALIBRATION)),
+            _ => Ok(CalibratedRod { known: file.known(rod.at_clamp())?, rod }),
         }
     })
 }
@@ -72,23 +71,22 @@ fn parse_given(file: &Path, text: &str) -> Result<(KnownRod, GivenRod), SceneErr
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, holds no rod, or its calibration is wrong.
-pub fn read_known_rod(file: &Path, instead: &str) -> Result<KnownRod, SceneError> {
+pub fn read_uniform_rod(file: &Path, instead: &str) -> Result<(Rod, Known), SceneError> {
     parse(file, &toml_file::text("the rod", file)?, instead)
 }
 
-fn parse(file: &Path, text: &str, instead: &str) -> Result<KnownRod, SceneError> {
+fn parse(file: &Path, text: &str, instead: &str) -> Result<(Rod, Known), SceneError> {
     toml_file::parse(file, text, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
-        file.known(file.uniform(instead)?)
+        let rod = file.uniform(instead)?;
+        Ok((rod, file.known(&rod)?))
     })
 }
 
 impl RodFile {
-    /// A rod with the calibration of the file.
-    fn known(&self, rod: Rod) -> Result<KnownRod, Fault> {
-        let known =
-            self.calibration.as_ref().map_or_else(|| Ok(Known::NOTHING), |table| known(table.get_ref(), &rod))?;
-        Ok(KnownRod { rod, known })
+    /// The calibration of the file.
+    fn known(&self, rod: &Rod) -> Result<Known, Fault> {
+        self.calibration.as_ref().map_or(Ok(Known::NOTHING), |table| known(table.get_ref(), rod))
     }
 }
 
@@ -121,12 +119,12 @@ mod tests {
     #[test]
     fn only_a_uniform_rod_has_a_calibration() {
         let cone = "[rod]\nlength = 0.1\ndiameter = 1e-3\ntip_diameter = 5e-4\nyoungs_modulus = 2e11\n";
-        let (known, given) = parse_given("rod.toml".as_ref(), cone).unwrap();
-        assert!(matches!(given, GivenRod::Varying { .. }) && given.uniform().is_none() && known.known.is_nothing());
+        let CalibratedRod { rod, known } = parse_any("rod.toml".as_ref(), cone).unwrap();
+        assert!(rod.varying().is_some() && rod.uniform().is_none() && known.is_nothing());
         let at_clamp = Rod::from_diameter(0.1, 1e-3, 2e11).unwrap().bending_stiffness();
-        assert!((known.rod.bending_stiffness() / at_clamp - 1.0).abs() < 1e-14 && known.rod.length() == 0.1);
+        assert!((rod.at_clamp().bending_stiffness() / at_clamp - 1.0).abs() < 1e-14 && rod.length() == 0.1);
         let table = format!("{cone}[calibration]\nlag = {{ value = 1e-3, sigma = 1e-4 }}\n");
-        let error = parse_given("rod.toml".as_ref(), &table).unwrap_err().to_string();
+        let error = parse_any("rod.toml".as_ref(), &table).unwrap_err().to_string();
         assert!(error.starts_with("rod.toml:6:1: calibration: ") && error.contains("not estimated"), "{error}");
     }
 
@@ -134,11 +132,11 @@ mod tests {
     fn a_calibration_is_read_in_its_units() {
         let read = |table: &str| parse("rod.toml".as_ref(), &format!("{ROD}{table}"), "take another");
         let plain = read("").unwrap();
-        assert!(plain.known.is_nothing());
+        assert!(plain.1.is_nothing());
         let table = "[calibration]\nclamp_angle = { value = 8e-3, sigma = 1e-4, unit = \"rad\" }\n\
                      natural_curvature = { value = 0.3, sigma = 0.01 }\n\
                      m0z_in_f0x = { value = 1e-3, sigma = 0, unit = \"1\" }\n";
-        let known = read(table).unwrap().known;
+        let known = read(table).unwrap().1;
         assert_eq!(known.of(Source::ClampAngle), Some((8e-3, 1e-4)));
         let (value, sigma) = known.of(Source::NaturalCurvature).unwrap();
         assert!((value - 0.03).abs() < 1e-15 && (sigma - 1e-3).abs() < 1e-15);

@@ -8,8 +8,6 @@ mod check;
 mod document;
 mod files;
 mod friction;
-mod given_rod;
-mod kind;
 mod known_rod;
 mod leg;
 mod object;
@@ -20,19 +18,19 @@ mod shape;
 
 pub(crate) use check::MOST_STATES;
 pub use friction::SceneFriction;
-pub use given_rod::GivenRod;
-pub use kind::{AnyRod, AnyScene, SceneRod};
 pub(crate) use known_rod::written;
-pub use known_rod::{KnownRod, read_given_rod, read_known_rod};
+pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod};
 pub use leg::{Leg, LegPath};
 pub use rod::read_rod;
 
 use crate::SceneError;
 use crate::toml_file::{self, Source};
+use rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::DeTable;
 use vibrissa::contact::{Chain, ContactError, StopReason};
+use vibrissa::rod::AnyRod;
 use vibrissa::{ClampPath, Composite, Pose, Rod, State, Sweep};
 
 /// Poses along a leg about a pivot, for figures.
@@ -40,11 +38,11 @@ const PARTS: u32 = 32;
 
 /// A rod swept along a contour.
 #[derive(Debug)]
-pub struct Scene<R = Rod> {
+pub struct Scene {
     /// What to call it: the file's name without its extension.
     pub name: String,
-    /// The rod.
-    pub rod: R,
+    /// The rod on its clamp.
+    pub rod: AnyRod,
     /// The objects, coordinates in m.
     pub objects: Vec<Composite>,
     /// The way of the clamp; with `legs`, the first one of it.
@@ -98,11 +96,49 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        parse(file, text)?.uniform("`AnyScene` reads any")
+        let directory = file.parent().unwrap_or(file);
+        let source = Source::new(file, text);
+        let read =
+            |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
+        let (mut scene, warnings) = toml_file::parse_angles(file, text, read)?;
+        scene.warnings.extend(warnings);
+        Ok(scene)
     }
-}
 
-impl<R: SceneRod> Scene<R> {
+    /// The rod, if it is uniform and straight at rest, on a rigid clamp. `instead` ends the message where it is not: what the user may do
+    /// with it.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `rod` of another one, at `clamp` or at `clamp.roller`.
+    pub fn uniform(&self, instead: &str) -> Result<Rod, SceneError> {
+        self.check_rigid(instead)?;
+        let other = || self.source.error("rod", &format!("{NOT_UNIFORM}; {instead}"));
+        self.rod.uniform().copied().ok_or_else(other)
+    }
+
+    /// Refuses a clamp that gives way or has a roller, of whatever rod. `instead` ends the message: what the user may do with it.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `clamp` or `clamp.roller`.
+    pub fn check_rigid(&self, instead: &str) -> Result<(), SceneError> {
+        self.check_no_roller()?;
+        match self.rod.springs() {
+            Some(_) => Err(self.source.error("clamp", &format!("{NOT_RIGID}; {instead}"))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a roller.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `clamp.roller`.
+    pub fn check_no_roller(&self) -> Result<(), SceneError> {
+        match self.rod.roller() {
+            Some(_) => Err(self.source.error("clamp.roller", NO_ROLLER)),
+            None => Ok(()),
+        }
+    }
+
     /// Whether the clamp is outside of all objects in its first pose.
     ///
     /// # Errors
@@ -122,7 +158,7 @@ impl<R: SceneRod> Scene<R> {
     ///
     /// # Errors
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
-    pub fn sweep(&self) -> Result<Sweep<'_, R>, ContactError> {
+    pub fn sweep(&self) -> Result<Sweep<'_, AnyRod>, ContactError> {
         self.sweep_by(&self.all_legs().map(|leg| leg.step).collect::<Vec<_>>())
     }
 
@@ -130,7 +166,7 @@ impl<R: SceneRod> Scene<R> {
     ///
     /// # Errors
     /// As [`Sweep::with_steps`].
-    pub(crate) fn sweep_by(&self, steps: &[f64]) -> Result<Sweep<'_, R>, ContactError> {
+    pub(crate) fn sweep_by(&self, steps: &[f64]) -> Result<Sweep<'_, AnyRod>, ContactError> {
         let path = Chain::new(self.all_legs().map(|leg| leg.path.path()).collect())?;
         let sweep = Sweep::with_steps(&self.rod, &self.objects, path, steps)?;
         match &self.friction {
@@ -167,7 +203,7 @@ impl<R: SceneRod> Scene<R> {
 
     /// The same in m: where the clamp only turns, the way of the tip of a straight rod.
     pub(crate) fn way_in_m(&self, leg: usize, pose: Pose) -> f64 {
-        self.way_by(leg, pose, self.rod.units().length)
+        self.way_by(leg, pose, self.rod.length())
     }
 
     /// Way along the whole path at a pose of a leg, where a radian of a leg on which the clamp only turns counts as `radian`.
@@ -209,20 +245,6 @@ impl<R: SceneRod> Scene<R> {
                        without [[sweep.leg]]";
         Err(self.source.error("sweep.leg", message))
     }
-}
-
-/// The scene in a text.
-fn parse(file: &Path, text: &str) -> Result<AnyScene, SceneError> {
-    let directory = file.parent().unwrap_or(file);
-    let source = Source::new(file, text);
-    let read = |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
-    let (mut scene, warnings) = toml_file::parse_angles(file, text, read)?;
-    match &mut scene {
-        AnyScene::Uniform(scene) => scene.warnings.extend(warnings),
-        AnyScene::Mounted(scene) => scene.warnings.extend(warnings),
-        AnyScene::Guided(scene) => scene.warnings.extend(warnings),
-    }
-    Ok(scene)
 }
 
 fn stem(file: &Path) -> String {

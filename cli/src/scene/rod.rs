@@ -1,7 +1,6 @@
 //! A rod on its own.
 
 use super::document::{ClampTable, RodTable};
-use super::given_rod::GivenRod;
 use super::known_rod::CalibrationTable;
 use super::rod_table;
 use crate::toml_file::Fault;
@@ -12,9 +11,10 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
+use vibrissa::rod::AnyRod;
 
 /// What a program may do with another rod than a uniform, straight one.
-const INSTEAD: &str = "`read_given_rod` reads any";
+const INSTEAD: &str = "`read_calibrated_rod` reads any";
 
 /// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
@@ -46,8 +46,8 @@ impl RodFile {
     }
 
     /// The rod of any kind on its clamp.
-    pub fn given(&self) -> Result<GivenRod, Fault> {
-        rod_table::given(&self.rod, self.clamp.as_ref())
+    pub fn any(&self) -> Result<AnyRod, Fault> {
+        rod_table::recorded(&self.rod, self.clamp.as_ref())
     }
 }
 

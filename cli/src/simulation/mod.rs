@@ -8,13 +8,13 @@ pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
 use crate::scene::{LegPath, MOST_STATES};
-use crate::{Error, Interrupt, Interrupted, OutputError, Scene, SceneRod, Staged};
+use crate::{Error, Interrupt, Interrupted, OutputError, Scene, Staged};
 use std::io::{self, Write};
 use std::path::Path;
+use vibrissa::Pose;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::NoiseModel;
 use vibrissa::rod::Reactions;
-use vibrissa::{Pose, Rod};
 
 /// The columns, those of the standard deviations last.
 const COLUMNS: [&str; 10] = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z", "sigma_f0x", "sigma_f0y", "sigma_m0z"];
@@ -27,9 +27,9 @@ pub(crate) const INCOMPLETE: &str = "incomplete";
 
 /// A recording to be made, SI units.
 #[derive(Debug)]
-pub struct Simulation<R = Rod> {
+pub struct Simulation {
     /// What the clamp is led along. The scene's own step is not used.
-    pub scene: Scene<R>,
+    pub scene: Scene,
     /// The sensor; zeros for one that reads the truth.
     pub noise: NoiseModel,
     /// Samples in a second, 1/s.
@@ -98,7 +98,7 @@ pub enum SimulationError {
     },
 }
 
-impl<R: SceneRod> Simulation<R> {
+impl Simulation {
     /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which
     /// appears when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked
     /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample. Of several legs each takes a whole
@@ -137,7 +137,7 @@ impl<R: SceneRod> Simulation<R> {
         Ok(self.samples()?.record(out, interrupt).map_err(OutputError::Standard)?)
     }
 
-    fn samples(&self) -> Result<Samples<'_, R>, Error> {
+    fn samples(&self) -> Result<Samples<'_>, Error> {
         let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
         Ok(Samples { simulation: self, sigma, ticks: self.ticks()? })
     }
@@ -160,7 +160,7 @@ impl<R: SceneRod> Simulation<R> {
         let step = speed / rate;
         let way = |path: &LegPath| {
             let on_the_spot = path.turns_only() && !scene.turns_only();
-            path.length() * if on_the_spot { scene.rod.units().length } else { 1.0 }
+            path.length() * if on_the_spot { scene.rod.length() } else { 1.0 }
         };
         let legs: Vec<(LegPath, f64)> = scene.all_legs().map(|leg| (leg.path, way(&leg.path))).collect();
         let length: f64 = legs.iter().map(|leg| leg.1).sum();
@@ -186,19 +186,19 @@ impl<R: SceneRod> Simulation<R> {
 }
 
 /// The samples of a recording that is being written.
-struct Samples<'a, R> {
-    simulation: &'a Simulation<R>,
+struct Samples<'a> {
+    simulation: &'a Simulation,
     sigma: Option<Reactions>,
-    ticks: Ticks<'a, R>,
+    ticks: Ticks<'a>,
 }
 
-impl<R: SceneRod> Samples<'_, R> {
+impl Samples<'_> {
     fn record(mut self, out: &mut dyn Write, interrupt: &Interrupt) -> io::Result<Simulated> {
         let mut recorded = Simulated::default();
         let mut last = None;
         let columns = if self.sigma.is_some() { COLUMNS.len() } else { WITHOUT_SIGMAS };
         let mut table = csv_writer(out);
-        let of_roller = match (self.simulation.scene.rod.has_roller(), self.sigma) {
+        let of_roller = match (self.simulation.scene.rod.roller().is_some(), self.sigma) {
             (false, _) => 0,
             (true, None) => 1,
             (true, Some(_)) => 2,

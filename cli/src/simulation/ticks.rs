@@ -1,12 +1,12 @@
 //! The samples of a simulated recording, one after the other.
 
 use super::Simulation;
+use crate::Error;
 use crate::scene::{Leg, LegPath};
-use crate::{Error, SceneRod};
 use vibrissa::contact::{Item, RollerContact, Stop};
 use vibrissa::reconstruct::{Dropout, NoiseGenerator, NoiseModel};
-use vibrissa::rod::Reactions;
-use vibrissa::{Label, Pose, Rod, State, Sweep};
+use vibrissa::rod::{AnyRod, Reactions};
+use vibrissa::{Label, Pose, State, Sweep};
 
 /// One sample that the sensor took.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +26,8 @@ pub struct Tick {
 /// The samples along a scene, in order; an error where the sweep stops early, and nothing after it. Poses that a snap jumps
 /// over have no sample, but a number.
 #[derive(Debug)]
-pub struct Ticks<'a, R = Rod> {
-    sweep: Sweep<'a, R>,
+pub struct Ticks<'a> {
+    sweep: Sweep<'a, AnyRod>,
     /// The legs of the path, the way between two samples on each, and the number of the sample at its start.
     legs: Vec<(LegPath, f64, usize)>,
     /// About how many samples there are.
@@ -39,12 +39,12 @@ pub struct Ticks<'a, R = Rod> {
     next: usize,
 }
 
-impl<R: SceneRod> Simulation<R> {
+impl Simulation {
     /// The samples. The memory they take does not grow with their number.
     ///
     /// # Errors
     /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
-    pub fn ticks(&self) -> Result<Ticks<'_, R>, Error> {
+    pub fn ticks(&self) -> Result<Ticks<'_>, Error> {
         let ((steps, expected), sensor) = (self.steps()?, self.noise.generator(self.seed)?);
         // a sample is lost as a whole
         let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..self.noise };
@@ -67,7 +67,7 @@ const ROLLER_SEED: u64 = 0x726f_6c6c_6572_0001;
 /// Share of a step by which a state may be off its sample by rounding.
 const ROUNDING: f64 = 1e-6;
 
-impl<R: SceneRod> Ticks<'_, R> {
+impl Ticks<'_> {
     /// None of the end of the path, which the sweep reports too, where no sample is due.
     fn tick(&mut self, state: &State) -> Option<Tick> {
         let (path, step, first) = &self.legs[state.leg];
@@ -90,7 +90,7 @@ impl<R: SceneRod> Ticks<'_, R> {
     }
 }
 
-impl<R: SceneRod> Iterator for Ticks<'_, R> {
+impl Iterator for Ticks<'_> {
     type Item = Result<Tick, Stop>;
 
     fn next(&mut self) -> Option<Self::Item> {

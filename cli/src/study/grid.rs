@@ -5,7 +5,7 @@ use super::parameter::Parameter;
 use super::row::StudyRow;
 use super::run::StudyError;
 use crate::toml_file::{self, Fault};
-use crate::{AnyScene, SceneError};
+use crate::{Scene, SceneError};
 use serde::Deserialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -78,7 +78,7 @@ impl Study {
         })?;
         let of_scene = toml_file::text("the scene", &scene)?;
         // told with its place there, before anything is changed
-        AnyScene::parse(&scene, &of_scene)?;
+        Scene::parse(&scene, &of_scene)?;
         let table = toml_file::parse(&scene, &of_scene, |table| Ok(Table::deserialize(Deserializer::from(table))?))?;
         let study = Self { scene, texts: [text, of_scene], table, parameters };
         study.check_fields(file)?;

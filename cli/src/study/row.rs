@@ -1,7 +1,7 @@
 //! What is measured in one scene of a study.
 
 use super::touched::touched;
-use crate::{AnyScene, Scan, SceneRod, naive_touch};
+use crate::{Scan, Scene, naive_touch};
 use serde::Serialize;
 use std::path::Path;
 use vibrissa::contact::EventKind;
@@ -63,10 +63,8 @@ impl StudyRow {
     /// Sweeps a scene that is written as in a scene file, and measures it. Files that it names are relative to `file`, which is
     /// not opened.
     pub fn sweep(scene: usize, values: Vec<f64>, file: &Path, text: &str) -> Self {
-        match AnyScene::parse(file, text) {
-            Ok(AnyScene::Uniform(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
-            Ok(AnyScene::Mounted(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
-            Ok(AnyScene::Guided(read)) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
+        match Scene::parse(file, text) {
+            Ok(read) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
             Err(error) => Self::refused(scene, values, error.without_place()),
         }
     }
@@ -76,7 +74,7 @@ impl StudyRow {
         Self { scene, values, measured: None, reason: Some(reason) }
     }
 
-    fn of<R: SceneRod>(scene: usize, values: Vec<f64>, scan: Result<Scan<R>, String>) -> Self {
+    fn of(scene: usize, values: Vec<f64>, scan: Result<Scan, String>) -> Self {
         match scan {
             Ok(scan) => {
                 let reason = scan.outcome.stop.as_ref().map(ToString::to_string);
@@ -124,7 +122,7 @@ impl StudyRow {
 }
 
 impl Measured {
-    fn of<R: SceneRod>(scan: &Scan<R>) -> Self {
+    fn of(scan: &Scan) -> Self {
         let Scan { scene, outcome, .. } = scan;
         let intervals = scan.intervals();
         let several = || intervals.iter().filter(|interval| interval.phase.contacts > 1);
@@ -133,7 +131,8 @@ impl Measured {
         let cycle = scan.cycle();
         let naive =
             several().flat_map(|one| &one.states).filter(|state| state.contacts.len() > 1).filter_map(|state| {
-                let touch = naive_touch(scene.rod.uniform()?, &Sample::new(state.pose, state.reactions))?;
+                let touch =
+                    naive_touch(scene.rod.uniform().and(Some(&scene.rod))?, &Sample::new(state.pose, state.reactions))?;
                 signed_distance(&scene.objects, touch.x, touch.y).map(f64::abs)
             });
         Self {

@@ -107,7 +107,7 @@ pub fn make(site: &Site, wrong: &Wrong, level: f64, seed: u64) -> Made {
     }
     let speed = usize::from(wrong.is_fast());
     let truth = site.truth(speed, &world);
-    let mut recording = Recording::ideal(&truth, &site.scene.rod, 1.0 / site.rate, SPEEDS[speed]);
+    let mut recording = Recording::ideal(&truth, site.scene.rod.at_clamp(), 1.0 / site.rate, SPEEDS[speed]);
     for (one, level) in &drawn {
         if let Acts::Before(change) = one.acts {
             change(&mut recording, *level, &mut own(one.name));

@@ -78,6 +78,10 @@ impl<R> Guided<R> {
     pub fn roller(&self) -> f64 {
         self.distance
     }
+
+    pub(crate) fn dimensionless(&self) -> Roller {
+        self.roller
+    }
 }
 
 impl<R: PhysicalRod<Clamp = Pose>> PhysicalRod for Guided<R> {

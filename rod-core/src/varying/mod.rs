@@ -267,6 +267,11 @@ impl VaryingRod {
         self.at_clamp.length()
     }
 
+    /// The uniform, straight rod of its length and of its stiffness at the clamp.
+    pub fn at_clamp(&self) -> &Rod {
+        &self.at_clamp
+    }
+
     /// The change of the curvature (1/L) at arc length `s` (L) under `moment` (E I / L) per SI unit of a parameter.
     pub(crate) fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
         let unit = match parameter {

@@ -48,7 +48,7 @@ struct Sizes {
 pub fn kinks_below(scans: &[Clean], noises: &[(&Level, &Noise)]) -> super::Outcome<String> {
     let mut kinds: BTreeMap<String, Sizes> = BTreeMap::new();
     for clean in scans {
-        let found = reconstruct(&clean.scene.rod, &clean.samples, &Settings::default())?;
+        let found = reconstruct(clean.scene.rod.at_clamp(), &clean.samples, &Settings::default())?;
         for (index, transition) in clean.transitions.iter().enumerate() {
             let near = found.kinks.iter().filter(|kink| (kink.tau - transition.at).abs() < MARGIN);
             let near = near.min_by(|a, b| (a.tau - transition.at).abs().total_cmp(&(b.tau - transition.at).abs()));

@@ -60,7 +60,7 @@ pub fn judge(
             let samples = clean.recorded(&model, 1000 * scan as u64 + seed)?;
             let friction = if clean.friction == 0.0 { Friction::None } else { Friction::Estimate };
             let settings = vibrissa::Settings { friction, ..vibrissa::Settings::default() };
-            let found = vibrissa::reconstruct(&clean.scene.rod, &samples, &settings)?;
+            let found = vibrissa::reconstruct(clean.scene.rod.at_clamp(), &samples, &settings)?;
             if let Some(keep) = keep {
                 keep.add(clean, level, noise, seed, &samples, &found)?;
             }

@@ -166,7 +166,7 @@ impl Score {
                 }
             }
             if truth.several() {
-                let point = single(&clean.scene.rod, sample.pose, sample.reactions, &Matrix3::zeros());
+                let point = single(clean.scene.rod.at_clamp(), sample.pose, sample.reactions, &Matrix3::zeros());
                 let point = point.map_or_else(|none| none.touch(), Some);
                 self.naive.extend(point.as_ref().and_then(off));
             } else if *truth != Label::Free {

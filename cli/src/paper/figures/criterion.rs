@@ -27,7 +27,7 @@ pub(crate) fn criterion(scans: &[&Scan]) -> Result<String, FigureError> {
             let (part, below) = rest.split_vertically(rows(index));
             let (name, plot) = part.split_vertically(NAME);
             write(&name, &scan.scene.name, (24, 26), HPos::Left, TITLE, INK)?;
-            let stiffness = scan.scene.rod.bending_stiffness();
+            let stiffness = scan.scene.rod.at_clamp().bending_stiffness();
             let quantity = |state: &State| 1e6 * state.reactions.phase_criterion(state.pose.phi, stiffness);
             let (parts, foot) = (trace::parts(scan, quantity), index == last);
             trace::draw(
