@@ -296,3 +296,13 @@ fn modes_are_printed_and_drawn() {
     assert_eq!(wide(&drawing, 14), 2 * 3);
     assert!(names.iter().all(|name| !drawing_of_smooth.contains(name)) && wide(&drawing_of_smooth, 14) == 0);
 }
+
+/// A contact that bears nothing yet holds nothing back: the rod is as stable as without it.
+#[test]
+fn a_touch_leaves_a_slipping_rod_stable() {
+    for coefficient in ["0.3", "0.5", "{ at_rest = 0.5, slipping = 0.3 }"] {
+        let scene = format!("{}\n[contact]\nfriction = {coefficient}\n", include_str!("../../scenes/gears.toml"));
+        let events = swept(&scene).events;
+        assert!(events.len() > 10 && events.iter().all(|event| event.after.certificate.stable), "{coefficient}");
+    }
+}

@@ -252,12 +252,17 @@ impl AllRates {
 /// Whether friction holds the rod in one way only: with g the slip coordinates of the contacts that slip, the matrix of d (f_t - ratio f) / dg at
 /// a fixed clamp has positive principal minors (a P-matrix; Klarbring 1990). It is singular at the fold of a branch on which the rod slips.
 pub(crate) fn resists<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> bool {
+    // a contact that bears nothing holds nothing back
+    if (0..configuration.count()).any(|j| configuration.force(j) < UNLOADED) {
+        let mut loaded = configuration.clone();
+        (0..loaded.count()).rev().filter(|j| configuration.force(*j) < UNLOADED).for_each(|j| loaded.remove(j));
+        return resists(setup, &loaded);
+    }
     let n = configuration.count();
     let slipping: SmallVec<[(usize, f64); 6]> = (0..n)
         .filter_map(|j| match configuration.contacts[j].grip {
-            // a contact that bears nothing holds nothing back
-            Grip::Slips { ratio } if configuration.force(j) >= UNLOADED => Some((j, ratio)),
-            _ => None,
+            Grip::Slips { ratio } => Some((j, ratio)),
+            Grip::Sticks { .. } => None,
         })
         .collect();
     let k = slipping.len();
