@@ -1,14 +1,13 @@
 //! The commands about accuracy: `calibrate` and `budget`.
 
 use crate::accuracy_arguments::{Calibrate, Expect};
+use crate::error::Error;
 use crate::reconstruction::{budget, read};
 use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, stopped, warn};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::Settings;
-use vibrissa_cli::{
-    BudgetStudy, Error, OutputError, Recording, RodCalibration, Setup, Staged, read_noise, read_uniform_rod,
-};
+use vibrissa_cli::{BudgetStudy, OutputError, Recording, RodCalibration, Setup, Staged, read_noise, read_uniform_rod};
 
 /// What may be done with a rod that `calibrate` does not take.
 const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa reconstruct --rod` takes any \

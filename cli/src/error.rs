@@ -1,11 +1,10 @@
 //! Why a command fails.
 
-use crate::{
-    BudgetError, CalibrateError, FakeError, FigureError, LiveError, OutputError, ProfileError, ReconstructionError,
-    RecordingError, SceneError, SimulationError, StudyError, TruthError,
-};
 use vibrissa::contact::ContactError;
-use vibrissa::reconstruct::NoiseError;
+use vibrissa_cli::{
+    BudgetError, CalibrateError, FakeError, LiveError, OutputError, PaperError, ProfileError, ReconstructionError,
+    SceneError, SimulationError, StudyError, TruthError, WriteError,
+};
 
 /// An option that the rod or the scene does not allow.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -17,75 +16,72 @@ pub struct OptionError {
     pub why: String,
 }
 
-/// Why a command fails.
+/// Why a command fails: the error of each.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[non_exhaustive]
 pub enum Error {
-    /// The scene, or another TOML file.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Scene(#[from] SceneError),
-    /// The sweep it asks for.
     #[error(transparent)]
-    Contact(#[from] ContactError),
-    /// The reconstruction of a recording.
+    Sweep(#[from] ContactError),
     #[error(transparent)]
-    Reconstruct(#[from] vibrissa::reconstruct::ReconstructError),
-    /// What is asked of its contours.
+    Contour(#[from] ProfileError),
     #[error(transparent)]
-    Profile(#[from] ProfileError),
-    /// A noise model.
+    Simulate(#[from] SimulationError),
     #[error(transparent)]
-    Noise(#[from] NoiseError),
-    /// How a recording is to be made.
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-    /// A sensor that is played.
-    #[error(transparent)]
-    Fake(#[from] FakeError),
-    /// A live scan.
+    FakeSensor(#[from] FakeError),
     #[error(transparent)]
     Live(#[from] LiveError),
-    /// A recording.
     #[error(transparent)]
-    Recording(#[from] RecordingError),
-    /// What a recording tells.
+    Reconstruct(#[from] ReconstructionError),
     #[error(transparent)]
-    Reconstruction(#[from] ReconstructionError),
-    /// The scene that a recording is said to be of.
-    #[error(transparent)]
+    #[diagnostic(transparent)]
     Truth(#[from] TruthError),
-    /// An option that does not apply.
     #[error(transparent)]
-    Option(#[from] OptionError),
-    /// The accuracy that a scene allows.
-    #[error(transparent)]
+    #[diagnostic(transparent)]
     Budget(#[from] BudgetError),
-    /// A calibration.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
-    /// The results of a study.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// A figure.
     #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// The files.
+    #[diagnostic(transparent)]
+    Paper(#[from] PaperError),
+    #[error(transparent)]
+    Option(#[from] OptionError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
     #[error(transparent)]
     Output(#[from] OutputError),
 }
 
 impl Error {
+    /// What went wrong with a file of results or with standard output, of whichever command.
+    pub fn of_output(&self) -> Option<&OutputError> {
+        match self {
+            Self::Simulate(SimulationError::Output(error))
+            | Self::Live(LiveError::Output(error))
+            | Self::Study(StudyError::Output(error))
+            | Self::Write(WriteError::Output(error))
+            | Self::Output(error) => Some(error),
+            _ => None,
+        }
+    }
+
     /// Whether the value of an option is wrong, as opposed to a file or a device.
     pub fn is_of_options(&self) -> bool {
-        matches!(
-            self,
-            Self::Profile(_)
-                | Self::Option(_)
-                | Self::Simulation(_)
-                | Self::Study(StudyError::NoScene { .. })
-                | Self::Fake(FakeError::Pace { .. } | FakeError::NoPty { .. })
-                | Self::Output(OutputError::Name { .. } | OutputError::NoFile { .. })
-        )
+        match self {
+            Self::Contour(_) | Self::Option(_) => true,
+            Self::Simulate(error)
+            | Self::FakeSensor(FakeError::Simulation(error))
+            | Self::Budget(BudgetError::Simulation(error))
+                if error.is_of_options() =>
+            {
+                true
+            }
+            Self::Study(StudyError::NoScene { .. })
+            | Self::FakeSensor(FakeError::Pace { .. } | FakeError::NoPty { .. }) => true,
+            _ => matches!(self.of_output(), Some(OutputError::Name { .. } | OutputError::NoFile { .. })),
+        }
     }
 }

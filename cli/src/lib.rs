@@ -7,7 +7,6 @@
 mod budget;
 mod calibrate;
 mod cycle;
-mod error;
 mod fake_sensor;
 mod figure;
 mod init;
@@ -36,7 +35,6 @@ mod toml_file;
 pub use budget::{BudgetError, BudgetStudy, Expected};
 pub use calibrate::{CalibrateError, Freed, RodCalibration};
 pub use cycle::Cycle;
-pub use error::{Error, OptionError};
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;
 pub use init::{FIRST_SCENE, write_first_scene};
@@ -48,8 +46,8 @@ pub use live::{
 };
 pub use merged::Merged;
 pub use noise_file::read_noise;
-pub use output::{OutputError, Staged, abandon, check_output, write_profile_table, write_profiles};
-pub use paper::{Paper, PaperScan};
+pub use output::{OutputError, Staged, WriteError, abandon, check_output, write_profile_table, write_profiles};
+pub use paper::{Paper, PaperError, PaperScan};
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub(crate) use reconstructed::naive_touch;
 pub use reconstructed::{Comparison, Reconstructed, ReconstructionError, Transition, TruthError};

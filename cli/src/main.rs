@@ -3,12 +3,14 @@
 mod accuracy;
 mod accuracy_arguments;
 mod arguments;
+mod error;
 mod guide;
 mod progress;
 mod reconstruction;
 mod signals;
 mod values;
 
+use crate::error::Error;
 use arguments::{Arguments, Command, FakeSensor, Live, Moved, Simulate};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
@@ -21,7 +23,7 @@ use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
 use vibrissa_cli::{
-    Error, FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError, Sensor,
+    FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError, Sensor,
     SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun, check_output, read_noise,
     read_uniform_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
 };
@@ -57,10 +59,10 @@ fn main() -> ExitCode {
         Command::Study { study, out, scene } => run_study(&study, out, scene),
         Command::Paper { out } => paper(&out),
     };
-    result.unwrap_or_else(|error| match error {
+    result.unwrap_or_else(|error| match error.of_output() {
         // who reads has seen enough, as in `| head`
-        Error::Output(OutputError::Standard(source)) if is_broken_pipe(&source) => ExitCode::SUCCESS,
-        error => {
+        Some(OutputError::Standard(source)) if is_broken_pipe(source) => ExitCode::SUCCESS,
+        _ => {
             let wrong_options = error.is_of_options();
             complain(error);
             if wrong_options { ExitCode::from(WRONG_OPTIONS) } else { ExitCode::FAILURE }

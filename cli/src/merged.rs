@@ -3,7 +3,7 @@
 use crate::output::{pretty_json, write_csv};
 use crate::reconstructed::{CONTOUR_COLUMNS, Reconstructed};
 use crate::table::Table;
-use crate::{Error, Staged, figure};
+use crate::{Staged, WriteError, figure};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -125,8 +125,8 @@ impl Merged {
     /// Writes contour.csv, contour.svg and merged.json.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged) -> Result<(), Error> {
+    /// [`WriteError`].
+    pub fn write(&self, staged: &Staged) -> Result<(), WriteError> {
         let Self { scans, align, combined, .. } = self;
         let record = MergedRecord {
             scans,

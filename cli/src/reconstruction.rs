@@ -1,6 +1,7 @@
 //! The command `reconstruct`.
 
 use crate::arguments::{Reconstruct, Trust};
+use crate::error::{Error, OptionError};
 use crate::progress::stage;
 use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
 use std::path::Path;
@@ -9,8 +10,7 @@ use vibrissa::reconstruct::{Budget, Known};
 use vibrissa::rod::AnyRod;
 use vibrissa::{Rod, Settings};
 use vibrissa_cli::{
-    CalibratedRod, Error, LiveScan, Merged, OptionError, Reconstructed, Recording, Scene, Setup, Staged,
-    read_calibrated_rod, read_noise,
+    CalibratedRod, LiveScan, Merged, Reconstructed, Recording, Scene, Setup, Staged, read_calibrated_rod, read_noise,
 };
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
@@ -116,7 +116,7 @@ fn one(
 
 /// Reads a recording of any kind, and tells of what cannot be used of it.
 pub fn read(file: &Path, scan: &LiveScan) -> Result<Recording, Error> {
-    let recording = Recording::any(file, scan)?;
+    let recording = scan.recording(file)?;
     recording.warnings().iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
     Ok(recording)
 }

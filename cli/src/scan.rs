@@ -1,8 +1,8 @@
 //! A scene that was swept.
 
 use crate::interval::{self, Interval};
-use crate::{Cycle, Error, Interrupt, Interrupted, Scene};
-use vibrissa::contact::{Item, Outcome, Phase};
+use crate::{Cycle, Interrupt, Interrupted, Scene};
+use vibrissa::contact::{ContactError, Item, Outcome, Phase};
 use vibrissa::{Event, State};
 
 /// A scene and all its states and events.
@@ -20,8 +20,8 @@ impl Scan {
     /// Sweeps the scene to its end, or to where the sweep must stop.
     ///
     /// # Errors
-    /// [`Error::Contact`] where the scene's step is no step.
-    pub fn run(scene: Scene) -> Result<Self, Error> {
+    /// [`ContactError`] where the scene's step is no step.
+    pub fn run(scene: Scene) -> Result<Self, ContactError> {
         Self::run_until(scene, &Interrupt::default())
     }
 
@@ -29,7 +29,7 @@ impl Scan {
     ///
     /// # Errors
     /// As [`run`](Self::run).
-    pub fn run_until(scene: Scene, interrupt: &Interrupt) -> Result<Self, Error> {
+    pub fn run_until(scene: Scene, interrupt: &Interrupt) -> Result<Self, ContactError> {
         let mut outcome = Outcome::default();
         let (mut pose, mut interrupted) = (None, None);
         let mut sweep = scene.sweep()?;

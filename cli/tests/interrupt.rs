@@ -10,7 +10,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use vibrissa::Rod;
 use vibrissa::reconstruct::NoiseModel;
-use vibrissa_cli::{Error, Interrupt, Paper, ReadOptions, Recording, Scan, Scene, Simulation, Staged};
+use vibrissa_cli::{Interrupt, Paper, PaperError, ReadOptions, Recording, Scan, Scene, Simulation, Staged};
 
 /// The first wait before a signal; each try doubles it.
 const FIRST_WAIT: Duration = Duration::from_millis(30);
@@ -250,7 +250,7 @@ fn an_interrupted_paper_keeps_the_scans_that_are_done() {
 }
 
 #[test]
-fn a_paper_interrupted_at_once_has_no_scans() -> Result<(), Error> {
+fn a_paper_interrupted_at_once_has_no_scans() -> Result<(), PaperError> {
     let interrupt = Interrupt::default();
     interrupt.raise();
     let paper = Paper::run(&interrupt, || ())?;

@@ -9,7 +9,7 @@ use crate::samples::SAMPLE;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Known};
-use vibrissa_cli::{Error, LiveScan, ReadOptions, Recording, RecordingError, Setup, StageSpec};
+use vibrissa_cli::{LiveError, LiveScan, ReadOptions, Recording, RecordingError, Setup, StageSpec};
 
 /// What a clamp felt along its way, from a file.
 #[pyclass(frozen, name = "Recording", module = "vibrissa")]
@@ -63,8 +63,8 @@ impl PyRecording {
         let rod = *rod.rod.at_clamp();
         let (budget, known, read) = (Budget::laboratory(&rod), Known::NOTHING, ReadOptions::default());
         let scan = LiveScan { rod, budget, known, setup, stage, path, read, inputs: Vec::new() };
-        let recording = running::run(py, || Recording::any(&file, &scan))?.map_err(|error| match error {
-            Error::Recording(RecordingError::Unreadable { ref source, .. }) => errors::unreadable(source, &error),
+        let recording = running::run(py, || scan.recording(&file))?.map_err(|error| match error {
+            LiveError::Recording(RecordingError::Unreadable { ref source, .. }) => errors::unreadable(source, &error),
             error => errors::value(error),
         })?;
         Ok(Self { recording })

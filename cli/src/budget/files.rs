@@ -4,7 +4,7 @@ use super::needed::TARGET;
 use super::study::Expected;
 use super::trials::Trial;
 use crate::output::pretty_json;
-use crate::{Error, Staged, figure};
+use crate::{Staged, WriteError, figure};
 use serde::Serialize;
 use std::path::Path;
 use vibrissa::reconstruct::{Budget, Source};
@@ -48,8 +48,8 @@ impl Expected {
     /// Writes budget.json and budget.svg.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged) -> Result<(), Error> {
+    /// [`WriteError`].
+    pub fn write(&self, staged: &Staged) -> Result<(), WriteError> {
         staged.write(Path::new("budget.json"), |file| pretty_json(file, &self.record()))?;
         let drawing = figure::budget(&self.scene.name, &self.forecast)?;
         staged.write(Path::new("budget.svg"), |file| file.write_all(drawing.as_bytes()))?;

@@ -4,9 +4,9 @@ use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};
 use super::truth::Truth;
-use crate::{Error, Scene, SceneError, SceneFriction};
+use crate::{Scene, SceneError, SceneFriction, SimulationError};
 use vibrissa::contact::Stop;
-use vibrissa::reconstruct::{Budget, Friction, Known, NoiseModel, reconstruct_passes};
+use vibrissa::reconstruct::{Budget, Friction, Known, NoiseError, NoiseModel, reconstruct_passes};
 use vibrissa::rod::{Reactions, Units};
 use vibrissa::{Rod, Settings};
 
@@ -35,7 +35,7 @@ pub struct BudgetStudy {
 }
 
 /// Why no accuracy can be told.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[non_exhaustive]
 pub enum BudgetError {
     /// The sweep has no single contact.
@@ -54,6 +54,16 @@ pub enum BudgetError {
         /// Why.
         source: vibrissa::reconstruct::ReconstructError,
     },
+    /// The rod is not uniform, not straight at rest or not on a rigid clamp.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// The recording cannot be simulated.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// The noise model is not possible.
+    #[error(transparent)]
+    Noise(#[from] NoiseError),
 }
 
 /// What to expect.
@@ -90,8 +100,8 @@ impl BudgetStudy {
     /// Simulates, forecasts and tries.
     ///
     /// # Errors
-    /// [`Error::Scene`] where the rod is not uniform, not straight at rest or not on a rigid clamp; [`Error::Budget`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
-    pub fn run(self) -> Result<Expected, Error> {
+    /// [`BudgetError`].
+    pub fn run(self) -> Result<Expected, BudgetError> {
         let rod = Self::rod(&self.scene)?;
         let rubs = self.scene.friction.as_ref().is_some_and(SceneFriction::rubs);
         let friction = self.friction.unwrap_or(if rubs { Friction::Estimate } else { Friction::None });

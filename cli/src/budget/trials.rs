@@ -1,8 +1,9 @@
 //! Recordings with random errors, reconstructed.
 
 use super::forecast::median;
+use super::study::BudgetError;
 use super::truth::Truth;
-use crate::{Error, Scene};
+use crate::Scene;
 use rayon::prelude::*;
 use serde::Serialize;
 use vibrissa::reconstruct::score::signed_distance;
@@ -43,11 +44,11 @@ pub(super) struct Trial {
 
 impl Trials<'_> {
     /// So many recordings.
-    pub fn run(&self, runs: usize) -> Result<Vec<Trial>, Error> {
+    pub fn run(&self, runs: usize) -> Result<Vec<Trial>, BudgetError> {
         (0..runs as u64).into_par_iter().map(|run| self.one(self.seed.wrapping_add(2 * run))).collect()
     }
 
-    fn one(&self, seed: u64) -> Result<Trial, Error> {
+    fn one(&self, seed: u64) -> Result<Trial, BudgetError> {
         // independent standard normal numbers
         let white = NoiseModel { white: Reactions { f0x: 1.0, f0y: 1.0, m0z: 1.0 }, ..NoiseModel::default() };
         let mut normal = white.generator(seed)?;

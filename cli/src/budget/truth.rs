@@ -1,6 +1,7 @@
 //! The true samples of a scene.
 
-use crate::{Error, Scene, Simulation};
+use super::study::BudgetError;
+use crate::{Scene, Simulation};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{NoiseError, NoiseModel};
 use vibrissa::rod::Reactions;
@@ -17,7 +18,7 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    pub fn of(scene: Scene, rate: f64, speed: f64) -> Result<(Self, Scene), Error> {
+    pub fn of(scene: Scene, rate: f64, speed: f64) -> Result<(Self, Scene), BudgetError> {
         let simulation = Simulation { scene, noise: NoiseModel::default(), rate, speed, seed: 0, sigmas: false };
         let mut truth = Self { samples: Vec::new(), labels: Vec::new(), numbers: Vec::new(), stop: None };
         for tick in simulation.ticks()? {

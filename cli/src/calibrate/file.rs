@@ -3,7 +3,7 @@
 use super::result::RodCalibration;
 use crate::output::check_output;
 use crate::scene::written;
-use crate::{Error, Staged, figure};
+use crate::{Staged, WriteError, figure};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use vibrissa::reconstruct::Source;
@@ -15,8 +15,8 @@ impl RodCalibration {
     /// Writes the rod to a TOML file, and calibration.svg beside it; returns the name of the drawing. None of the `inputs` is replaced.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, out: &Path, inputs: Vec<PathBuf>) -> Result<PathBuf, Error> {
+    /// [`WriteError`].
+    pub fn write(&self, out: &Path, inputs: Vec<PathBuf>) -> Result<PathBuf, WriteError> {
         check_output(out, &inputs)?;
         let (staged, name) = Staged::of_file(out)?;
         let staged = staged.keeping(inputs);

@@ -2,7 +2,7 @@
 
 use super::freed::{Freed, limited, with_held};
 use crate::figure::Residual;
-use crate::{Error, Reconstructed, Recording};
+use crate::{Reconstructed, ReconstructionError, Recording};
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Calibration, Combined, Known};
 use vibrissa::{Rod, Settings};
@@ -16,6 +16,9 @@ pub enum CalibrateError {
         "nothing to calibrate: the budget of every source that is looked for is 0; change the table [errors] of --setup, or --free"
     )]
     Nothing,
+    /// A recording cannot be reconstructed.
+    #[error(transparent)]
+    Reconstruction(#[from] ReconstructionError),
 }
 
 /// What recordings of one rod tell of rod, sensor, clamp and stage.
@@ -44,14 +47,14 @@ impl RodCalibration {
     /// each recording.
     ///
     /// # Errors
-    /// [`Error::Calibrate`], [`Error::Reconstruction`].
+    /// [`CalibrateError`].
     pub fn new(
         recordings: &[Recording],
         rod: Rod,
         given: Known,
         settings: &Settings,
         free: &[Freed],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, CalibrateError> {
         let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(&rod));
         let known = if free.is_empty() { given } else { limited(&given, &budget, free) };
         let (mut each, mut findings) = (Vec::<(usize, Calibration)>::new(), Vec::new());

@@ -2,7 +2,7 @@
 
 mod pty;
 
-use crate::{Error, SensorCalibration, Setup, Simulation, Tick};
+use crate::{SensorCalibration, Setup, Simulation, SimulationError, Tick};
 use pty::play_pty;
 use rod_fake_sensor::{FakeBota, FakeGsv8, FakeRdt, FakeRdtSettings};
 use std::net::{Ipv4Addr, SocketAddr};
@@ -90,6 +90,9 @@ pub enum FakeError {
         /// Its value.
         value: f64,
     },
+    /// The scene cannot be recorded.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
 }
 
 /// One million counts a unit, as ATI's devices are delivered.
@@ -102,10 +105,10 @@ impl FakeScan {
     /// Poses that a snap jumps over are filled with what was felt before, for a sensor has no gaps.
     ///
     /// # Errors
-    /// [`Error::Fake`], [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
-    pub fn run(self, tell: &mut dyn FnMut(&str), stopped: &dyn Fn() -> bool) -> Result<Played, Error> {
+    /// [`FakeError`].
+    pub fn run(self, tell: &mut dyn FnMut(&str), stopped: &dyn Fn() -> bool) -> Result<Played, FakeError> {
         if !(self.faster.is_finite() && self.faster > 0.0) {
-            return Err(FakeError::Pace { value: self.faster }.into());
+            return Err(FakeError::Pace { value: self.faster });
         }
         // mistakes are told before anything is played
         self.simulation.ticks()?;
@@ -124,7 +127,7 @@ impl FakeScan {
         let told = match &setup.calibration {
             None => None,
             Some(SensorCalibration::Scale(scale)) => Some(*scale),
-            Some(SensorCalibration::Gauges(_)) => return Err(FakeError::Gauges.into()),
+            Some(SensorCalibration::Gauges(_)) => return Err(FakeError::Gauges),
         };
         let scale = match (protocol, told) {
             (_, Some(scale)) => scale,
@@ -203,7 +206,7 @@ fn play_rdt(
     playing: &str,
     tell: &mut dyn FnMut(&str),
     stopped: &dyn Fn() -> bool,
-) -> Result<u64, Error> {
+) -> Result<u64, FakeError> {
     let place = settings.address.to_string();
     let records = samples.into_iter().map(|channels| {
         // a conversion to whole numbers that saturates, as a device does

@@ -1,7 +1,6 @@
 //! A fake sensor on a pseudo-terminal.
 
 use super::FakeError;
-use crate::Error;
 use rod_fake_sensor::FakeDevice;
 #[cfg(unix)]
 use rod_fake_sensor::{FakeSensor, Pace, open_pty};
@@ -23,7 +22,7 @@ pub(super) fn play_pty<D: FakeDevice>(
     playing: &str,
     tell: &mut dyn FnMut(&str),
     stopped: &dyn Fn() -> bool,
-) -> Result<u64, Error> {
+) -> Result<u64, FakeError> {
     let failed = |source| FakeError::Place { place: "a pseudo-terminal".into(), source };
     let mut pty = open_pty().map_err(failed)?;
     tell(&format!("serial:{}:{name}: {playing}", pty.path()));
@@ -49,6 +48,6 @@ pub(super) fn play_pty<D: FakeDevice>(
     _: &str,
     _: &mut dyn FnMut(&str),
     _: &dyn Fn() -> bool,
-) -> Result<u64, Error> {
+) -> Result<u64, FakeError> {
     Err(FakeError::NoPty { protocol }.into())
 }

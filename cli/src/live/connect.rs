@@ -5,7 +5,7 @@ use super::error::LiveError;
 use super::feed::{Fed, Feed, Miss};
 use super::played;
 use super::sensor::Sensor;
-use crate::{Error, ReadOptions, SensorCalibration, Setup};
+use crate::{ReadOptions, SensorCalibration, Setup};
 use std::error::Error as StdError;
 use std::time::Duration;
 use vibrissa::hw::device::rdt::{Rdt, RdtSettings, read_scaling};
@@ -25,8 +25,8 @@ impl Sensor {
     /// that `how` says.
     ///
     /// # Errors
-    /// [`Error::Live`].
-    pub fn open(address: &SensorAddress, setup: &Setup, how: &ReadOptions) -> Result<Self, Error> {
+    /// [`LiveError`].
+    pub fn open(address: &SensorAddress, setup: &Setup, how: &ReadOptions) -> Result<Self, LiveError> {
         let failed =
             |source: Box<dyn StdError + Send + Sync>| LiveError::Sensor { address: address.to_string(), source };
         match address {
@@ -57,7 +57,7 @@ impl Sensor {
                 let calibration = match (&setup.calibration, known) {
                     (Some(calibration), _) => calibration.clone(),
                     (None, Some(scale)) => SensorCalibration::Scale(scale.map_err(|error| failed(Box::new(error)))?),
-                    (None, None) => return Err(LiveError::NoScale { address: address.to_string() }.into()),
+                    (None, None) => return Err(LiveError::NoScale { address: address.to_string() }),
                 };
                 let port = SerialPort::open(&path.to_string_lossy(), baud.unwrap_or(profile.baud()))
                     .map_err(|error| failed(Box::new(error)))?;

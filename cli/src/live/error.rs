@@ -1,8 +1,10 @@
 //! Errors of a live scan.
 
+use crate::{OutputError, RecordingError};
 use std::path::PathBuf;
 use vibrissa::hw::recording::{RowProblem, TableError};
 use vibrissa::hw::{StageError, TareError};
+use vibrissa::reconstruct::ReconstructError;
 
 /// Why a live scan cannot start or go on.
 #[derive(Debug, thiserror::Error)]
@@ -124,4 +126,13 @@ pub enum LiveError {
         /// The first fault, if there was one.
         first: String,
     },
+    /// The recording.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// The settings of the reconstruction are not possible.
+    #[error(transparent)]
+    Reconstruct(#[from] ReconstructError),
+    /// The files.
+    #[error(transparent)]
+    Output(#[from] OutputError),
 }

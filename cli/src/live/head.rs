@@ -6,7 +6,7 @@ use super::motion::Motion;
 use super::scan::LiveScan;
 use super::sensor::Sensor;
 use super::summary::LiveReport;
-use crate::{Error, SensorCalibration};
+use crate::SensorCalibration;
 use vibrissa::hw::{
     Calibration, CalibrationError, RawSample, ReactionSample, Scale, SignalChain, Tare, TareError, TareLimits,
     TareWindow, Timekeeper, Wrench, WrenchChain, WrenchSample, Zero,
@@ -56,7 +56,7 @@ pub(super) fn head<'a>(
     report: &mut LiveReport,
     tell: &mut dyn FnMut(&str),
     stopped: &dyn Fn() -> bool,
-) -> Result<Head<'a>, Error> {
+) -> Result<Head<'a>, LiveError> {
     let seconds = scan.setup.tare.seconds;
     let listen = if seconds > 0.0 { seconds } else { LISTEN };
     let calibration = sensor.calibration.clone().unwrap_or_else(|| SensorCalibration::Scale(Scale::si()));
@@ -105,7 +105,7 @@ pub(super) fn head<'a>(
     let count = wrenches.len().max(samples.len());
     if count < FEWEST {
         let first = report.first_miss().map_or_else(String::new, |text| format!("; {text}"));
-        return Err(LiveError::TooFew { samples: count, fewest: FEWEST, first }.into());
+        return Err(LiveError::TooFew { samples: count, fewest: FEWEST, first });
     }
     let (Some(mut chain), Some(start)) = (chain, wrenches.first().map(|wrench| wrench.t)) else {
         // the samples are reactions already: the chain is not used
@@ -115,7 +115,7 @@ pub(super) fn head<'a>(
     };
     let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, &scan.read)?;
     if matches!(motion, Motion::Told) {
-        return Err(LiveError::NoStage { address: sensor.name.clone() }.into());
+        return Err(LiveError::NoStage { address: sensor.name.clone() });
     }
     *chain.wrenches().stage() = motion;
     let mut tare = "none".to_owned();
@@ -137,7 +137,7 @@ pub(super) fn head<'a>(
     }
     if samples.len() < FEWEST {
         let first = report.first_miss().map_or_else(String::new, |text| format!("; {text}"));
-        return Err(LiveError::TooFew { samples: samples.len(), fewest: FEWEST, first }.into());
+        return Err(LiveError::TooFew { samples: samples.len(), fewest: FEWEST, first });
     }
     Ok(Head { chain, samples, tare })
 }

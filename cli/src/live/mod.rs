@@ -4,7 +4,7 @@
 //! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise (`rounding`). `session` is the
 //! scan from the first sample to the last, `losses` counts what no counter tells of, `physics` checks at its end
 //! whether it can be of the rod, `record` writes its files and `summary` its report.
-//! `whole` takes a recording at once.
+//! `whole` takes a recording at once, and `recorded` any file: reactions as they are, raw values and wrenches by the way of a live scan.
 
 mod address;
 mod connect;
@@ -17,6 +17,7 @@ mod motion;
 mod physics;
 mod played;
 mod record;
+mod recorded;
 mod rounding;
 mod scan;
 mod sensor;

@@ -2,7 +2,7 @@
 
 use super::error::LiveError;
 use super::stage::StageSpec;
-use crate::{Error, ReadOptions};
+use crate::ReadOptions;
 use std::path::Path;
 use vibrissa::hw::recording::{Role, Table};
 use vibrissa::hw::{ConstantSpeed, StageError, StageSource, StageTable};
@@ -26,10 +26,10 @@ impl Motion {
         path: Option<&ClampPath>,
         start: f64,
         how: &ReadOptions,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, LiveError> {
         match (spec, path) {
             (None, _) => Ok(Self::Told),
-            (Some(StageSpec::Constant(_)), None) => Err(LiveError::NoPath.into()),
+            (Some(StageSpec::Constant(_)), None) => Err(LiveError::NoPath),
             (Some(StageSpec::Constant(speed)), Some(path)) => {
                 let duration = path.length() / speed;
                 let motion = ConstantSpeed::within(path.at(0.0), path.at(path.length()), start, start + duration);
@@ -70,7 +70,7 @@ fn table(file: &Path, how: &ReadOptions) -> Result<StageTable, LiveError> {
             let number = |role| columns.needed(&row, role);
             let of_line = |problem| LiveError::StageRow { file: file.to_path_buf(), line: row.line(), problem };
             let [t, x, y, phi] = roles.map(number);
-            Ok((
+            Ok::<_, LiveError>((
                 t.map_err(of_line)?,
                 Pose { x: x.map_err(of_line)?, y: y.map_err(of_line)?, phi: phi.map_err(of_line)? },
             ))

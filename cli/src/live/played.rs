@@ -3,7 +3,7 @@
 use super::error::LiveError;
 use super::feed::{Fed, Feed, Miss};
 use super::sensor::Sensor;
-use crate::{Error, ReadOptions, RecordingSetup, RecordingTime, SensorCalibration, Setup};
+use crate::{ReadOptions, RecordingSetup, RecordingTime, SensorCalibration, Setup};
 use std::error::Error as StdError;
 use std::fmt::Display;
 use std::path::Path;
@@ -22,7 +22,7 @@ struct Played {
 type Samples = (Vec<Result<Fed, Miss>>, Option<SensorCalibration>);
 
 /// Opens a recording: TDMS and MCAP by the end of its name, anything else as a table.
-pub(super) fn open(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Sensor, Error> {
+pub(super) fn open(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Sensor, LiveError> {
     let is = |end: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(end));
     let (samples, calibration) = if is("tdms") {
         labview(file, setup)

@@ -9,7 +9,6 @@ use super::rounding::rounding;
 use super::scan::LiveScan;
 use super::sensor::Sensor;
 use super::summary::{End, LiveReport};
-use crate::Error;
 use std::path::Path;
 use vibrissa::Label;
 use vibrissa::Sample;
@@ -29,14 +28,14 @@ impl LiveScan {
     /// The stage starts with the first sample.
     ///
     /// # Errors
-    /// [`Error::Live`], [`Error::Output`].
+    /// [`LiveError`].
     pub fn run(
         &self,
         mut sensor: Sensor,
         out: &Path,
         tell: &mut dyn FnMut(&str),
         stopped: &dyn Fn() -> bool,
-    ) -> Result<LiveReport, Error> {
+    ) -> Result<LiveReport, LiveError> {
         check(out, &self.inputs)?;
         let mut report = LiveReport::new(self, &sensor.name);
         for finding in report.findings() {
@@ -136,13 +135,13 @@ fn usable(sample: &ReactionSample) -> Option<Sample> {
 }
 
 /// The settings of the reconstruction from the first samples, which are of the free rod.
-fn settings(scan: &LiveScan, free: &[ReactionSample], rounding: Reactions) -> Result<LiveSettings, Error> {
+fn settings(scan: &LiveScan, free: &[ReactionSample], rounding: Reactions) -> Result<LiveSettings, LiveError> {
     let samples: Vec<Sample> = free.iter().filter_map(usable).collect();
     let settings = LiveSettings::of_free_rod(&scan.rod, &samples, rounding).map_err(|error| match error {
         ReconstructError::TooFew { usable: samples, fewest, .. } => {
-            LiveError::TooFew { samples, fewest, first: "; the clamp does not move".into() }.into()
+            LiveError::TooFew { samples, fewest, first: "; the clamp does not move".into() }
         }
-        other => Error::from(other),
+        other => LiveError::from(other),
     })?;
     let half_window = scan.setup.half_window.unwrap_or(settings.half_window);
     Ok(LiveSettings { half_window, ..settings })

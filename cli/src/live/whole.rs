@@ -1,11 +1,11 @@
 //! A whole recording of a sensor, turned into reactions as a live scan does it.
 
+use super::error::LiveError;
 use super::feed::{Fed, Feed, Miss};
 use super::head::{Chain, Head, head};
 use super::scan::LiveScan;
 use super::sensor::Sensor;
 use super::summary::LiveReport;
-use crate::Error;
 use vibrissa::hw::{Calibration, ChainError, LinkCounters, RawSample, ReactionSample, StageError, StageSource};
 
 /// A recording as reactions.
@@ -22,8 +22,8 @@ impl LiveScan {
     /// The reactions behind all samples of a recording, with the tare, the stage and the mounting of a live scan.
     ///
     /// # Errors
-    /// [`Error::Live`]: too few samples, no tare, or nothing tells the poses of the clamp.
-    pub(crate) fn whole(&self, mut sensor: Sensor) -> Result<Whole, Error> {
+    /// [`LiveError`]: too few samples, no tare, or nothing tells the poses of the clamp.
+    pub(crate) fn whole(&self, mut sensor: Sensor) -> Result<Whole, LiveError> {
         let fed: Vec<Result<Fed, Miss>> = std::iter::from_fn(|| sensor.feed.next()).zip(0..).map(numbered).collect();
         sensor.feed = Box::new(Again { fed: fed.clone().into_iter(), handed: 0 });
         let mut report = LiveReport::new(self, &sensor.name);

@@ -12,18 +12,30 @@ pub use profile::{write_profile_table, write_profiles};
 pub use staged::{OutputError, Staged};
 pub use stages::abandon;
 
-use crate::{Error, Scan, figure};
+use crate::{FigureError, Scan, figure};
 use records::{CONTACT_COLUMNS, EventRecord, ROLLER_COLUMNS, STATE_COLUMNS, StateRecord, contact_rows, state_row};
 use std::io::{self, Write};
 use std::path::Path;
 use sweep::SweepRecord;
 
+/// Why results cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// A file.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A figure.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
 impl Scan {
     /// Writes states.jsonl, states.csv, contacts.csv, events.jsonl, sweep.svg and sweep.json into `folder` of the staged directory.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), Error> {
+    /// [`WriteError`].
+    pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), WriteError> {
         let figure = figure::sweep(self)?;
         staged.write(&folder.join("states.jsonl"), |file| self.write_states(file))?;
         staged.write(&folder.join("states.csv"), |file| self.write_table(file))?;

@@ -1,7 +1,8 @@
 //! The files of a contour.
 
+use super::WriteError;
 use super::{OutputError, Staged, write_csv};
-use crate::{Error, Profile, figure};
+use crate::{Profile, figure};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -12,8 +13,13 @@ const COLUMNS: [&str; 6] = ["x", "y", "tangent_angle", "curvature", "arc_length"
 /// name is returned. Neither appears before both are complete, and neither replaces one of the `inputs`.
 ///
 /// # Errors
-/// [`Error::Output`], [`Error::Figure`].
-pub fn write_profiles(name: &str, profiles: &[Profile], out: &Path, inputs: Vec<PathBuf>) -> Result<PathBuf, Error> {
+/// [`WriteError`].
+pub fn write_profiles(
+    name: &str,
+    profiles: &[Profile],
+    out: &Path,
+    inputs: Vec<PathBuf>,
+) -> Result<PathBuf, WriteError> {
     if out.file_name().is_none_or(|file| Path::new(file).extension().is_some_and(|is| is == "svg")) {
         return Err(OutputError::Name { file: out.to_path_buf() }.into());
     }

@@ -1,11 +1,12 @@
 //! The files of the nine scans: states, figures and paper.json.
 
+use super::error::PaperError;
 use super::figures::{contact_points, criterion, cycles, distances, goodness, notches, transitions};
 use super::naive::Naive;
 use super::resolved::Resolved;
 use super::scans::{Entry, Paper, PaperScan, SCANS};
 use crate::output::pretty_json;
-use crate::{Error, Interrupt, Scan, Staged};
+use crate::{Interrupt, Scan, Staged};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::Path;
@@ -42,8 +43,8 @@ impl Paper {
     /// scans are missing, it leaves these figures out. Returns whether everything was written.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged, interrupt: &Interrupt) -> Result<bool, Error> {
+    /// [`PaperError::Write`].
+    pub fn write(&self, staged: &Staged, interrupt: &Interrupt) -> Result<bool, PaperError> {
         self.scans.par_iter().try_for_each(|scan| scan.scan.write(staged, Path::new(&scan.scan.scene.name)))?;
         let figures = if self.is_complete() { self.figures(interrupt)? } else { None };
         let complete = figures.is_some();
@@ -55,14 +56,14 @@ impl Paper {
     }
 
     /// Name and content of the figures of all scans; none where they were interrupted.
-    fn figures(&self, interrupt: &Interrupt) -> Result<Option<[(&'static str, String); 7]>, Error> {
-        let naive: Vec<Naive<'_>> = self.scans.par_iter().map(Naive::of).collect::<Result<_, Error>>()?;
+    fn figures(&self, interrupt: &Interrupt) -> Result<Option<[(&'static str, String); 7]>, PaperError> {
+        let naive: Vec<Naive<'_>> = self.scans.par_iter().map(Naive::of).collect::<Result<_, PaperError>>()?;
         let middle: Vec<&Naive<'_>> = naive.iter().filter(|scan| scan.scan.distance == 40).collect();
         if interrupt.is_raised() {
             return Ok(None);
         }
         let resolved: Vec<Resolved<'_>> =
-            middle.par_iter().map(|scan| Resolved::of(scan.scan)).collect::<Result<_, Error>>()?;
+            middle.par_iter().map(|scan| Resolved::of(scan.scan)).collect::<Result<_, PaperError>>()?;
         let middle_scans: Vec<&Scan> = middle.iter().map(|scan| &scan.scan.scan).collect();
         if interrupt.is_raised() {
             return Ok(None);

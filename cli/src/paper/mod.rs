@@ -3,6 +3,7 @@
 //! `scans` are the scenes, `naive` turns a scan back as if there were one contact, `resolved` with both contacts; `figures` and
 //! `report` show all scans, and `files` writes them.
 
+mod error;
 mod figures;
 mod files;
 mod naive;
@@ -10,4 +11,5 @@ mod report;
 mod resolved;
 mod scans;
 
+pub use error::PaperError;
 pub use scans::{Paper, PaperScan};

@@ -1,8 +1,9 @@
 //! A scan turned back into contact points as if there were never more than one contact (Merker et al. 2020, fig. 6).
 
+use super::error::PaperError;
 use super::scans::PaperScan;
+use crate::Scan;
 use crate::reconstructed::naive_touch;
-use crate::{Error, Scan};
 use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::reconstruct::{Assembly, ContourEstimate, Measured, Touch};
 use vibrissa::{Label, Sample, State, Sweep};
@@ -38,8 +39,8 @@ impl<'a> Naive<'a> {
     /// Sweeps once more, in smaller steps.
     ///
     /// # Errors
-    /// [`Error::Contact`] where the sweep cannot be made, which the scan excludes.
-    pub fn of(scan: &'a PaperScan) -> Result<Self, Error> {
+    /// [`PaperError::Contact`] where the sweep cannot be made, which the scan excludes.
+    pub fn of(scan: &'a PaperScan) -> Result<Self, PaperError> {
         let scene = &scan.scan.scene;
         let mut states = Sweep::new(&scene.rod, &scene.objects, scene.path, STEP)?.run().states;
         states.retain(|state| !state.contacts.is_empty());

@@ -1,7 +1,7 @@
 //! A scan turned back into contact points with what the reactions tell of the contact phases.
 
+use super::error::PaperError;
 use super::scans::PaperScan;
-use crate::Error;
 use crate::reconstructed::naive_touch;
 use vibrissa::contour::StretchKind;
 use vibrissa::reconstruct::score::signed_distance;
@@ -34,8 +34,8 @@ impl<'a> Resolved<'a> {
     /// Records the scan without noise, and reconstructs it from its reactions alone.
     ///
     /// # Errors
-    /// [`Error::Contact`], [`Error::Reconstruct`].
-    pub fn of(scan: &'a PaperScan) -> Result<Self, Error> {
+    /// [`PaperError`].
+    pub fn of(scan: &'a PaperScan) -> Result<Self, PaperError> {
         let scene = &scan.scan.scene;
         let states = Sweep::new(&scene.rod, &scene.objects, scene.path, STEP)?.run().states;
         let samples: Vec<Sample> = states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect();

@@ -1,6 +1,7 @@
 //! The nine scans of the paper: their scenes, and running them.
 
-use crate::{Error, Interrupt, Scan, Scene};
+use super::error::PaperError;
+use crate::{Interrupt, Scan, Scene};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -70,14 +71,14 @@ impl Paper {
     /// Runs all scans at once; `done` is called after each. Interrupted, it keeps those that are done.
     ///
     /// # Errors
-    /// [`Error::Scene`] and [`Error::Contact`], were a scene of this crate no scene.
-    pub fn run(interrupt: &Interrupt, done: impl Fn() + Sync) -> Result<Self, Error> {
+    /// [`PaperError`].
+    pub fn run(interrupt: &Interrupt, done: impl Fn() + Sync) -> Result<Self, PaperError> {
         let scan = |(object, distance, expected, file, text): Entry| {
             let scan = Scan::run_until(Scene::parse(Path::new(file), text)?, interrupt)?;
             done();
             Ok(scan.interrupted.is_none().then_some(PaperScan { object, distance, expected, scan }))
         };
-        let scans = SCANS.into_par_iter().map(scan).collect::<Result<Vec<_>, Error>>()?;
+        let scans = SCANS.into_par_iter().map(scan).collect::<Result<Vec<_>, PaperError>>()?;
         Ok(Self { scans: scans.into_iter().flatten().collect() })
     }
 

@@ -1,19 +1,30 @@
 //! The result of a comparison with the truth.
 
-use crate::Scene;
+use crate::{Scene, SceneError};
 use std::path::PathBuf;
-use vibrissa::contact::{EventKind, Stop};
+use vibrissa::contact::{ContactError, EventKind, Stop};
 use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore};
 use vibrissa::{Label, Pose};
 
 /// Why there is no comparison.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: no sample is on the path of the scene {scene}, expected the scene that the recording is of", file.display())]
-pub struct TruthError {
-    /// The recording.
-    pub file: PathBuf,
-    /// Name of the scene.
-    pub scene: String,
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[non_exhaustive]
+pub enum TruthError {
+    /// The scene is of another recording.
+    #[error("{}: no sample is on the path of the scene {scene}, expected the scene that the recording is of", file.display())]
+    Elsewhere {
+        /// The recording.
+        file: PathBuf,
+        /// Name of the scene.
+        scene: String,
+    },
+    /// Its clamp is one of which there are no recordings.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// Its sweep is not possible.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
 }
 
 /// A change of label in the scene, and where it was found.

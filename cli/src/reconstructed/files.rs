@@ -4,7 +4,7 @@ use super::points::PointRecord;
 use super::report::ReportRecord;
 use super::result::Reconstructed;
 use crate::output::{pretty_json, write_csv};
-use crate::{Error, Staged, figure};
+use crate::{Staged, WriteError, figure};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -15,8 +15,8 @@ impl Reconstructed {
     /// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg into `folder` of the staged directory.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::Figure`].
-    pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), Error> {
+    /// [`WriteError`].
+    pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), WriteError> {
         staged.write(&folder.join("points.jsonl"), |file| self.write_points(file))?;
         staged.write(&folder.join("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
         staged.write(&folder.join("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;

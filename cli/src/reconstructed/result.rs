@@ -1,7 +1,7 @@
 //! The reconstruction of a recording.
 
 use super::comparison::Comparison;
-use crate::{Error, Recording};
+use crate::Recording;
 use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
@@ -59,8 +59,8 @@ impl Reconstructed {
     /// Reconstructs a recording of this rod, whose poses are those of the support of its clamp.
     ///
     /// # Errors
-    /// [`Error::Reconstruction`]: too few samples are of use, or a setting is not possible.
-    pub fn new(recording: Recording, rod: impl Into<AnyRod>, settings: &Settings) -> Result<Self, Error> {
+    /// [`ReconstructionError`]: too few samples are of use, or a setting is not possible.
+    pub fn new(recording: Recording, rod: impl Into<AnyRod>, settings: &Settings) -> Result<Self, ReconstructionError> {
         let rod = rod.into();
         let recording = if rod.uniform().is_some() { recording.at_base(&rod) } else { recording };
         let usable = recording.rows.iter().enumerate().filter_map(|(row, sample)| Some((row, *sample.as_ref().ok()?)));

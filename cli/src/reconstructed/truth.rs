@@ -3,7 +3,7 @@
 use super::comparison::{Comparison, Transition, TruthError};
 use super::naive::naive_touch;
 use super::result::Reconstructed;
-use crate::{Error, Scan, Scene};
+use crate::{Scan, Scene};
 use rayon::prelude::*;
 use vibrissa::contact::EventKind;
 use vibrissa::reconstruct::Touch;
@@ -23,8 +23,8 @@ impl Reconstructed {
     /// Compares with the scene that the recording is of, which is swept for it.
     ///
     /// # Errors
-    /// [`Error::Contact`], [`Error::Truth`]; [`Error::Scene`] for a scene with a roller.
-    pub fn compare(&mut self, scene: Scene) -> Result<(), Error> {
+    /// [`TruthError`], also for a scene with a roller.
+    pub fn compare(&mut self, scene: Scene) -> Result<(), TruthError> {
         scene.check_no_roller()?;
         self.comparison = Some(Comparison::of(self, scene)?);
         Ok(())
@@ -32,7 +32,7 @@ impl Reconstructed {
 }
 
 impl Comparison {
-    fn of(found: &Reconstructed, scene: Scene) -> Result<Self, Error> {
+    fn of(found: &Reconstructed, scene: Scene) -> Result<Self, TruthError> {
         let scan = Scan::run(scene)?;
         let truth = Truth::of(&scan);
         let poses: Vec<Pose> = (0..found.samples.len()).map(|sample| found.pose(sample)).collect();
@@ -41,7 +41,7 @@ impl Comparison {
         let ways: Vec<Option<f64>> = (0..poses.len()).map(way).collect();
         let off_path = ways.iter().filter(|way| way.is_none()).count();
         if off_path == ways.len() {
-            return Err(TruthError { file: found.recording.file.clone(), scene: scan.scene.name }.into());
+            return Err(TruthError::Elsewhere { file: found.recording.file.clone(), scene: scan.scene.name });
         }
         let (mut confusion, mut either) = (Confusion::default(), 0);
         for (reading, way) in found.found.readings.iter().zip(&ways) {

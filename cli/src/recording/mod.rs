@@ -1,7 +1,6 @@
 //! Recordings: what a clamp felt along its way, read from a table of text or from what a sensor sent.
 //!
-//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together. `sensed` reads raw
-//! values and wrenches (tables, TDMS, MCAP) by the way of a live scan. `warnings` says what is wrong with single rows. A row that
+//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together. `warnings` says what is wrong with single rows. A row that
 //! cannot be used keeps its `place`.
 
 mod columns;
@@ -9,7 +8,6 @@ mod error;
 mod place;
 mod read;
 mod row;
-mod sensed;
 mod warnings;
 
 pub use error::RecordingError;

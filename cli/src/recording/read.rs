@@ -77,7 +77,7 @@ impl Recording {
     }
 
     /// From rows with their places. The rod's length says how far a clamp that turns has gone.
-    pub(super) fn of_rows(
+    pub(crate) fn of_rows(
         file: PathBuf,
         placed: impl Iterator<Item = (Place, Row)>,
         rod: &Rod,

@@ -8,12 +8,12 @@ pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
 use crate::scene::{LegPath, MOST_STATES};
-use crate::{Error, Interrupt, Interrupted, OutputError, Scene, Staged};
+use crate::{Interrupt, Interrupted, OutputError, Scene, Staged};
 use std::io::{self, Write};
 use std::path::Path;
 use vibrissa::Pose;
-use vibrissa::contact::Stop;
-use vibrissa::reconstruct::NoiseModel;
+use vibrissa::contact::{ContactError, Stop};
+use vibrissa::reconstruct::{NoiseError, NoiseModel};
 use vibrissa::rod::Reactions;
 
 /// The columns, those of the standard deviations last.
@@ -57,7 +57,7 @@ pub struct Simulated {
 }
 
 /// Why a recording cannot be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
     /// A rate or speed that is none.
@@ -96,6 +96,22 @@ pub enum SimulationError {
         /// Which one.
         channel: &'static str,
     },
+    /// The noise model is not possible.
+    #[error(transparent)]
+    Noise(#[from] NoiseError),
+    /// There is no such sweep.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The recording cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+impl SimulationError {
+    /// Whether the value of an option is wrong.
+    pub fn is_of_options(&self) -> bool {
+        !matches!(self, Self::Noise(_) | Self::Contact(_) | Self::Output(_))
+    }
 }
 
 impl Simulation {
@@ -111,9 +127,9 @@ impl Simulation {
     /// that, and a column `sigma_roller`. Before the first sample it writes no file. It replaces none of the files of the scene.
     ///
     /// # Errors
-    /// [`Error::Simulation`], [`Error::Noise`], [`Error::Output`]. A sweep that stops early is none: what there is, is
+    /// [`SimulationError`]. A sweep that stops early is none: what there is, is
     /// written.
-    pub fn write(&self, out: &Path, interrupt: &Interrupt) -> Result<Simulated, Error> {
+    pub fn write(&self, out: &Path, interrupt: &Interrupt) -> Result<Simulated, SimulationError> {
         let samples = self.samples()?;
         let (staged, name) = Staged::of_file(out)?;
         let staged = staged.keeping(self.scene.files.clone());
@@ -132,12 +148,12 @@ impl Simulation {
     /// The same to standard output or another stream.
     ///
     /// # Errors
-    /// [`Error::Simulation`], [`Error::Noise`], [`OutputError::Standard`].
-    pub fn write_to(&self, out: &mut dyn Write, interrupt: &Interrupt) -> Result<Simulated, Error> {
+    /// [`SimulationError`].
+    pub fn write_to(&self, out: &mut dyn Write, interrupt: &Interrupt) -> Result<Simulated, SimulationError> {
         Ok(self.samples()?.record(out, interrupt).map_err(OutputError::Standard)?)
     }
 
-    fn samples(&self) -> Result<Samples<'_>, Error> {
+    fn samples(&self) -> Result<Samples<'_>, SimulationError> {
         let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
         Ok(Samples { simulation: self, sigma, ticks: self.ticks()? })
     }

@@ -1,7 +1,6 @@
 //! The samples of a simulated recording, one after the other.
 
-use super::Simulation;
-use crate::Error;
+use super::{Simulation, SimulationError};
 use crate::scene::{Leg, LegPath};
 use vibrissa::contact::{Item, RollerContact, Stop};
 use vibrissa::reconstruct::{Dropout, NoiseGenerator, NoiseModel};
@@ -43,8 +42,8 @@ impl Simulation {
     /// The samples. The memory they take does not grow with their number.
     ///
     /// # Errors
-    /// [`Error::Simulation`], [`Error::Noise`], [`Error::Contact`].
-    pub fn ticks(&self) -> Result<Ticks<'_>, Error> {
+    /// [`SimulationError`].
+    pub fn ticks(&self) -> Result<Ticks<'_>, SimulationError> {
         let ((steps, expected), sensor) = (self.steps()?, self.noise.generator(self.seed)?);
         // a sample is lost as a whole
         let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..self.noise };

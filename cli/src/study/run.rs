@@ -3,7 +3,7 @@
 use super::grid::Study;
 use super::row::StudyRow;
 use crate::output::{csv_writer, pretty_json};
-use crate::{Error, Interrupt, OutputError, Staged};
+use crate::{Interrupt, OutputError, Staged};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -55,6 +55,9 @@ pub enum StudyError {
         /// Why.
         source: io::Error,
     },
+    /// The files.
+    #[error(transparent)]
+    Output(#[from] OutputError),
 }
 
 /// study.json.
@@ -91,8 +94,8 @@ impl Study {
     /// started again, and the table is the same. Files that the scene names, beside its own, are taken to be the same.
     ///
     /// # Errors
-    /// [`StudyError`], [`OutputError`]. A scene that cannot be swept is none: its row tells the reason.
-    pub fn run(&self, out: &Path, interrupt: &Interrupt) -> Result<StudyRun, Error> {
+    /// [`StudyError`]. A scene that cannot be swept is none: its row tells the reason.
+    pub fn run(&self, out: &Path, interrupt: &Interrupt) -> Result<StudyRun, StudyError> {
         let scenes = self.count();
         let mut run = StudyRun { scenes, ..StudyRun::default() };
         if self.is_begun(out)? {
@@ -154,7 +157,7 @@ impl Study {
     }
 
     /// One table of all parts, which are not needed any more.
-    fn join(&self, out: &Path) -> Result<(), Error> {
+    fn join(&self, out: &Path) -> Result<(), StudyError> {
         let firsts = || (0..self.count()).step_by(PART);
         let staged = Staged::new(out)?;
         staged.write(ROWS.as_ref(), |table| {

@@ -1,0 +1,30 @@
+//! Errors of the scans of the paper.
+
+use crate::{FigureError, OutputError, SceneError, WriteError};
+use vibrissa::contact::ContactError;
+use vibrissa::reconstruct::ReconstructError;
+
+/// Why the scans of the paper cannot be made or written. Of the first three there are none, unless a scene of this crate is no scene.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[non_exhaustive]
+pub enum PaperError {
+    /// A scene.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// Its sweep.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The reconstruction of its reactions.
+    #[error(transparent)]
+    Reconstruct(#[from] ReconstructError),
+    /// The files of a scan.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A figure of all scans.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The other files.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
