@@ -9,11 +9,11 @@
 mod canvas;
 
 use canvas::{BODY, Colour, FAINT, INK, LINE, Point, Sheet, Side};
+use rod_files::{Scan, Scene};
 use std::error::Error;
 use std::ops::Range;
 use std::path::Path;
 use vibrissa::{Label, Sample, Settings, reconstruct};
-use vibrissa_cli::{Scan, Scene};
 
 /// Part of the clamp's way that is shown, mm.
 const SHOWN: Range<f64> = 80.0..215.0;

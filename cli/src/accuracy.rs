@@ -4,10 +4,11 @@ use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::error::Error;
 use crate::reconstruction::{budget, read};
 use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, stopped, warn};
+use rod_files::{OutputError, Recording, Setup, Staged, read_noise, read_uniform_rod};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::Settings;
-use vibrissa_cli::{BudgetStudy, OutputError, Recording, RodCalibration, Setup, Staged, read_noise, read_uniform_rod};
+use vibrissa_cli::{BudgetStudy, RodCalibration};
 
 /// What may be done with a rod that `calibrate` does not take.
 const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa reconstruct --rod` takes any \
@@ -23,7 +24,7 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
     let setup = setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
     let mut scan = scan_of(uniform, known, rod, moved, setup, written.into())?;
     scan.inputs.extend(recordings.iter().chain(&noise).cloned());
-    vibrissa_cli::check_output(&out, &scan.inputs)?;
+    rod_files::output::check_output(&out, &scan.inputs)?;
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let settings = Settings {
         noise: noise.map(|model| model.channels()),

@@ -6,10 +6,11 @@ use crate::values::{degrees, directory, friction, meaning, no_quiet, number, pai
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use rod_files::{ReadOptions, SensorAddress, StageSpec};
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
 use vibrissa::reconstruct::Friction;
-use vibrissa_cli::{FakeProtocol, ReadOptions, SensorAddress, StageSpec};
+use vibrissa_cli::FakeProtocol;
 
 /// Simulates a flexible whisker that is dragged past an object, and reconstructs the object from the forces and the moment at
 /// the base of the whisker.

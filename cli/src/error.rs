@@ -1,10 +1,10 @@
 //! Why a command fails.
 
-use vibrissa::contact::ContactError;
-use vibrissa_cli::{
-    BudgetError, CalibrateError, FakeError, LiveError, OutputError, PaperError, ProfileError, ReconstructionError,
-    SceneError, SimulationError, StudyError, TruthError, WriteError,
+use rod_files::{
+    LiveError, OutputError, ProfileError, ReconstructionError, SceneError, SimulationError, StudyError, TruthError,
 };
+use vibrissa::contact::ContactError;
+use vibrissa_cli::{BudgetError, CalibrateError, FakeError, PaperError, WriteError};
 
 /// An option that the rod or the scene does not allow.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

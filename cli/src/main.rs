@@ -15,6 +15,11 @@ use arguments::{Arguments, Command, FakeSensor, Live, Moved, Simulate};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
 use progress::Progress;
+use rod_files::output::check_output;
+use rod_files::{
+    Interrupted, LiveScan, OutputError, ReadOptions, Scan, Scene, SceneError, Sensor, SensorAddress, Setup, Simulated,
+    Simulation, StageSpec, Staged, Study, StudyRun, read_noise, read_uniform_rod, write_profile_table,
+};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -22,11 +27,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
-use vibrissa_cli::{
-    FakeScan, Interrupted, LiveScan, OutputError, Paper, Played, ReadOptions, Scan, Scene, SceneError, Sensor,
-    SensorAddress, Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun, check_output, read_noise,
-    read_uniform_rod, shapes_list, write_first_scene, write_profile_table, write_profiles,
-};
+use vibrissa_cli::{FakeScan, Paper, Played, shapes_list, write_first_scene, write_profiles, write_sweep};
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
 const UNFINISHED: u8 = 2;
@@ -140,7 +141,7 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
     if let Some(at) = scan.interrupted.filter(|_| scan.outcome.states.is_empty()) {
         return Ok(interrupted(&scan.scene.name, &at, None, &caught));
     }
-    scan.write(&staged, Path::new(""))?;
+    write_sweep(&scan, &staged, Path::new(""))?;
     staged.publish()?;
     say(&scan.report());
     say(&format!("written to {}\n", out.display()));

@@ -1,9 +1,10 @@
 //! Several recordings of one object together.
 
-use crate::output::{pretty_json, write_csv};
-use crate::reconstructed::{CONTOUR_COLUMNS, Reconstructed};
-use crate::table::Table;
-use crate::{Staged, WriteError, figure};
+use crate::{WriteError, figure};
+use rod_files::Staged;
+use rod_files::output::{pretty_json, write_csv};
+use rod_files::table::Table;
+use rod_files::{CONTOUR_COLUMNS, Reconstructed};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -2,12 +2,12 @@
 
 use crate::QUIET;
 use indicatif::ProgressBar;
+use rod_files::Interrupt;
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
-use vibrissa_cli::Interrupt;
 
 /// Time between two looks.
 const TICK: Duration = Duration::from_millis(100);

@@ -4,14 +4,15 @@ use crate::arguments::{Reconstruct, Trust};
 use crate::error::{Error, OptionError};
 use crate::progress::stage;
 use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
+use rod_files::{
+    CalibratedRod, LiveScan, Reconstructed, Recording, Scene, Setup, Staged, read_calibrated_rod, read_noise,
+};
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::{Budget, Known};
 use vibrissa::rod::AnyRod;
 use vibrissa::{Rod, Settings};
-use vibrissa_cli::{
-    CalibratedRod, LiveScan, Merged, Reconstructed, Recording, Scene, Setup, Staged, read_calibrated_rod, read_noise,
-};
+use vibrissa_cli::{Merged, write_reconstruction};
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let Reconstruct { recordings, rod, truth, out, align, moved, trust, written } = arguments;
@@ -51,7 +52,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     if let ([one], 1) = (&found[..], recordings.len()) {
         let out = out.unwrap_or_else(|| Path::new("out").join(&one.name));
         let staged = Staged::new(&out)?.keeping(scan.inputs);
-        one.write(&staged, Path::new(""))?;
+        write_reconstruction(one, &staged, Path::new(""))?;
         staged.publish()?;
         say(&one.summary());
         say(&format!("written to {}\n", out.display()));
@@ -59,7 +60,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
         let out = out.unwrap_or_else(|| Path::new("out").join("merged"));
         let staged = Staged::new(&out)?.keeping(scan.inputs);
         let merged = Merged::of(&mut found, align.map(f64::to_radians));
-        found.iter().try_for_each(|one| one.write(&staged, Path::new(&one.name)))?;
+        found.iter().try_for_each(|one| write_reconstruction(one, &staged, Path::new(&one.name)))?;
         merged.write(&staged)?;
         staged.publish()?;
         found.iter().for_each(|one| say(&format!("{}\n", one.summary())));

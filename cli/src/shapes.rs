@@ -1,6 +1,6 @@
 //! The list of shapes that a scene can have.
 
-use crate::table::Table;
+use rod_files::table::Table;
 use vibrissa::contour::description::{FieldInfo, FieldUnit, Shape};
 
 /// The shapes of scene files with their fields, types, units in scene files, and meanings.

@@ -1,10 +1,11 @@
 //! What Ctrl-C and a request to terminate do to a command.
 
+use rod_files::Interrupt;
+use rod_files::output::abandon;
 use std::io::Write;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
-use vibrissa_cli::{Interrupt, abandon};
 
 /// Number of SIGINT: what Ctrl-C sends.
 const SIGINT: u8 = 2;

@@ -1,8 +1,9 @@
 //! The end of a process that runs no destructors. A test of its own: nothing can be written in this process any more.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+use rod_files::Staged;
+use rod_files::output::abandon;
 use std::fs;
-use vibrissa_cli::{Staged, abandon};
 
 #[test]
 fn abandoned_stages_are_gone_and_what_was_there_stays() {

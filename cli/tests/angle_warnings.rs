@@ -1,9 +1,9 @@
 //! Angles that look like radians where degrees belong, and the other way round, are told of and taken as they are.
 
 use crate::common::{SCENE, complaint, edited, vibrissa};
+use rod_files::{Scene, Setup};
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
-use vibrissa_cli::{Scene, Setup};
 
 fn warnings(scene: &str) -> Vec<String> {
     Scene::parse("scene.toml".as_ref(), scene).unwrap().warnings

@@ -2,9 +2,9 @@
 
 use crate::witness::description::boundaries;
 use crate::witness::run::{End, Run};
+use rod_files::Scene;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use vibrissa_cli::Scene;
 
 /// Where a sweep may end.
 type Ends = &'static [End];

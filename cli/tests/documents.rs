@@ -1,9 +1,9 @@
 //! The scenes of the documentation and of the repository.
 
+use rod_files::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::contour::description::Shape;
-use vibrissa_cli::Scene;
 
 fn scenes(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);

@@ -1,8 +1,8 @@
 //! A square and a triangle in many poses, rods parallel to a side among them, from both sides, with clamps that turn.
 
 use crate::common::judge::judge;
+use rod_files::{Scan, Scene};
 use vibrissa::contact::EventKind;
-use vibrissa_cli::{Scan, Scene};
 
 /// Centre at the origin, sides of 40 mm. Side angles: 0 and 90 degrees, and every multiple of 60, plus the rotation.
 const SHAPES: [(&str, &str); 2] = [

@@ -1,10 +1,10 @@
 //! Scenes with friction that were wrong, stopped or took minutes.
 
 use crate::common::{edited, refused_beside, vibrissa};
+use rod_files::Scene;
 use std::collections::BTreeSet;
 use vibrissa::contact::{EventKind, Outcome};
 use vibrissa::{Event, State};
-use vibrissa_cli::Scene;
 
 /// The sweep of a scene, in at most so many steps.
 fn swept(scene: &str) -> Outcome {

@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use crate::common::{SCENE, edited};
+use rod_files::{Interrupt, ReadOptions, Recording, Scan, Scene, Simulation, Staged};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use vibrissa::Rod;
 use vibrissa::reconstruct::NoiseModel;
-use vibrissa_cli::{Interrupt, Paper, PaperError, ReadOptions, Recording, Scan, Scene, Simulation, Staged};
+use vibrissa_cli::{Paper, PaperError, write_sweep};
 
 /// The first wait before a signal; each try doubles it.
 const FIRST_WAIT: Duration = Duration::from_millis(30);
@@ -150,7 +151,7 @@ fn a_sweep_interrupted_at_once_has_no_states() {
     assert!(scan.report().starts_with("scene: incomplete, no phase; 0 states"), "{}", scan.report());
     let directory = tempfile::tempdir().unwrap();
     let staged = Staged::new(directory.path()).unwrap();
-    scan.write(&staged, Path::new("")).unwrap();
+    write_sweep(&scan, &staged, Path::new("")).unwrap();
     staged.publish().unwrap();
     assert_eq!(json(&directory.path().join("sweep.json"))["phases"], Value::Null);
 }
@@ -160,7 +161,7 @@ fn a_sweep_that_is_not_interrupted_says_that_it_is_complete() {
     let directory = tempfile::tempdir().unwrap();
     let scan = Scan::run(Scene::parse("scene.toml".as_ref(), SCENE).unwrap()).unwrap();
     let staged = Staged::new(directory.path()).unwrap();
-    scan.write(&staged, Path::new("")).unwrap();
+    write_sweep(&scan, &staged, Path::new("")).unwrap();
     staged.publish().unwrap();
     let summary = json(&directory.path().join("sweep.json"));
     assert_eq!((&summary["complete"], &summary["stop"]), (&true.into(), &Value::Null));
@@ -173,7 +174,7 @@ fn one_state_can_be_drawn() {
     let mut scan = Scan::run(Scene::parse("scene.toml".as_ref(), SCENE).unwrap()).unwrap();
     scan.outcome.states.truncate(1);
     scan.outcome.events.clear();
-    scan.write(&Staged::new(directory.path()).unwrap(), Path::new("")).unwrap();
+    write_sweep(&scan, &Staged::new(directory.path()).unwrap(), Path::new("")).unwrap();
 }
 
 #[test]

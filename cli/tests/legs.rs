@@ -1,10 +1,10 @@
 //! Paths of several legs in scene files: `[[sweep.leg]]`.
 
 use crate::common::vibrissa;
+use rod_files::Scene;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use vibrissa_cli::Scene;
 
 fn whisking() -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/whisking.toml")).unwrap()
@@ -68,7 +68,7 @@ fn a_recording_goes_there_and_back() {
         assert!((row[1] - (0.03001 + way * 0.04999)).abs() < 1e-15, "{row:?}");
     }
     let whole = scene.replace("step = 5e-4", "step = 4.999e-4");
-    let scan = vibrissa_cli::Scan::run(Scene::parse("legs.toml".as_ref(), &whole).unwrap()).unwrap();
+    let scan = rod_files::Scan::run(Scene::parse("legs.toml".as_ref(), &whole).unwrap()).unwrap();
     let states = &scan.outcome.states;
     assert_eq!(states.len(), rows.len());
     for (row, state) in rows.iter().zip(states) {

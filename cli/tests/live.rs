@@ -2,6 +2,7 @@
 //! cannot be.
 
 use crate::common::{complaint, edited, vibrissa};
+use rod_files::{ReadOptions, Recording, Scene, Simulation, Tick};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -10,7 +11,6 @@ use std::process::{Child, Command, Output, Stdio};
 use vibrissa::reconstruct::{NoiseModel, single};
 use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Sample};
-use vibrissa_cli::{ReadOptions, Recording, Scene, Simulation, Tick};
 
 /// O1 at q = 0.4 L: A, B, BB, BA, B, A.
 fn scene() -> String {

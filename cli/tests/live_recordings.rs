@@ -4,11 +4,11 @@
 use crate::common::{SCENE, complaint, vibrissa};
 use crate::writer::{Endian, F64, Index, Object, segment};
 use nalgebra::{Matrix6, Vector6};
+use rod_files::{ReadOptions, Recording, Scene};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::hw::{AtiFile, Frame, Mounting, OutOfPlane};
-use vibrissa_cli::{ReadOptions, Recording, Scene};
 
 const NOISE: &str = "[white]\nforce = 1e-5\nm0z = 1e-7\n";
 const TARE: &str = "[tare]\nseconds = 0.1\n";

@@ -1,12 +1,12 @@
 //! The scenes with many contacts, with corners, and with objects on both sides of the rod.
 
 use crate::common::judge::{is_pushed_from_both_sides, judge};
+use rod_files::{Scan, Scene};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vibrissa::Event;
 use vibrissa::contact::{EventKind, Phase};
-use vibrissa_cli::{Scan, Scene};
 
 /// Scene, phases, and the largest number of contacts that any state has.
 const SCENES: [(&str, &str, usize); 14] = [

@@ -1,12 +1,12 @@
 //! Recordings turned back into contact points: what is written, and what is said of recordings that are none.
 
 use crate::common::{complaint, vibrissa};
+use rod_files::Scene;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
 use vibrissa::Contour;
-use vibrissa_cli::Scene;
 
 const SCENE: &str = include_str!("../../scenes/O1_q40.toml");
 const NOISE: &str = "[ar1]\nforce = 2.5e-3\nm0z = 6e-5\ncorrelation = 0.45\n";

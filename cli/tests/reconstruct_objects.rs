@@ -1,13 +1,13 @@
 //! What a scan of objects with vertices, edges, notches and many contacts is reconstructed to, against the truth.
 
 use rayon::prelude::*;
+use rod_files::{Scan, Scene};
 use std::path::Path;
 use vibrissa::contact::ContactKind;
 use vibrissa::reconstruct::kink::KinkKind;
 use vibrissa::reconstruct::{Budget, NoiseModel};
 use vibrissa::rod::Reactions;
 use vibrissa::{Label, Sample, Settings, State, reconstruct};
-use vibrissa_cli::{Scan, Scene};
 
 /// Scene, way between two samples (m) and most contacts at once. Of `scallops` the sweep ends early with small steps.
 const SCENES: [(&str, f64, usize); 12] = [

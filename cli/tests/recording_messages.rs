@@ -1,7 +1,7 @@
 //! Every fault of a recording is answered with its file and line, the value and what was expected.
 
+use rod_files::{Place, ReadOptions, Recording, RecordingError, RowProblem};
 use vibrissa::{Pose, Rod};
-use vibrissa_cli::{Place, ReadOptions, Recording, RecordingError, RowProblem};
 
 const HEADER: &str = "x0,y0,phi0,f0x,f0y,m0z";
 

@@ -1,10 +1,10 @@
 //! Defects that were, each with the scene that showed it.
 
 use crate::common::judge::judge;
+use rod_files::{Scan, Scene};
 use std::path::Path;
 use vibrissa::Event;
 use vibrissa::contact::StopReason;
-use vibrissa_cli::{Scan, Scene};
 
 fn swept(name: &str) -> Scan {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name);

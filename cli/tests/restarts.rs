@@ -7,12 +7,12 @@
 use crate::random::dice::Dice;
 use crate::random::generator;
 use rayon::prelude::*;
+use rod_files::Scene;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 use vibrissa::contact::{EventKind, Item, Outcome};
 use vibrissa::{ClampPath, Event, Pose, State, Sweep};
-use vibrissa_cli::Scene;
 
 /// Tolerances of lengths (L), angles, forces (E I / L^2), moments and energies, relative to 1 + their size: of the state that
 /// is given, and of states that were gone to, which ill-conditioned ones exceed by their condition number.

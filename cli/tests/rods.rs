@@ -1,7 +1,7 @@
 //! Scenes whose rod is not uniform or not straight at rest, or whose clamp gives way.
 
 use crate::common::{edited, refused_beside, vibrissa};
-use vibrissa_cli::{Scan, Scene};
+use rod_files::{Scan, Scene};
 
 /// The scene with another table `[rod]`.
 fn with_rod(rod: &str) -> String {

@@ -1,11 +1,11 @@
 //! Several recordings of one object, reconstructed together.
 
 use crate::common::{SCENE, complaint, vibrissa};
+use rod_files::Scene;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use vibrissa::Contour;
-use vibrissa_cli::Scene;
 
 /// Contour points of a folder, and their standard deviations.
 fn contour(out: &Path) -> Vec<([f64; 2], f64)> {

@@ -7,8 +7,8 @@ use crate::sharp::unit::in_unit;
 use crate::sharp::verdict::{Verdict, verdict};
 use crate::witness::run::Run;
 use rayon::prelude::*;
+use rod_files::Scene;
 use std::ops::Range;
-use vibrissa_cli::Scene;
 
 /// Of so many scenes one is swept at other steps too. It has no divisor in common with the number of kinds, and so goes
 /// through all of them.

@@ -1,10 +1,10 @@
 //! Simulated recordings, and what is said of those that cannot be made.
 
 use crate::common::{SCENE, complaint, edited, vibrissa};
+use rod_files::{ReadOptions, Recording, Scan, Scene};
 use std::fs;
 use std::path::Path;
 use std::process::Output;
-use vibrissa_cli::{ReadOptions, Recording, Scan, Scene};
 
 const NOISE: &str = "\
 [white]

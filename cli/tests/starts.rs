@@ -5,12 +5,12 @@ use crate::common::vibrissa;
 use crate::random::dice::Dice;
 use crate::random::generator;
 use rayon::prelude::*;
+use rod_files::{Scan, Scene};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::fs;
 use vibrissa::contact::{Approach, Start, StartCandidate};
 use vibrissa::{ClampPath, Pose, State, Sweep};
-use vibrissa_cli::{Scan, Scene};
 
 /// A clamp above a floor, the rod pointing down into it, that moves along the floor. Behind, the floor has an end, round which a rod
 /// that comes along the path is rolled over.

@@ -1,9 +1,9 @@
 //! `vibrissa study`: scenes in all combinations of some numbers, one row of results for each.
 
 use crate::common::vibrissa;
+use rod_files::{Interrupt, Scan, Scene, Study};
 use std::fs;
 use std::path::{Path, PathBuf};
-use vibrissa_cli::{Interrupt, Scan, Scene, Study};
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name)

@@ -1,9 +1,9 @@
 //! Scenes whose transitions an earlier version got wrong: they gained energy, began with a force, or depended on legs and steps.
 
+use rod_files::Scene;
 use std::path::Path;
 use vibrissa::Event;
 use vibrissa::contact::{EventKind, Outcome, SlipMode};
-use vibrissa_cli::Scene;
 
 /// The sweep of a scene file with its steps times `share`.
 fn swept(name: &str, share: f64) -> Outcome {

@@ -2,12 +2,12 @@
 //! reconstruction of a recording of it.
 #![allow(clippy::print_stdout, reason = "it is there to be read")]
 
+use rod_files::{ReadOptions, Reconstructed, Recording, Scene};
 use std::error::Error;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 use vibrissa::{Settings, Sweep};
-use vibrissa_cli::{ReadOptions, Reconstructed, Recording, Scene};
 
 /// The shortest of several times: what else the machine does makes the others longer.
 fn shortest(rounds: u32, mut work: impl FnMut() -> Result<(), Box<dyn Error>>) -> Result<f64, Box<dyn Error>> {

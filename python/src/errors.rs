@@ -2,10 +2,10 @@
 
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyValueError};
 use pyo3::prelude::*;
+use rod_files::SceneError;
 use std::fmt::Display;
 use std::io;
 use vibrissa::contact::Stop;
-use vibrissa_cli::SceneError;
 
 /// An argument that the library refuses: `ValueError`.
 pub fn value(error: impl Display) -> PyErr {

@@ -8,11 +8,11 @@ use crate::rod::PyRod;
 use crate::state::PyState;
 use crate::{errors, running, shape};
 use pyo3::prelude::*;
+use rod_files::SceneFriction;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use vibrissa::contact::Item;
 use vibrissa::rod::AnyRod;
 use vibrissa::{Composite, Follower};
-use vibrissa_cli::SceneFriction;
 
 /// A rod in equilibrium whose clamp is moved from pose to pose, for controllers.
 ///

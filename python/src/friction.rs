@@ -5,11 +5,11 @@ use crate::written::piece_count;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString, PyTuple};
+use rod_files::SceneFriction;
 use toml::{Table, Value};
 use vibrissa::contact::{Coefficients, ContactError};
 use vibrissa::rod::AnyRod;
 use vibrissa::{Composite, Sweep};
-use vibrissa_cli::SceneFriction;
 
 /// What `friction` may be, for messages.
 const EXPECTED: &str =

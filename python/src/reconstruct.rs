@@ -11,12 +11,12 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
+use rod_files::{Reconstructed, Recording};
 use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
 use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Friction, Reading, Source, SourceEstimate, TraceRow};
 use vibrissa::{Label, Sample, Settings};
-use vibrissa_cli::{Reconstructed, Recording};
 
 const TRACE: &[Column<TraceRow>] = &[
     Column { name: "stretch", get: Get::Int(|row| row.stretch as i64) },

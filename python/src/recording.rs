@@ -7,9 +7,9 @@ use crate::rod::PyRod;
 use crate::running;
 use crate::samples::SAMPLE;
 use pyo3::prelude::*;
+use rod_files::{LiveError, LiveScan, ReadOptions, Recording, RecordingError, Setup, StageSpec};
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Known};
-use vibrissa_cli::{LiveError, LiveScan, ReadOptions, Recording, RecordingError, Setup, StageSpec};
 
 /// What a clamp felt along its way, from a file.
 #[pyclass(frozen, name = "Recording", module = "vibrissa")]

@@ -13,13 +13,13 @@ use crate::sweep::{Options, Steps, run};
 use crate::written::{Object, degrees, number, point, two};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use rod_files::{LegPath, Scene, SceneFriction};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::{Table, Value};
 use vibrissa::contact::Chain;
 use vibrissa::contour::Motion;
 use vibrissa::{ClampPath, Pose};
-use vibrissa_cli::{LegPath, Scene, SceneFriction};
 
 /// A rod, objects and the path of the clamp.
 ///
@@ -161,7 +161,7 @@ fn leg_table(leg: &Leg) -> Table {
 }
 
 /// The path of a scene that has been read, with its legs as they are written.
-fn path_of(py: Python<'_>, first: ClampPath, legs: &[vibrissa_cli::Leg], tables: &Table) -> PyResult<Py<PyPath>> {
+fn path_of(py: Python<'_>, first: ClampPath, legs: &[rod_files::Leg], tables: &Table) -> PyResult<Py<PyPath>> {
     let sweep = tables.get("sweep").and_then(Value::as_table).cloned().unwrap_or_default();
     let straight = |path: &ClampPath, table: &Table| {
         let end = path.at(path.length());
@@ -174,7 +174,7 @@ fn path_of(py: Python<'_>, first: ClampPath, legs: &[vibrissa_cli::Leg], tables:
         return Py::new(py, PyPath::new(first, written.into_iter().collect(), None));
     }
     let listed = sweep.get("leg").and_then(Value::as_array).into_iter().flatten();
-    let leg = |(leg, table): (&vibrissa_cli::Leg, &Table)| match leg.path {
+    let leg = |(leg, table): (&rod_files::Leg, &Table)| match leg.path {
         LegPath::Straight(path) => Some(straight(&path, table)),
         LegPath::Pivot(path) => {
             let (pivot, turn) = (two(table, "pivot")?, number(table, "turn")?.to_radians());

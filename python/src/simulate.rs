@@ -8,12 +8,12 @@ use crate::samples::SAMPLE;
 use crate::scene::PyScene;
 use crate::{errors, running};
 use pyo3::prelude::*;
+use rod_files::read_noise;
 use std::path::PathBuf;
 use vibrissa::contact::{Item, Stop};
 use vibrissa::reconstruct::{NoiseGenerator, NoiseModel};
 use vibrissa::rod::{AnyRod, Reactions};
 use vibrissa::{ClampPath, Pose, Sample, Sweep};
-use vibrissa_cli::read_noise;
 
 /// A model of noise from a mapping with the tables of a noise file, or from such a file.
 pub fn model(noise: &Bound<'_, PyAny>) -> PyResult<NoiseModel> {

@@ -5,8 +5,8 @@ use crate::{errors, running};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{IntoPyDict, PyDict};
+use rod_files::{Measured, Study, StudyError, StudyRow};
 use std::path::PathBuf;
-use vibrissa_cli::{Measured, Study, StudyError, StudyRow};
 
 /// A scene and the values that some of its numbers take, from a file as ``docs/studies.md`` describes it.
 ///

@@ -12,10 +12,10 @@ use crate::shape::objects;
 use crate::state::PyState;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use rod_files::SceneFriction;
 use vibrissa::contact::{ContactError, Item, Outcome};
 use vibrissa::rod::AnyRod;
 use vibrissa::{Composite, State, Sweep};
-use vibrissa_cli::SceneFriction;
 
 /// Largest number of states of a sweep, which are all kept: some 6 GB.
 const MOST_STATES: f64 = 2e7;

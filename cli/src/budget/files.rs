@@ -3,8 +3,9 @@
 use super::needed::TARGET;
 use super::study::Expected;
 use super::trials::Trial;
-use crate::output::pretty_json;
-use crate::{Staged, WriteError, figure};
+use crate::{WriteError, figure};
+use rod_files::Staged;
+use rod_files::output::pretty_json;
 use serde::Serialize;
 use std::path::Path;
 use vibrissa::reconstruct::{Budget, Source};

@@ -3,7 +3,7 @@
 use super::needed::{Factor, TARGET};
 use super::study::Expected;
 use super::trials::Trial;
-use crate::table::Table;
+use rod_files::table::Table;
 use std::fmt::Write;
 
 /// Share of right labels below which the derivatives say nothing of a recording.

@@ -4,7 +4,7 @@ use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};
 use super::truth::Truth;
-use crate::{Scene, SceneError, SceneFriction, SimulationError};
+use rod_files::{Scene, SceneError, SceneFriction, SimulationError};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Friction, Known, NoiseError, NoiseModel, reconstruct_passes};
 use vibrissa::rod::{Reactions, Units};

@@ -3,8 +3,8 @@
 use super::forecast::median;
 use super::study::BudgetError;
 use super::truth::Truth;
-use crate::Scene;
 use rayon::prelude::*;
+use rod_files::Scene;
 use serde::Serialize;
 use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::reconstruct::{Budget, Friction, NoiseModel, Source, disturb, reconstruct_passes};

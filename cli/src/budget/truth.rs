@@ -1,7 +1,7 @@
 //! The true samples of a scene.
 
 use super::study::BudgetError;
-use crate::{Scene, Simulation};
+use rod_files::{Scene, Simulation};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{NoiseError, NoiseModel};
 use vibrissa::rod::Reactions;

@@ -1,9 +1,10 @@
 //! The file of a calibrated rod.
 
 use super::result::RodCalibration;
-use crate::output::check_output;
-use crate::scene::written;
-use crate::{Staged, WriteError, figure};
+use crate::{WriteError, figure};
+use rod_files::Staged;
+use rod_files::output::check_output;
+use rod_files::unit_of;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use vibrissa::reconstruct::Source;
@@ -40,7 +41,7 @@ impl RodCalibration {
                  [calibration]\n";
         for source in Source::ALL {
             let Some((value, sigma)) = self.known.of(source) else { continue };
-            let (unit, size) = written(source, &self.rod);
+            let (unit, size) = unit_of(source, &self.rod);
             // of a source there is a name, as in report.json
             let name = serde_json::to_string(&source).unwrap_or_default();
             let (value, sigma) = (value * size, sigma * size);

@@ -1,8 +1,8 @@
 //! A calibration in words.
 
 use super::result::RodCalibration;
-use crate::reconstructed::hardly_told;
-use crate::table::Table;
+use rod_files::hardly_told;
+use rod_files::table::Table;
 use std::fmt::Write;
 use vibrissa::reconstruct::{Source, SourceEstimate};
 

@@ -2,7 +2,7 @@
 
 use super::freed::{Freed, limited, with_held};
 use crate::figure::Residual;
-use crate::{Reconstructed, ReconstructionError, Recording};
+use rod_files::{Reconstructed, ReconstructionError, Recording};
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Calibration, Combined, Known};
 use vibrissa::{Rod, Settings};

@@ -2,9 +2,9 @@
 
 mod pty;
 
-use crate::{SensorCalibration, Setup, Simulation, SimulationError, Tick};
 use pty::play_pty;
 use rod_fake_sensor::{FakeBota, FakeGsv8, FakeRdt, FakeRdtSettings};
+use rod_files::{SensorCalibration, Setup, Simulation, SimulationError, Tick};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
@@ -224,7 +224,7 @@ fn play_rdt(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use rod_files::Scene;
     use vibrissa::reconstruct::NoiseModel;
 
     /// A rod that tapers is felt as `simulate` says.

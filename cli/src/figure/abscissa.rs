@@ -1,6 +1,6 @@
 //! What a scan is plotted against.
 
-use crate::Scene;
+use rod_files::Scene;
 use vibrissa::{ClampPath, Pose, State};
 
 /// The coordinate of the clamp that changes most along a path.

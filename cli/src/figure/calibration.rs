@@ -4,7 +4,7 @@ use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, svg, write};
 use super::chart::{Chart, Room};
 use super::element::Element;
 use super::palette::{FAINT, INK, RGBColor, TRANSITION};
-use crate::Reconstructed;
+use rod_files::Reconstructed;
 use std::ops::Range;
 use vibrissa::Label;
 use vibrissa::reconstruct::{Evidence, Travel};

@@ -10,7 +10,7 @@ use super::outline;
 use super::palette::{INK, TRANSITION, WHITE, colour};
 use super::plane::Window;
 use super::support;
-use crate::{Interval, Scan};
+use rod_files::{Interval, Scan};
 use std::f64::consts::{FRAC_PI_2, PI};
 use vibrissa::State;
 use vibrissa::contact::{EventKind, Phase};
@@ -178,8 +178,8 @@ fn name_phases(root: &Area<'_>, chart: &Chart<'_>, scan: &Scan, intervals: &[Int
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interval::intervals;
     use crate::sample::{along, event, outcome};
+    use rod_files::intervals;
 
     #[test]
     fn slips_and_new_pieces_within_a_phase_are_no_transitions() {

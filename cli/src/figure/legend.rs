@@ -5,7 +5,7 @@ use super::contour;
 use super::element::ShapeStyle;
 use super::palette::{INK, TRANSITION, colour, mode_colour};
 use super::trace::MODE;
-use crate::Interval;
+use rod_files::Interval;
 use vibrissa::contact::{EventKind, Phase, SlipMode};
 
 /// Height of a row, pixels.
@@ -102,8 +102,8 @@ impl Legend {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interval::intervals;
     use crate::sample::{along, event, outcome};
+    use rod_files::intervals;
 
     #[test]
     fn rows_are_no_wider_than_their_room_and_phases_of_one_colour_share_a_sample() {

@@ -5,7 +5,7 @@ use super::contour;
 use super::element::Element;
 use super::palette::{INK, WHITE};
 use super::plane::Window;
-use crate::Profile;
+use rod_files::Profile;
 use std::ops::Range;
 
 /// Width of the picture and bounds of its height, pixels.

@@ -4,7 +4,7 @@ use super::abscissa::Abscissa;
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::palette::{INK, MUTED, label_colour};
 use super::trace::{self, Along, LINE, Part, Trace};
-use crate::Reconstructed;
+use rod_files::Reconstructed;
 use std::ops::Range;
 use vibrissa::{ClampPath, Pose, Rod};
 

@@ -4,7 +4,7 @@ use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
 use super::palette::{self, FAINT, INK, MUTED, label_colour};
 use super::plane::Window;
-use crate::{Comparison, Reconstructed, naive_touch};
+use rod_files::{Comparison, Reconstructed, naive_touch};
 use vibrissa::Label;
 use vibrissa::reconstruct::Touch;
 use vibrissa::reconstruct::score::Deviation;

@@ -104,7 +104,8 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Scan, Scene, figure};
+    use crate::figure;
+    use rod_files::{Scan, Scene};
 
     /// The figure of a sweep with this table `[clamp]`.
     fn drawn(clamp: &str) -> String {

@@ -5,7 +5,7 @@ use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
 use super::trace::{self, Along, Trace};
-use crate::Scan;
+use rod_files::Scan;
 use std::ops::Range;
 use vibrissa::State;
 
@@ -76,8 +76,8 @@ fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan, along: &Along) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
     use crate::sample::{event, outcome};
+    use rod_files::Scene;
     use vibrissa::contact::EventKind;
 
     #[test]

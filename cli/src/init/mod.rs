@@ -1,6 +1,6 @@
 //! A scene to begin with.
 
-use crate::OutputError;
+use rod_files::OutputError;
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::Path;

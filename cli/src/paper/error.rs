@@ -1,6 +1,7 @@
 //! Errors of the scans of the paper.
 
-use crate::{FigureError, OutputError, SceneError, WriteError};
+use crate::{FigureError, WriteError};
+use rod_files::{OutputError, SceneError};
 use vibrissa::contact::ContactError;
 use vibrissa::reconstruct::ReconstructError;
 

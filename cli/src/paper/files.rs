@@ -5,9 +5,10 @@ use super::figures::{contact_points, criterion, cycles, distances, goodness, not
 use super::naive::Naive;
 use super::resolved::Resolved;
 use super::scans::{Entry, Paper, PaperScan, SCANS};
-use crate::output::pretty_json;
-use crate::{Interrupt, Scan, Staged};
+use crate::results::write_sweep;
 use rayon::prelude::*;
+use rod_files::output::pretty_json;
+use rod_files::{Interrupt, Scan, Staged};
 use serde::Serialize;
 use std::path::Path;
 
@@ -45,7 +46,7 @@ impl Paper {
     /// # Errors
     /// [`PaperError::Write`].
     pub fn write(&self, staged: &Staged, interrupt: &Interrupt) -> Result<bool, PaperError> {
-        self.scans.par_iter().try_for_each(|scan| scan.scan.write(staged, Path::new(&scan.scan.scene.name)))?;
+        self.scans.par_iter().try_for_each(|scan| write_sweep(&scan.scan, staged, Path::new(&scan.scan.scene.name)))?;
         let figures = if self.is_complete() { self.figures(interrupt)? } else { None };
         let complete = figures.is_some();
         for (name, figure) in figures.into_iter().flatten() {

@@ -2,8 +2,8 @@
 
 use super::error::PaperError;
 use super::scans::PaperScan;
-use crate::Scan;
-use crate::reconstructed::naive_touch;
+use rod_files::Scan;
+use rod_files::naive_touch;
 use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::reconstruct::{Assembly, ContourEstimate, Measured, Touch};
 use vibrissa::{Label, Sample, State, Sweep};
@@ -71,7 +71,8 @@ fn point(scan: &Scan, state: &State) -> Option<NaivePoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Interrupt, Paper};
+    use crate::Paper;
+    use rod_files::Interrupt;
 
     #[test]
     fn one_contact_comes_back_and_two_do_not() {

@@ -1,7 +1,7 @@
 //! The tables of the nine scans.
 
 use super::scans::{DISTANCES, OBJECTS, Paper};
-use crate::table::Table;
+use rod_files::table::Table;
 
 impl Paper {
     /// The cycles beside the paper's, and the events of every scan.

@@ -2,7 +2,7 @@
 
 use super::error::PaperError;
 use super::scans::PaperScan;
-use crate::reconstructed::naive_touch;
+use rod_files::naive_touch;
 use vibrissa::contour::StretchKind;
 use vibrissa::reconstruct::score::signed_distance;
 use vibrissa::reconstruct::{Reason, Touch};

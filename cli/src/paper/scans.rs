@@ -1,8 +1,8 @@
 //! The nine scans of the paper: their scenes, and running them.
 
 use super::error::PaperError;
-use crate::{Interrupt, Scan, Scene};
 use rayon::prelude::*;
+use rod_files::{Interrupt, Scan, Scene};
 use std::path::Path;
 
 /// The objects.

@@ -4,10 +4,10 @@
 use super::golden::golden;
 use super::outline::{End, Outline, Vertex, wrapped};
 use super::rod::{At, Load, Rod};
+use rod_files::Scene;
 use std::f64::consts::PI;
 use vibrissa::State;
 use vibrissa::contact::{Contact, ContactKind};
-use vibrissa_cli::Scene;
 
 /// What falls short, in dimensionless units.
 #[derive(Clone, Debug)]

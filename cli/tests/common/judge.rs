@@ -2,10 +2,10 @@
 
 use super::case::{Case, TOLERANCE};
 use super::outline::{Outline, wrapped};
+use rod_files::Scene;
 use std::f64::consts::PI;
 use vibrissa::contact::{ContactKind, EventKind, Outcome};
 use vibrissa::{Contour, Event, Pose, State};
-use vibrissa_cli::Scene;
 
 /// A transition and its undoing closer together than this, in rod lengths along the path, are no physics.
 const NEAR: f64 = 1e-6;

@@ -2,9 +2,9 @@
 
 use super::command::{Answer, Line, Point};
 use super::making::Made;
+use rod_files::Scene;
 use std::fmt;
 use vibrissa::{Contour, Label};
-use vibrissa_cli::Scene;
 
 /// Labels within this way of a true change of label are not counted, m.
 const NEAR_A_CHANGE: f64 = 0.5e-3;

@@ -1,12 +1,12 @@
 //! The true sweep of a scene: poses, reactions and labels at every sample, without a sensor.
 
 use super::world::World;
+use rod_files::Scene;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use vibrissa::contact::Item;
 use vibrissa::rod::Reactions;
 use vibrissa::{ClampPath, Label, Pose, Sweep};
-use vibrissa_cli::Scene;
 
 /// The scenes of the table.
 pub const SCENES: [&str; 5] = ["O1_q40", "O2_q20", "O3_q60", "square_tilted", "disc"];

@@ -3,11 +3,11 @@
 use super::generator::Generated;
 use crate::common::case::{Bad, Case};
 use crate::common::outline::{Outline, wrapped};
+use rod_files::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 use vibrissa::contact::{ContactKind, EventKind, Item, Phase, Stop, StopReason};
 use vibrissa::{Event, State};
-use vibrissa_cli::Scene;
 
 /// How a sweep ended.
 #[derive(Clone, Debug, PartialEq)]

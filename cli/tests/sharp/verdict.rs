@@ -3,8 +3,8 @@
 use crate::random::generator::Generated;
 use crate::witness::description::boundaries;
 use crate::witness::run::{End, False, Run};
+use rod_files::Scene;
 use std::time::{Duration, Instant};
-use vibrissa_cli::Scene;
 
 /// Factors of the step that must not change anything but which states are reported.
 pub const FACTORS: [f64; 3] = [0.999, 0.37, 0.125];

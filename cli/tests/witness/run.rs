@@ -2,13 +2,13 @@
 
 use super::boundary::Boundary;
 use super::state::{CROSSES, Fault, faults};
+use rod_files::Scene;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 use vibrissa::contact::{Item, Stop, StopReason};
 use vibrissa::{Event, Pose, State};
-use vibrissa_cli::Scene;
 
 /// More items than any sweep of these tests can have.
 const MOST_ITEMS: usize = 50_000;

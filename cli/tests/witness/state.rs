@@ -7,8 +7,8 @@ use super::strand::Elastic;
 use super::vector::{Point, dot};
 use crate::common::case::{Bad, Case, TOLERANCE};
 use crate::common::outline::wrapped;
+use rod_files::Scene;
 use vibrissa::State;
-use vibrissa_cli::Scene;
 
 /// What falls short, and where along the rod.
 #[derive(Clone, Debug)]

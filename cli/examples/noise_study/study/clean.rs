@@ -1,11 +1,11 @@
 //! What a sensor without noise would record.
 
 use super::{Outcome, STEP};
+use rod_files::Scene;
 use std::path::Path;
 use vibrissa::contact::{EventKind, Item};
 use vibrissa::reconstruct::NoiseModel;
 use vibrissa::{Event, Label, Sample, Sweep};
-use vibrissa_cli::Scene;
 
 /// A transition between two phases.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! The phase criterion along several scans (Merker et al. 2020, fig. 7).
 
-use crate::Scan;
 use crate::figure::canvas::{FigureError, HPos, PAGE, TITLE, svg, write};
 use crate::figure::palette::INK;
 use crate::figure::trace::{self, Along, Trace};
+use rod_files::Scan;
 use vibrissa::State;
 
 const WIDTH: u32 = PAGE;

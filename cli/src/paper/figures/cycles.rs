@@ -1,11 +1,11 @@
 //! The phases of the nine scans by object and distance (Merker et al. 2020, fig. 8a).
 
-use crate::cycle::CYCLES;
 use crate::figure::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, tick, width, write};
 use crate::figure::element::Element;
 use crate::figure::labels::Labels;
 use crate::figure::palette::{FAINT, INK, MUTED, colour, ink_on};
 use crate::paper::scans::{DISTANCES, OBJECTS, Paper, PaperScan};
+use rod_files::CYCLES;
 use vibrissa::contact::{EventKind, Phase};
 
 /// Size of a cell, room left of and above the cells, room below for axis and key, pixels.

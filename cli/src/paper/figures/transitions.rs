@@ -1,9 +1,9 @@
 //! The transitions between phases that were observed, as a diagram (Merker et al. 2020, fig. 8b).
 
-use crate::Scan;
 use crate::figure::canvas::{Area, BODY, FigureError, HPos, TITLE, stroke, svg, width, write};
 use crate::figure::element::Element;
 use crate::figure::palette::{INK, WHITE, colour, ink_on};
+use rod_files::Scan;
 use std::collections::BTreeMap;
 use vibrissa::Label;
 use vibrissa::contact::{EventKind, Phase};
@@ -128,8 +128,8 @@ fn pixel((x, y): (f64, f64)) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
     use crate::sample::{event, outcome};
+    use rod_files::Scene;
 
     #[test]
     fn transitions_are_counted_by_label_and_by_jump() {

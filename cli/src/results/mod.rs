@@ -1,0 +1,45 @@
+//! The files of results with their figures.
+
+mod profile;
+
+pub use profile::write_profiles;
+
+use crate::figure::{self, FigureError};
+use rod_files::{OutputError, Reconstructed, Scan, Staged};
+use std::path::Path;
+
+/// Why results cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// A file.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A figure.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
+/// Writes states.jsonl, states.csv, contacts.csv, events.jsonl, sweep.json and sweep.svg into `folder` of the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_sweep(scan: &Scan, staged: &Staged, folder: &Path) -> Result<(), WriteError> {
+    let figure = figure::sweep(scan)?;
+    scan.write(staged, folder)?;
+    staged.write(&folder.join("sweep.svg"), |file| file.write_all(figure.as_bytes()))?;
+    Ok(())
+}
+
+/// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg into `folder` of the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_reconstruction(found: &Reconstructed, staged: &Staged, folder: &Path) -> Result<(), WriteError> {
+    let figures = [("contour.svg", figure::reconstruction(found)?), ("phases.svg", figure::reactions(found)?)];
+    found.write(staged, folder)?;
+    for (name, figure) in figures {
+        staged.write(&folder.join(name), |file| file.write_all(figure.as_bytes()))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+#![doc = include_str!("../README.md")]
+//!
+//! `toml_file` reads TOML with errors that name the place. `scene`, `setup`, `noise_file` and `study` are such files; `recording` is a table of
+//! samples, and `live` reads a sensor or a raw recording of one. `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
+//! recording back. `output` writes files that appear when they are complete.
+#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
+
+mod cycle;
+mod interrupt;
+mod interval;
+mod live;
+mod noise_file;
+pub mod output;
+mod profile;
+mod reconstructed;
+mod recording;
+mod report;
+#[cfg(test)]
+mod sample;
+mod scan;
+mod scene;
+mod setup;
+mod simulation;
+mod study;
+pub mod table;
+mod toml_file;
+
+pub use cycle::{CYCLES, Cycle};
+pub use interrupt::{Interrupt, Interrupted};
+pub use interval::{Interval, intervals};
+pub use live::{
+    AddressError, End, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor, SensorAddress, StageSpec,
+    StageSpecError,
+};
+pub use noise_file::read_noise;
+pub use output::{OutputError, Staged};
+pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
+pub use reconstructed::{
+    CONTOUR_COLUMNS, Comparison, Reconstructed, ReconstructionError, Transition, TruthError, hardly_told, naive_touch,
+};
+pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
+pub use scan::Scan;
+pub use scene::{
+    CalibratedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_rod, read_uniform_rod, unit_of,
+};
+pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
+pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
+pub use study::{Measured, Study, StudyError, StudyRow, StudyRun};
+pub use toml_file::{Invalid, SceneError};

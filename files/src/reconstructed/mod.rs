@@ -1,0 +1,20 @@
+//! A recording, turned back into contact points, phases and a contour.
+//!
+//! `result` computes all of it, and `truth` compares it with the scene that the recording is of (`comparison`). `files` writes the
+//! files: `points` is the line of a sample, `report` describes the whole, and `summary` does so for people.
+
+mod comparison;
+mod files;
+mod naive;
+mod points;
+mod report;
+mod result;
+mod summary;
+mod truth;
+
+pub use comparison::{Comparison, Transition, TruthError};
+pub use files::COLUMNS as CONTOUR_COLUMNS;
+pub use naive::naive_touch;
+pub(crate) use points::PointRecord;
+pub use result::{Reconstructed, ReconstructionError};
+pub use summary::hardly_told;
