@@ -252,16 +252,19 @@ impl<'a> World<'a> {
     }
 
     pub fn support(&self, stretch: usize, t: f64) -> Support {
-        if self.has_loops
-            && let Some((t, turn)) = self.around(stretch, t)
-        {
-            let there = self.support_within(stretch, t);
-            return Support { alpha: there.alpha + turn, ..there };
-        }
-        self.support_within(stretch, t)
+        if self.has_loops { self.support_on_loop(stretch, t) } else { self.support_within(stretch, t) }
+    }
+
+    /// The same where a stretch may be a loop.
+    #[cold]
+    fn support_on_loop(&self, stretch: usize, t: f64) -> Support {
+        let (t, turn) = self.around(stretch, t).unwrap_or((t, 0.0));
+        let there = self.support_within(stretch, t);
+        Support { alpha: there.alpha + turn, ..there }
     }
 
     /// The same on the stretch itself, beyond its ends as its shape goes on there.
+    #[inline(always)]
     fn support_within(&self, stretch: usize, t: f64) -> Support {
         let (object, own) = self.at(stretch);
         let unit = self.unit((object, own));

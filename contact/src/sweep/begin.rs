@@ -5,7 +5,7 @@ use super::start::{Approach, Start, StartCandidate};
 use super::{AT_END, Sweep};
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
-use crate::continuation::step::{Point, Stepper};
+use crate::continuation::step::{Point, Step, Stepper};
 use crate::error::StopReason;
 use crate::gap::scan::Scan;
 use crate::path::ClampPath;
@@ -40,11 +40,12 @@ struct Candidate {
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The first point: free, come along the path, or in contact with the least energy.
-    pub(super) fn begin(&mut self) -> Result<Point, StopReason> {
+    /// The first point: free, come along the path, or in contact with the least energy; with the step that ends it as for
+    /// [`resume`](Self::resume).
+    pub(super) fn begin(&mut self) -> Result<(Point, Option<Step>), StopReason> {
         if let Some(start) = self.free(0.0) {
             self.start = Some(Start::Free);
-            return Ok(self.at_rest(start));
+            return Ok((self.at_rest(start), None));
         }
         if self.scan_free(0.0).clamp_inside {
             return Err(StopReason::ClampInside);
@@ -74,7 +75,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if self.setup().world.rubs() {
             return self.resume_rubbing(start);
         }
-        Ok(self.at_rest(start))
+        Ok((self.at_rest(start), None))
     }
 
     /// Keeps what an approach came to, if it holds and is not known yet.

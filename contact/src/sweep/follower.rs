@@ -1,6 +1,7 @@
 //! A rod that is moved step by step, from one equilibrium to the next.
 
-use super::{Item, MOST_STEPS_TAKEN, Sweep};
+use super::leg::Course;
+use super::{Item, MOST_STEPS_TAKEN, Stage, Sweep};
 use crate::contact_set::Configuration;
 use crate::continuation::step::{Point, SAME_POSE};
 use crate::error::{ContactError, Stop, StopReason};
@@ -61,7 +62,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         };
         let mut sweep = Sweep::from_setup(Setup::new(rod, objects.as_ref(), path), MOST_STEPS_TAKEN, 1.0, 0);
         match sweep.begin() {
-            Ok(at) => Ok(Self::at_rest(sweep, at)),
+            Ok((at, _)) => Ok(Self::at_rest(sweep, at)),
             Err(reason) => Err(Stop { pose, tau: 0.0, reason }),
         }
     }
@@ -143,15 +144,14 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         let (way, here) = (path.length(), path.at(path.length()));
         self.sweep.stepper.steps_left = MOST_STEPS_TAKEN;
         self.sweep.set_out(path.into(), self.configuration.clone());
-        // only the last pose is reported
-        (self.sweep.step, self.sweep.reports, self.sweep.reported) = (way, 2, 1);
+        self.sweep.course = Course::to_end(way);
         let share = |tau: f64| (tau / way).min(1.0);
         let mut items = Vec::new();
         while let Some(item) = self.sweep.next() {
             items.push(item.map_err(|stop| Stop { tau: share(self.sweep.reached()), ..stop })?);
         }
-        match (items.last(), &self.sweep.at) {
-            (Some(Item::State(state)), Some(at)) => {
+        match (items.last(), &self.sweep.stage) {
+            (Some(Item::State(state)), Stage::Over(Some(at))) => {
                 (self.state, self.configuration, self.pose) = (state.clone(), at.configuration.clone(), here);
                 Ok(items)
             }

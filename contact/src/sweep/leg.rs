@@ -5,6 +5,7 @@ use crate::error::ContactError;
 use crate::path::Path;
 use crate::scene::way::Way;
 use rod_core::Units;
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Largest number of reported states. With more, neighbouring poses differ by less than the rounding of the path parameter.
@@ -34,6 +35,71 @@ impl Leg {
         }
         let beyond = steps * step < length - SAME_POSE;
         Ok(Self { way, step, reports: steps as usize + 1 + usize::from(beyond) })
+    }
+}
+
+/// How far a sweep has come along the legs of its path, and what it reports next.
+#[derive(Debug)]
+pub(super) struct Course {
+    /// Number of the present leg, and the parameter of the whole path where it begins.
+    pub leg: usize,
+    pub before: f64,
+    /// Distance of reported states, dimensionless, how many there are on this leg, and how many have been.
+    step: f64,
+    reports: usize,
+    reported: usize,
+    ahead: VecDeque<Leg>,
+}
+
+impl Course {
+    /// One leg, of which so many states are reported.
+    pub fn single(step: f64, reports: usize) -> Self {
+        Self { leg: 0, before: 0.0, step, reports, reported: 0, ahead: VecDeque::new() }
+    }
+
+    /// The same with other legs behind it.
+    pub fn followed_by(self, ahead: VecDeque<Leg>) -> Self {
+        Self { ahead, ..self }
+    }
+
+    /// One leg, of which only the end is reported.
+    pub fn to_end(length: f64) -> Self {
+        Self { reported: 1, ..Self::single(length, 2) }
+    }
+
+    /// Whether a state of this leg is still to be reported.
+    pub fn is_due(&self) -> bool {
+        self.reported < self.reports
+    }
+
+    /// Whether none has been.
+    pub fn is_new(&self) -> bool {
+        self.reported == 0
+    }
+
+    /// The pose to report next on a leg of this length; the last one may be beyond the end by rounding.
+    pub fn next_pose(&self, length: f64) -> f64 {
+        (self.step * self.reported as f64).min(length)
+    }
+
+    /// The state that is due has been reported, or passed over.
+    pub fn pass(&mut self) {
+        self.reported += 1;
+    }
+
+    /// Whether the present leg is the last one.
+    pub fn is_last(&self) -> bool {
+        self.ahead.is_empty()
+    }
+
+    /// Goes on to the next leg, if there is one, from the end of the present one, which is so long (as [`before`](Self::before)).
+    pub fn next_leg(&mut self, passed: f64) -> Option<Way> {
+        let Leg { way, step, reports } = self.ahead.pop_front()?;
+        self.before += passed;
+        self.leg += 1;
+        // the first pose of a leg has been reported with the last leg
+        (self.step, self.reports, self.reported) = (step, reports, 1);
+        Some(way)
     }
 }
 

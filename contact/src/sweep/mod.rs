@@ -31,7 +31,7 @@ use crate::scene::way::Way;
 use crate::stability::wraps;
 use crate::state::State;
 use crowd::Crowd;
-use leg::{Leg, legs};
+use leg::{Course, Leg, legs};
 use rod_contours::Composite;
 use rod_core::{Clamp, PhysicalRod, Rod};
 use rubbing::stopped;
@@ -42,24 +42,12 @@ use std::collections::VecDeque;
 #[derive(Debug)]
 pub struct Sweep<'a, R = Rod> {
     stepper: Stepper<'a, R>,
-    /// The legs that are still to come, number of the present one, and the parameter of the path where it begins.
-    legs: VecDeque<Leg>,
-    leg: usize,
-    before: f64,
-    /// Distance of reported states, dimensionless.
-    step: f64,
-    /// Number of states to report, and how many have been.
-    reports: usize,
-    reported: usize,
-    at: Option<Box<Point>>,
+    stage: Stage,
+    course: Course,
     /// How the first equilibrium was found, once it is.
     start: Option<Start>,
-    /// The equilibrium to begin with, where one is given.
-    given: Option<Configuration>,
-    /// The step from there, while poses on it are reported.
-    ahead: Option<Step>,
+    /// What is found and not yet handed out.
     pending: VecDeque<Item>,
-    over: bool,
     /// Whether it only brings an equilibrium to another pose.
     is_silent: bool,
     /// Path parameter of the last state, or of a snap without landing: how far it came.
@@ -67,6 +55,17 @@ pub struct Sweep<'a, R = Rod> {
     crowd: Crowd,
     /// Energy (E I / L) that friction and jumps have taken so far; none where a point on the way was not found.
     dissipated: Option<f64>,
+}
+
+/// Where a sweep is.
+#[derive(Debug)]
+enum Stage {
+    /// Before the first point of a leg, which begins with an equilibrium that is given, or that is looked for.
+    Begins(Option<Box<Configuration>>),
+    /// At a point of a branch; with the step from there, while poses on it are reported.
+    At(Box<Point>, Option<Step>),
+    /// At its end, and at the last point, if there was one.
+    Over(Option<Box<Point>>),
 }
 
 /// Default limit of steps along branches, rejected ones included: one to two minutes. A sweep of the paper takes about 50.
@@ -139,7 +138,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
         let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod.units())?, |_| step)?;
-        sweep.given = Some(sweep.recalled(state)?);
+        sweep.stage = Stage::Begins(Some(Box::new(sweep.recalled(state)?)));
         sweep.start = Some(Start::Given);
         Ok(sweep)
     }
@@ -172,24 +171,16 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         let mut legs = ways.into_iter().enumerate().map(leg).collect::<Result<VecDeque<_>, _>>()?;
         let Leg { way, step, reports } = legs.pop_front().ok_or(ContactError::NoLegs)?;
         let sweep = Self::from_setup(Setup::on(rod, objects, way), MOST_STEPS_TAKEN, step, reports);
-        Ok(Self { legs, ..sweep })
+        Ok(Self { course: sweep.course.followed_by(legs), ..sweep })
     }
 
     fn from_setup(setup: Setup<'a, R>, steps_left: u64, step: f64, reports: usize) -> Self {
         Self {
             stepper: Stepper::new(Corrector::new(setup), steps_left),
-            legs: VecDeque::new(),
-            leg: 0,
-            before: 0.0,
-            step,
-            reports,
-            reported: 0,
-            at: None,
+            stage: Stage::Begins(None),
+            course: Course::single(step, reports),
             start: None,
-            given: None,
-            ahead: None,
             pending: VecDeque::new(),
-            over: false,
             is_silent: false,
             reached: 0.0,
             crowd: Crowd::NONE,
@@ -202,8 +193,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         from.set_tau(0.0);
         self.stepper.corrector.setup.path = path;
         self.stepper.h = FIRST_STEP;
-        self.given = Some(from);
-        (self.at, self.ahead, self.over) = (None, None, false);
+        self.stage = Stage::Begins(Some(Box::new(from)));
         self.pending.clear();
         (self.reached, self.crowd) = (0.0, Crowd::NONE);
     }
@@ -281,46 +271,61 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         outcome
     }
 
-    /// Goes on until there is something to hand out. The branch is followed by steps of its own; the poses to report lie on
-    /// them and have no part in where a step ends.
+    /// Goes on until there is something to hand out.
     fn advance(&mut self) -> Result<(), StopReason> {
-        let Some(point) = self.at.take() else {
-            let Setup { world, path, rod } = self.setup();
-            if world.rubs() && rod.clamp(path.at(0.0)).roller().is_some() {
-                return Err(StopReason::RollerFriction);
+        match std::mem::replace(&mut self.stage, Stage::Over(None)) {
+            Stage::Begins(given) => self.set_in(given.map(|given| *given)),
+            Stage::At(point, ahead) => self.go_on(point, ahead),
+            over @ Stage::Over(_) => {
+                self.stage = over;
+                Ok(())
             }
-            let start = Box::new(match self.given.take() {
-                Some(given) => self.resume(given)?,
-                None => self.begin()?,
-            });
-            if self.reported == 0 {
-                self.report(&start);
-            }
-            self.at = Some(start);
-            return Ok(());
+        }
+    }
+
+    /// Comes to the first point of a leg.
+    fn set_in(&mut self, given: Option<Configuration>) -> Result<(), StopReason> {
+        let Setup { world, path, rod } = self.setup();
+        if world.rubs() && rod.clamp(path.at(0.0)).roller().is_some() {
+            return Err(StopReason::RollerFriction);
+        }
+        let (start, ahead) = match given {
+            Some(given) => self.resume(given)?,
+            None => self.begin()?,
         };
-        // a snap may have jumped over a pose: there is no equilibrium to report there
-        while self.pose() < point.configuration.tau() - self.slack() && self.reported < self.reports {
-            self.reported += 1;
+        if self.course.is_new() {
+            self.report(&start);
         }
-        let (end, pose) = (self.setup().path.length(), self.pose());
-        if self.reported < self.reports && pose <= point.configuration.tau() + SAME_POSE {
+        self.stage = Stage::At(Box::new(start), ahead);
+        Ok(())
+    }
+
+    /// Goes on from a point. The branch is followed by steps of its own, each to the transition that ends it; the poses to report lie on
+    /// them and have no part in where a step ends.
+    fn go_on(&mut self, point: Box<Point>, ahead: Option<Step>) -> Result<(), StopReason> {
+        let (here, end) = (point.configuration.tau(), self.setup().path.length());
+        // a snap may have jumped over a pose: there is no equilibrium to report there
+        while self.course.is_due() && self.pose() < here - self.slack() {
+            self.course.pass();
+        }
+        let pose = self.pose();
+        if self.course.is_due() && pose <= here + SAME_POSE {
             self.report(&point);
-            self.at = Some(point);
+            self.stage = Stage::At(point, ahead);
             return Ok(());
         }
-        if point.configuration.tau() >= end - SAME_POSE {
+        if here >= end - SAME_POSE {
             return self.next_leg(point);
         }
-        let ahead = match self.ahead.take() {
+        let step = match ahead {
             Some(step) => Ok(step),
             None => self.stepper.step(&point, end),
         };
-        let next = match ahead {
-            Ok(step) if self.reported < self.reports && pose < step.tau() + step.rounding() => {
+        let next = match step {
+            Ok(step) if self.course.is_due() && pose < step.tau() + step.rounding() => {
                 if let Some(state) = self.stepper.between(&point, &step, pose) {
                     self.hand_out(pose, state);
-                    (self.at, self.ahead) = (Some(point), Some(step));
+                    self.stage = Stage::At(point, Some(step));
                     return Ok(());
                 }
                 if pose < step.tau() {
@@ -330,39 +335,34 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
                     self.follow(&point, step)
                 }
             }
-            ahead => ahead.and_then(|step| self.follow(&point, step)),
+            step => step.and_then(|step| self.follow(&point, step)),
         };
-        match next {
-            Ok(next) => self.at = Some(next),
-            Err(reason) => {
-                // kept for the message
-                self.at = Some(point);
-                return Err(reason);
-            }
-        }
-        Ok(())
+        // the last point is kept for the message
+        let (stage, done) = match next {
+            Ok(next) => (Stage::At(next, None), Ok(())),
+            Err(reason) => (Stage::Over(Some(point)), Err(reason)),
+        };
+        self.stage = stage;
+        done
     }
 
     /// At the end of a leg the next one begins, or all is over.
     fn next_leg(&mut self, point: Box<Point>) -> Result<(), StopReason> {
-        let way = &self.setup().path;
-        let is_beyond = point.configuration.tau() > way.length() + AT_END;
-        let passed = way.parameter(way.length(), self.setup().rod.units().length);
+        let path = &self.setup().path;
+        let is_beyond = point.configuration.tau() > path.length() + AT_END;
+        let passed = path.parameter(path.length(), self.setup().rod.units().length);
         let configuration = point.configuration.clone();
-        self.at = Some(point);
-        let Some(Leg { way, step, reports }) = self.legs.pop_front() else {
-            self.over = true;
+        self.stage = Stage::Over(Some(point));
+        if self.course.is_last() {
             return Ok(());
-        };
+        }
         // a snap has landed further along this leg than it goes: there is no equilibrium from which to set out
         if is_beyond {
             return Err(StopReason::NoLanding);
         }
-        self.set_out(way, configuration);
-        self.before += passed;
-        self.leg += 1;
-        // the first pose of a leg has been reported with the last leg
-        (self.step, self.reports, self.reported) = (step, reports, 1);
+        if let Some(way) = self.course.next_leg(passed) {
+            self.set_out(way, configuration);
+        }
         Ok(())
     }
 
@@ -458,11 +458,10 @@ impl<R: PhysicalRod> Iterator for Sweep<'_, R> {
             if let Some(item) = self.pending.pop_front() {
                 return Some(Ok(item));
             }
-            if self.over {
+            if matches!(self.stage, Stage::Over(_)) {
                 return None;
             }
             if let Err(reason) = self.advance() {
-                self.over = true;
                 return Some(Err(self.stop(reason)));
             }
         }

@@ -1,6 +1,6 @@
 //! What is handed out: the poses to report, states, events and the reason of a stop.
 
-use super::{AT_END, Item, Sweep};
+use super::{AT_END, Item, Stage, Sweep};
 use crate::continuation::certify::{Quality, state};
 use crate::continuation::step::{Point, SAME_POSE};
 use crate::error::{Stop, StopReason};
@@ -10,9 +10,9 @@ use crate::state::State;
 use rod_core::{PhysicalRod, Pose};
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The next pose to report; the last one may be beyond the end by rounding.
+    /// The next pose to report.
     pub(super) fn pose(&self) -> f64 {
-        (self.step * self.reported as f64).min(self.setup().path.length())
+        self.course.next_pose(self.setup().path.length())
     }
 
     /// How far beyond the next pose to report the rod may be by rounding.
@@ -27,8 +27,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The state at a pose to report.
     pub(super) fn hand_out(&mut self, tau: f64, state: State) {
         self.reached = self.reached.max(tau);
-        self.pending.push_back(Item::State(State { leg: self.leg, ..state }));
-        self.reported += 1;
+        self.pending.push_back(Item::State(State { leg: self.course.leg, ..state }));
+        self.course.pass();
     }
 
     /// Hands out an event. What the rod loses in it, its jump at a pose included, is dissipated.
@@ -45,12 +45,16 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn state(&self, point: &Point) -> State {
         let free = point.configuration.count() == 0;
         let quality = if free { Quality::FREE } else { point.quality };
-        State { leg: self.leg, ..state(self.setup(), &point.configuration, &point.scan, quality) }
+        State { leg: self.course.leg, ..state(self.setup(), &point.configuration, &point.scan, quality) }
     }
 
     /// How far along the path the sweep has come.
     pub(super) fn reached(&self) -> f64 {
-        self.at.as_ref().map_or(0.0, |point| point.configuration.tau()).max(self.reached)
+        let at = match &self.stage {
+            Stage::At(point, _) | Stage::Over(Some(point)) => point.configuration.tau(),
+            Stage::Begins(_) | Stage::Over(None) => 0.0,
+        };
+        at.max(self.reached)
     }
 
     pub(super) fn stop(&self, reason: StopReason) -> Stop {
@@ -58,7 +62,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let tau = self.reached();
         let length = rod.units().length;
         let Pose { x, y, phi } = path.at(tau);
-        let passed = self.before + path.parameter(tau, length);
+        let passed = self.course.before + path.parameter(tau, length);
         Stop { pose: Pose { x: x * length, y: y * length, phi }, tau: passed, reason }
     }
 }

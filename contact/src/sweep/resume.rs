@@ -5,7 +5,7 @@ use crate::contact_set::Configuration;
 use crate::continuation::branch::Tangent;
 use crate::continuation::certify::energy;
 use crate::continuation::recall::recall;
-use crate::continuation::step::Point;
+use crate::continuation::step::{Point, Step};
 use crate::error::{ContactError, StopReason};
 use crate::state::State;
 use rod_core::PhysicalRod;
@@ -32,18 +32,18 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The point to begin with. At a fold two branches meet, of which the sweep takes the stable one if that leads along the path;
-    /// otherwise the equilibrium ends here, and the next step is a snap.
-    pub(super) fn resume(&mut self, given: Configuration) -> Result<Point, StopReason> {
+    /// otherwise the equilibrium ends here, and the step that is returned leads to a snap.
+    pub(super) fn resume(&mut self, given: Configuration) -> Result<(Point, Option<Step>), StopReason> {
         if self.setup().world.rubs() && given.count() > 0 {
             return self.resume_rubbing(given);
         }
         Ok(self.resume_smooth(given))
     }
 
-    fn resume_smooth(&mut self, given: Configuration) -> Point {
+    fn resume_smooth(&mut self, given: Configuration) -> (Point, Option<Step>) {
         let mut point = self.at_rest(given);
         if point.tangent.by_tau() > STEEP && point.quality.stable {
-            return point;
+            return (point, None);
         }
         let there = point.tangent.clone();
         let back = Tangent { direction: there.direction.iter().map(|d| -d).collect(), weights: there.weights.clone() };
@@ -53,15 +53,11 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         });
         let is_there = match (&one, &other) {
             (Some(one), Some(other)) => self.is_lower(one, other),
-            (one, other) => {
-                if one.is_none() && other.is_none() {
-                    self.ahead = Some(point.ends());
-                }
-                one.is_some()
-            }
+            (one, _) => one.is_some(),
         };
+        let ends = (one.is_none() && other.is_none()).then(|| point.ends());
         point.tangent = if is_there { there } else { back };
-        point
+        (point, ends)
     }
 
     /// Whether the first of two branches beside a fold has the lower energy at the same pose, as the stable one has. So close to

@@ -129,20 +129,20 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The point to begin with where a path turns, or where an equilibrium was given.
-    pub(super) fn resume_rubbing(&mut self, given: Configuration) -> Result<Point, StopReason> {
+    pub(super) fn resume_rubbing(&mut self, given: Configuration) -> Result<(Point, Option<Step>), StopReason> {
         let seen = self.stepper.look(given);
         if let Some(point) = self.goes_on_rubbing(seen.clone(), None)? {
             let turned = turned(&seen.configuration, &point.configuration);
             // the first state of all has the modes in which it goes on
-            if let Some(kind) = turned.filter(|_| self.reported > 0) {
+            if let Some(kind) = turned.filter(|_| !self.course.is_new()) {
                 let before = self.stepper.point(seen);
                 self.announce(kind, &before, &point);
             }
-            return Ok(point);
+            return Ok((point, None));
         }
         let point = self.stepper.point(seen);
-        self.ahead = Some(point.ends());
-        Ok(point)
+        let ends = point.ends();
+        Ok((point, Some(ends)))
     }
 
     /// The point from which the sweep goes on where the rod has landed, with no more energy than it had in `last`. With friction each contact is
