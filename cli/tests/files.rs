@@ -62,7 +62,8 @@ fn a_sweep_writes_states_events_and_a_figure() {
     assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &2.into()));
 
     let events = lines(&out.join("events.jsonl"));
-    let mut expected = vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z", "contacts", "after", "leg"];
+    let mut expected =
+        vec!["x0", "y0", "phi0", "from", "to", "kind", "f0x", "f0y", "m0z", "contacts", "after", "leg", "energy"];
     expected.sort_unstable();
     assert_eq!(keys(&events[0]), expected);
     assert_eq!(

@@ -306,3 +306,22 @@ fn a_touch_leaves_a_slipping_rod_stable() {
         assert!(events.len() > 10 && events.iter().all(|event| event.after.certificate.stable), "{coefficient}");
     }
 }
+
+/// What a jump loses can be read off the files, and what is lost on the whole way.
+#[test]
+fn files_say_what_is_lost() {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = format!("{}\n[contact]\nfriction = 0.1\n", include_str!("../../scenes/whisking.toml"));
+    std::fs::write(dir.path().join("whisking.toml"), scene).unwrap();
+    assert!(vibrissa(dir.path(), &["sweep", "whisking.toml", "--out", "out"]).status.success());
+    let read = |name: &str| std::fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    let events: Vec<serde_json::Value> =
+        read("events.jsonl").lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let lost = |event: &serde_json::Value| number(&event["energy"]) - number(&event["after"]["energy"]);
+    let jumps: f64 = events.iter().filter(|event| event["kind"] == "snap-off").map(lost).sum();
+    let whole: serde_json::Value = serde_json::from_str(&read("sweep.json")).unwrap();
+    let all = number(&whole["dissipated"]);
+    assert!(jumps > 0.0 && all > jumps, "{jumps} of {all}");
+    assert!((all - number(&events.last().unwrap()["dissipated"])).abs() <= 1e-6 * all);
+}

@@ -193,9 +193,10 @@ pub enum StopReason {
     Chatter,
     /// The pose to go to has a number that is not finite, or an angle beyond [`LARGEST_ANGLE`].
     NoPose,
-    /// The straight rod is pushed on along its axis against an object, and friction holds its tip: it carries any force until it buckles.
+    /// The straight rod is pushed on against an object, along its axis or at an angle to it, and friction holds its tip: it carries any force
+    /// until it buckles.
     Jammed,
-    /// Friction allows more than one motion of the contacts, or none that leads on.
+    /// Friction allows two motions of the contacts that hold for as long, or there are more than six contacts.
     Undetermined,
     /// The contact stays on the smooth border of a rougher piece: on that piece the rod would roll back, on the other one slip forward. The
     /// force along the contour is between the limits of the two, and is not computed.
@@ -309,7 +310,7 @@ impl std::fmt::Display for Stop {
                 "the pose to go to has a number that is not finite, or an angle beyond 100 rad; give m, m and rad"
             }
             StopReason::Jammed => {
-                "the rod is pushed on along its axis and friction holds its tip; move the clamp across the rod, or lower the friction"
+                "the rod is pushed on against an object and friction holds its tip; move the clamp across the rod, or lower the friction"
             }
             StopReason::Undetermined => {
                 "friction leaves the motion of the contacts undetermined; start a new sweep beyond, or lower the friction"

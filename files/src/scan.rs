@@ -56,6 +56,7 @@ impl Scan {
             }
         }
         outcome.start = sweep.start().cloned();
+        outcome.dissipated = sweep.dissipated();
         drop(sweep);
         Ok(Self { scene, outcome, interrupted })
     }

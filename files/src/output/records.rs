@@ -100,7 +100,9 @@ pub(super) struct EventRecord {
     contacts: Vec<ContactRecord>,
     after: StateRecord,
     leg: usize,
-    /// Work of friction since the sweep began, J.
+    /// Of the rod and its clamp before the event, J.
+    energy: f64,
+    /// What friction and jumps have taken since the sweep began, J.
     #[serde(skip_serializing_if = "Option::is_none")]
     dissipated: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -123,6 +125,7 @@ impl From<&Event> for EventRecord {
             contacts: event.before.contacts.iter().map(ContactRecord::from).collect(),
             after: StateRecord::from(&event.after),
             leg: event.leg(),
+            energy: event.before.energy,
             dissipated: event.dissipated,
             roller: event.before.roller.as_ref().map(|roller| roller.force),
         }

@@ -17,6 +17,9 @@ pub(super) struct SweepRecord<'a> {
     events: usize,
     /// None without a single state.
     phases: Option<String>,
+    /// What friction and jumps have taken, J; none without friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dissipated: Option<f64>,
 }
 
 /// How the first equilibrium was found.
@@ -70,6 +73,7 @@ impl<'a> From<&'a Scan> for SweepRecord<'a> {
             states: scan.outcome.states.len(),
             events: scan.outcome.events.len(),
             phases: (!scan.is_empty()).then(|| scan.phases()),
+            dissipated: scan.outcome.dissipated,
         }
     }
 }

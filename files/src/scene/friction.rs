@@ -105,12 +105,15 @@ fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault
             Coefficients { at_rest: field("at_rest")?, slipping: field("slipping")? }
         }
         Value::Array(_) => {
-            let message =
-                "a list, expected a coefficient, such as 0.3; that of one object or piece belongs in its own table";
+            let message = "a list, expected a coefficient, such as 0.3, or { at_rest = 0.5, slipping = 0.4 }; that of one object or piece \
+                           belongs in its own table";
             return Err(Fault::new(span, message));
         }
         value => Coefficients::equal(number(value).ok_or_else(|| {
-            let message = format!("friction is of the type {}, expected a coefficient, such as 0.3", value.type_str());
+            let message = format!(
+                "friction is of the type {}, expected a coefficient, such as 0.3, or {{ at_rest = 0.5, slipping = 0.4 }}",
+                value.type_str()
+            );
             Fault::new(span.clone(), message)
         })?),
     };
@@ -118,11 +121,14 @@ fn coefficients(span: Range<usize>, value: &Value) -> Result<Coefficients, Fault
         return Ok(found);
     }
     let Coefficients { at_rest, slipping } = found;
-    let message =
-        if let Some(wrong) = [at_rest, slipping].into_iter().find(|number| !(0.0..f64::INFINITY).contains(number)) {
-            format!("friction is {wrong}, expected a finite coefficient, 0 or more")
-        } else {
-            format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 < slipping <= at_rest")
-        };
+    let message = if let Some((name, wrong)) = [("at_rest", at_rest), ("slipping", slipping)]
+        .into_iter()
+        .find(|(_, number)| !(0.0..f64::INFINITY).contains(number))
+    {
+        let place = if matches!(value, Value::Table(_)) { format!(", for {name}") } else { String::new() };
+        format!("friction is {wrong}, expected a finite coefficient, 0 or more{place}")
+    } else {
+        format!("friction is {slipping} slipping and {at_rest} at rest, expected 0 < slipping <= at_rest")
+    };
     Err(Fault::new(span, message))
 }

@@ -43,7 +43,7 @@ const WITHIN: [(&str, &str); 6] = [
     ("leg", "[[sweep.leg]]"),
     ("piece", "[[object.piece]]"),
     ("friction", "[contact]"),
-    ("mu", "friction, in the table [contact]"),
+    ("mu", "friction, in the table [contact], of an object or of a piece"),
     ("roller", "roller, in the table [clamp]"),
 ];
 
