@@ -49,5 +49,5 @@ pub(super) fn play_pty<D: FakeDevice>(
     _: &mut dyn FnMut(&str),
     _: &dyn Fn() -> bool,
 ) -> Result<u64, FakeError> {
-    Err(FakeError::NoPty { protocol }.into())
+    Err(FakeError::NoPty { protocol })
 }
