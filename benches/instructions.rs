@@ -21,8 +21,8 @@ use std::process::{Command, ExitCode};
 use vibrissa::contact::Derivatives;
 use vibrissa::reconstruct::{Ar1, Budget, Friction, NoiseModel, single};
 use vibrissa::rod::{
-    Cone, Cut, NewtonWorkspace, Reactions, RodModel, RodSection, Sections, Smooth, advance, advance_with_sensitivities,
-    walk,
+    AnyRod, Cone, Cut, NewtonWorkspace, Reactions, RodModel, RodSection, Sections, Smooth, advance,
+    advance_with_sensitivities, walk,
 };
 use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, Settings, State, Sweep, equilibrium, reconstruct};
 
@@ -214,6 +214,16 @@ fn works() -> Vec<Work> {
     };
     works.push(Work::new("scan of 7 events without states between", [1, 3], scan(2)));
     works.push(Work::new("scan of 7 events and 1000 states", [1, 2], scan(1000)));
+    // what a program pays that learns only at run time which rod it is
+    works.push(Work::new("scan of 7 events and 1000 states, as a rod of any kind", [1, 2], |times| {
+        for _ in 0..times {
+            let contour = OBJECTS[0].contour();
+            let path = path(0.4, 0.8, -0.9);
+            let step = path.length() / 999.0;
+            black_box(Sweep::new(&AnyRod::from(rod()), black_box(&contour), path, step).unwrap().run());
+        }
+        times
+    }));
     let rubbing = |states: usize| {
         move |times: usize| {
             let contour = OBJECTS[0].contour();
