@@ -402,7 +402,7 @@ impl PyRod {
     /// Whether the rod is uniform and straight at rest, on a rigid clamp.
     #[getter]
     fn is_uniform(&self) -> bool {
-        self.rod.uniform().is_some() && self.rod.is_held_rigidly()
+        self.rod.uniform_on_rigid_clamp().is_some()
     }
 
     fn __repr__(&self) -> String {

@@ -80,7 +80,7 @@ pub fn single<'py>(py: Python<'py>, rod: &PyRod, samples: Samples) -> PyResult<B
         let one = one_sample(&rod.rod, pose, reactions, &covariance);
         let kind = one.as_ref().map_or(Cow::Borrowed("none"), |one| Cow::Owned(one.to_string()));
         // the closed form of a uniform rod, as in Rust
-        let closed = rod.rod.uniform().filter(|_| rod.rod.is_held_rigidly());
+        let closed = rod.rod.uniform_on_rigid_clamp();
         let closed = closed.map(|rod| invert(rod, pose, reactions, &covariance));
         match (closed, one) {
             (Some(Ok(touch)), _) => Point { touch: Some(touch), fits: true, kind },

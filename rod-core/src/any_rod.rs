@@ -92,6 +92,11 @@ impl AnyRod {
         }
     }
 
+    /// The same, if nothing but a rigid clamp holds it.
+    pub fn uniform_on_rigid_clamp(&self) -> Option<&Rod> {
+        self.uniform().filter(|_| self.is_held_rigidly())
+    }
+
     /// The rod itself, if its stiffness varies or it is bent at rest, on whatever clamp.
     pub fn varying(&self) -> Option<&VaryingRod> {
         match &self.kind {
