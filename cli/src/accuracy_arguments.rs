@@ -1,6 +1,6 @@
 //! Options of the commands about accuracy: `calibrate` and `budget`.
 
-use crate::arguments::{Moved, Written};
+use crate::recording_arguments::{Moved, Written};
 use crate::values::{directory, friction, seed};
 use clap::Args;
 use std::path::PathBuf;

@@ -7,14 +7,16 @@ mod error;
 mod guide;
 mod progress;
 mod reconstruction;
+mod recording_arguments;
 mod signals;
 mod values;
 
 use crate::error::Error;
-use arguments::{Arguments, Command, FakeSensor, Live, Moved, Simulate};
+use arguments::{Arguments, Command, FakeSensor, Live, Simulate};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
 use progress::Progress;
+use recording_arguments::Moved;
 use rod_files::output::check_output;
 use rod_files::{
     Interrupted, LiveScan, OutputError, ReadOptions, Scan, Scene, SceneError, Sensor, SensorAddress, Setup, Simulated,

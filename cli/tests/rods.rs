@@ -71,6 +71,10 @@ fn each_mistake_has_its_place() {
         ),
         (TWO.replace("0.04", "0.05"), ["scene.toml:2:10: rod.length: ", "add up to 0.11, expected 0.1"]),
         (TWO.replace("6e-4", "0"), ["rod.section[1].bending_stiffness: ", "bending_stiffness is 0"]),
+        (
+            TWO.replace("diameter = 0.3e-3\nyoungs_modulus = 206e9", "bending_stiffness = 6e-14"),
+            ["rod.section[2].bending_stiffness: ", "times that of the first section"],
+        ),
         (TWO.replace("length = 0.04", "length = -0.04"), ["rod.section[2].length: ", "-0.04"]),
         (TWO.replace("diameter = 0.3e-3\n", ""), ["rod.section[2]: ", "missing field `diameter`"]),
         (

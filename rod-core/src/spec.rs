@@ -113,16 +113,14 @@ impl RodFault {
 
     /// An error of the library; `field` where it names none.
     fn of(error: &RodError, field: Option<&'static str>) -> Self {
-        Self { section: None, field: named(error).or(field), message: error.to_string() }
-    }
-
-    fn of_section(index: usize, error: &RodError) -> Self {
-        let message = match error {
-            // the place tells which section it is
-            RodError::Section { what, value, expected, .. } => format!("{what} is {value}, expected {expected}"),
-            error => error.to_string(),
+        let (section, message) = match error {
+            // the number of the section is told beside the message
+            RodError::Section { index, what, value, expected } => {
+                (Some(*index), format!("{what} is {value}, expected {expected}"))
+            }
+            error => (None, error.to_string()),
         };
-        Self { section: Some(index), field: named(error), message }
+        Self { section, field: named(error).or(field), message }
     }
 
     fn in_section(self, index: usize) -> Self {
@@ -202,7 +200,7 @@ impl SectionSpec {
         };
         let section =
             RodSection { length, bending_stiffness, natural_curvature: natural_curvature.unwrap_or_default() };
-        let alone = |error| RodFault { section: None, ..RodFault::of_section(0, &error) };
+        let alone = |error| RodFault { section: None, ..RodFault::of(&error, None) };
         Rod::sections(length, &[section]).map_err(alone)?;
         Ok(section)
     }

@@ -4,6 +4,7 @@
 //! points, before and after a scan calibrates itself, and `needed` scales that to another sensor. `trials` draws errors, puts them on the
 //! samples and reconstructs. `files` writes the results, `report` tells them.
 
+mod error;
 mod files;
 mod forecast;
 mod needed;
@@ -12,5 +13,6 @@ mod study;
 mod trials;
 mod truth;
 
+pub use error::BudgetError;
 pub(crate) use forecast::Forecast;
-pub use study::{BudgetError, BudgetStudy, Expected};
+pub use study::{BudgetStudy, Expected};

@@ -1,12 +1,13 @@
 //! A study of the accuracy that a scene allows.
 
+use super::error::BudgetError;
 use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};
 use super::truth::Truth;
-use rod_files::{Scene, SceneError, SceneFriction, SimulationError};
+use rod_files::{Scene, SceneError, SceneFriction};
 use vibrissa::contact::Stop;
-use vibrissa::reconstruct::{Budget, Friction, Known, NoiseError, NoiseModel, reconstruct_passes};
+use vibrissa::reconstruct::{Budget, Friction, Known, NoiseModel, reconstruct_passes};
 use vibrissa::rod::{Reactions, Units};
 use vibrissa::{Rod, Settings};
 
@@ -32,38 +33,6 @@ pub struct BudgetStudy {
     pub runs: usize,
     /// Of errors and noise.
     pub seed: u64,
-}
-
-/// Why no accuracy can be told.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[non_exhaustive]
-pub enum BudgetError {
-    /// The sweep has no single contact.
-    #[error(
-        "{scene}: no sample of the sweep has a single contact, expected some: contact points of single contacts are judged"
-    )]
-    NoContact {
-        /// Name of the scene.
-        scene: String,
-    },
-    /// The simulated recording cannot be reconstructed at all.
-    #[error("{scene}: the simulated recording cannot be reconstructed: {source}; raise --rate or lower --speed")]
-    Reconstruct {
-        /// Name of the scene.
-        scene: String,
-        /// Why.
-        source: vibrissa::reconstruct::ReconstructError,
-    },
-    /// The rod is not uniform, not straight at rest or not on a rigid clamp.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Scene(#[from] SceneError),
-    /// The recording cannot be simulated.
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-    /// The noise model is not possible.
-    #[error(transparent)]
-    Noise(#[from] NoiseError),
 }
 
 /// What to expect.

@@ -1,7 +1,7 @@
 //! Recordings with random errors, reconstructed.
 
+use super::error::BudgetError;
 use super::forecast::median;
-use super::study::BudgetError;
 use super::truth::Truth;
 use rayon::prelude::*;
 use rod_files::Scene;

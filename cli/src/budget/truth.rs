@@ -1,6 +1,6 @@
 //! The true samples of a scene.
 
-use super::study::BudgetError;
+use super::error::BudgetError;
 use rod_files::{Scene, Simulation};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{NoiseError, NoiseModel};

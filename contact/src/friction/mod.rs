@@ -21,6 +21,6 @@ mod work;
 pub use law::{Coefficients, Friction};
 
 pub(crate) use landed::{drags, smooth};
-pub(crate) use modes::{Motion, UNLOADED, anew, resists};
+pub(crate) use modes::{Motion, UNLOADED, anew, loaded, resists};
 pub(crate) use rates::{reversed, slip, slip_coordinate, slip_rate};
 pub(crate) use work::dissipated;

@@ -249,13 +249,22 @@ impl AllRates {
     }
 }
 
+/// The same without the contacts that bear nothing; none where all bear something.
+pub(crate) fn loaded(configuration: &Configuration) -> Option<Configuration> {
+    let bears = |j: usize| configuration.force(j) >= UNLOADED;
+    if (0..configuration.count()).all(bears) {
+        return None;
+    }
+    let mut loaded = configuration.clone();
+    (0..configuration.count()).rev().filter(|j| !bears(*j)).for_each(|j| loaded.remove(j));
+    Some(loaded)
+}
+
 /// Whether friction holds the rod in one way only: with g the slip coordinates of the contacts that slip, the matrix of d (f_t - ratio f) / dg at
 /// a fixed clamp has positive principal minors (a P-matrix; Klarbring 1990). It is singular at the fold of a branch on which the rod slips.
 pub(crate) fn resists<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> bool {
     // a contact that bears nothing holds nothing back
-    if (0..configuration.count()).any(|j| configuration.force(j) < UNLOADED) {
-        let mut loaded = configuration.clone();
-        (0..loaded.count()).rev().filter(|j| configuration.force(*j) < UNLOADED).for_each(|j| loaded.remove(j));
+    if let Some(loaded) = loaded(configuration) {
         return resists(setup, &loaded);
     }
     let n = configuration.count();

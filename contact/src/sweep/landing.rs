@@ -9,7 +9,7 @@ use crate::continuation::step::{BEFORE, FIRST_STEP, Point, Seen, Stepper};
 use crate::continuation::transition::on;
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{UNLOADED, smooth};
+use crate::friction::{UNLOADED, loaded, smooth};
 use crate::gap::GAP_TOLERANCE;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
@@ -181,11 +181,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
     /// that comes to lie flat on an edge.
     fn lightened(&mut self, last: &Configuration) -> Option<Point> {
-        let mut lighter = last.clone();
-        (0..last.count()).rev().filter(|j| last.force(*j) < UNLOADED).for_each(|j| lighter.remove(j));
-        if lighter.count() == 0 || lighter.count() == last.count() {
-            return None;
-        }
+        let lighter = loaded(last).filter(|lighter| lighter.count() > 0)?;
         let passed = passed(&lighter, &self.setup().world);
         [lighter].into_iter().chain(passed).find_map(|lighter| {
             let seen = self.stepper.look(lighter);

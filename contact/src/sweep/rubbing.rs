@@ -71,12 +71,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             let moved = (0..way.count())
                 .any(|j| (way.friction(j) - seen.configuration.friction(j)).abs() > CHANGED * (1.0 + way.force(j)));
             let tau = way.tau();
-            if moved && !self.stepper.corrector.at_pose(&mut way, tau).status.is_solved() {
-                continue;
-            }
-            // a contact that would go against its mode on the way there takes no energy but gives some
-            if moved && !self.may_fall(energy(self.setup(), &seen.configuration), &way) {
-                continue;
+            if moved {
+                let is_solved = self.stepper.corrector.at_pose(&mut way, tau).status.is_solved();
+                // the energy rises where another contact would have gone against its mode
+                if !is_solved || !self.may_fall(energy(self.setup(), &seen.configuration), &way) {
+                    continue;
+                }
             }
             let point = self.at_rest(way);
             let Some(probe) = self.stepper.goes_on_rubbing_for(&point) else { continue };

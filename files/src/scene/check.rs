@@ -1,16 +1,13 @@
 //! From a document to a scene: every number checked where it stands.
 
 use super::document::{Document, Point, SweepTable};
+use super::numbers::{counted, not, too_large};
 use super::{Scene, files, friction, leg, object, plausible, rod_table};
 use crate::toml_file::{Fault, Source};
-use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
-use vibrissa::contact::{ContactError, LARGEST_ANGLE};
+use vibrissa::contact::ContactError;
 use vibrissa::{ClampPath, Pose};
-
-/// Most states a sweep may report: a gigabyte of them, three orders beyond what a figure can show.
-pub(crate) const MOST_STATES: f64 = 1e6;
 
 /// Least radius of an arc, lengths of the rod: rounding leaves nothing of a smaller one.
 const LEAST_RADIUS: f64 = 1e-12;
@@ -77,15 +74,6 @@ fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {
     })
 }
 
-pub(super) fn not(what: &str, value: f64) -> String {
-    format!("{what} is {value}, expected a finite number of degrees")
-}
-
-pub(super) fn too_large(what: &str, value: f64) -> String {
-    let most = LARGEST_ANGLE.to_degrees().floor();
-    format!("{what} is {value} degrees, expected at most {most} degrees either way")
-}
-
 /// The step in the unit of the path's parameter.
 fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
     let SweepTable { step, step_angle, leg, .. } = table.get_ref();
@@ -116,18 +104,4 @@ fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
         (false, None, None) => Err(missing("`step` (m)")),
         (true, None, None) => Err(missing("`step_angle` (degrees)")),
     }
-}
-
-/// A step that is one, and of which `length` has not too many.
-pub(super) fn counted(span: Range<usize>, what: &str, step: f64, length: f64) -> Result<f64, Fault> {
-    if !(step.is_finite() && step > 0.0) {
-        return Err(Fault::new(span, format!("{what} is {step}, expected a positive, finite number")));
-    }
-    let states = length / step;
-    if states > MOST_STATES {
-        let message =
-            format!("{what} is {step:e}, which asks for {states:.1e} states, expected at most {MOST_STATES:e}");
-        return Err(Fault::new(span, message));
-    }
-    Ok(step)
 }

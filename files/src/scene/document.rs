@@ -4,9 +4,11 @@ use super::shape::Piece;
 use crate::toml_file::{Fault, comma_in_list};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+use vibrissa::reconstruct::Source;
 
 /// A scene file, the pieces of its objects beside it.
 pub(super) struct Document {
@@ -52,6 +54,18 @@ pub(super) struct ClampTable {
     pub stiffness_y: Option<Spanned<f64>>,
     pub stiffness_phi: Option<Spanned<f64>>,
     pub roller: Option<Spanned<f64>>,
+}
+
+/// `[calibration]`: what is known of each source of errors that all samples of a scan share.
+pub(super) type CalibrationTable = BTreeMap<Source, Spanned<EstimateTable>>;
+
+/// What is known of a source.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EstimateTable {
+    pub value: Spanned<f64>,
+    pub sigma: Spanned<f64>,
+    pub unit: Option<Spanned<String>>,
 }
 
 /// `[contact]`: what holds for the contacts with all objects.

@@ -1,12 +1,11 @@
 //! A rod with what a calibration knows of it and of its sensor.
 
+use super::document::{CalibrationTable, EstimateTable};
 use super::rod::RodFile;
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::path::Path;
-use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
 use vibrissa::reconstruct::{Known, Source};
@@ -21,21 +20,9 @@ pub struct CalibratedRod {
     pub known: Known,
 }
 
-/// `[calibration]`: what is known of each source of errors that all samples of a scan share.
-pub(super) type CalibrationTable = BTreeMap<Source, Spanned<EstimateTable>>;
-
 /// What is said of a calibration of a rod of which there is none.
 const NO_CALIBRATION: &str = "given for a rod that is not uniform or not straight at rest, of which errors that all samples share are \
      not estimated, expected no table [calibration]";
-
-/// What is known of a source.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct EstimateTable {
-    value: Spanned<f64>,
-    sigma: Spanned<f64>,
-    unit: Option<Spanned<String>>,
-}
 
 /// The unit of a source in the table `[calibration]`, and what one unit of the library is in it.
 pub fn unit_of(source: Source, rod: &Rod) -> (&'static str, f64) {

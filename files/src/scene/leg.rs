@@ -1,7 +1,7 @@
 //! Further legs of the clamp's path: `[[sweep.leg]]`.
 
-use super::check::{counted, not, too_large};
 use super::document::{LegTable, SweepTable};
+use super::numbers::{counted, not, too_large};
 use crate::toml_file::Fault;
 use std::sync::Arc;
 use toml::Spanned;

@@ -10,16 +10,17 @@ mod files;
 mod friction;
 mod known_rod;
 mod leg;
+mod numbers;
 mod object;
 mod plausible;
 mod rod;
 mod rod_table;
 mod shape;
 
-pub(crate) use check::MOST_STATES;
 pub use friction::SceneFriction;
 pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_of};
 pub use leg::{Leg, LegPath};
+pub(crate) use numbers::MOST_STATES;
 pub use rod::read_rod;
 
 use crate::SceneError;

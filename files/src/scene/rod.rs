@@ -1,7 +1,6 @@
 //! A rod on its own.
 
-use super::document::{ClampTable, RodTable};
-use super::known_rod::CalibrationTable;
+use super::document::{CalibrationTable, ClampTable, RodTable};
 use super::rod_table;
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};

@@ -1,9 +1,9 @@
 //! The scenes of a study.
 
 use super::document::Document;
+use super::error::StudyError;
 use super::parameter::Parameter;
 use super::row::StudyRow;
-use super::run::StudyError;
 use crate::toml_file::{self, Fault};
 use crate::{Scene, SceneError};
 use serde::Deserialize;

@@ -5,6 +5,7 @@
 //! broken off goes on where it was.
 
 mod document;
+mod error;
 mod field;
 mod grid;
 mod parameter;
@@ -12,6 +13,7 @@ mod row;
 mod run;
 mod touched;
 
+pub use error::StudyError;
 pub use grid::Study;
 pub use row::{Measured, StudyRow};
-pub use run::{StudyError, StudyRun};
+pub use run::StudyRun;

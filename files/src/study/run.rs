@@ -1,5 +1,6 @@
 //! The rows of a study in files.
 
+use super::error::StudyError;
 use super::grid::Study;
 use super::row::StudyRow;
 use crate::output::{csv_writer, pretty_json};
@@ -17,48 +18,6 @@ const PART: usize = 512;
 const ROWS: &str = "rows.csv";
 const STUDY: &str = "study.json";
 const PARTS: &str = "parts";
-
-/// Why a study cannot be run.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StudyError {
-    /// The directory has the rows of other scenes.
-    #[error(
-        "{} is of another study, of another scene or of another version; name another directory with --out, or delete it",
-        file.display()
-    )]
-    Another {
-        /// Its study.json.
-        file: PathBuf,
-    },
-    /// A scene that the study does not have.
-    #[error("--scene is {number}, expected a number from 0 to {last}: the study has so many scenes")]
-    NoScene {
-        /// Its number.
-        number: usize,
-        /// The last one.
-        last: usize,
-    },
-    /// A scene cannot be written.
-    #[error("scene {number}: {reason}")]
-    Field {
-        /// Its number.
-        number: usize,
-        /// Why.
-        reason: String,
-    },
-    /// A file of a part cannot be read or removed.
-    #[error("cannot read {}: {source}", file.display())]
-    Part {
-        /// Which file.
-        file: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The files.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-}
 
 /// study.json.
 #[derive(PartialEq, Serialize, Deserialize)]

@@ -1,0 +1,36 @@
+//! Errors of a study of accuracy.
+
+use rod_files::{SceneError, SimulationError};
+use vibrissa::reconstruct::{NoiseError, ReconstructError};
+
+/// Why no accuracy can be told.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[non_exhaustive]
+pub enum BudgetError {
+    /// The sweep has no single contact.
+    #[error(
+        "{scene}: no sample of the sweep has a single contact, expected some: contact points of single contacts are judged"
+    )]
+    NoContact {
+        /// Name of the scene.
+        scene: String,
+    },
+    /// The simulated recording cannot be reconstructed at all.
+    #[error("{scene}: the simulated recording cannot be reconstructed: {source}; raise --rate or lower --speed")]
+    Reconstruct {
+        /// Name of the scene.
+        scene: String,
+        /// Why.
+        source: ReconstructError,
+    },
+    /// The rod is not uniform, not straight at rest or not on a rigid clamp.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// The recording cannot be simulated.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// The noise model is not possible.
+    #[error(transparent)]
+    Noise(#[from] NoiseError),
+}
