@@ -6,9 +6,8 @@ use crate::model::{RodModel, Uniform};
 use crate::pose::{Pose, Reactions};
 use crate::rod::Rod;
 use crate::units::Units;
-use crate::varying::VaryingRod;
 
-/// A rod in SI units with its clamp: what a solver takes. [`Rod`] is the uniform straight one, [`VaryingRod`] any other; both are
+/// A rod in SI units with its clamp: what a solver takes. [`Rod`] is the uniform straight one, [`VaryingRod`](crate::VaryingRod) any other; both are
 /// clamped rigidly, and [`Mounted`](crate::Mounted) puts either on springs.
 ///
 /// ```
@@ -114,30 +113,5 @@ impl PhysicalRod for Rod {
     fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
         self.diameter()?;
         self.bending_stress(shape.largest_curvature())
-    }
-}
-
-impl PhysicalRod for VaryingRod {
-    type Model = Self;
-    type Clamp = Pose;
-
-    fn model(&self) -> &Self {
-        self
-    }
-
-    fn clamp(&self, pose: Pose) -> Pose {
-        pose
-    }
-
-    fn units(&self) -> Units {
-        Self::units(self)
-    }
-
-    fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
-        Self::curvature_rate(self, parameter, s, moment)
-    }
-
-    fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
-        Self::largest_stress(self, shape)
     }
 }

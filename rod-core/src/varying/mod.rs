@@ -7,7 +7,8 @@ mod stress;
 use crate::elastica::Elastica;
 use crate::error::{RodError, finite};
 use crate::model::{Cone, CutSensitivities, RodModel, RodSection, check_sections};
-use crate::physical::RodParameter;
+use crate::physical::{PhysicalRod, RodParameter};
+use crate::pose::Pose;
 use crate::propagator::Cut;
 use crate::rod::{Rod, positive};
 use crate::segment::Segment;
@@ -342,6 +343,31 @@ impl std::fmt::Debug for VaryingRod {
             .field("length", &self.length())
             .field("bending_stiffness_at_clamp", &self.at_clamp.bending_stiffness())
             .finish_non_exhaustive()
+    }
+}
+
+impl PhysicalRod for VaryingRod {
+    type Model = Self;
+    type Clamp = Pose;
+
+    fn model(&self) -> &Self {
+        self
+    }
+
+    fn clamp(&self, pose: Pose) -> Pose {
+        pose
+    }
+
+    fn units(&self) -> Units {
+        Self::units(self)
+    }
+
+    fn curvature_rate(&self, parameter: RodParameter, s: f64, moment: f64) -> Option<f64> {
+        Self::curvature_rate(self, parameter, s, moment)
+    }
+
+    fn largest_stress<M: RodModel>(&self, shape: &Elastica<M>) -> Option<f64> {
+        Self::largest_stress(self, shape)
     }
 }
 
