@@ -1,5 +1,6 @@
 //! Sweeps of rods that are not uniform, and of clamps that give way.
 
+mod any;
 mod attack;
 mod inversion;
 mod parameters;

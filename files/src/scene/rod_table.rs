@@ -38,7 +38,7 @@ pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>
     spec.build().map_err(|fault| match roller.filter(|_| fault.field == Some("clamp.roller")) {
         Some(roller) => {
             let in_mm = (spec.length..1e3 * spec.length).contains(roller.get_ref());
-            Fault::new(roller.span(), format!("{fault}{}", if in_mm { " m; is it in mm?" } else { "" }))
+            Fault::new(roller.span(), format!("{fault}{}", if in_mm { "; is it in mm?" } else { "" }))
         }
         None => placed(table, fault),
     })
