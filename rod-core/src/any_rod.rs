@@ -16,8 +16,8 @@ use crate::walk::Station;
 /// A rod of any kind on any clamp: for programs that learn only at run time which it is. [`RodSpec`](crate::RodSpec) makes it from the
 /// fields of a file.
 ///
-/// It is a [`PhysicalRod`], so that whatever takes one takes it. A uniform rod keeps its closed form; which one it is, is asked at each
-/// segment.
+/// It is a [`PhysicalRod`]: every solver takes it, and gives the numbers of the rod's own type, to the last bit. A uniform rod keeps its closed
+/// form; of which kind the rod is, is asked at each segment.
 ///
 /// ```
 /// use rod_core::{AnyRod, ElasticClamp, PhysicalRod, Rod};
