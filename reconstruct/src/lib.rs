@@ -33,6 +33,8 @@ mod friction;
 #[cfg(feature = "std")]
 pub mod kink;
 #[cfg(feature = "std")]
+mod least_squares;
+#[cfg(feature = "std")]
 mod merge;
 mod numeric;
 mod phase;

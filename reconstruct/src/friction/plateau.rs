@@ -1,11 +1,12 @@
 //! The value of K / (2 |F|) along tangential contacts: sin rho.
 
+use crate::least_squares::{Loss, Normal, Problem, Whole, iterate};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{Evidence, Node, likelihood};
 use crate::point::{Clamp, Inverse};
 use crate::scan::{Estimate, Noise, Track};
 use crate::systematic::Correction;
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 
 /// Largest sine of the angle of friction: mu = 3.
 const LARGEST: f64 = 0.95;
@@ -25,7 +26,7 @@ const MOST: usize = 4;
 const NEAR: f64 = 0.02;
 /// Turns of medians and least squares about a peak; they settle in three or four.
 const TURNS: usize = 8;
-/// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the label may be wrong.
+/// Residuals beyond about this many standard deviations count less and less (Cauchy's loss), because the label may be wrong.
 const OUTLYING: f64 = 3.0;
 /// Share of the places by which it is judged whether the plateau is flat, and the size of a standard normal variable that this share does
 /// not exceed. Larger: places with several contacts, which noise lets pass for tangential ones, count; smaller: friction that changes along a
@@ -295,21 +296,30 @@ fn level(sides: &[Side], peak: f64) -> (f64, f64) {
         sine = middle;
         near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
     }
-    let (mut information, mut scatter) = (0.0, 1.0);
-    for _ in 0..TURNS {
-        let mut sums = (0.0, 0.0);
-        let about = |side: &&Side| (side.value - sine).abs() < NEAR.hypot(SIGMAS * side.sigma);
-        let z = |side: &Side| (side.value - sine) / side.sigma;
-        let next = robust_sigma(sides.iter().filter(about).map(z)).unwrap_or(1.0).max(1.0);
-        for side in sides {
-            let z = z(side) / (OUTLYING * scatter);
-            let weight = side.weight / (1.0 + z * z) / (side.sigma * scatter).powi(2);
-            sums = (sums.0 + weight, sums.1 + weight * side.value);
+    let mut plateau = Plateau { sides, scatter: 1.0 };
+    let (at, _) = iterate(&mut plateau, DVector::repeat(1, sine), Whole::until(0.0), TURNS);
+    (at.x[0].clamp(-LARGEST, LARGEST), at.equations.matrix[(0, 0)])
+}
+
+/// The value of a plateau as a least-squares problem; the scale of its loss is that of the residuals one step before.
+struct Plateau<'a> {
+    sides: &'a [Side],
+    scatter: f64,
+}
+
+impl Problem for Plateau<'_> {
+    type Equations = Normal;
+
+    fn equations(&mut self, x: &DVector<f64>) -> Normal {
+        let loss = Loss::Cauchy(OUTLYING * self.scatter);
+        let mut normal = Normal::empty(1);
+        for side in self.sides {
+            let residual = x[0] - side.value;
+            let weight = loss.weight(side.weight, residual / side.sigma) / (side.sigma * self.scatter).powi(2);
+            normal.add_weighted(&[(0, 1.0)], residual, weight);
         }
-        if sums.0 > 0.0 {
-            (information, sine) = (sums.0, sums.1 / sums.0);
-        }
-        scatter = next;
+        let near = self.sides.iter().filter(|side| (side.value - x[0]).abs() < NEAR.hypot(SIGMAS * side.sigma));
+        self.scatter = robust_sigma(near.map(|side| (side.value - x[0]) / side.sigma)).unwrap_or(1.0).max(1.0);
+        normal
     }
-    (sine.clamp(-LARGEST, LARGEST), information)
 }

@@ -2,7 +2,9 @@
 
 use super::nearest::{nearest, sampled};
 use crate::contour::{ContourEstimate, TraceKind};
-use nalgebra::{DMatrix, DVector};
+use crate::least_squares::{Loss, Normal, Problem, Status, Whole, iterate};
+use crate::numeric::median;
+use nalgebra::DVector;
 
 /// Fewest places of a trace that are compared.
 const PLACES: f64 = 200.0;
@@ -134,54 +136,55 @@ fn grouped(count: usize, pairs: &[Pair]) -> Vec<usize> {
     group.iter().map(|group| names.partition_point(|name| name < group)).collect()
 }
 
+/// Most steps to the offsets of given pairs, and the change of an offset (m) below which they are found.
+const STEPS: usize = 20;
+const SMALL: f64 = 1e-13;
+
+/// Offsets as a least-squares problem: pairs with a robust loss whose scale is their median residual, and for each group the condition that
+/// its mean is 0, without which offsets are known up to a constant.
+struct Alignment<'a> {
+    pairs: &'a [Pair],
+    groups: &'a [usize],
+    /// Smallest standard deviation of a pair: limits the weight of a single place.
+    floor: f64,
+}
+
+impl Problem for Alignment<'_> {
+    type Equations = Normal;
+
+    fn equations(&mut self, offsets: &DVector<f64>) -> Normal {
+        let residual = |pair: &Pair| pair.outside + pair.rate * (offsets[pair.scans.0] - offsets[pair.scans.1]);
+        let relative = |pair: &Pair| residual(pair).abs() / pair.sigma.max(self.floor);
+        let loss = Loss::Quartic(OUTLYING * upper_median(self.pairs.iter().map(relative)).max(1e-6));
+        let mut normal = Normal::empty(offsets.len());
+        for pair in self.pairs {
+            let (row, sigma) = ([(pair.scans.0, pair.rate), (pair.scans.1, -pair.rate)], pair.sigma.max(self.floor));
+            normal.add_weighted(&row, residual(pair), loss.weight(sigma.powi(-2), relative(pair)));
+        }
+        let size = normal.matrix.diagonal().iter().fold(f64::MIN_POSITIVE, |a, b| a.max(*b));
+        for group in 0..self.groups.iter().max().map_or(0, |last| last + 1) {
+            let members: Vec<(usize, f64)> =
+                (0..self.groups.len()).filter(|scan| self.groups[*scan] == group).map(|scan| (scan, 1.0)).collect();
+            let sum = members.iter().map(|(scan, _)| offsets[*scan]).sum();
+            normal.add_weighted(&members, sum, size);
+        }
+        normal
+    }
+}
+
+/// The upper one of an even number.
+fn upper_median(values: impl Iterator<Item = f64>) -> f64 {
+    median(values.collect()).unwrap_or(0.0)
+}
+
 /// The offsets that fit the pairs best, those of each group with mean 0.
 fn change(count: usize, pairs: &[Pair], groups: &[usize]) -> Option<Vec<f64>> {
     if pairs.is_empty() {
         return None;
     }
-    let middle = |mut values: Vec<f64>| {
-        let half = values.len() / 2;
-        *values.select_nth_unstable_by(half, f64::total_cmp).1
-    };
-    // limits the weight of a single place
-    let floor = middle(pairs.iter().map(|pair| pair.sigma).collect()).max(1e-9);
-    let mut solution = DVector::zeros(count);
-    for _ in 0..20 {
-        let residual = |pair: &Pair, solution: &DVector<f64>| {
-            pair.outside + pair.rate * (solution[pair.scans.0] - solution[pair.scans.1])
-        };
-        let relative = |pair: &Pair, solution: &DVector<f64>| residual(pair, solution).abs() / pair.sigma.max(floor);
-        let scale = middle(pairs.iter().map(|pair| relative(pair, &solution)).collect()).max(1e-6);
-        let mut matrix = DMatrix::zeros(count, count);
-        let mut right = DVector::zeros(count);
-        for pair in pairs {
-            let relative = relative(pair, &solution) / (OUTLYING * scale);
-            // Tukey's biweight would give no weight at all where offsets are large; this weight only decreases
-            let weight = 1.0 / ((1.0 + relative.powi(4)) * pair.sigma.max(floor).powi(2));
-            let (a, b) = pair.scans;
-            let rates = [(a, pair.rate), (b, -pair.rate)];
-            for (i, p) in rates {
-                right[i] -= weight * p * pair.outside;
-                for (j, q) in rates {
-                    matrix[(i, j)] += weight * p * q;
-                }
-            }
-        }
-        // makes the mean of each group 0
-        let size = (0..count).map(|k| matrix[(k, k)]).fold(f64::MIN_POSITIVE, f64::max);
-        for (i, of_i) in groups.iter().enumerate() {
-            for (j, of_j) in groups.iter().enumerate() {
-                if of_i == of_j {
-                    matrix[(i, j)] += size;
-                }
-            }
-        }
-        let next = matrix.lu().solve(&right)?;
-        let moved = (&next - &solution).amax();
-        solution = next;
-        if moved < 1e-13 || moved.is_nan() {
-            break;
-        }
-    }
-    solution.iter().all(|value| value.is_finite()).then(|| solution.iter().copied().collect())
+    let floor = upper_median(pairs.iter().map(|pair| pair.sigma)).max(1e-9);
+    let mut problem = Alignment { pairs, groups, floor };
+    let (at, status) = iterate(&mut problem, DVector::zeros(count), Whole::until(SMALL), STEPS);
+    let is_found = status != Status::Stalled && at.x.iter().all(|value| value.is_finite());
+    is_found.then(|| at.x.iter().copied().collect())
 }

@@ -3,6 +3,7 @@
 use super::correction::Frame;
 use super::influence::{Around, of_criteria};
 use super::source::{Errors, Joint, SOURCES, Source};
+use crate::least_squares::{Iterate, Loss, Problem, Rows, Whole, iterate};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
 use crate::scan::Estimate;
@@ -13,8 +14,9 @@ use rod_core::Uniform;
 pub(super) const STEPS: usize = 8;
 /// A step below this many prior standard deviations of every source is the last one.
 const SMALL: f64 = 1e-4;
-/// Residuals beyond about this many standard deviations count less and less (Cauchy's weight), because the phase may be wrong.
+/// Residuals beyond about this many standard deviations count less and less, because the phase may be wrong.
 const OUTLYING: f64 = 3.0;
+const LOSS: Loss = Loss::Cauchy(OUTLYING);
 
 /// A place with its phase, as measured.
 pub(super) struct Labelled {
@@ -161,6 +163,57 @@ pub(super) struct Prior {
     pub sigmas: Errors,
 }
 
+/// The errors as a least-squares problem: their prior, and the residuals of the places with Cauchy's loss, whose scale is estimated with them.
+struct Adjustment<'a> {
+    frame: Frame,
+    prior: &'a Prior,
+    /// The sources that are not known exactly; the unknowns are these errors, in prior standard deviations off their means.
+    free: &'a [usize],
+    places: &'a [Labelled],
+    /// Smallest scatter of each criterion to be expected, in standard deviations of the noise.
+    least: &'a [f64; CRITERIA],
+    /// Of the residuals where the equations were last asked for.
+    residuals: Vec<Residual>,
+    scatter: [f64; CRITERIA],
+}
+
+impl Adjustment<'_> {
+    /// The errors in prior standard deviations.
+    fn scaled(&self, x: &DVector<f64>) -> Errors {
+        let mut z = Errors::zeros();
+        self.free.iter().zip(x.iter()).for_each(|(k, x)| z[*k] = *x);
+        z
+    }
+
+    fn errors(&self, x: &DVector<f64>) -> Errors {
+        self.prior.means + self.scaled(x).component_mul(&self.prior.sigmas)
+    }
+}
+
+impl Problem for Adjustment<'_> {
+    type Equations = Rows;
+
+    fn equations(&mut self, x: &DVector<f64>) -> Rows {
+        self.residuals = residuals(self.frame, &self.errors(x), &self.prior.sigmas, self.places);
+        self.scatter = scatters(&self.residuals);
+        self.scatter.iter_mut().zip(self.least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
+        let count = self.free.len();
+        let mut rows = DMatrix::<f64>::zeros(count + self.residuals.len(), count);
+        let mut right = DVector::<f64>::zeros(count + self.residuals.len());
+        rows.view_mut((0, 0), (count, count)).fill_with_identity();
+        right.rows_mut(0, count).copy_from(&-x);
+        for (row, residual) in self.residuals.iter().enumerate() {
+            let by = 1.0 / self.scatter[residual.criterion];
+            let off = residual.z * by;
+            let weight = LOSS.weight(residual.weight, off).sqrt();
+            let of = self.free.iter().enumerate();
+            of.for_each(|(i, k)| rows[(count + row, i)] = residual.by_errors[*k] * (weight * by));
+            right[count + row] = -weight * off;
+        }
+        Rows::decomposed(rows, right)
+    }
+}
+
 /// The errors that agree best with what is known before and with what the phases of the places require, from `start` on.
 ///
 /// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise, and `steps` the most
@@ -174,58 +227,27 @@ pub(super) fn adjust(
     steps: usize,
 ) -> Adjusted {
     let Prior { means, sigmas } = prior;
-    let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
     let free: Vec<usize> = (0..SOURCES).filter(|k| sigmas[*k] > 0.0).collect();
-    let mut z = (start - means).component_mul(&known);
-    // R of the QR decomposition: R^T R is what budget and places tell of the errors
+    let x = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - means[*k]) * (1.0 / sigmas[*k])));
+    let mut problem =
+        Adjustment { frame, prior, free: &free, places, least, residuals: Vec::new(), scatter: [1.0; CRITERIA] };
+    let (Iterate { x, equations }, _) = iterate(&mut problem, x, Whole::until(SMALL), steps);
+    // R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
-    let (mut own, mut scatter, mut allowed) = ([1.0; CRITERIA], [1.0; CRITERIA], [f64::INFINITY; CRITERIA]);
-    let mut chance = [f64::INFINITY; CRITERIA];
-    for _ in 0..steps {
-        let here = residuals(frame, &(means + z.component_mul(sigmas)), sigmas, places);
-        (own, allowed, chance) = (scatters(&here), allowances(&here), by_chance(&here));
-        scatter = own;
-        scatter.iter_mut().zip(least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
-        let count = free.len();
-        if count == 0 {
-            break;
-        }
-        let mut rows = DMatrix::<f64>::zeros(count + here.len(), count);
-        let mut right = DVector::<f64>::zeros(count + here.len());
-        rows.view_mut((0, 0), (count, count)).fill_with_identity();
-        free.iter().enumerate().for_each(|(i, k)| right[i] = -z[*k]);
-        for (row, residual) in here.iter().enumerate() {
-            let by = 1.0 / scatter[residual.criterion];
-            let off = residual.z * by;
-            let weight = (residual.weight / (1.0 + (off / OUTLYING).powi(2))).sqrt();
-            free.iter().enumerate().for_each(|(i, k)| rows[(count + row, i)] = residual.by_errors[*k] * (weight * by));
-            right[count + row] = -weight * off;
-        }
-        let decomposed = rows.qr();
-        let triangle = decomposed.r();
-        decomposed.q_tr_mul(&mut right);
-        let Some(found) = triangle.solve_upper_triangular(&right.rows(0, count).into_owned()) else { break };
-        let mut step = Errors::zeros();
-        upper = Joint::identity();
-        for (i, k) in free.iter().enumerate() {
-            step[*k] = found[i];
-            (i..count).for_each(|j| upper[(*k, free[j])] = triangle[(i, j)]);
-        }
-        z += step;
-        if step.amax() < SMALL {
-            break;
-        }
+    for (i, k) in free.iter().enumerate() {
+        (i..free.len()).for_each(|j| upper[(*k, free[j])] = equations.triangle[(i, j)]);
     }
-    let errors = means + z.component_mul(sigmas);
     // the covariance is (R^T R)^-1 = R^-1 R^-T
     let inverse = upper.solve_upper_triangular(&Joint::identity()).unwrap_or_else(Joint::identity);
     let factor = Joint::from_diagonal(sigmas) * inverse;
     let normal = upper.transpose() * upper;
+    let here = &problem.residuals;
+    let (own, allowed, chance) = (scatters(here), allowances(here), by_chance(here));
     let misfit = std::array::from_fn(|c| {
         let excess = (own[c] * own[c] - 1.0).sqrt();
         if own[c] > chance[c] && allowed[c] > 0.0 { excess / allowed[c] } else { 0.0 }
     });
-    Adjusted { errors, factor, normal, scatter, misfit }
+    Adjusted { errors: problem.errors(&x), factor, normal, scatter: problem.scatter, misfit }
 }
 
 /// The robust sum of squares with these errors; residuals are expected to be as large as those that were found leave.

@@ -9,6 +9,7 @@ use super::part::Part;
 use super::run::Resolved;
 use super::single::Single;
 use super::system::System;
+use crate::least_squares::Equations;
 use crate::point::Inverse;
 use crate::systematic::{Correction, DISPLACED};
 use nalgebra::{DVector, Matrix2, Vector2};
@@ -48,7 +49,7 @@ pub(super) fn displaced<I: Inverse>(
         let [Some(first), Some(last)] = ends else { continue };
         let moved = System { rod, parts: &parts, ends: [first, last], tolerance: found.tolerance };
         let Some(step) = moved.normal(x, &weights).step() else { continue };
-        let there = x - (step - &rest);
+        let there = x + (step - &rest);
         for ((part, here), spread) in parts.iter().zip(&here).zip(&mut spread) {
             for ((here, there), spread) in here.iter().zip(contacts(rod, part, &there)).zip(spread) {
                 for ((here, there), spread) in here.iter().zip(there).zip(spread) {

@@ -19,7 +19,6 @@ mod ends;
 mod envelope;
 mod guess;
 mod misfit;
-mod normal;
 mod pair;
 mod part;
 mod passed;

@@ -3,30 +3,13 @@
 use super::chord::Chord;
 use super::conditions::{Condition, ContourPoint, TANGENTIAL, WITH_TIP, conditions, second};
 use super::ends::End;
-use super::normal::Normal;
 use super::part::Part;
 use super::unknowns::{Gradient, Unknown, Unknowns};
 use super::weights::{self, Tolerance};
+use crate::least_squares::{Damped, Iterate, Monotone, Normal, Problem, Status, iterate};
 use crate::point::Inverse;
 use nalgebra::{DMatrix, DVector};
 use rod_core::Dual;
-
-/// Damping of the Levenberg-Marquardt steps at first, relative to the diagonal of the equations.
-const DAMPING: f64 = 1e-3;
-/// Factor on the damping after a step that was rejected; its inverse after one that was accepted.
-const DAMPED: f64 = 10.0;
-/// Smallest damping, and the smallest after a rejected step.
-const LEAST_DAMPING: (f64, f64) = (1e-14, 1e-4);
-/// Most attempts of a step.
-const ATTEMPTS: usize = 10;
-/// Relative increase of the cost that is rounding: near the solution of a noise-free scan the cost itself is.
-const COST_ROUNDING: f64 = 1e-9;
-/// Predicted relative decrease of the cost below which the iteration has converged. The weights are updated once then.
-const CONVERGED: f64 = 1e-6;
-/// Length of a Gauss-Newton step, relative to the sizes of the unknowns, below which the iteration has converged: rounding.
-const SETTLED: f64 = 1e-13;
-/// Smallest share of a Gauss-Newton step that is tried. Smaller: more time before a start that is too far away is given up.
-const LEAST_SHARE: f64 = 1e-3;
 
 /// A run of stretches, and how its unknowns are weighted.
 pub(super) struct System<'a, I> {
@@ -193,15 +176,12 @@ impl<I: Inverse> System<'_, I> {
 
     /// The solution from a first guess x; none where the equations have no solution.
     ///
-    /// First by the Gauss-Newton method with steps that the natural monotonicity test admits (Deuflhard 2004, section 4.4): it asks
-    /// that the next step be shorter, not that the cost fall, which along the narrow curved valley of stiff conditions allows tiny steps
-    /// only. Where that does not converge, by the Levenberg-Marquardt method.
+    /// First with steps that the natural monotonicity test admits; where that does not converge, with damped ones.
     pub fn solve(&self, x: DVector<f64>) -> Option<Solution> {
-        let descended = self.gauss_newton(x.clone());
-        match descended {
-            Some(solution) => Some(solution),
-            None => self.marquardt(x),
-        }
+        self.gauss_newton(x.clone()).or_else(|| {
+            let (at, status) = iterate(&mut Weighted::of(self), x, Damped::default(), self.tolerance.steps);
+            if at.equations.cost.is_finite() { Solution::at(at, status == Status::Converged) } else { None }
+        })
     }
 
     /// Sizes of the unknowns, in which the lengths of steps are measured: 1 rod length, and 1 + the force at the clamp.
@@ -218,89 +198,46 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// By the Gauss-Newton method alone.
-    pub fn gauss_newton(&self, mut x: DVector<f64>) -> Option<Solution> {
-        let sizes = self.sizes();
-        let mut weights = self.weights(&x);
-        let mut now = self.normal(&x, &weights);
-        let mut step = now.step()?;
-        let mut length = step.component_div(&sizes).norm();
-        let (mut share, mut settled) = (1.0_f64, 0);
-        for _ in 0..self.tolerance.steps {
-            let mut next = None;
-            while share > LEAST_SHARE {
-                let there = &x - &step * share;
-                let normal = self.normal(&there, &weights);
-                let ahead = normal.step().filter(|_| normal.cost.is_finite());
-                if let Some(ahead) = ahead {
-                    let shorter = ahead.component_div(&sizes).norm();
-                    if shorter <= (1.0 - 0.25 * share) * length || shorter < SETTLED {
-                        next = Some((there, normal, ahead, shorter));
-                        break;
-                    }
-                }
-                share *= 0.5;
-            }
-            (x, now, step, length) = next?;
-            share = (2.0 * share).min(1.0);
-            let fall = step.dot(&now.gradient) / (1.0 + now.cost);
-            if length < SETTLED || fall < CONVERGED {
-                settled += 1;
-                if settled > 1 {
-                    return self.solution(x, &now, true);
-                }
-                weights = self.weights(&x);
-                now = self.normal(&x, &weights);
-                step = now.step()?;
-                length = step.component_div(&sizes).norm();
-            }
-        }
-        None
+    pub fn gauss_newton(&self, x: DVector<f64>) -> Option<Solution> {
+        let control = Monotone::with_sizes(self.sizes());
+        let (at, status) = iterate(&mut Weighted::of(self), x, control, self.tolerance.steps);
+        if status == Status::Converged { Solution::at(at, true) } else { None }
+    }
+}
+
+/// A system whose weights are renewed once, where the iteration has settled with those of the start.
+struct Weighted<'a, 's, I> {
+    system: &'a System<'s, I>,
+    weights: Vec<f64>,
+    /// How often they have been computed.
+    times: usize,
+}
+
+impl<'a, 's, I> Weighted<'a, 's, I> {
+    fn of(system: &'a System<'s, I>) -> Self {
+        Self { system, weights: Vec::new(), times: 0 }
+    }
+}
+
+impl<I: Inverse> Problem for Weighted<'_, '_, I> {
+    type Equations = Normal;
+
+    fn equations(&mut self, x: &DVector<f64>) -> Normal {
+        self.system.normal(x, &self.weights)
     }
 
-    fn solution(&self, x: DVector<f64>, normal: &Normal, converged: bool) -> Option<Solution> {
-        let (scale, scaled) = normal.scaled();
-        let inverse = scaled.cholesky()?.inverse();
-        let covariance = DMatrix::from_fn(x.len(), x.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]);
-        Some(Solution { x, covariance, cost: normal.cost, converged })
-    }
-
-    fn marquardt(&self, mut x: DVector<f64>) -> Option<Solution> {
-        let mut damping = DAMPING;
-        let mut weights = self.weights(&x);
-        let mut now = self.normal(&x, &weights);
-        let mut settled = 0;
-        for _ in 0..self.tolerance.steps {
-            if !now.cost.is_finite() {
-                return None;
-            }
-            let (mut next, mut step) = (None, 0.0);
-            for _ in 0..ATTEMPTS {
-                let (scale, mut scaled) = now.scaled();
-                scaled.set_diagonal(&DVector::repeat(x.len(), 1.0 + damping));
-                let found = scaled.cholesky().map(|c| c.solve(&now.gradient.component_mul(&scale)));
-                if let Some(move_by) = found {
-                    let there = &x - move_by.component_mul(&scale);
-                    let normal = self.normal(&there, &weights);
-                    if normal.cost <= now.cost * (1.0 + COST_ROUNDING) {
-                        step = move_by.dot(&now.gradient.component_mul(&scale)) / (1.0 + now.cost);
-                        next = Some((there, normal));
-                        damping = (damping * DAMPED.recip()).max(LEAST_DAMPING.0);
-                        break;
-                    }
-                }
-                damping = (damping * DAMPED).max(LEAST_DAMPING.1);
-            }
-            let Some((there, normal)) = next else { break };
-            (x, now) = (there, normal);
-            if step < CONVERGED {
-                settled += 1;
-                if settled > 1 {
-                    break;
-                }
-                weights = self.weights(&x);
-                now = self.normal(&x, &weights);
-            }
+    fn reweigh(&mut self, x: &DVector<f64>) -> bool {
+        self.times += 1;
+        if self.times > 2 {
+            return false;
         }
-        self.solution(x, &now, settled > 1)
+        self.weights = self.system.weights(x);
+        true
+    }
+}
+
+impl Solution {
+    fn at(Iterate { x, equations }: Iterate<Normal>, converged: bool) -> Option<Self> {
+        Some(Self { x, covariance: equations.covariance()?, cost: equations.cost, converged })
     }
 }

@@ -1,0 +1,34 @@
+//! Robust losses: how much less a residual counts the larger it is.
+
+/// A loss of residuals z (in standard deviations), as iteratively reweighted least squares takes it. Each has a scale c: residuals far below
+/// it count fully, far above it hardly at all.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Loss {
+    /// c^2 ln(1 + (z / c)^2), of weight 1 / (1 + (z / c)^2): Cauchy's.
+    Cauchy(f64),
+    /// Of weight 1 / (1 + (z / c)^4): falls faster, but unlike Tukey's biweight never to 0, so that a start far away still moves.
+    Quartic(f64),
+}
+
+impl Loss {
+    /// The weight of a residual `z` in the equations that has `weight` while it is small.
+    pub fn weight(self, weight: f64, z: f64) -> f64 {
+        match self {
+            Self::Cauchy(scale) => weight / (1.0 + (z / scale).powi(2)),
+            Self::Quartic(scale) => weight / (1.0 + (z / scale).powi(4)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_of_the_weight_is_left_at_the_scale() {
+        for loss in [Loss::Cauchy(3.0), Loss::Quartic(3.0)] {
+            assert_eq!((loss.weight(1.0, 0.0), loss.weight(1.0, -3.0)), (1.0, 0.5));
+            assert!(loss.weight(1.0, 30.0) < 0.01 && loss.weight(1.0, 30.0) > 0.0);
+        }
+    }
+}
