@@ -46,6 +46,6 @@ pub use friction::{Coefficients, Friction};
 pub use inadmissible::Inadmissible;
 pub use path::{Chain, ClampArc, ClampPath, ClampSpline, Path, PathPoint, SuspiciousAngle};
 pub use phase::Phase;
-pub use rod_core::{ContactRate, Response};
+pub use rod_core::{ContactRate, Response, SupportRate};
 pub use state::{Certificate, Contact, ContactFriction, ContactKind, GapBounds, RollerContact, SlipMode, State};
 pub use sweep::{Approach, Follower, Item, Outcome, Start, StartCandidate, Sweep};

@@ -27,6 +27,8 @@ mod check;
 #[cfg(feature = "std")]
 mod contour;
 #[cfg(feature = "contact")]
+mod fit;
+#[cfg(feature = "contact")]
 mod forward;
 #[cfg(feature = "std")]
 mod friction;
@@ -61,6 +63,8 @@ pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibi
 pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
+#[cfg(feature = "contact")]
+pub use fit::{ContourFit, FitError, FittedBlock, Goodness, WorstWindow, fit_contour};
 #[cfg(feature = "std")]
 pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};
 #[cfg(feature = "std")]

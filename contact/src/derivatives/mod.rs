@@ -15,7 +15,7 @@ use crate::state::State;
 use motion::motion;
 use restored::Restored;
 use rod_contours::Composite;
-use rod_core::{ContactRate, PhysicalRod, Pose, Reactions, Response, RodParameter, Units};
+use rod_core::{ContactRate, PhysicalRod, Pose, Reactions, Response, RodParameter, SupportRate, Units};
 
 /// Condition number above which derivatives have less than two digits. At a fold, which a sweep locates to 1e-13 of arclength, it is
 /// 1e10 or more; 1e-14 L before one it is about 1e7.
@@ -120,6 +120,34 @@ impl<'a> Derivatives<'a> {
         let mut rates = self.in_units(rates.ok_or(ContactError::Fold { condition: linear.condition() })?);
         self.add_change_of_units(quantity, &mut rates);
         Ok(rates)
+    }
+
+    /// The change of everything where the contours at the contacts move in a given way: for contours with parameters of one's own. `rates`
+    /// gives, for each contact (from the clamp to the tip), how the point of its contour (m) and the tangent angle there (radians) change per
+    /// unit, at a fixed parameter of the curve.
+    ///
+    /// ```
+    /// use rod_contact::{ClampPath, Derivatives, Quantity, SupportRate, Sweep};
+    /// use rod_contours::{Composite, Parabola};
+    /// use rod_core::{Pose, Rod};
+    /// let (rod, object) = (Rod::new(0.1, 2e-3)?, Composite::single(Parabola::new([0.0, 0.0], 50.0)?)?);
+    /// let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    /// let states = Sweep::new(&rod, &object, ClampPath::new(clamp(0.05), clamp(0.0))?, 0.01)?.run().states;
+    /// let derivatives = Derivatives::new(&rod, &object, &states[3])?;
+    /// // a contour that moves along x moves as the object does
+    /// let moved = derivatives.by_contours(|_| SupportRate { x: 1.0, y: 0.0, alpha: 0.0 })?;
+    /// assert_eq!(moved, derivatives.by(Quantity::ObjectX(0))?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Fold`].
+    pub fn by_contours(&self, rates: impl Fn(usize) -> SupportRate) -> Result<Response, ContactError> {
+        let (linear, per_length) = (&self.restored.linear, 1.0 / self.units.length);
+        let scaled = |SupportRate { x, y, alpha }| SupportRate { x: x * per_length, y: y * per_length, alpha };
+        let supports: Vec<SupportRate> = (0..self.state.contacts.len()).map(|contact| scaled(rates(contact))).collect();
+        let rates = linear.response(Pose { x: 0.0, y: 0.0, phi: 0.0 }, &supports);
+        Ok(self.in_units(rates.ok_or(ContactError::Fold { condition: linear.condition() })?))
     }
 
     /// The change of everything per unit of a parameter of the rod, SI units. `rod` is the rod of the state.

@@ -128,12 +128,12 @@ impl Correction {
 }
 
 /// Rates of a clamp that moves and whose reactions stay the same.
-pub(super) fn still(pose: Vector3<f64>) -> Clamp {
+pub(crate) fn still(pose: Vector3<f64>) -> Clamp {
     Clamp { pose, reactions: Vector3::zeros(), natural: 0.0, friction: 0.0 }
 }
 
 /// Rate of the pose at a sample, from its neighbours.
-pub(super) fn motion(track: &Track, index: usize) -> Vector3<f64> {
+pub(crate) fn motion(track: &Track, index: usize) -> Vector3<f64> {
     let (from, to) = (index.saturating_sub(1), (index + 1).min(track.len() - 1));
     let by = track.tau[to] - track.tau[from];
     if by > 0.0 { (track.clamps[to].pose - track.clamps[from].pose) / by } else { Vector3::zeros() }

@@ -30,8 +30,8 @@ pub(crate) use candidates::{Candidate, candidates};
 pub use combined::Combined;
 pub(crate) use components::DISPLACED;
 pub(crate) use correction::Correction;
-#[cfg(test)]
-pub(crate) use correction::Frame;
+#[cfg(feature = "contact")]
+pub(crate) use correction::{Frame, motion, still};
 pub use disturb::disturb;
 pub(crate) use influence::{Around, of_point};
 pub use known::Known;

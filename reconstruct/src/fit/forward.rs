@@ -1,0 +1,79 @@
+//! The states of a rod past a contour at the poses of a recording.
+
+use super::blocks::Blocks;
+use super::curve::Curve;
+use rod_contact::{Contact, EventKind, Follower, Item, State, equilibrium};
+use rod_contours::Composite;
+use rod_core::{PhysicalRod, Pose};
+
+/// Equilibria from which a segment is followed, at most: each reaches up to where the rod snaps.
+const ANCHORS: usize = 6;
+
+/// A rod past a contour, both in units in which the given rod has its own length and stiffness.
+pub(super) struct Forward<'a, R> {
+    pub rod: &'a R,
+    pub curve: &'a Curve,
+    pub object: &'a Composite,
+}
+
+impl<R: PhysicalRod> Forward<'_, R> {
+    /// The states at the poses of all blocks, each segment followed from equilibria of its own to both sides. So a snap of the model at
+    /// another pose than that of the recording does not spoil what comes after it. None where no branch reaches; a segment in which nothing
+    /// is known of any contact has no states. `known` are states of a contour near by.
+    pub fn states(&self, blocks: &Blocks, poses: &[Pose], known: &[Option<State>]) -> Vec<Option<State>> {
+        let mut found: Vec<Option<State>> = vec![None; poses.len()];
+        for segment in &blocks.segments {
+            let mut failed = vec![false; segment.len()];
+            for _ in 0..ANCHORS {
+                let force = |k: &usize| blocks.blocks[*k].clamp.reactions.xy().norm();
+                let open = |k: &usize| {
+                    let block = &blocks.blocks[*k];
+                    found[*k].is_none()
+                        && !failed[k - segment.start]
+                        && !(known[*k].is_none() && block.contacts.is_empty())
+                };
+                // the strongest force tells its contacts best
+                let Some(anchor) = segment.clone().filter(open).max_by(|a, b| force(a).total_cmp(&force(b))) else {
+                    break;
+                };
+                let local = &blocks.blocks[anchor].contacts;
+                let guesses = known[anchor].iter().map(|state| &state.contacts).chain([local]);
+                let state =
+                    guesses.filter(|guess| !guess.is_empty()).find_map(|guess| self.equilibrium(poses[anchor], guess));
+                let Some(state) = state else {
+                    failed[anchor - segment.start] = true;
+                    continue;
+                };
+                self.follow(&state, anchor + 1..segment.end, poses, &mut found);
+                self.follow(&state, (segment.start..anchor).rev(), poses, &mut found);
+                found[anchor] = Some(state);
+            }
+        }
+        found
+    }
+
+    /// The equilibrium with about these contacts, if the rod can be there.
+    fn equilibrium(&self, pose: Pose, guess: &[Contact]) -> Option<State> {
+        let on = |contact: &Contact| {
+            let frame = self.curve.frame_near(contact.x, contact.y);
+            Contact { x: frame.x, y: frame.y, alpha: frame.alpha, ..*contact }
+        };
+        let guess: Vec<Contact> = guess.iter().map(on).collect();
+        let found = equilibrium(self.rod, self.object, pose, &guess).ok()?;
+        found.is_admissible().ok()?;
+        Some(found.state)
+    }
+
+    /// Follows the rod from a state until it snaps, cannot be followed, or comes to a pose whose state is known.
+    fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
+        let Ok(mut follower) = Follower::from_state(self.rod, self.object, from) else { return };
+        let is_snap = |item: &Item| matches!(item, Item::Event(event) if matches!(event.kind, EventKind::Snap | EventKind::SnapOff));
+        for k in way {
+            let Ok(items) = follower.to(poses[k]) else { return };
+            if items.iter().any(is_snap) || found[k].is_some() {
+                return;
+            }
+            found[k] = Some(follower.state().clone());
+        }
+    }
+}

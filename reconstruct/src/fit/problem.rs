@@ -1,0 +1,305 @@
+//! The fit of contour and shared errors as a least-squares problem.
+
+use super::blocks::{Block, Blocks};
+use super::curve::Curve;
+use super::forward::Forward;
+use crate::least_squares::{Loss, Normal, Problem};
+use crate::phase::Label;
+use crate::point::Clamp;
+use crate::systematic::{Correction, Errors, Frame, still};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use rod_contact::{Derivatives, State};
+use rod_contours::Composite;
+use rod_core::{PhysicalRod, Pose, SupportRate};
+
+/// Length of the residual of a block, in standard deviations, beyond which it counts less: a contour that is far off has many such.
+const OUTLYING: f64 = 6.0;
+/// The same of a change of curvature: a vertex is one.
+const VERTEX: f64 = 3.0;
+/// Standard deviation of a point of the contour about its start, rod lengths: places that nothing touches stay near the line between others.
+const NEAR: f64 = 0.3;
+/// Squared residual that a block counts which no branch of the model reaches.
+const UNREACHED: f64 = 36.0;
+/// Step for derivatives of the correction by the errors, in standard deviations of the budget.
+const STEP: f64 = 1e-6;
+/// Rates of a contact with a knot below which they are left out: cardinal splines fall to a fourth from knot to knot.
+const FAR: f64 = 1e-5;
+
+/// What is known of the shared errors before: their sources and standard deviations.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sources {
+    pub sigmas: Errors,
+    /// Values of those that are not unknowns.
+    pub known: Errors,
+    /// Numbers of those that are not known exactly.
+    pub free: Vec<usize>,
+}
+
+/// The fit at one contour. Its unknowns are the offsets of the contour's points (m), then the errors in standard deviations of their budget.
+pub(super) struct Fit<'a, R> {
+    pub rod: &'a R,
+    pub curve: Curve,
+    pub blocks: &'a Blocks,
+    pub frame: Frame,
+    pub sources: &'a Sources,
+    /// Standard deviation of the change of curvature over a length of way, 1/m per root of m.
+    pub bend: f64,
+    /// States of the last contour.
+    pub states: Vec<Option<State>>,
+}
+
+/// The recording against a contour.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Explained {
+    /// For each block its residuals in standard deviations of the noise; none where it is left out or no branch reaches it.
+    pub residuals: Vec<Option<Vector3<f64>>>,
+    pub labels: Vec<Option<Label>>,
+    /// Blocks, not beside jumps, that no branch reaches.
+    pub unreached: usize,
+}
+
+/// A block without the errors.
+struct Corrected {
+    /// m, rad.
+    pose: Pose,
+    reactions: Vector3<f64>,
+    /// Derivatives of the reactions and of the pose by the measured reactions.
+    by_reactions: Matrix3<f64>,
+    pose_by_reactions: Matrix3<f64>,
+}
+
+impl Corrected {
+    /// Measured less model, in standard deviations of the noise as it was measured: a gain, or a clamp that yields to noisy reactions, must
+    /// not make the noise small. `by_pose` are the derivatives of the model.
+    fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
+        let by_noise = self.by_reactions - by_pose * self.pose_by_reactions;
+        let residual = self.reactions - model;
+        by_noise.try_inverse().map_or(residual, |shown| shown * residual).component_div(&block.sigma)
+    }
+}
+
+/// The model with some unknowns.
+pub(super) struct Model {
+    pub curve: Curve,
+    object: Composite,
+    corrected: Vec<Corrected>,
+    pub states: Vec<Option<State>>,
+}
+
+/// Derivatives of the reactions of a state: by the pose, and by the offsets of the points of the contour that it feels.
+#[derive(Default)]
+struct Rates {
+    by_pose: Matrix3<f64>,
+    by_offsets: Vec<(usize, Vector3<f64>)>,
+}
+
+/// A block against the model.
+struct Row {
+    residual: Vector3<f64>,
+    /// Derivatives by the unknowns.
+    by: [Vec<(usize, f64)>; 3],
+}
+
+impl<R: PhysicalRod> Fit<'_, R> {
+    fn errors(&self, x: &DVector<f64>) -> Errors {
+        let mut errors = self.sources.known;
+        let first = self.curve.count();
+        self.sources.free.iter().enumerate().for_each(|(i, k)| errors[*k] = x[first + i] * self.sources.sigmas[*k]);
+        errors
+    }
+
+    /// The blocks without the errors.
+    fn corrected(&self, errors: &Errors) -> Option<Vec<Corrected>> {
+        let (correction, length) = (Correction::new(self.frame, errors)?, self.rod.units().length);
+        let of = |block: &Block| {
+            let apply = |clamp: &Clamp| {
+                let clamp = correction.apply(block.tau, clamp, &still(block.motion)).0;
+                (Vector3::new(clamp.pose.x * length, clamp.pose.y * length, clamp.pose.z), clamp.reactions)
+            };
+            let (pose, reactions) = apply(&block.clamp);
+            let (mut by_reactions, mut pose_by_reactions) = (Matrix3::zeros(), Matrix3::zeros());
+            // the correction is linear in the reactions
+            for c in 0..3 {
+                let mut other = block.clamp;
+                other.reactions[c] += 1.0;
+                let (there, shown) = apply(&other);
+                by_reactions.set_column(c, &(shown - reactions));
+                pose_by_reactions.set_column(c, &(there - pose));
+            }
+            Corrected { pose: Pose { x: pose.x, y: pose.y, phi: pose.z }, reactions, by_reactions, pose_by_reactions }
+        };
+        Some(self.blocks.blocks.iter().map(of).collect())
+    }
+
+    /// The reactions of a state, dimensionless.
+    fn reactions(&self, state: Option<&State>) -> Vector3<f64> {
+        let units = self.rod.units();
+        state.map_or(Vector3::zeros(), |state| {
+            let reactions = state.reactions;
+            Vector3::new(reactions.f0x / units.force, reactions.f0y / units.force, reactions.m0z / units.moment)
+        })
+    }
+
+    /// The model with these unknowns; none where its contour is no curve.
+    pub fn model(&self, x: &DVector<f64>) -> Option<Model> {
+        let curve = self.curve.moved(x.rows(0, self.curve.count()).into_owned())?;
+        let object = curve.composite()?;
+        let corrected = self.corrected(&self.errors(x))?;
+        let poses: Vec<Pose> = corrected.iter().map(|one| one.pose).collect();
+        let states =
+            Forward { rod: self.rod, curve: &curve, object: &object }.states(self.blocks, &poses, &self.states);
+        Some(Model { curve, object, corrected, states })
+    }
+
+    /// Whether a block without a state is explained by a free rod: nothing in its segment tells of a contact.
+    fn is_free(&self, block: usize, states: &[Option<State>]) -> bool {
+        let segment = self.blocks.segments.iter().find(|segment| segment.contains(&block));
+        segment.is_some_and(|segment| {
+            segment.clone().all(|k| states[k].is_none() && self.blocks.blocks[k].label == Label::Free)
+        })
+    }
+
+    /// The recording against the model.
+    pub fn explained(&self, Model { object, corrected, states, .. }: &Model) -> Explained {
+        let mut explained = Explained::default();
+        for (k, block) in self.blocks.blocks.iter().enumerate() {
+            let state = states[k].as_ref();
+            let is_known = state.is_some() || self.is_free(k, states);
+            let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
+            explained.labels.push(is_known.then_some(label));
+            let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(object, state));
+            let residual = corrected[k].residual(&self.reactions(state), &by_pose, block);
+            explained.residuals.push((is_known && !block.is_by_jump).then_some(residual));
+            explained.unreached += usize::from(!is_known && !block.is_by_jump);
+        }
+        explained
+    }
+
+    /// Derivatives of the reactions of a state by the pose; none at a fold count as 0.
+    fn by_pose(&self, object: &Composite, state: &State) -> Matrix3<f64> {
+        let units = self.rod.units();
+        let size = [units.force, units.force, units.moment];
+        let stiffness = Derivatives::new(self.rod, object, state).and_then(|derivatives| derivatives.stiffness());
+        stiffness.map_or_else(|_| Matrix3::zeros(), |by| Matrix3::from_fn(|c, j| by[c][j] / size[c]))
+    }
+
+    fn rates(&self, Model { curve, object, .. }: &Model, state: &State) -> Option<Rates> {
+        let units = self.rod.units();
+        let derivatives = Derivatives::new(self.rod, object, state).ok()?;
+        let stiffness = derivatives.stiffness().ok()?;
+        let size = Vector3::new(units.force, units.force, units.moment);
+        let at: Vec<Vec<SupportRate>> =
+            state.contacts.iter().map(|contact| curve.rates_near(contact.x, contact.y)).collect();
+        let is_near = |rate: &SupportRate| rate.x.hypot(rate.y) > FAR || rate.alpha.abs() * units.length > FAR;
+        let by_offsets = (0..curve.count())
+            .filter(|i| at.iter().any(|rates| is_near(&rates[*i])))
+            .filter_map(|i| {
+                let by = derivatives.by_contours(|contact| at[contact][i]).ok()?.reactions;
+                Some((i, Vector3::new(by.f0x, by.f0y, by.m0z).component_div(&size)))
+            })
+            .collect();
+        Some(Rates { by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]), by_offsets })
+    }
+
+    /// The rows of all blocks; none of those that the model does not reach.
+    fn rows(&self, x: &DVector<f64>, at: &Model) -> Option<Vec<Option<Row>>> {
+        let Model { corrected, states, .. } = at;
+        let (first, errors) = (self.curve.count(), self.errors(x));
+        let stepped: Vec<Vec<Corrected>> = self
+            .sources
+            .free
+            .iter()
+            .map(|k| {
+                let mut other = errors;
+                other[*k] += STEP * self.sources.sigmas[*k];
+                self.corrected(&other)
+            })
+            .collect::<Option<_>>()?;
+        let row = |k: usize| {
+            let (block, state) = (&self.blocks.blocks[k], states[k].as_ref());
+            if state.is_none() && !self.is_free(k, states) {
+                return None;
+            }
+            let (here, model) = (&corrected[k], self.reactions(state));
+            let mut by: [Vec<(usize, f64)>; 3] = Default::default();
+            let touching = state.filter(|state| !state.contacts.is_empty());
+            let Rates { by_pose, by_offsets } = match touching {
+                Some(state) => self.rates(at, state)?,
+                None => Rates::default(),
+            };
+            let residual = here.residual(&model, &by_pose, block);
+            let without = here.residual(&here.reactions, &by_pose, block);
+            for (i, rate) in by_offsets {
+                let rate = here.residual(&(here.reactions + rate), &by_pose, block) - without;
+                (0..3).for_each(|c| by[c].push((i, rate[c])));
+            }
+            for (i, other) in stepped.iter().enumerate() {
+                let there = &other[k];
+                let (from, to) = (here.pose, there.pose);
+                let moved = Vector3::new(to.x - from.x, to.y - from.y, to.phi - from.phi);
+                let rate = (there.residual(&(model + by_pose * moved), &by_pose, block) - residual) / STEP;
+                (0..3).for_each(|c| by[c].push((first + i, rate[c])));
+            }
+            Some(Row { residual, by })
+        };
+        Some((0..self.blocks.blocks.len()).map(row).collect())
+    }
+
+    /// The prior alone: the errors by their budget, and changes of curvature.
+    pub fn prior(&self, x: &DVector<f64>, curve: &Curve) -> Normal {
+        let (first, mut prior) = (self.curve.count(), Normal::empty(x.len()));
+        (0..self.sources.free.len()).for_each(|i| prior.add(&[(first + i, 1.0)], x[first + i], 1.0));
+        // places that nothing touched are somewhere near the start
+        let near = NEAR * self.rod.units().length;
+        (0..first).for_each(|i| prior.add(&[(i, 1.0)], x[i], near));
+        for (value, rates) in curve.bends() {
+            let z = value / self.bend;
+            let row: Vec<(usize, f64)> = rates.iter().map(|rate| rate / self.bend).enumerate().collect();
+            prior.add_weighted(&row, z, Loss::Cauchy(VERTEX).weight(1.0, z));
+            prior.cost += Loss::Cauchy(VERTEX).excess(z);
+        }
+        prior
+    }
+
+    /// The standard deviation of changes of curvature that explains those of a contour best: the mean of their squares and of what is not
+    /// known of them (one step of expectation maximisation, Dempster, Laird and Rubin 1977), robust against vertices.
+    pub fn bend_of(&self, x: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
+        let count = self.curve.count();
+        let Some(curve) = self.curve.moved(x.rows(0, count).into_owned()) else { return self.bend };
+        let block = covariance.view((0, 0), (count, count));
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (value, rates) in curve.bends() {
+            let unknown = rates.dot(&(block * &rates));
+            let weight = Loss::Cauchy(VERTEX).weight(1.0, value / self.bend);
+            sum += weight * (value * value + unknown);
+            weights += weight;
+        }
+        if weights > 0.0 { (sum / weights).sqrt() } else { self.bend }
+    }
+}
+
+impl<R: PhysicalRod> Problem for Fit<'_, R> {
+    type Equations = Normal;
+
+    fn equations(&mut self, x: &DVector<f64>) -> Normal {
+        let here = self.model(x).and_then(|model| Some((self.rows(x, &model)?, model)));
+        let Some((rows, Model { curve, states, .. })) = here else {
+            return Normal { cost: f64::INFINITY, ..Normal::empty(x.len()) };
+        };
+        let mut normal = self.prior(x, &curve);
+        let loss = Loss::Cauchy(OUTLYING);
+        for (block, row) in self.blocks.blocks.iter().zip(&rows) {
+            match row {
+                _ if block.is_by_jump => {}
+                None => normal.cost += UNREACHED,
+                Some(Row { residual, by }) => {
+                    let z = residual.norm();
+                    (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], loss.weight(1.0, z)));
+                    normal.cost += loss.excess(z);
+                }
+            }
+        }
+        self.states = states;
+        normal
+    }
+}

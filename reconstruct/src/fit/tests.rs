@@ -1,0 +1,141 @@
+use super::{ContourFit, FitError, fit_contour};
+use crate::{Ar1, Budget, Label, NoiseModel, Settings, Source, disturb, reconstruct_passes};
+use rod_contact::{ClampPath, State, Sweep};
+use rod_contours::{Composite, Contour, Parabola, Spline, SplineEnd};
+use rod_core::{Pose, Reactions, Rod, Sample};
+
+/// Object O2 of Merker et al. (2020).
+fn object() -> Composite {
+    let (left, right) = (Parabola::new([0.0, 0.0], 50.0).unwrap(), Parabola::new([0.03, 0.01], 50.0).unwrap());
+    Composite::joined(vec![Box::new(left), Box::new(right)]).unwrap()
+}
+
+/// A steel rod of 0.1 m and 0.5 mm.
+fn steel() -> Rod {
+    Rod::new(0.1, 206e9 * std::f64::consts::PI * 0.5e-3_f64.powi(4) / 64.0).unwrap()
+}
+
+/// Swept past the object at q = 40 mm, a state each 50 um.
+fn states(rod: &Rod) -> Vec<State> {
+    let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    Sweep::new(rod, &object(), ClampPath::new(clamp(0.08), clamp(-0.09)).unwrap(), 5e-5).unwrap().run().states
+}
+
+fn samples(states: &[State]) -> Vec<Sample> {
+    states.iter().map(|state| Sample::new(state.pose, state.reactions)).collect()
+}
+
+/// With AR(1) noise of 2.5 mN and 0.06 N mm.
+fn noisy(samples: &mut [Sample], seed: u64) {
+    let sigma = Reactions { f0x: 2.5e-3, f0y: 2.5e-3, m0z: 6e-5 };
+    let model = NoiseModel { ar1: Ar1 { sigma, correlation: 0.45 }, ..NoiseModel::default() };
+    let mut generator = model.generator(seed).unwrap();
+    samples.iter_mut().for_each(|sample| sample.reactions = generator.sample(sample.reactions).unwrap());
+}
+
+const AS_IS: Settings = Settings {
+    noise: None,
+    false_alarms: 0.01,
+    largest_sigma: 0.02,
+    budget: Some(Budget::NONE),
+    known: crate::Known::NOTHING,
+    friction: crate::Friction::None,
+};
+
+fn fitted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<ContourFit, FitError> {
+    fit_contour(rod, samples, &reconstruct_passes(rod, samples, settings).unwrap())
+}
+
+/// Distances of the true contacts from the contour, m, in order of size.
+fn distances(fit: &ContourFit, states: &[State]) -> Vec<f64> {
+    let curve = Spline::through(&fit.contour, SplineEnd::Natural).unwrap();
+    let contacts = states.iter().flat_map(|state| &state.contacts);
+    let mut distances: Vec<f64> = contacts.map(|contact| curve.closest(contact.x, contact.y).gap.abs()).collect();
+    distances.sort_by(f64::total_cmp);
+    distances
+}
+
+/// Samples with several contacts, and how many of them have their label.
+fn several(fit: &ContourFit, states: &[State]) -> (usize, usize) {
+    let truth = |k: usize| Label::of(states[k].phase().contacts, states[k].phase().tip);
+    let labels = fit.blocks.iter().flat_map(|block| block.samples.clone().map(move |k| (k, block.label)));
+    let several: Vec<_> = labels.filter(|(k, _)| truth(*k).several()).collect();
+    (several.len(), several.iter().filter(|(k, label)| *label == Some(truth(*k))).count())
+}
+
+#[test]
+fn a_contour_explains_its_recording_in_noise() {
+    let rod = steel();
+    let states = states(&rod);
+    for seed in [0, 1] {
+        let mut samples = samples(&states);
+        noisy(&mut samples, seed);
+        let fit = fitted(&rod, &samples, &AS_IS).unwrap();
+        assert!(fit.goodness.explains, "{:?}", fit.goodness);
+        let ratio = fit.goodness.chi_squared / fit.goodness.degrees_of_freedom;
+        assert!((0.8..1.2).contains(&ratio), "{ratio}");
+        let distances = distances(&fit, &states);
+        let (median, most) = (distances[distances.len() / 2], distances[distances.len() * 19 / 20]);
+        assert!(median < 8e-6 && most < 6e-5, "{median} {most}");
+        // two contacts are found at seed 1 as well, where the local answer has a single one in their place
+        let (all, right) = several(&fit, &states);
+        assert!(all > 200 && right * 100 > 95 * all, "{right} of {all}");
+    }
+}
+
+#[test]
+fn shared_errors_come_out_with_the_contour() {
+    let given = [
+        (Source::BiasF0x, 0.004),
+        (Source::BiasF0y, -0.003),
+        (Source::BiasM0z, 2e-4),
+        (Source::DriftF0x, 0.003),
+        (Source::DriftM0z, -2e-4),
+        (Source::GainF0x, 0.008),
+        (Source::GainF0y, -0.006),
+        (Source::GainM0z, 0.01),
+        (Source::ClampAngle, 0.007),
+        (Source::Stiffness, 0.03),
+    ];
+    let truth = |source: Source| given.iter().find(|one| one.0 == source).map_or(0.0, |one| one.1);
+    let rod = steel();
+    let states = states(&rod);
+    let (rod, mut disturbed) = disturb(&rod, &samples(&states), truth).unwrap();
+    noisy(&mut disturbed, 0);
+    let fit = fitted(&rod, &disturbed, &Settings { budget: None, ..AS_IS }).unwrap();
+    assert!(fit.goodness.explains, "{:?}", fit.goodness);
+    assert!(fit.errors.len() > 20);
+    for (source, value, sigma) in &fit.errors {
+        let off = (value - truth(*source)) / sigma;
+        assert!(off.abs() < 4.0, "{source}: {value} +- {sigma}, {off} standard deviations off");
+    }
+    let (all, right) = several(&fit, &states);
+    assert!(right * 100 > 95 * all, "{right} of {all}");
+}
+
+#[test]
+fn what_no_contour_explains_is_said_with_its_place() {
+    let rod = steel();
+    let states = states(&rod);
+    let mut samples = samples(&states);
+    noisy(&mut samples, 0);
+    // a hand on the rod, while it lies on the object with one contact
+    for (k, sample) in samples.iter_mut().enumerate().take(1900).skip(1600) {
+        let push = (std::f64::consts::PI * (k - 1600) as f64 / 300.0).sin();
+        sample.reactions.f0y += 0.03 * push;
+    }
+    let fit = fitted(&rod, &samples, &AS_IS).unwrap();
+    let worst = fit.goodness.worst.clone().unwrap();
+    assert!(!fit.goodness.explains && worst.p_value < 1e-4, "{:?}", fit.goodness);
+    assert!(worst.samples.start >= 1500 && worst.samples.end <= 2000, "{worst:?}");
+}
+
+#[test]
+fn a_recording_without_contacts_has_no_fit() {
+    let rod = steel();
+    let clamp = |k: i32| Pose { x: 0.08 - 1e-4 * f64::from(k), y: -0.3, phi: std::f64::consts::FRAC_PI_2 };
+    let mut samples: Vec<Sample> =
+        (0..400).map(|k| Sample::new(clamp(k), Reactions { f0x: 0.0, f0y: 0.0, m0z: 0.0 })).collect();
+    noisy(&mut samples, 3);
+    assert_eq!(fitted(&rod, &samples, &AS_IS), Err(FitError::NoContacts));
+}

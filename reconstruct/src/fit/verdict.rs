@@ -1,0 +1,86 @@
+//! Whether a contour explains its recording.
+
+use super::problem::Explained;
+use crate::numeric::chi_squared::upper_tail;
+use std::ops::Range;
+
+/// Blocks of a window.
+const WINDOW: usize = 12;
+/// Relative standard deviation of the noise, which is itself estimated from the recording: so much is chi squared off without meaning anything.
+const NOISE_KNOWN_TO: f64 = 0.03;
+/// Probability below which a recording is not explained.
+const UNLIKELY: f64 = 1e-4;
+/// Names of the channels.
+const CHANNELS: [&str; 3] = ["f0x", "f0y", "m0z"];
+
+/// The place at which a recording is explained worst.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WorstWindow {
+    /// The samples from the first to after the last.
+    pub samples: Range<usize>,
+    /// The channel that is off most there.
+    pub channel: String,
+    /// Sum of the squares of its residuals over their standard deviations, of all channels.
+    pub chi_squared: f64,
+    /// How many these are.
+    pub residuals: usize,
+    /// Probability of a sum as large or larger in any window of the recording.
+    pub p_value: f64,
+}
+
+/// How well a contour explains a recording: residuals of means of blocks of samples over the standard deviations of their noise.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Goodness {
+    /// Sum of the squares.
+    pub chi_squared: f64,
+    /// Number of residuals less the unknowns that the recording determines.
+    pub degrees_of_freedom: f64,
+    /// Probability of a sum as large or larger, where the noise is known to 3 %.
+    pub p_value: f64,
+    /// Where it is worst; none for a recording shorter than a window.
+    pub worst: Option<WorstWindow>,
+    /// Share of the blocks of samples at whose poses the model has no state: it has jumped there, or cannot be followed.
+    pub unreached: f64,
+    /// Whether the recording is explained: neither probability is below 1e-4, and no more than 2 % of the blocks are not reached.
+    pub explains: bool,
+}
+
+/// Largest share of blocks that are not reached of a recording that is explained: those beside a jump that the model makes a little earlier.
+const MOST_UNREACHED: f64 = 0.02;
+
+impl Goodness {
+    /// From the residuals of blocks with these samples. `determined` is the number of unknowns that the recording determines.
+    pub(super) fn of(explained: &Explained, samples: &[Range<usize>], determined: f64) -> Self {
+        let known: Vec<usize> = (0..samples.len()).filter(|k| explained.residuals[*k].is_some()).collect();
+        let square = |k: &usize| explained.residuals[*k].map_or(0.0, |residual| residual.norm_squared());
+        let chi_squared: f64 = known.iter().map(square).sum();
+        let degrees_of_freedom = (3.0 * known.len() as f64 - determined).max(1.0);
+        let allowed = (1.0 + NOISE_KNOWN_TO).powi(2);
+        let p_value = upper_tail(chi_squared / allowed, degrees_of_freedom);
+        let windows = known.len() as f64 / WINDOW as f64;
+        let worst = known.windows(WINDOW).map(|window| (window.iter().map(square).sum::<f64>(), window));
+        let worst = worst.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(sum, window)| {
+            let of_channel = |c: usize| {
+                let squares = window.iter().filter_map(|k| explained.residuals[*k]).map(|residual| residual[c].powi(2));
+                squares.sum::<f64>()
+            };
+            let channel = (0..3).max_by(|a, b| of_channel(*a).total_cmp(&of_channel(*b))).unwrap_or(0);
+            let p = upper_tail(sum / allowed, 3.0 * WINDOW as f64);
+            WorstWindow {
+                samples: samples[window[0]].start..samples[window[WINDOW - 1]].end,
+                channel: CHANNELS[channel].to_owned(),
+                chi_squared: sum,
+                residuals: 3 * WINDOW,
+                // windows that overlap count as a few independent ones
+                p_value: (3.0 * windows * p).min(1.0),
+            }
+        });
+        let unreached = explained.unreached as f64 / (explained.unreached + known.len()).max(1) as f64;
+        let explains = p_value >= UNLIKELY
+            && worst.as_ref().is_none_or(|worst| worst.p_value >= UNLIKELY)
+            && unreached <= MOST_UNREACHED;
+        Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, explains }
+    }
+}
