@@ -1,13 +1,131 @@
 //! Pseudo-arclength continuation (Keller 1977) of the equilibria with one contact set along the path of the clamp, up to the
 //! transition at which the contact set changes.
+//!
+//! The loop is [`Stepper::attempt`](stepper::Stepper), whose steps are those of `docs/sweep.md`, section 3:
+//!
+//! | step | file |
+//! |---|---|
+//! | predict, correct | `correct`; over a joint of the rod `joint` |
+//! | refuse what a step may have passed over | `dip` |
+//! | end the branch | `ends` |
+//! | look for transitions, locate the first | `locate`, by `transition`, `fold` and `inflection` |
+//! | merge two contacts | `merge` |
+//! | certify a state to report | `between`, `certify` |
+//!
+//! `probe` tells whether the sweep can go on with another contact set, `recall` finds the configuration of a state.
 
 mod between;
 pub(crate) mod branch;
 pub(crate) mod certify;
+mod correct;
 mod dip;
+mod ends;
 pub(crate) mod fold;
 pub(crate) mod inflection;
 mod joint;
+mod locate;
+mod merge;
+mod probe;
 pub(crate) mod recall;
-pub(crate) mod step;
+pub(crate) mod stepper;
 pub(crate) mod transition;
+
+use crate::contact_set::Configuration;
+use crate::continuation::branch::Tangent;
+use crate::continuation::certify::Quality;
+use crate::error::StopReason;
+use crate::event::EventKind;
+use crate::gap::scan::Scan;
+
+/// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
+pub(crate) const SAME_POSE: f64 = 1e-13;
+/// First step on a new branch, in arclength.
+pub(crate) const FIRST_STEP: f64 = 0.02;
+/// Largest distance of the corrected from the predicted point, over the length of the step. A larger one may be another branch.
+const LARGEST_CORRECTION: f64 = 0.3;
+/// Least d tau / d arclength at which a step aims at a pose. Closer to a fold the pose is ill-conditioned.
+const STEEPEST: f64 = 1e-3;
+/// Largest residual of a solution (L, rad). The Newton method scales its own tolerance by the forces; this limits it.
+pub(crate) const LARGEST_RESIDUAL: f64 = 1e-9;
+/// Arclength within which transitions coincide. The one next to the clamp is taken.
+const AT_ONCE: f64 = 1e-12;
+/// Arclength by which a touch may lie before the start of the step. The proof at the start leaves a depth of 1e-12 L open, which
+/// a slowly closing gap takes so long to pass.
+pub(crate) const BEFORE: f64 = 1e-6;
+/// Way along the path, and longest way along the branch, after which a new contact set must still hold.
+const PROBE: f64 = 1e-6;
+
+/// A point of the sweep: an equilibrium, its scan, its quality, and the tangent of the branch there.
+#[derive(Clone, Debug)]
+pub(crate) struct Point {
+    pub configuration: Configuration,
+    pub scan: Scan,
+    pub quality: Quality,
+    pub tangent: Tangent,
+}
+
+/// A configuration and its scan.
+#[derive(Clone, Debug)]
+pub(crate) struct Seen {
+    pub configuration: Configuration,
+    pub scan: Scan,
+}
+
+/// A transition, and the scan of the contact set after it.
+#[derive(Debug)]
+pub(crate) struct Change {
+    pub kind: EventKind,
+    pub before: Configuration,
+    pub after: Seen,
+}
+
+/// The result of a step.
+#[derive(Debug)]
+pub(crate) enum Step {
+    /// A new point of the branch.
+    Moved(Box<Point>),
+    /// A transition before that.
+    Changed(Box<Change>),
+    /// The branch ends here, in a fold, or loses its stability.
+    Ended(Box<Seen>),
+    /// The branch can be followed up to here, and no further.
+    Stopped(StopReason, Box<Seen>),
+}
+
+impl Point {
+    /// The step of a branch that ends at this point.
+    pub fn ends(&self) -> Step {
+        Step::Ended(Box::new(Seen { configuration: self.configuration.clone(), scan: self.scan.clone() }))
+    }
+}
+
+impl Step {
+    /// The last configuration of the branch that was followed.
+    pub fn last(&self) -> &Configuration {
+        match self {
+            Self::Moved(next) => &next.configuration,
+            Self::Changed(change) => &change.before,
+            Self::Ended(last) | Self::Stopped(_, last) => &last.configuration,
+        }
+    }
+
+    /// The scan at its end: of a transition, with the contact set after it.
+    fn scan(&self) -> &Scan {
+        match self {
+            Self::Moved(next) => &next.scan,
+            Self::Changed(change) => &change.after.scan,
+            Self::Ended(last) | Self::Stopped(_, last) => &last.scan,
+        }
+    }
+
+    /// The path parameter at its end.
+    pub fn tau(&self) -> f64 {
+        self.last().tau()
+    }
+
+    /// Distance (path parameter) beyond its end at which a pose still counts as its end: the rounding of a located transition. Beyond a
+    /// fold there is no equilibrium, so 0.
+    pub fn rounding(&self) -> f64 {
+        if let Self::Changed(_) = self { SAME_POSE } else { 0.0 }
+    }
+}

@@ -14,9 +14,7 @@
 //! | `Touch` | no crossing of rod and contour | force of one more contact = 0 | with that contact |
 
 use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour, without};
-use crate::contact_set::notch::{
-    gathered_in_notch, lying_angle, lying_to_notch, merged, parted, straddles, wall_run_into, with_cone,
-};
+use crate::contact_set::notch::{lying_angle, lying_to_notch, merged, parted, straddles, wall_run_into, with_cone};
 use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
@@ -57,10 +55,6 @@ const MEETING: f64 = 1e-7;
 /// Force (E I / L^2) of a tip that comes to a notch on the one wall, the rod lying on the other one, below which it counts as zero: there
 /// it vanishes but for rounding.
 const UNLOADED: f64 = 1e-7;
-
-/// Distance (L) from the notch at which a contact that slides along its wall to a tip in it counts as about to arrive. The equations
-/// of the two lose digits with the third power of it.
-const GATHERED: f64 = 2e-3;
 
 /// Visits everything that is broken in `configuration`, whose rod goes through the contour at `crossings`.
 pub(crate) fn breaks(
@@ -284,24 +278,6 @@ impl Break {
             }
         })
     }
-}
-
-/// The rod lies on a wall with the tip in its notch, held before the notch by a contact that slides there: the transition where
-/// that contact arrives, and the rod begins to stand up from the wall. At the transition itself the two contacts are one point, and
-/// their equations singular; so it is located on the branch after it, as [`Break::OntoWall`] is on the one before.
-pub(crate) fn gathered<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &Configuration) -> Option<Transition> {
-    let world = &corrector.setup.world;
-    let lying = near.count().checked_sub(2)?;
-    let wall = near.contacts[lying].stretch;
-    let notch = near.contacts[lying + 1].stretch;
-    let rests = world.is_notch(notch) && world.walls(notch).contains(&Some(wall)) && !near.rubs();
-    if !rests || 1.0 - near.s(lying) > GATHERED {
-        return None;
-    }
-    let (start, angle) = gathered_in_notch(world, near);
-    let after = on(corrector, start, Unknown::Slope(lying), angle).ok()?;
-    let before = parted(&corrector.setup.world, &after, wall);
-    (after.tau() >= near.tau()).then_some(Transition { kind: EventKind::Release, before, after, along: 0.0 })
 }
 
 /// The point of the branch near `start` where one unknown has a given value.

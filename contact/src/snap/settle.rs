@@ -5,8 +5,8 @@ use crate::contact_set::edit::{as_tangent, as_tip, beyond_corner, onto_neighbour
 use crate::contact_set::notch::parted;
 use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Contacts, Held, Unknown};
+use crate::continuation::Seen;
 use crate::continuation::branch::Corrector;
-use crate::continuation::step::Seen;
 use crate::continuation::transition::{Break, breaks, with_contact};
 use crate::gap::scan::Scanner;
 use crate::scene::world::World;

@@ -7,8 +7,9 @@ use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
 use crate::continuation::branch::{Condition, LEAST_COSINE, Tangent};
 use crate::continuation::certify::energy;
-use crate::continuation::step::{LARGEST_RESIDUAL, Seen, Stepper};
+use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
+use crate::continuation::{LARGEST_RESIDUAL, Seen};
 use crate::snap::settle::settle;
 use rod_core::PhysicalRod;
 

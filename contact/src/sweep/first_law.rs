@@ -3,7 +3,7 @@
 use super::Sweep;
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
-use crate::continuation::step::{Point, Seen};
+use crate::continuation::{Point, Seen};
 use crate::scene::rod::Segment;
 use rod_core::PhysicalRod;
 

@@ -3,7 +3,7 @@
 use super::leg::Course;
 use super::{Item, MOST_STEPS_TAKEN, Stage, Sweep};
 use crate::contact_set::Configuration;
-use crate::continuation::step::{Point, SAME_POSE};
+use crate::continuation::{Point, SAME_POSE};
 use crate::error::{ContactError, Stop, StopReason};
 use crate::friction::Friction;
 use crate::path::{ClampPath, check};

@@ -1,6 +1,6 @@
 //! The legs of a path, and the poses to report on each.
 
-use crate::continuation::step::SAME_POSE;
+use crate::continuation::SAME_POSE;
 use crate::error::ContactError;
 use crate::path::Path;
 use crate::scene::way::Way;

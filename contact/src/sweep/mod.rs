@@ -1,5 +1,6 @@
 //! The sweep: the clamp goes along its path, and every phase and transition is found.
 
+mod advance;
 mod begin;
 mod bistable;
 mod crowd;
@@ -19,22 +20,19 @@ pub use outcome::{Item, Outcome};
 pub use start::{Approach, Start, StartCandidate};
 
 use crate::contact_set::Configuration;
-use crate::contact_set::edit::{beside_corner, over_sliver};
 use crate::continuation::branch::Corrector;
-use crate::continuation::step::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step, Stepper};
-use crate::error::{ContactError, Stop, StopReason};
-use crate::event::EventKind;
+use crate::continuation::stepper::Stepper;
+use crate::continuation::{FIRST_STEP, Point, Step};
+use crate::error::{ContactError, Stop};
 use crate::friction::Friction;
 use crate::path::Path;
 use crate::scene::setup::Setup;
 use crate::scene::way::Way;
-use crate::stability::wraps;
 use crate::state::State;
 use crowd::Crowd;
 use leg::{Course, Leg, legs};
 use rod_contours::Composite;
-use rod_core::{Clamp, PhysicalRod, Rod};
-use rubbing::stopped;
+use rod_core::{PhysicalRod, Rod};
 use std::collections::VecDeque;
 
 /// A sweep of a rod past a contour: an iterator of states and events in the order in which they come. After an `Err` it is
@@ -269,184 +267,6 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         outcome.dissipated = self.dissipated();
         outcome.start = self.start;
         outcome
-    }
-
-    /// Goes on until there is something to hand out.
-    fn advance(&mut self) -> Result<(), StopReason> {
-        match std::mem::replace(&mut self.stage, Stage::Over(None)) {
-            Stage::Begins(given) => self.set_in(given.map(|given| *given)),
-            Stage::At(point, ahead) => self.go_on(point, ahead),
-            over @ Stage::Over(_) => {
-                self.stage = over;
-                Ok(())
-            }
-        }
-    }
-
-    /// Comes to the first point of a leg.
-    fn set_in(&mut self, given: Option<Configuration>) -> Result<(), StopReason> {
-        let Setup { world, path, rod } = self.setup();
-        if world.rubs() && rod.clamp(path.at(0.0)).roller().is_some() {
-            return Err(StopReason::RollerFriction);
-        }
-        let (start, ahead) = match given {
-            Some(given) => self.resume(given)?,
-            None => self.begin()?,
-        };
-        if self.course.is_new() {
-            self.report(&start);
-        }
-        self.stage = Stage::At(Box::new(start), ahead);
-        Ok(())
-    }
-
-    /// Goes on from a point. The branch is followed by steps of its own, each to the transition that ends it; the poses to report lie on
-    /// them and have no part in where a step ends.
-    fn go_on(&mut self, point: Box<Point>, ahead: Option<Step>) -> Result<(), StopReason> {
-        let (here, end) = (point.configuration.tau(), self.setup().path.length());
-        // a snap may have jumped over a pose: there is no equilibrium to report there
-        while self.course.is_due() && self.pose() < here - self.slack() {
-            self.course.pass();
-        }
-        let pose = self.pose();
-        if self.course.is_due() && pose <= here + SAME_POSE {
-            self.report(&point);
-            self.stage = Stage::At(point, ahead);
-            return Ok(());
-        }
-        if here >= end - SAME_POSE {
-            return self.next_leg(point);
-        }
-        let step = match ahead {
-            Some(step) => Ok(step),
-            None => self.stepper.step(&point, end),
-        };
-        let next = match step {
-            Ok(step) if self.course.is_due() && pose < step.tau() + step.rounding() => {
-                if let Some(state) = self.stepper.between(&point, &step, pose) {
-                    self.hand_out(pose, state);
-                    self.stage = Stage::At(point, Some(step));
-                    return Ok(());
-                }
-                if pose < step.tau() {
-                    // the step has passed over something
-                    self.stepper.step(&point, pose).and_then(|step| self.follow(&point, step))
-                } else {
-                    self.follow(&point, step)
-                }
-            }
-            step => step.and_then(|step| self.follow(&point, step)),
-        };
-        // the last point is kept for the message
-        let (stage, done) = match next {
-            Ok(next) => (Stage::At(next, None), Ok(())),
-            Err(reason) => (Stage::Over(Some(point)), Err(reason)),
-        };
-        self.stage = stage;
-        done
-    }
-
-    /// At the end of a leg the next one begins, or all is over.
-    fn next_leg(&mut self, point: Box<Point>) -> Result<(), StopReason> {
-        let path = &self.setup().path;
-        let is_beyond = point.configuration.tau() > path.length() + AT_END;
-        let passed = path.parameter(path.length(), self.setup().rod.units().length);
-        let configuration = point.configuration.clone();
-        self.stage = Stage::Over(Some(point));
-        if self.course.is_last() {
-            return Ok(());
-        }
-        // a snap has landed further along this leg than it goes: there is no equilibrium from which to set out
-        if is_beyond {
-            return Err(StopReason::NoLanding);
-        }
-        if let Some(way) = self.course.next_leg(passed) {
-            self.set_out(way, configuration);
-        }
-        Ok(())
-    }
-
-    /// Where a step leads, with the transition that ends it.
-    fn arrive(&mut self, step: Step) -> Result<Box<Point>, StopReason> {
-        match step {
-            Step::Moved(next) => Ok(next),
-            Step::Changed(change) => {
-                let Change { kind, before, after } = *change;
-                self.crowd.count(&after.configuration, &self.stepper.corrector.setup.world)?;
-                // a corner at the very tip is none
-                let beside = beside_corner(&after.configuration, &self.setup().world);
-                self.stepper.h = FIRST_STEP;
-                let stopped = stopped(kind, &before, &after.configuration);
-                let onto = (kind == EventKind::Piece).then(|| after.configuration.clone());
-                let before = self.stepper.look(before);
-                let next = if self.setup().world.rubs() {
-                    self.goes_on_rubbing(after, stopped)?
-                } else {
-                    self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside)))
-                };
-                let next = match (next, &onto) {
-                    (None, Some(onto)) => self.beyond_sliver(&before.configuration, onto)?,
-                    (next, _) => next,
-                };
-                match (next, onto) {
-                    (Some(after), _) => {
-                        let before = self.stepper.point(before);
-                        self.announce(kind, &before, &after);
-                        Ok(Box::new(after))
-                    }
-                    (None, Some(onto)) if self.lies_down(&onto) => {
-                        self.reached = onto.tau();
-                        Err(StopReason::LineContact)
-                    }
-                    (None, Some(onto)) if self.is_held_at_border(&before.configuration, &onto) => {
-                        Err(StopReason::RougherPiece)
-                    }
-                    (None, _) => self.snap(before).map(Box::new),
-                }
-            }
-            Step::Stopped(reason, last) => {
-                self.reached = last.configuration.tau();
-                Err(reason)
-            }
-            Step::Ended(last) => {
-                self.crowd.count(&last.configuration, &self.stepper.corrector.setup.world)?;
-                self.snap(*last).map(Box::new)
-            }
-        }
-    }
-
-    /// Whether a contact lies along a line.
-    fn lies_down(&self, configuration: &Configuration) -> bool {
-        wraps(self.setup(), configuration, &configuration.segments(self.setup())).is_some()
-    }
-
-    /// The point behind a piece or corner that is too small to follow, which a contact has come to from another one.
-    fn beyond_sliver(&mut self, before: &Configuration, after: &Configuration) -> Result<Option<Point>, StopReason> {
-        let Some(beyond) = over_sliver(before, after, &self.setup().world) else { return Ok(None) };
-        let seen = self.stepper.look(beyond);
-        self.goes_on_from(seen)
-    }
-
-    /// The point from which the sweep goes on with the contacts of `seen`, with or without friction.
-    fn goes_on_from(&mut self, seen: Seen) -> Result<Option<Point>, StopReason> {
-        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None) } else { Ok(self.goes_on(seen)) }
-    }
-
-    /// The point of a new contact set, if the sweep can go on with it.
-    fn goes_on(&mut self, seen: Seen) -> Option<Point> {
-        let point = self.stepper.point(seen);
-        self.stepper.goes_on(&point).then_some(point)
-    }
-
-    fn goes_on_as(&mut self, configuration: Configuration) -> Option<Point> {
-        let seen = self.stepper.look(configuration);
-        self.goes_on(seen)
-    }
-
-    /// A point with everything known of it.
-    fn at_rest(&mut self, configuration: Configuration) -> Point {
-        let seen = self.stepper.look(configuration);
-        self.stepper.point(seen)
     }
 }
 

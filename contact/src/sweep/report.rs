@@ -2,7 +2,7 @@
 
 use super::{AT_END, Item, Stage, Sweep};
 use crate::continuation::certify::{Quality, state};
-use crate::continuation::step::{Point, SAME_POSE};
+use crate::continuation::{Point, SAME_POSE};
 use crate::error::{Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::scene::setup::Setup;

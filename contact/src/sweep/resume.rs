@@ -5,7 +5,7 @@ use crate::contact_set::Configuration;
 use crate::continuation::branch::Tangent;
 use crate::continuation::certify::energy;
 use crate::continuation::recall::recall;
-use crate::continuation::step::{Point, Step};
+use crate::continuation::{Point, Step};
 use crate::error::{ContactError, StopReason};
 use crate::state::State;
 use rod_core::PhysicalRod;

@@ -5,7 +5,7 @@ use super::first_law::Ended;
 use super::landing::same;
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
-use crate::continuation::step::{Point, Seen, Step};
+use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::friction::{Motion, UNLOADED, anew, dissipated, drags, smooth};
@@ -79,7 +79,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 }
             }
             let point = self.at_rest(way);
-            let Some(probe) = self.stepper.goes_on_rubbing_for(&point) else { continue };
+            let Some(probe) = self.stepper.longest_rubbing_probe(&point) else { continue };
             match &mut found {
                 Some((_, longest, both)) if probe == *longest => *both = None,
                 Some((_, longest, _)) if probe > *longest => {}

@@ -2,7 +2,8 @@
 
 use super::{AT_END, Sweep};
 use crate::contact_set::Configuration;
-use crate::continuation::step::{Seen, Stepper};
+use crate::continuation::Seen;
+use crate::continuation::stepper::Stepper;
 use crate::path::ClampPath;
 use crate::scene::setup::Setup;
 use crate::snap::settle::settle;

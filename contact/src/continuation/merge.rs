@@ -1,0 +1,77 @@
+//! Merge two contacts that are about to become one, before their equations become singular.
+
+use crate::contact_set::notch::{gathered_in_notch, parted};
+use crate::contact_set::{Configuration, Unknown};
+use crate::continuation::branch::{Corrector, Tangent};
+use crate::continuation::inflection::run_together;
+use crate::continuation::stepper::Stepper;
+use crate::continuation::transition::{Transition, breaks, on};
+use crate::event::EventKind;
+use rod_core::PhysicalRod;
+
+/// Distance (L) of two contacts on one piece from which on they are tried as one, and ways along the path (L) that this may take. The
+/// distance falls with the root of the way that is left, and the equations of both lose digits with its third power.
+const CLOSE: f64 = 4e-3;
+const JOINED: [f64; 7] = [0.0, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5];
+/// Distance (L) from the notch at which a contact that slides along its wall to a tip in it counts as about to arrive. The equations
+/// of the two lose digits with the third power of it.
+const GATHERED: f64 = 2e-3;
+
+impl<R: PhysicalRod> Stepper<'_, R> {
+    /// The transition at which two contacts become one, if two are about to.
+    pub(super) fn merge_contacts(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
+        self.merge_last(next, tangent).or_else(|| self.merge_on_piece(next, tangent))
+    }
+
+    /// The last two contacts as one, if they are about to meet in a notch or at an inflection.
+    fn merge_last(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
+        let j = next.count().checked_sub(2)?;
+        if next.ends_at_tip() {
+            return (tangent.rate_of(Unknown::ArcLength(j)) > 0.0)
+                .then(|| merge_in_notch(&mut self.corrector, next))
+                .flatten();
+        }
+        let closes = tangent.rate_of(Unknown::ArcLength(j + 1)) < tangent.rate_of(Unknown::ArcLength(j));
+        closes.then(|| run_together(&mut self.corrector, next)).flatten()
+    }
+
+    /// Two contacts on one convex piece that approach each other, as one: where they are so close that the rod lies on the one alone as soon as
+    /// the clamp has gone a little further. The force of the other vanishes on that way.
+    fn merge_on_piece(&mut self, next: &Configuration, tangent: &Tangent) -> Option<Transition> {
+        let j = (1..next.count()).find(|&j| {
+            let [before, rate] = [j - 1, j].map(|j| tangent.rate_of(Unknown::ArcLength(j)));
+            let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j);
+            same && next.s(j) - next.s(j - 1) < CLOSE && rate < before
+        })?;
+        let (weak, strong) = if next.force(j) < next.force(j - 1) { (j, j - 1) } else { (j - 1, j) };
+        let mut one = next.clone();
+        one.set(Unknown::Force(strong), next.force(j) + next.force(j - 1));
+        one.remove(weak);
+        JOINED.into_iter().find_map(|way| {
+            let after = on(&mut self.corrector, one.clone(), Unknown::Path, next.tau() + way).ok()?;
+            // proven as a state is, since the next one must be
+            let scan = self.scan(&after);
+            let mut holds = scan.is_outside() && self.is_stable(&after, &scan);
+            breaks(&self.corrector.setup.world, &after, &scan.crossings, |_| holds = false);
+            holds.then(|| Transition { kind: EventKind::Release, before: next.clone(), after, along: 0.0 })
+        })
+    }
+}
+
+/// The rod lies on a wall with the tip in its notch, held before the notch by a contact that slides there: the transition where
+/// that contact arrives, and the rod begins to stand up from the wall. At the transition itself the two contacts are one point, and
+/// their equations singular; so it is located on the branch after it, as [`Break::OntoWall`](super::transition::Break) is on the one before.
+fn merge_in_notch<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &Configuration) -> Option<Transition> {
+    let world = &corrector.setup.world;
+    let lying = near.count().checked_sub(2)?;
+    let wall = near.contacts[lying].stretch;
+    let notch = near.contacts[lying + 1].stretch;
+    let rests = world.is_notch(notch) && world.walls(notch).contains(&Some(wall)) && !near.rubs();
+    if !rests || 1.0 - near.s(lying) > GATHERED {
+        return None;
+    }
+    let (start, angle) = gathered_in_notch(world, near);
+    let after = on(corrector, start, Unknown::Slope(lying), angle).ok()?;
+    let before = parted(&corrector.setup.world, &after, wall);
+    (after.tau() >= near.tau()).then_some(Transition { kind: EventKind::Release, before, after, along: 0.0 })
+}
