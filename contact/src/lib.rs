@@ -25,6 +25,7 @@ mod event;
 mod friction;
 mod gap;
 mod inadmissible;
+mod limits;
 mod path;
 mod phase;
 mod scene;

@@ -2,6 +2,7 @@
 //! tangential or the other way round.
 
 use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
+use crate::limits::LIMITS;
 use crate::scene::corner::{Corner, Passing};
 use crate::scene::world::World;
 use rod_core::{Hold, Section};
@@ -10,8 +11,6 @@ use std::f64::consts::TAU;
 
 /// Length (L) plus turn (rad) of a piece or corner that a contact passes within the rounding of a pose.
 const SLIVER: f64 = 1e-9;
-/// Rounding of an arc length (L).
-const AT_TIP: f64 = 1e-12;
 
 /// The configuration without contact j.
 pub(crate) fn without(mut configuration: Configuration, j: usize) -> Configuration {
@@ -107,7 +106,7 @@ pub(crate) fn beside_corner(configuration: &Configuration, world: &World<'_>) ->
 
 /// The last contact, on a corner and at s = 1, as a contact of the tip on each of the two pieces that end there.
 pub(crate) fn off_corner(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
-    let at_tip = |j: usize| !configuration.is_tip(j) && (configuration.s(j) - 1.0).abs() < AT_TIP;
+    let at_tip = |j: usize| !configuration.is_tip(j) && (configuration.s(j) - 1.0).abs() < LIMITS.transition.at_tip;
     let on_corner = |j: usize| world.is_corner(configuration.contacts[j].stretch);
     let last = configuration.count().checked_sub(1).filter(|j| at_tip(*j) && on_corner(*j));
     let Some(last) = last else { return SmallVec::new() };

@@ -2,12 +2,13 @@
 
 use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
-use crate::continuation::branch::{Condition, LEAST_COSINE, Tangent};
+use crate::continuation::branch::{Condition, Tangent};
 use crate::continuation::certify::{Quality, state};
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
-use crate::continuation::{LARGEST_CORRECTION, LARGEST_RESIDUAL, Point, STEEPEST, Step};
+use crate::continuation::{Point, Step};
 use crate::gap::scan::{Scan, Scanner};
+use crate::limits::LIMITS;
 use crate::state::State;
 use rod_core::PhysicalRod;
 
@@ -34,14 +35,16 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let mut here = way.at_pose(tau)?;
         let predicted = here.z.clone();
         let mut report = self.corrector.at_pose(&mut here, tau);
-        let strayed =
-            |here: &Configuration| from.tangent.distance(&here.z, &predicted) > LARGEST_CORRECTION * length + 1e-9;
+        let strayed = |here: &Configuration| {
+            from.tangent.distance(&here.z, &predicted)
+                > LIMITS.step.largest_correction * length + LIMITS.step.correction_rounding
+        };
         if !report.status.is_solved() || strayed(&here) {
             here = self.by_arclength(&way, tau)?;
             report = self.corrector.at_pose(&mut here, tau);
         }
         if !report.status.is_solved()
-            || report.residual > LARGEST_RESIDUAL
+            || report.residual > LIMITS.step.largest_residual
             || !ordered(&self.corrector.setup.world, &here)
         {
             return None;
@@ -61,8 +64,8 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     fn stays_stable(&self, from: &Point, here: &Configuration, scan: &Scan) -> bool {
         let direction = self.corrector.direction(here.z.len());
         from.quality.stable
-            && from.tangent.by_tau() > STEEPEST
-            && from.tangent.cosine(direction) > LEAST_COSINE
+            && from.tangent.by_tau() > LIMITS.step.least_tau_rate
+            && from.tangent.cosine(direction) > LIMITS.step.least_cosine
             && Scanner::wraps_nowhere(&self.corrector.setup, here, scan)
     }
 

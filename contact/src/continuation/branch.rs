@@ -3,15 +3,13 @@
 //! an event.
 
 use crate::contact_set::{Configuration, Held, Holding, Unknown, Unknowns};
+use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use rod_core::{
     NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, System, newton_step, solve,
 };
 #[cfg(feature = "argmin")]
 use rod_core::{TrustRegionSearch, solve_by_trust_region};
-
-/// Least cosine of the angle between the tangents at both ends of a step: 26 degrees. Sharper turns may be another branch.
-pub(crate) const LEAST_COSINE: f64 = 0.9;
 
 /// The condition that picks a point of the branch.
 #[derive(Clone, Copy, Debug)]
@@ -153,11 +151,6 @@ pub(crate) struct Corrector<'a, R = Rod> {
     workspace: NewtonWorkspace,
 }
 
-/// Limit of Newton iterations from a point of the same branch. A step that needs more has left the branch.
-const WARM: u32 = 12;
-/// Limit of Newton iterations from a guess.
-const COLD: u32 = 60;
-
 fn options(max_iterations: u32) -> NewtonOptions {
     NewtonOptions { max_iterations, longest_step: 0.5, ..NewtonOptions::default() }
 }
@@ -169,7 +162,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
 
     /// Moves `configuration`, near a branch, onto it where `condition` holds.
     pub fn correct(&mut self, configuration: &mut Configuration, condition: Condition<'_>) -> SolveReport {
-        self.solve(configuration, condition, WARM)
+        self.solve(configuration, condition, LIMITS.step.most_iterations)
     }
 
     fn solve(&mut self, configuration: &mut Configuration, condition: Condition<'_>, iterations: u32) -> SolveReport {
@@ -197,7 +190,11 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
 
     /// Solves at the pose `tau` from a guess.
     pub fn solve_from_guess(&mut self, configuration: &mut Configuration, tau: f64) -> SolveReport {
-        self.solve(configuration, Condition::Fixed { unknown: Unknown::Path, value: tau }, COLD)
+        self.solve(
+            configuration,
+            Condition::Fixed { unknown: Unknown::Path, value: tau },
+            LIMITS.step.most_iterations_from_guess,
+        )
     }
 
     /// Solves at the pose `tau` from a guess from which [`solve_from_guess`](Self::solve_from_guess) fails.
@@ -210,7 +207,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
     ) -> SolveReport {
         let Configuration { contacts, z } = configuration;
         let system = bordered(&self.setup, contacts, Condition::Fixed { unknown: Unknown::Path, value: tau }, z.len());
-        solve_by_trust_region(&system, z, &options(COLD), &mut self.workspace, search)
+        solve_by_trust_region(&system, z, &options(LIMITS.step.most_iterations_from_guess), &mut self.workspace, search)
     }
 
     /// The tangent of the branch at `configuration`, in the direction in which the condition's row grows (with the pose
@@ -220,7 +217,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         let system = bordered(&self.setup, &configuration.contacts, condition, configuration.z.len());
         let mut z = configuration.z.clone();
         self.workspace.prepare(&system, &z);
-        newton_step(&system, &mut z, &options(WARM), &mut self.workspace);
+        newton_step(&system, &mut z, &options(LIMITS.step.most_iterations), &mut self.workspace);
         let status = SolveStatus::Converged;
         let report = self.workspace.report(&system, &configuration.z, status, 0, 0.0);
         (self.tangent(configuration), report)

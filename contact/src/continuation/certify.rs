@@ -3,15 +3,13 @@
 use crate::contact_set::Configuration;
 use crate::friction::slip_coordinate;
 use crate::gap::scan::Scan;
+use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::state::{Certificate, Contact, ContactFriction, GapBounds, RollerContact, SlipMode, State};
 use rod_core::{
     Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RodModel, RollerHold, SolveReport, Supports, Units,
 };
-
-/// Rounding of an arc length (L).
-const AT_TIP: f64 = 1e-12;
 
 /// What is known of a configuration besides its unknowns.
 #[derive(Clone, Copy, Debug)]
@@ -136,5 +134,5 @@ fn stored<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: &Elasti
 /// An arc length beyond the tip by rounding is at the tip. One that is further beyond stays, and shows that the contact set is
 /// not the right one.
 fn on_rod(s: f64) -> f64 {
-    if s <= 1.0 + AT_TIP { s.min(1.0) } else { s }
+    if s <= 1.0 + LIMITS.transition.at_tip { s.min(1.0) } else { s }
 }

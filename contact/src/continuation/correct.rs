@@ -2,17 +2,13 @@
 
 use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
+use crate::continuation::Point;
 use crate::continuation::branch::{Condition, Tangent};
 use crate::continuation::joint::{self, Passed};
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::range_of_force;
-use crate::continuation::{LARGEST_CORRECTION, LARGEST_RESIDUAL, PROBE, Point, STEEPEST};
+use crate::limits::LIMITS;
 use rod_core::{PhysicalRod, SolveReport};
-
-/// Longest step of a rod in contact in the path parameter. Longer ones are halved more often and may pass over contacts that come and go.
-const LONGEST_WAY: f64 = 0.05;
-/// Way (L) that a step of a free rod may go beyond its gap. A contact that begins and ends within it is missed.
-const FREE_STEP: f64 = 2e-3;
 
 /// A step along the tangent, before it is corrected.
 pub(super) struct Prediction {
@@ -40,13 +36,14 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     pub(super) fn predict(&self, from: &Point, target: f64) -> Prediction {
         let Point { configuration, tangent, scan, .. } = from;
         let slope = tangent.by_tau();
-        let to_go = if slope > STEEPEST { (target - configuration.tau()) / slope } else { f64::INFINITY };
+        let to_go =
+            if slope > LIMITS.step.least_tau_rate { (target - configuration.tau()) / slope } else { f64::INFINITY };
         // a free rod is safe as far as its gap reaches, and goes little further
         let reach = if configuration.count() == 0 {
             let fastest = self.fastest();
-            (scan.gap.lower.clamp(0.0, 1.0) / fastest).max(self.h.min(FREE_STEP / fastest))
+            (scan.gap.lower.clamp(0.0, 1.0) / fastest).max(self.h.min(LIMITS.step.longest_free / fastest))
         } else {
-            self.h.min(LONGEST_WAY / slope.abs()).min(self.to_border(from))
+            self.h.min(LIMITS.step.longest_way / slope.abs()).min(self.to_border(from))
         };
         let lands = to_go <= reach;
         let length = if lands { to_go } else { reach };
@@ -68,9 +65,9 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let (mut report, mut ahead) = self.corrector.correct_with_tangent(&mut next, condition);
         let off = tangent.distance(&next.z, &predicted);
         if !report.status.is_solved()
-            || report.residual > LARGEST_RESIDUAL
+            || report.residual > LIMITS.step.largest_residual
             || !ordered(&self.corrector.setup.world, &next)
-            || off > LARGEST_CORRECTION * length + 1e-9
+            || off > LIMITS.step.largest_correction * length + LIMITS.step.correction_rounding
         {
             return None;
         }
@@ -110,7 +107,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             joint::passed(&mut self.corrector, (&from.configuration, &from.tangent), next)?;
         let length = from.tangent.along(&next.z, &from.configuration.z);
         let near = next.tau() <= target && (0.0..=2.0 * reach).contains(&length);
-        let solved = report.residual <= LARGEST_RESIDUAL && ordered(&self.corrector.setup.world, &next);
+        let solved = report.residual <= LIMITS.step.largest_residual && ordered(&self.corrector.setup.world, &next);
         (near && solved).then_some(Corrected { next, tangent, report, length, kink: true })
     }
 
@@ -126,7 +123,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             }
             let range = range_of_force(&self.corrector.setup.world, configuration.contacts[j].stretch);
             let border = if rate > 0.0 { range.to } else { range.from };
-            1.5 * ((border - t) / rate).max(0.0) + PROBE
+            1.5 * ((border - t) / rate).max(0.0) + LIMITS.probe.way
         };
         (0..configuration.count()).map(step).fold(f64::INFINITY, f64::min)
     }

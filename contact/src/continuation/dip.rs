@@ -3,24 +3,15 @@
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::Tangent;
 use crate::friction::{slip, slip_rate};
+use crate::limits::LIMITS;
 use crate::scene::rod::Segment;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::stability::{bends, clearance};
 use rod_core::{Grip, PhysicalRod, Support};
 
-/// How far a cubic or its slope may go below zero, relative to 1 + its values: about the error of a cubic on a step. Conditions that break
-/// less are passed over, others halve the step.
-const ERROR: f64 = 1e-6;
-
 /// Part of a step over which the rate of a clearance is a difference.
 const NUDGE: f64 = 1e-4;
-/// Clearance (1 / L) above which it does not vanish within a step at whose ends it is about the same, unless the contour has a hollow between them.
-const FAR: f64 = 1.0;
-/// Ratio of curvatures of the contour that tells such a hollow.
-const FLATTER: f64 = 0.9;
-/// Least clearance within a step, over the larger one at its ends, that the tangents at its ends tell for certain.
-const CERTAIN: f64 = 0.1;
 
 /// A quantity at both ends of a step, and its rates there times the length of the step.
 #[derive(Clone, Copy)]
@@ -49,7 +40,7 @@ impl Course {
         if u >= 0.0 || v <= 0.0 {
             return false;
         }
-        let room = ERROR * (1.0 + p.abs().max(q.abs()));
+        let room = LIMITS.course.error * (1.0 + p.abs().max(q.abs()));
         let (b, c) = (3.0 * (q - p) - 2.0 * u - v, u + v - 2.0 * (q - p));
         let value = |x: f64| p + x * (u + x * (b + x * c));
         // the root of its slope u + 2 b x + 3 c x^2 at which that rises
@@ -70,7 +61,7 @@ pub(super) fn least_rate([first, last]: [f64; 2], mean: f64) -> Option<f64> {
 
 /// Whether a rate is not negative at both ends of a step, and is in between.
 fn turns_back([first, last]: [f64; 2], mean: f64) -> bool {
-    let room = ERROR * (1.0 + first.abs().max(last.abs()));
+    let room = LIMITS.course.error * (1.0 + first.abs().max(last.abs()));
     first > -room && last > -room && least_rate([first, last], mean).is_some_and(|least| least < -room)
 }
 
@@ -112,7 +103,7 @@ fn flattens(world: &World<'_>, here: &Configuration, next: &Configuration, (j, l
     let halfway = || world.support(here.contacts[j].stretch, 0.5 * (here.t(j) + next.t(j)));
     least > 0.0 && {
         let Support { turning, speed, .. } = halfway();
-        turning < FLATTER * least * speed
+        turning < LIMITS.course.flatter * least * speed
     }
 }
 
@@ -131,16 +122,18 @@ pub(super) fn may_lie_down<R: PhysicalRod>(
         let [Some(first), Some(last)] = at_ends else { return false };
         let ends = [first, last].map(|(contour, rod)| contour - rod);
         let [closer, farther] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        let is_far =
-            || closer >= FAR.max(0.5 * farther) && !flattens(&setup.world, here, next, (j, first.0.min(last.0)));
-        if farther < ERROR || is_far() {
+        let is_far = || {
+            closer >= LIMITS.course.large_clearance.max(0.5 * farther)
+                && !flattens(&setup.world, here, next, (j, first.0.min(last.0)))
+        };
+        if farther < LIMITS.course.error || is_far() {
             return false;
         }
         let beside = |at: Configuration| clearance(setup, &at, &at.segments(setup), j);
         let ahead = beside(start.ahead(here, NUDGE * length));
         let back = beside(after.ahead(next, -NUDGE * length / stretch));
         let rates = [ahead - ends[0], ends[1] - back].map(|change| change / NUDGE);
-        Course { ends, rates }.least_of_tangents().is_some_and(|least| least < CERTAIN * farther)
+        Course { ends, rates }.least_of_tangents().is_some_and(|least| least < LIMITS.course.least_clearance * farther)
     })
 }
 

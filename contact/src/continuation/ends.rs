@@ -1,31 +1,16 @@
 //! The checks that end a branch, or refuse a step that may have passed over something.
 
 use crate::contact_set::Configuration;
-use crate::continuation::branch::{LEAST_COSINE, Tangent};
+use crate::continuation::branch::Tangent;
 use crate::continuation::correct::Corrected;
 use crate::continuation::dip::{dips, least_rate};
 use crate::continuation::stepper::{Refused, Stepper};
-use crate::continuation::{Point, STEEPEST, Step};
+use crate::continuation::{Point, Step};
 use crate::error::{Obstacle, StopReason};
 use crate::gap::passing::Passing;
 use crate::gap::scan::Scan;
+use crate::limits::LIMITS;
 use rod_core::{Clamp, PhysicalRod};
-
-/// Length of a step (arclength) below which the end of a contour, or the clamp at an object, that the step meets is accepted as
-/// the end of the sweep. A longer step is halved first.
-const SHORT: f64 = 1e-3;
-/// Distance (L) of the tip from two objects at which it counts as caught between them.
-const BETWEEN: f64 = 1e-6;
-/// Depth (L) of a free rod beyond that of rounding.
-const DEEPEST: f64 = 1e-9;
-/// Arc length (L) below which a contact counts as at the clamp, where its force has no lever.
-const AT_CLAMP: f64 = 1e-4;
-/// The same beyond a roller, whose force grows with the inverse of it; and what counts as at the roller where the branch cannot be followed
-/// any more.
-const AT_ROLLER: f64 = 1e-2;
-const NEAR_ROLLER: f64 = 6e-2;
-/// Arclength below which a step is not tested for thin things that it passes over: what is thinner is not met anyway.
-const LEAST_SWEPT: f64 = 1e-8;
 
 /// The obstacle of a step whose scan does not fit the transitions that were located.
 pub(super) fn unexplained(scan: &Scan) -> Obstacle {
@@ -35,7 +20,7 @@ pub(super) fn unexplained(scan: &Scan) -> Obstacle {
 /// The branch ends within a step of this length for `reason`: accepted if the step is short, otherwise the step is refused because of
 /// `obstacle`, and halved.
 pub(super) fn ended_if_short(length: f64, reason: StopReason, obstacle: Obstacle) -> Refused {
-    if length < SHORT { Refused::Ended(reason) } else { Refused::TooLong(obstacle) }
+    if length < LIMITS.end.short_step { Refused::Ended(reason) } else { Refused::TooLong(obstacle) }
 }
 
 impl<R: PhysicalRod> Stepper<'_, R> {
@@ -46,7 +31,9 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             return Ok(());
         }
         let Corrected { next, tangent, length, .. } = corrected;
-        if tangent.cosine(&from.tangent.direction) < LEAST_COSINE || turns_twice(from, next, tangent, *length) {
+        if tangent.cosine(&from.tangent.direction) < LIMITS.step.least_cosine
+            || turns_twice(from, next, tangent, *length)
+        {
             return Err(Refused::TooLong(Obstacle::Turns));
         }
         let world = &self.corrector.setup.world;
@@ -63,7 +50,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         if is_clamp_inside(next, scan) {
             return ended_if_short(StopReason::ClampInside);
         }
-        if self.is_before_roller(next, scan, AT_ROLLER) {
+        if self.is_before_roller(next, scan, LIMITS.end.at_roller) {
             return ended_if_short(StopReason::BeforeRoller);
         }
         if self.is_around_an_end(from, corrected, scan) {
@@ -95,7 +82,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 
     /// What of the rod has passed over an object on its way to where it is scanned `now`.
     fn passing(&mut self, from: &Point, now: &Scan, length: f64) -> Option<Passing> {
-        let (setup, far) = (&self.corrector.setup, length > LEAST_SWEPT);
+        let (setup, far) = (&self.corrector.setup, length > LIMITS.end.least_swept);
         far.then(|| self.scanner.passes(setup, &from.configuration, &from.scan, now)).flatten()
     }
 
@@ -111,7 +98,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         if from.scan.is_by_an_end() {
             return Err(StopReason::EndOfContour);
         }
-        if self.is_before_roller(&from.configuration, &from.scan, NEAR_ROLLER) {
+        if self.is_before_roller(&from.configuration, &from.scan, LIMITS.end.near_roller) {
             return Err(StopReason::BeforeRoller);
         }
         // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
@@ -140,7 +127,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     fn is_around_an_end(&self, from: &Point, Corrected { next, length, .. }: &Corrected, scan: &Scan) -> bool {
         let is_open = !self.corrector.setup.world.open_ends().is_empty();
         let is_free = next.count() == 0 && length * self.fastest() <= from.scan.gap.lower;
-        is_open && is_free && scan.gap.seen < -DEEPEST
+        is_open && is_free && scan.gap.seen < -LIMITS.end.deepest_free
     }
 
     /// Whether the tip lies on more than one object.
@@ -149,14 +136,14 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         from.ends_at_tip() && {
             let last = from.count() - 1;
             let tip = world.support(from.contacts[last].stretch, from.t(last));
-            world.contours_at(tip.x, tip.y, BETWEEN) > 1
+            world.contours_at(tip.x, tip.y, LIMITS.end.between_objects) > 1
         }
     }
 }
 
 /// Whether the clamp is inside an object, or a contact has come so close to it that its force has no lever.
 fn is_clamp_inside(next: &Configuration, scan: &Scan) -> bool {
-    scan.clamp_inside || (next.count() > 0 && next.s(0) < AT_CLAMP)
+    scan.clamp_inside || (next.count() > 0 && next.s(0) < LIMITS.end.at_clamp)
 }
 
 /// Whether tau falls somewhere within a step although it grows at both ends, by the cubic of the step: there are two folds on the
@@ -166,5 +153,5 @@ fn turns_twice(from: &Point, next: &Configuration, after: &Tangent, length: f64)
     let stretch = from.tangent.component(&after.direction);
     let (first, last) = (from.tangent.by_tau(), after.by_tau() / stretch);
     // next to buckling tau hardly changes at all, and falls by rounding
-    last > 0.0 && least_rate([first, last], chord).is_some_and(|least| least < -STEEPEST)
+    last > 0.0 && least_rate([first, last], chord).is_some_and(|least| least < -LIMITS.step.least_tau_rate)
 }

@@ -2,18 +2,13 @@
 
 use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Corrector, Tangent};
+use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use rod_core::{PhysicalRod, RodError, find_root};
 use std::cell::RefCell;
 
-/// Tolerance of the fold in arclength of the branch. The path parameter is stationary there, so that its error is about the
-/// square of this.
-const ARCLENGTH: f64 = 1e-13;
-/// The same for the first search, which only gives the second one its tangent and its bracket.
+/// Tolerance of the first search, arclength. It only gives the second one its tangent and its bracket.
 const FIRST_LOOK: f64 = 1e-6;
-
-/// Way (path parameter) by which a fold may be before the start of the step: a step may begin at one.
-const SAME_FOLD: f64 = 1e-10;
 
 /// Distances of the bracket from the ends of the step, in steps, tried in order.
 const BEYOND: [f64; 4] = [0.0, 0.1, 1.0, 10.0];
@@ -56,10 +51,10 @@ pub(crate) fn locate_zero<R: PhysicalRod>(
     // The planes across a tangent at some distance meet the branch at an angle. Those across the tangent of the fold itself
     // find it to the last digits.
     let across = |distance| own.ahead(&fold, distance);
-    let closer = between(corrector, &fold, &own, across, (&[-AROUND], &[AROUND]), (ARCLENGTH, &rate));
-    let (fold, _) =
-        closer.or_else(|| between(corrector, from, tangent, guess, (&firsts, &lasts), (ARCLENGTH, &rate)))?;
-    (fold.tau() > from.tau() - SAME_FOLD).then_some(fold)
+    let closer = between(corrector, &fold, &own, across, (&[-AROUND], &[AROUND]), (LIMITS.transition.fold, &rate));
+    let (fold, _) = closer
+        .or_else(|| between(corrector, from, tangent, guess, (&firsts, &lasts), (LIMITS.transition.fold, &rate)))?;
+    (fold.tau() > from.tau() - LIMITS.transition.same_fold).then_some(fold)
 }
 
 /// The fold on planes across `tangent` between one of the distances `firsts` and one of `lasts` from `from`, and its tangent.

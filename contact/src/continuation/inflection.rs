@@ -11,25 +11,10 @@ use crate::contact_set::{Configuration, Held, Unknown};
 use crate::continuation::branch::Corrector;
 use crate::continuation::transition::{Transition, on};
 use crate::event::EventKind;
+use crate::limits::LIMITS;
 use crate::scene::world::World;
 use rod_contours::StretchKind;
 use rod_core::{Hold, PhysicalRod, RodModel, find_root};
-
-/// Distance (L) of two contacts beside an inflection from which they are solved for. Their forces have an error of rounding over
-/// the third power of it.
-const APART: f64 = 0.01;
-
-/// Multiples of that distance, tried in order.
-const FARTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
-
-/// Arc length (L) to either side of the last contact in which an inflection is searched.
-const NEAR: f64 = 0.02;
-
-/// Longest way of the path (L) on which the two contacts come so far apart. A longer one is another transition.
-const LONGEST_WAY: f64 = 0.05;
-
-/// Distance (L) from the inflection at which one contact replaces two. On the inflection itself the problem is singular.
-const CONVEX: f64 = 1e-4;
 
 /// An inflection: its parameter, the rate of the contour's curvature along the rod's length, and the change of the
 /// parameter along it.
@@ -52,12 +37,13 @@ fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Opt
         support.turning / support.speed
     };
     let range = world.span(stretch);
-    let (before, after) = (range.clamp(t - NEAR * by_s), range.clamp(t + NEAR * by_s));
+    let (before, after) = (range.clamp(t - LIMITS.merge.search * by_s), range.clamp(t + LIMITS.merge.search * by_s));
     if !(curvature(before) < 0.0 && curvature(after) > 0.0) {
         return None;
     }
     let t = find_root("curvature", |t| Ok(curvature(t)), before.min(after), before.max(after), 0.0).ok()?.at;
-    let (before, after) = (range.clamp(t - APART * by_s), range.clamp(t + APART * by_s));
+    let (before, after) =
+        (range.clamp(t - LIMITS.merge.at_inflection * by_s), range.clamp(t + LIMITS.merge.at_inflection * by_s));
     let rate = (curvature(after) - curvature(before)) / ((after - before) / by_s);
     Some(Inflection { t, rate, by_s })
 }
@@ -67,8 +53,9 @@ fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Opt
 pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration) -> bool {
     let last = configuration.count().checked_sub(1);
     last.is_some_and(|j| {
-        inflection(world, configuration, j)
-            .is_some_and(|Inflection { t, by_s, .. }| (configuration.t(j) - t).abs() < CONVEX * by_s.abs())
+        inflection(world, configuration, j).is_some_and(|Inflection { t, by_s, .. }| {
+            (configuration.t(j) - t).abs() < LIMITS.merge.beside_inflection * by_s.abs()
+        })
     })
 }
 
@@ -79,8 +66,8 @@ pub(crate) fn parted<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, from: &Co
     let Inflection { t, rate, by_s } = inflection(&corrector.setup.world, from, j)?;
     let before = on(corrector, from.clone(), Unknown::Parameter(j), t).ok()?;
     let (s, f) = (before.s(j), before.force(j));
-    let after = FARTHER.into_iter().find_map(|farther| {
-        let l = farther * APART;
+    let after = LIMITS.merge.multiples.into_iter().find_map(|farther| {
+        let l = farther * LIMITS.merge.at_inflection;
         let first = t - l * by_s;
         let mut two = before.clone();
         two.set(Unknown::Force(j), rate);
@@ -88,7 +75,7 @@ pub(crate) fn parted<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, from: &Co
         let two = on(corrector, two, Unknown::Parameter(j), first).ok()?;
         let way = two.tau() - before.tau();
         let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && ordered(&corrector.setup.world, &two);
-        ((0.0..LONGEST_WAY).contains(&way) && holds).then_some(two)
+        ((0.0..LIMITS.merge.longest_way).contains(&way) && holds).then_some(two)
     })?;
     Some(Transition { kind: EventKind::Touch, before, after, along: 0.0 })
 }
@@ -100,16 +87,16 @@ pub(crate) fn run_together<R: PhysicalRod>(
 ) -> Option<Transition> {
     let j = from.count().checked_sub(2).filter(|_| corrector.setup.rod.model().is_straight())?;
     let [one, other] = from.contacts.last_chunk::<2>()?;
-    if one != other || from.s(j + 1) - from.s(j) > APART {
+    if one != other || from.s(j + 1) - from.s(j) > LIMITS.merge.at_inflection {
         return None;
     }
     let Inflection { t, by_s, .. } = inflection(&corrector.setup.world, from, j + 1)?;
     let mut together = from.clone();
     together.remove(j);
     together.set(Unknown::Force(j), from.force(j + 1) + from.force(j));
-    let after = on(corrector, together, Unknown::Parameter(j), t + CONVEX * by_s).ok()?;
+    let after = on(corrector, together, Unknown::Parameter(j), t + LIMITS.merge.beside_inflection * by_s).ok()?;
     let way = after.tau() - from.tau();
-    (0.0..LONGEST_WAY).contains(&way).then(|| Transition {
+    (0.0..LIMITS.merge.longest_way).contains(&way).then(|| Transition {
         kind: EventKind::Release,
         before: from.clone(),
         after,

@@ -1,11 +1,9 @@
 //! A contact that slides over a joint of the rod, where its stiffness or natural curvature jumps: there the branch has a kink.
 
 use crate::contact_set::{Configuration, Unknown};
-use crate::continuation::branch::{Condition, Corrector, LEAST_COSINE, Tangent};
+use crate::continuation::branch::{Condition, Corrector, Tangent};
+use crate::limits::LIMITS;
 use rod_core::{PhysicalRod, RodModel, SolveReport};
-
-/// Arc length (L) behind a joint at which a contact counts as being on its other side.
-const BEYOND: f64 = 1e-11;
 
 /// A point just behind a joint, and the branch from there on.
 pub(crate) struct Passed {
@@ -28,7 +26,7 @@ pub(crate) fn passed<R: PhysicalRod>(
         let (here, there) = (from.s(j), to.s(j));
         let way = there - here;
         for joint in joints {
-            let beyond = joint + BEYOND.copysign(way);
+            let beyond = joint + LIMITS.step.behind_joint.copysign(way);
             let share = (beyond - here) / way;
             if share > 0.0 && share < 1.0 && first.is_none_or(|(least, ..)| share < least) {
                 first = Some((share, j, beyond));
@@ -42,10 +40,10 @@ pub(crate) fn passed<R: PhysicalRod>(
     }
     let way = to.s(j) - from.s(j);
     // just before the joint, where the branch is still smooth
-    let before = value - 2.0 * BEYOND.copysign(way);
+    let before = value - 2.0 * LIMITS.step.behind_joint.copysign(way);
     if (before - from.s(j)) * way > 0.0 {
         let Passed { tangent, .. } = at(corrector, guess.clone(), j, before, way)?;
-        if tangent.by_tau() <= 0.0 || tangent.cosine(&start.direction) < LEAST_COSINE {
+        if tangent.by_tau() <= 0.0 || tangent.cosine(&start.direction) < LIMITS.step.least_cosine {
             return None;
         }
     }

@@ -9,19 +9,17 @@ use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::parted;
 use crate::continuation::stepper::{Refused, Stepper};
 use crate::continuation::transition::{Break, NoTransition, Transition, breaks};
-use crate::continuation::{AT_ONCE, BEFORE, Point, Seen, Step};
+use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::friction::{reversed, slip_rate};
 use crate::gap::scan::Scan;
+use crate::limits::LIMITS;
 use crate::scene::rod::Segment;
 use crate::scene::setup::Setup;
 use crate::stability::{clearance, wraps};
 use rod_core::{PhysicalRod, RodModel};
 use smallvec::SmallVec;
-
-/// Distances (arclength) from a point at which the end of its branch is looked for, tried in order.
-const END_AHEAD: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 
 impl<R: PhysicalRod> Stepper<'_, R> {
     /// The first transition within a step, where there is one: the end of the step. The step is refused where a transition is seen and not
@@ -103,18 +101,18 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     ) -> Result<Option<Transition>, NoTransition> {
         let mut broken: SmallVec<[Break; 4]> = SmallVec::new();
         breaks(&self.corrector.setup.world, next, &scan.crossings, |b| broken.push(b));
-        let slack = 1e-9 + 1e-6 * length;
+        let slack = LIMITS.transition.slack + LIMITS.transition.relative_slack * length;
         let mut first: Option<Transition> = None;
         // A straight rod comes to lie on a straight edge everywhere at once: what holds it then is the point next to
         // the clamp.
         broken.sort_by(|a, b| a.s().total_cmp(&b.s()));
         for b in broken {
             let transition = b.locate(&mut self.corrector, next, &from.configuration, &from.tangent)?;
-            let before = if let Break::Touch(_) = b { BEFORE } else { slack };
+            let before = if let Break::Touch(_) = b { LIMITS.transition.touch_slack } else { slack };
             if !(-before..=length + slack).contains(&transition.along) {
                 return Err(NoTransition::NotLocated);
             }
-            if first.as_ref().is_none_or(|first| transition.along < first.along - AT_ONCE) {
+            if first.as_ref().is_none_or(|first| transition.along < first.along - LIMITS.transition.at_once) {
                 first = Some(transition);
             }
         }
@@ -204,7 +202,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     /// The fold that follows `from` closely, or the place where a contact lies down along a line or comes to rest, if there is one.
     fn end_ahead(&mut self, from: &Point) -> Option<Step> {
         let Point { configuration, tangent, .. } = from;
-        for distance in END_AHEAD {
+        for distance in LIMITS.end.ahead {
             let mut next = tangent.ahead(configuration, distance);
             let plane = Condition::Plane { tangent, from: &configuration.z, distance };
             let report = self.corrector.correct(&mut next, plane);

@@ -7,15 +7,8 @@ use crate::continuation::inflection::run_together;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::{Transition, breaks, on};
 use crate::event::EventKind;
+use crate::limits::LIMITS;
 use rod_core::PhysicalRod;
-
-/// Distance (L) of two contacts on one piece from which on they are tried as one, and ways along the path (L) that this may take. The
-/// distance falls with the root of the way that is left, and the equations of both lose digits with its third power.
-const CLOSE: f64 = 4e-3;
-const JOINED: [f64; 7] = [0.0, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5];
-/// Distance (L) from the notch at which a contact that slides along its wall to a tip in it counts as about to arrive. The equations
-/// of the two lose digits with the third power of it.
-const GATHERED: f64 = 2e-3;
 
 impl<R: PhysicalRod> Stepper<'_, R> {
     /// The transition at which two contacts become one, if two are about to.
@@ -41,13 +34,13 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let j = (1..next.count()).find(|&j| {
             let [before, rate] = [j - 1, j].map(|j| tangent.rate_of(Unknown::ArcLength(j)));
             let same = next.contacts[j - 1] == next.contacts[j] && !next.is_tip(j);
-            same && next.s(j) - next.s(j - 1) < CLOSE && rate < before
+            same && next.s(j) - next.s(j - 1) < LIMITS.merge.close && rate < before
         })?;
         let (weak, strong) = if next.force(j) < next.force(j - 1) { (j, j - 1) } else { (j - 1, j) };
         let mut one = next.clone();
         one.set(Unknown::Force(strong), next.force(j) + next.force(j - 1));
         one.remove(weak);
-        JOINED.into_iter().find_map(|way| {
+        LIMITS.merge.ways.into_iter().find_map(|way| {
             let after = on(&mut self.corrector, one.clone(), Unknown::Path, next.tau() + way).ok()?;
             // proven as a state is, since the next one must be
             let scan = self.scan(&after);
@@ -67,7 +60,7 @@ fn merge_in_notch<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &Confi
     let wall = near.contacts[lying].stretch;
     let notch = near.contacts[lying + 1].stretch;
     let rests = world.is_notch(notch) && world.walls(notch).contains(&Some(wall)) && !near.rubs();
-    if !rests || 1.0 - near.s(lying) > GATHERED {
+    if !rests || 1.0 - near.s(lying) > LIMITS.merge.at_notch {
         return None;
     }
     let (start, angle) = gathered_in_notch(world, near);

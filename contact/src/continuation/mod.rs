@@ -36,24 +36,7 @@ use crate::continuation::certify::Quality;
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::gap::scan::Scan;
-
-/// Distance (path parameter) of two poses that count as one. A pose so little beyond a transition reports the state before it.
-pub(crate) const SAME_POSE: f64 = 1e-13;
-/// First step on a new branch, in arclength.
-pub(crate) const FIRST_STEP: f64 = 0.02;
-/// Largest distance of the corrected from the predicted point, over the length of the step. A larger one may be another branch.
-const LARGEST_CORRECTION: f64 = 0.3;
-/// Least d tau / d arclength at which a step aims at a pose. Closer to a fold the pose is ill-conditioned.
-const STEEPEST: f64 = 1e-3;
-/// Largest residual of a solution (L, rad). The Newton method scales its own tolerance by the forces; this limits it.
-pub(crate) const LARGEST_RESIDUAL: f64 = 1e-9;
-/// Arclength within which transitions coincide. The one next to the clamp is taken.
-const AT_ONCE: f64 = 1e-12;
-/// Arclength by which a touch may lie before the start of the step. The proof at the start leaves a depth of 1e-12 L open, which
-/// a slowly closing gap takes so long to pass.
-pub(crate) const BEFORE: f64 = 1e-6;
-/// Way along the path, and longest way along the branch, after which a new contact set must still hold.
-const PROBE: f64 = 1e-6;
+use crate::limits::LIMITS;
 
 /// A point of the sweep: an equilibrium, its scan, its quality, and the tangent of the branch there.
 #[derive(Clone, Debug)]
@@ -126,6 +109,6 @@ impl Step {
     /// Distance (path parameter) beyond its end at which a pose still counts as its end: the rounding of a located transition. Beyond a
     /// fold there is no equilibrium, so 0.
     pub fn rounding(&self) -> f64 {
-        if let Self::Changed(_) = self { SAME_POSE } else { 0.0 }
+        if let Self::Changed(_) = self { LIMITS.step.same_pose } else { 0.0 }
     }
 }

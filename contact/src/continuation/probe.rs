@@ -1,30 +1,23 @@
 //! Whether the sweep can go on with a contact set: whether it still holds a little further along the path.
 
 use crate::contact_set::{Configuration, Unknown};
+use crate::continuation::Point;
 use crate::continuation::branch::Condition;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
-use crate::continuation::{AT_ONCE, PROBE, Point};
 use crate::friction::reversed;
+use crate::limits::LIMITS;
 use rod_core::PhysicalRod;
-
-/// Ways along the path after which a new contact set must still hold, one of them.
-const PROBES: [f64; 3] = [PROBE, 1e-8, 1e-10];
-/// The same with friction. A contact with hardly any sticks for a short way only; its force changes so fast that a longer probe fails, and
-/// a shorter one tells rounding.
-const RUBBING_PROBES: [f64; 5] = [PROBE, 1e-7, 1e-8, 1e-10, 1e-12];
-/// Longest way along the branch.
-const FARTHEST_PROBE: f64 = 1e-3;
 
 impl<R: PhysicalRod> Stepper<'_, R> {
     /// Whether the sweep can go on with a new contact set.
     pub fn goes_on(&mut self, point: &Point) -> bool {
-        self.longest_probe(point, &PROBES).is_some()
+        self.longest_probe(point, &LIMITS.probe.ways).is_some()
     }
 
     /// The same with friction: the number of the longest probe along the path on which it holds.
     pub fn longest_rubbing_probe(&mut self, point: &Point) -> Option<usize> {
-        self.longest_probe(point, &RUBBING_PROBES)
+        self.longest_probe(point, &LIMITS.probe.rubbing_ways)
     }
 
     /// The number of the first of these ways, which become shorter, after which the contact set still holds. The next transition may follow
@@ -38,7 +31,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     fn holds_after(&mut self, point: &Point, way: f64) -> bool {
         let Point { configuration, tangent, .. } = point;
         // where the pose hardly moves, a small step of the branch is small enough
-        let distance = (way / tangent.by_tau()).min(FARTHEST_PROBE);
+        let distance = (way / tangent.by_tau()).min(LIMITS.probe.longest);
         let mut probe = tangent.ahead(configuration, distance);
         let plane = Condition::Plane { tangent, from: &configuration.z, distance };
         if !self.corrector.correct(&mut probe, plane).status.is_solved() {
@@ -56,8 +49,8 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 
     /// The stable equilibrium a little way along the tangent of a point at a fold, if the pose grows on that way.
     pub fn beyond_fold(&mut self, Point { configuration, tangent, .. }: &Point) -> Option<Configuration> {
-        let mut probe = tangent.ahead(configuration, FARTHEST_PROBE);
-        let plane = Condition::Plane { tangent, from: &configuration.z, distance: FARTHEST_PROBE };
+        let mut probe = tangent.ahead(configuration, LIMITS.probe.longest);
+        let plane = Condition::Plane { tangent, from: &configuration.z, distance: LIMITS.probe.longest };
         let solved = self.corrector.correct(&mut probe, plane).status.is_solved();
         if !solved || probe.tau() <= configuration.tau() {
             return None;
@@ -70,6 +63,8 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 /// Whether the last contact, which is at s = 1, is about to leave the rod.
 fn runs_off(Point { configuration, tangent, .. }: &Point) -> bool {
     configuration.count().checked_sub(1).is_some_and(|j| {
-        !configuration.is_tip(j) && configuration.s(j) > 1.0 - AT_ONCE && tangent.rate_of(Unknown::ArcLength(j)) > 0.0
+        !configuration.is_tip(j)
+            && configuration.s(j) > 1.0 - LIMITS.transition.at_once
+            && tangent.rate_of(Unknown::ArcLength(j)) > 0.0
     })
 }

@@ -4,17 +4,9 @@ use crate::contact_set::guess::{by_forces, held, supposed};
 use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
 use crate::error::ContactError;
+use crate::limits::LIMITS;
 use crate::state::Contact;
 use rod_core::PhysicalRod;
-
-/// Residual (L, rad) up to which the recalled unknowns stay as they are. One more solve would not improve them, and at a fold,
-/// where the pose alone is ill-conditioned, it would move them.
-const SOLVED: f64 = 1e-12;
-/// Residual up to which they are taken where a solve fails, as it does at a fold. The sweep accepts states with as much.
-const NEARLY_SOLVED: f64 = 1e-9;
-/// Largest distance (t, s in L; angles in rad; forces relative to 1 + force) between the recalled unknowns and the solution. A
-/// larger one means that the state belongs to another rod or other objects.
-const SAME: f64 = 1e-6;
 
 /// The configuration of the contacts of a state (SI units), with the clamp at 0 of the path of `corrector`.
 pub(crate) fn recall<R: PhysicalRod>(
@@ -26,15 +18,16 @@ pub(crate) fn recall<R: PhysicalRod>(
     // the forces give the rod's angle at each contact, and so its whole turns and the side on which it lies
     let recalled = held(&all, &by_forces(setup.rod.model(), &setup.clamp(0.0), &all));
     let residual = residual(corrector, &recalled);
-    if residual <= SOLVED {
+    if residual <= LIMITS.resume.solved {
         return Ok(recalled);
     }
     let mut solved = recalled.clone();
     let report = corrector.at_pose(&mut solved, 0.0);
-    let is_near = |(z, recalled): (&f64, &f64)| (z - recalled).abs() <= SAME * (1.0 + recalled.abs());
+    let is_near =
+        |(z, recalled): (&f64, &f64)| (z - recalled).abs() <= LIMITS.resume.same_state * (1.0 + recalled.abs());
     if report.status.is_solved() && solved.z.iter().zip(&recalled.z).all(is_near) {
         Ok(solved)
-    } else if residual <= NEARLY_SOLVED {
+    } else if residual <= LIMITS.resume.nearly_solved {
         Ok(recalled)
     } else {
         Err(ContactError::NotEquilibrium { reason: "the rod does not pass through its contacts" })

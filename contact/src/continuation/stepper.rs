@@ -5,16 +5,11 @@ use crate::continuation::branch::Corrector;
 use crate::continuation::certify::Quality;
 use crate::continuation::correct::Corrected;
 use crate::continuation::transition::Transition;
-use crate::continuation::{Change, FIRST_STEP, PROBE, Point, Seen, Step};
+use crate::continuation::{Change, Point, Seen, Step};
 use crate::error::{Obstacle, StopReason};
 use crate::gap::scan::{Scan, Scanner};
+use crate::limits::LIMITS;
 use rod_core::{PhysicalRod, Rod};
-
-/// Longest step of a rod in contact, in arclength of the branch (lengths, angles, relative forces). Longer ones are halved more often and may
-/// pass over contacts that come and go.
-const LONGEST_STEP: f64 = 0.3;
-/// Shortest step (arclength). Where it fails too, the sweep stops with `StepTooSmall`.
-const SHORTEST_STEP: f64 = 1e-9;
 
 /// Why a step is not taken.
 pub(super) enum Refused {
@@ -37,13 +32,13 @@ pub(crate) struct Stepper<'a, R = Rod> {
 
 impl<'a, R: PhysicalRod> Stepper<'a, R> {
     pub fn new(corrector: Corrector<'a, R>, steps_left: u64) -> Self {
-        Self { corrector, scanner: Scanner::default(), h: FIRST_STEP, steps_left }
+        Self { corrector, scanner: Scanner::default(), h: LIMITS.step.first, steps_left }
     }
 
     /// One step from `from` towards the pose `target`, at most there: halved while it is refused.
     pub fn step(&mut self, from: &Point, target: f64) -> Result<Step, StopReason> {
         let (mut obstacle, mut touches) = (Obstacle::NotConverged, false);
-        while self.h >= SHORTEST_STEP {
+        while self.h >= LIMITS.step.shortest {
             self.steps_left = self.steps_left.checked_sub(1).ok_or(StopReason::StepBudget)?;
             obstacle = match self.attempt(from, target) {
                 Ok(step) => return Ok(step),
@@ -81,7 +76,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         // Certify the stability of the new equilibrium.
         let Corrected { next, tangent, report, length, .. } = corrected;
         if !self.is_stable(&next, &scan) {
-            let long = length > PROBE;
+            let long = length > LIMITS.probe.way;
             return if long { Err(Refused::TooLong(Obstacle::Unstable)) } else { Ok(self.end_of_stability(from)) };
         }
 
@@ -92,7 +87,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
 
         // Lengthen the next step after an easy solve.
         if report.iterations <= 2 {
-            self.h = (2.0 * self.h).min(LONGEST_STEP);
+            self.h = (2.0 * self.h).min(LIMITS.step.longest);
         }
         let quality = Quality::new(&report, true);
         Ok(Step::Moved(Box::new(Point { configuration: next, scan, quality, tangent })))

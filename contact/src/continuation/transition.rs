@@ -19,6 +19,7 @@ use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
 use crate::gap::Crossing;
+use crate::limits::LIMITS;
 use crate::scene::world::World;
 use rod_contours::Range;
 use rod_core::{Hold, PhysicalRod};
@@ -43,19 +44,6 @@ pub(crate) enum Break {
     Touch(Crossing),
 }
 
-/// Rounding of arc lengths (L), parameters and angles (rad) at their limits.
-const LIMIT_TOLERANCE: f64 = 1e-13;
-
-/// Largest distance of a new contact beyond the end of its stretch, relative. A larger one means that its neighbour was met first.
-const BEYOND_END: f64 = 1e-12;
-
-/// Distance (L) from the tip at which the contact on one wall of a notch counts as met by the tip on the other.
-const MEETING: f64 = 1e-7;
-
-/// Force (E I / L^2) of a tip that comes to a notch on the one wall, the rod lying on the other one, below which it counts as zero: there
-/// it vanishes but for rounding.
-const UNLOADED: f64 = 1e-7;
-
 /// Visits everything that is broken in `configuration`, whose rod goes through the contour at `crossings`.
 pub(crate) fn breaks(
     world: &World<'_>,
@@ -74,7 +62,7 @@ pub(crate) fn breaks(
         }
         let range = range_of_force(world, configuration.contacts[j].stretch);
         let t = configuration.t(j);
-        let slack = LIMIT_TOLERANCE * (1.0 + t.abs());
+        let slack = LIMITS.transition.rounding * (1.0 + t.abs());
         let upwards = t > range.to + slack;
         if upwards || t < range.from - slack {
             let next = world.neighbour(configuration.contacts[j].stretch, upwards);
@@ -92,14 +80,14 @@ pub(crate) fn breaks(
         if configuration.is_tip(last) {
             let angle = tip_angle(world, configuration);
             let stretch = configuration.contacts[last].stretch;
-            if angle.sin() < -LIMIT_TOLERANCE && !world.is_notch(stretch) {
+            if angle.sin() < -LIMITS.transition.rounding && !world.is_notch(stretch) {
                 visit(Break::TipToTangent(angle));
                 lying_down = Some(stretch);
-            } else if let Some((wall, angle)) = wall_run_into(world, configuration, LIMIT_TOLERANCE) {
+            } else if let Some((wall, angle)) = wall_run_into(world, configuration, LIMITS.transition.rounding) {
                 visit(Break::OntoWall(wall, angle));
                 lying_down = Some(wall);
             }
-        } else if configuration.s(last) > 1.0 + LIMIT_TOLERANCE {
+        } else if configuration.s(last) > 1.0 + LIMITS.transition.rounding {
             visit(Break::TangentToTip);
         }
     }
@@ -245,11 +233,12 @@ impl Break {
                 if world.rubs() && straddles(world, &at) {
                     return Err(NoTransition::FrictionInNotch);
                 }
-                let meets = |lying: usize| (1.0 - at.s(lying)).abs() < MEETING;
+                let meets = |lying: usize| (1.0 - at.s(lying)).abs() < LIMITS.transition.meeting;
                 if world.is_notch(next) && straddles(world, &at) && meets(at.count() - 2) {
                     let after = merged(world, &at);
                     (EventKind::Release, at, after)
-                } else if world.is_notch(next) && straddles(world, &at) && at.force(j) < UNLOADED {
+                } else if world.is_notch(next) && straddles(world, &at) && at.force(j) < LIMITS.transition.unloaded_tip
+                {
                     // the rod is straight from the contact on its wall to the tip
                     (EventKind::Release, at.clone(), without(at, j))
                 } else {
@@ -268,7 +257,7 @@ impl Break {
             Self::Touch(crossing) => {
                 let j = place(broken, &crossing);
                 let (range, t) = (world.span(crossing.stretch), at.t(j));
-                if (t - range.clamp(t)).abs() > BEYOND_END * (1.0 + t.abs()) {
+                if (t - range.clamp(t)).abs() > LIMITS.transition.beyond_stretch * (1.0 + t.abs()) {
                     // it has gone so deep that it is a neighbour that it met first
                     return Err(NoTransition::NotLocated);
                 }

@@ -1,12 +1,13 @@
 //! The loop of the sweep: one round at a time, from a point of a branch to the next.
 
 use super::rubbing::stopped;
-use super::{AT_END, Stage, Sweep};
+use super::{Stage, Sweep};
 use crate::contact_set::Configuration;
 use crate::contact_set::edit::{beside_corner, over_sliver};
-use crate::continuation::{Change, FIRST_STEP, Point, SAME_POSE, Seen, Step};
+use crate::continuation::{Change, Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
+use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use crate::stability::wraps;
 use rod_core::{Clamp, PhysicalRod};
@@ -52,7 +53,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             return Ok(());
         }
         let end = self.setup().path.length();
-        if point.configuration.tau() >= end - SAME_POSE {
+        if point.configuration.tau() >= end - LIMITS.step.same_pose {
             return self.end_leg(point);
         }
 
@@ -98,13 +99,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// Whether the state at the pose of a point is to be reported.
     fn is_due_at(&self, point: &Point) -> bool {
-        self.course.is_due() && self.pose() <= point.configuration.tau() + SAME_POSE
+        self.course.is_due() && self.pose() <= point.configuration.tau() + LIMITS.step.same_pose
     }
 
     /// At the end of a leg the next one begins, or all is over.
     fn end_leg(&mut self, point: Box<Point>) -> Result<(), StopReason> {
         let path = &self.setup().path;
-        let is_beyond = point.configuration.tau() > path.length() + AT_END;
+        let is_beyond = point.configuration.tau() > path.length() + LIMITS.sweep.at_end;
         let passed = path.parameter(path.length(), self.setup().rod.units().length);
         let configuration = point.configuration.clone();
         self.stage = Stage::Over(Some(point));
@@ -142,7 +143,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.crowd.count(&after.configuration, &self.stepper.corrector.setup.world)?;
         // a corner at the very tip is none
         let beside = beside_corner(&after.configuration, &self.setup().world);
-        self.stepper.h = FIRST_STEP;
+        self.stepper.h = LIMITS.step.first;
         let stopped = stopped(kind, &before, &after.configuration);
         let onto = (kind == EventKind::Piece).then(|| after.configuration.clone());
         let before = self.stepper.look(before);

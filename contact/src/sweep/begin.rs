@@ -1,32 +1,21 @@
 //! The first equilibrium: free, or brought along the path, or of all that can be reached the one of least energy.
 
+use super::Sweep;
 use super::landing::same;
 use super::start::{Approach, Start, StartCandidate};
-use super::{AT_END, Sweep};
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::{Point, Step};
 use crate::error::StopReason;
 use crate::gap::scan::Scan;
+use crate::limits::LIMITS;
 use crate::path::ClampPath;
 use crate::phase::Phase;
 use crate::snap::chain::Chain;
 use crate::snap::settle::rest;
 use rod_core::PhysicalRod;
 use std::f64::consts::PI;
-
-/// Bends (rad over the length) given to a straight rod that is let go into contact. Without a bend the chain does not buckle; its
-/// sign decides to which side.
-const BENDS: [f64; 4] = [0.05, -0.05, 0.5, -0.5];
-/// Range and step of the search for a free pose behind a start in contact, in the path parameter: lengths of the rod, or
-/// radians of a path that only turns.
-const BACK: (f64, f64) = (4.0, 0.05);
-/// Way along its own path from the nearest free pose up to which a rod in contact is taken to have come that way, whatever its
-/// energy: a straight rod passes a point within two lengths. From further back it may have been rolled up on the way.
-const SHORT: f64 = 2.0;
-/// Relative difference of energies that is rounding, as of an equilibrium and its mirror image: then the approach tried first counts.
-const SAME_ENERGY: f64 = 1e-9;
 
 /// The approaches by the ways to the start of a path.
 const APPROACHES: [Approach; 5] =
@@ -55,10 +44,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         for (approach, way) in APPROACHES.into_iter().zip(self.setup().path.to_its_start()) {
             if let Some((way, brought)) = self.brought_by(way) {
                 self.keep(&mut found, approach, Some(brought));
-                has_come |= approach == Approach::AlongPath && way <= SHORT && !found.is_empty();
+                has_come |= approach == Approach::AlongPath && way <= LIMITS.start.own_path && !found.is_empty();
             }
         }
-        let let_go = BENDS.map(|bend| self.let_go(bend));
+        let let_go = LIMITS.start.bends.map(|bend| self.let_go(bend));
         // what lies behind an open contour has not come there by bending
         for let_go in let_go.iter().flatten().filter(|let_go| self.is_before(let_go)).cloned().collect::<Vec<_>>() {
             self.keep(&mut found, Approach::LettingGo, Some(let_go));
@@ -93,15 +82,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
     /// further back, it is free; and how far back that was.
     fn brought_by(&mut self, way: ClampPath) -> Option<(f64, Configuration)> {
-        let farthest = if way.turns_only() { PI } else { BACK.0 };
-        let tries = (farthest / BACK.1) as usize;
+        let farthest = if way.turns_only() { PI } else { LIMITS.start.farthest_back };
+        let tries = (farthest / LIMITS.start.step_back) as usize;
         let mut free = Self::from_setup(self.setup().along(way), 0, f64::INFINITY, 0);
-        let back = (1..=tries).find_map(|k| free.free(-BACK.1 * k as f64))?;
+        let back = (1..=tries).find_map(|k| free.free(-LIMITS.start.step_back * k as f64))?;
         let way = ClampPath::between(way.at(back.tau()), way.at(0.0))?;
         let end = way.length();
         let mut brought = self
             .led(self.setup().along(way), Configuration::free(0.0), end)
-            .filter(|brought| brought.tau() <= end + AT_END)?;
+            .filter(|brought| brought.tau() <= end + LIMITS.sweep.at_end)?;
         brought.set_tau(0.0);
         // the pose is the same but for rounding
         let mut exact = brought.clone();
@@ -145,6 +134,6 @@ impl Candidate {
 
 /// The candidate of least energy.
 fn least(found: &[Candidate]) -> Option<usize> {
-    let lower = |best: usize, k: usize| found[k].energy < found[best].energy * (1.0 - SAME_ENERGY);
+    let lower = |best: usize, k: usize| found[k].energy < found[best].energy * (1.0 - LIMITS.start.same_energy);
     (0..found.len()).reduce(|best, k| if lower(best, k) { k } else { best })
 }

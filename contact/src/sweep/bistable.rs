@@ -5,18 +5,14 @@ use super::Sweep;
 use super::landing::same;
 use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
-use crate::continuation::branch::{Condition, LEAST_COSINE, Tangent};
+use crate::continuation::Seen;
+use crate::continuation::branch::{Condition, Tangent};
 use crate::continuation::certify::energy;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
-use crate::continuation::{LARGEST_RESIDUAL, Seen};
+use crate::limits::LIMITS;
 use crate::snap::settle::settle;
 use rod_core::PhysicalRod;
-
-/// First and longest step along the branch, in arclength; shorter ones than the last of these are not tried.
-const STEPS: [f64; 3] = [0.02, 0.1, 1e-4];
-/// Limit of steps.
-const MOST_STEPS: usize = 100;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium at the pose of a fold on the same branch, behind its next fold; none where a contact forms or leaves on the way there,
@@ -33,18 +29,18 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The same in one direction along the branch.
     fn followed_back(&mut self, fold: &Configuration, mut tangent: Tangent) -> Option<Seen> {
         let tau = fold.tau();
-        let [mut h, longest, shortest] = STEPS;
+        let mut h = LIMITS.snap.first_step;
         let (mut here, mut has_turned) = (fold.clone(), false);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..LIMITS.snap.most_steps {
             let mut next = tangent.ahead(&here, h);
             let plane = Condition::Plane { tangent: &tangent, from: &here.z, distance: h };
             let corrector = &mut self.stepper.corrector;
             let report = corrector.correct(&mut next, plane);
-            let solved = report.status.is_solved() && report.residual <= LARGEST_RESIDUAL;
+            let solved = report.status.is_solved() && report.residual <= LIMITS.step.largest_residual;
             let after = solved.then(|| corrector.inspect(&next, plane).0);
-            let Some(after) = after.filter(|after| after.cosine(&tangent.direction) > LEAST_COSINE) else {
+            let Some(after) = after.filter(|after| after.cosine(&tangent.direction) > LIMITS.step.least_cosine) else {
                 h *= 0.5;
-                if h < shortest {
+                if h < LIMITS.snap.shortest_step {
                     return None;
                 }
                 continue;
@@ -60,7 +56,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 return self.settled_at(tau, &here, &next, fold);
             }
             has_turned |= after.by_tau() > 0.0 && next.tau() < tau;
-            (here, tangent, h) = (next, after, (1.5 * h).min(longest));
+            (here, tangent, h) = (next, after, (1.5 * h).min(LIMITS.snap.longest_step));
         }
         None
     }

@@ -4,11 +4,9 @@ use super::Sweep;
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
 use crate::continuation::{Point, Seen};
+use crate::limits::LIMITS;
 use crate::scene::rod::Segment;
 use rod_core::PhysicalRod;
-
-/// Gain of energy (E I / L), relative to 1 + the energy, that is rounding. Energies of two solutions at one pose agree to 1e-13.
-const ROUNDING: f64 = 1e-11;
 
 /// An equilibrium that has ended, and its energy (J).
 pub(super) struct Ended {
@@ -39,7 +37,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// Whether a rod with this energy (J) may come to another equilibrium by itself: energy of rod and clamp only falls.
     pub(super) fn may_fall(&self, before: f64, after: &Configuration) -> bool {
         let unit = self.setup().rod.units().energy;
-        energy(self.setup(), after) <= before + ROUNDING * (unit + before)
+        energy(self.setup(), after) <= before + LIMITS.snap.energy_rounding * (unit + before)
     }
 
     /// A point, if a rod with this energy may come to it.

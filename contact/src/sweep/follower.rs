@@ -1,11 +1,12 @@
 //! A rod that is moved step by step, from one equilibrium to the next.
 
 use super::leg::Course;
-use super::{Item, MOST_STEPS_TAKEN, Stage, Sweep};
+use super::{Item, Stage, Sweep};
 use crate::contact_set::Configuration;
-use crate::continuation::{Point, SAME_POSE};
+use crate::continuation::Point;
 use crate::error::{ContactError, Stop, StopReason};
 use crate::friction::Friction;
+use crate::limits::LIMITS;
 use crate::path::{ClampPath, check};
 use crate::scene::setup::Setup;
 use crate::state::State;
@@ -60,7 +61,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         let Ok(path) = ClampPath::new(pose, ahead) else {
             return Err(Stop { pose, tau: 0.0, reason: StopReason::NoPose });
         };
-        let mut sweep = Sweep::from_setup(Setup::new(rod, objects.as_ref(), path), MOST_STEPS_TAKEN, 1.0, 0);
+        let mut sweep = Sweep::from_setup(Setup::new(rod, objects.as_ref(), path), LIMITS.sweep.most_steps, 1.0, 0);
         match sweep.begin() {
             Ok((at, _)) => Ok(Self::at_rest(sweep, at)),
             Err(reason) => Err(Stop { pose, tau: 0.0, reason }),
@@ -80,7 +81,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
     ) -> Result<Self, ContactError> {
         check(state.pose, ["state.pose.x", "state.pose.y", "state.pose.phi"])?;
         let setup = Setup::new(rod, objects.as_ref(), ClampPath::standing(state.pose));
-        let mut sweep = Sweep::from_setup(setup, MOST_STEPS_TAKEN, 1.0, 0);
+        let mut sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
         let recalled = sweep.recalled(state)?;
         let at = sweep.at_rest(recalled);
         Ok(Self::at_rest(sweep, at))
@@ -138,11 +139,11 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         }
         let length = self.sweep.setup().rod.units().length;
         let to = Pose { x: pose.x / length, y: pose.y / length, phi: pose.phi };
-        let Some(path) = ClampPath::between(self.pose, to).filter(|path| path.length() > SAME_POSE) else {
+        let Some(path) = ClampPath::between(self.pose, to).filter(|path| path.length() > LIMITS.step.same_pose) else {
             return Ok(vec![Item::State(self.state.clone())]);
         };
         let (way, here) = (path.length(), path.at(path.length()));
-        self.sweep.stepper.steps_left = MOST_STEPS_TAKEN;
+        self.sweep.stepper.steps_left = LIMITS.sweep.most_steps;
         self.sweep.set_out(path.into(), self.configuration.clone());
         self.sweep.course = Course::to_end(way);
         let share = |tau: f64| (tau / way).min(1.0);
@@ -165,7 +166,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
 impl<R: PhysicalRod> Clone for Follower<'_, R> {
     fn clone(&self) -> Self {
         let setup = self.sweep.setup().clone();
-        let sweep = Sweep::from_setup(setup, MOST_STEPS_TAKEN, 1.0, 0);
+        let sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
         Self { sweep, configuration: self.configuration.clone(), pose: self.pose, state: self.state.clone() }
     }
 }

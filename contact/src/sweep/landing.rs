@@ -7,11 +7,12 @@ use crate::contact_set::{Configuration, Held, Unknown};
 use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::on;
-use crate::continuation::{BEFORE, FIRST_STEP, Point, Seen};
+use crate::continuation::{Point, Seen};
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::friction::{UNLOADED, loaded, smooth};
 use crate::gap::GAP_TOLERANCE;
+use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::snap::chain::Chain;
@@ -19,24 +20,6 @@ use crate::snap::settle::{rest, settle};
 use crate::stability::clearance;
 use rod_core::{Grip, PhysicalRod, Pose};
 use smallvec::SmallVec;
-
-/// Distances (path parameter) beyond a fold at which the descent starts, tried in order. The chain has its own fold, up to the
-/// square of a link's length away, and must be beyond it. A longer distance may miss an equilibrium that ends soon.
-const KICK: [f64; 4] = [2e-3, 8e-3, 2e-2, 5e-2];
-/// The same beyond the first touch of a free rod along a straight edge, which has no isolated solution.
-const TOUCH_KICK: [f64; 2] = [1e-4, 5e-4];
-/// Bend (rad over the length) given to a straight rod that is met head-on: without one the chain does not buckle.
-const BEND: f64 = 0.05;
-/// Way (path parameter) behind the first touch of a flat contour at which the contact begins: its force is about this times 3 E I / L^2.
-const FLAT_WAY: f64 = 1e-9;
-/// Force (E I / L^2) above which the contact there is one of a rod that is pushed along its axis.
-const FLAT_FORCE: f64 = 1e-5;
-/// Difference of the curvatures of contour and rod (1 / L) at a contact below which the rod touches along a line.
-const ALONG: f64 = 1e-6;
-/// Longest and shortest way (L) of a tip that slips over a corner. A longer way is reported as a snap; a shorter one would lead
-/// back at once.
-const FARTHEST_SLIP: f64 = 0.05;
-const SHORTEST_SLIP: f64 = 1e-9;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads. A landing with more energy than it has is none.
@@ -71,7 +54,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn descended(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
         let (tau, is_free) = (here.tau(), here.count() == 0);
         // a free rod has no fold to get over
-        let kicks = TOUCH_KICK.into_iter().filter(|_| is_free).chain(KICK);
+        let kicks = LIMITS.snap.ahead_of_touch.into_iter().filter(|_| is_free).chain(LIMITS.snap.ahead);
         let mut beyond: SmallVec<[Seen; 4]> = SmallVec::new();
         for kick in kicks {
             // from inside an object the descent leads anywhere
@@ -131,7 +114,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             let unknowns = [found.t(j), found.force(j), found.get(Unknown::ArcLength(j))];
             alone.insert(0, Held::smooth(found.contacts[j].stretch, found.contacts[j].hold), unknowns);
             let at = on(&mut self.stepper.corrector, alone, Unknown::Force(0), 0.0).ok()?;
-            (tau - BEFORE..=tau + kick).contains(&at.tau()).then_some(at)
+            (tau - LIMITS.transition.touch_slack..=tau + kick).contains(&at.tau()).then_some(at)
         };
         let touched = (0..found.count()).filter_map(touch).min_by(|a, b| a.tau().total_cmp(&b.tau()))?;
         let seen = self.stepper.look(touched);
@@ -145,7 +128,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// back until its force is one of rounding.
     fn flat_touch(&mut self, near: Configuration, tau: f64) -> Option<Point> {
         let (mut way, mut followed) = (near.tau() - tau, vec![near]);
-        while way > FLAT_WAY {
+        while way > LIMITS.snap.flat_way {
             way *= 0.1;
             let mut nearer = followed[followed.len() - 1].clone();
             nearer.set_tau(tau + way);
@@ -156,7 +139,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             }
         }
         // a rod that is met head-on bears its buckling load from the start: it is taken where it has buckled
-        if followed.last().is_some_and(|nearest| (0..nearest.count()).any(|j| nearest.force(j) > FLAT_FORCE)) {
+        if followed
+            .last()
+            .is_some_and(|nearest| (0..nearest.count()).any(|j| nearest.force(j) > LIMITS.snap.flat_force))
+        {
             followed.truncate(1);
         }
         followed.into_iter().rev().find_map(|near| {
@@ -176,7 +162,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// Whether the rod is as curved as the contour at a contact, and touches it along a line.
     fn is_along(&self, last: &Configuration) -> bool {
         let segments = last.segments(self.setup());
-        (0..last.count()).any(|j| clearance(self.setup(), last, &segments, j) < ALONG)
+        (0..last.count()).any(|j| clearance(self.setup(), last, &segments, j) < LIMITS.snap.flat_clearance)
     }
 
     /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
@@ -227,7 +213,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let to = world.support(there, configuration.t(tip));
         // no way at all would be back at once
         let way = (to.x - from.x).hypot(to.y - from.y);
-        if there == piece || !(SHORTEST_SLIP..FARTHEST_SLIP).contains(&way) {
+        if there == piece || !(LIMITS.snap.shortest_slip..LIMITS.snap.farthest_slip).contains(&way) {
             return None;
         }
         if rubs {
@@ -261,7 +247,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn landed(&mut self, kind: EventKind, last: Ended, landed: Point) -> Point {
         let before = self.stepper.point(last.seen);
         self.announce(kind, &before, &landed);
-        self.stepper.h = FIRST_STEP;
+        self.stepper.h = LIMITS.step.first;
         landed
     }
 
@@ -271,7 +257,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let mut chain = Chain::of(&corrector.setup, last, tau + kick);
         // head-on, a straight rod gives to either side
-        chain.bend_if_straight(BEND);
+        chain.bend_if_straight(LIMITS.snap.bend);
         let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_, _| true);
         let elsewhere = |world: &World<'_>, found: &Seen| !same(world, &found.configuration, last);
         let back = ahead.as_ref().and_then(|ahead| {
@@ -293,12 +279,9 @@ struct Landed {
     ahead: Option<Seen>,
 }
 
-/// Change of an unknown, relative to 1 + its size, up to which two configurations are one.
-const SAME: f64 = 1e-4;
-
 /// Whether two configurations at one pose are the same equilibrium: the parameters of a closed curve may differ by rounds.
 pub(super) fn same(world: &World<'_>, a: &Configuration, b: &Configuration) -> bool {
-    let near = |u: f64, v: f64| (u - v).abs() < SAME * (1.0 + v.abs());
+    let near = |u: f64, v: f64| (u - v).abs() < LIMITS.snap.same * (1.0 + v.abs());
     let alike = |j: usize| {
         let (one, other) = (&a.contacts[j], &b.contacts[j]);
         let [p, q] = [(a, one), (b, other)].map(|(set, held)| world.support(held.stretch, set.t(j)));

@@ -1,15 +1,12 @@
 //! The legs of a path, and the poses to report on each.
 
-use crate::continuation::SAME_POSE;
 use crate::error::ContactError;
+use crate::limits::LIMITS;
 use crate::path::Path;
 use crate::scene::way::Way;
 use rod_core::Units;
 use std::collections::VecDeque;
 use std::sync::Arc;
-
-/// Largest number of reported states. With more, neighbouring poses differ by less than the rounding of the path parameter.
-const MOST_STEPS: f64 = 1e15;
 
 /// A leg of the path, and the states to report on it.
 #[derive(Clone, Debug)]
@@ -30,10 +27,10 @@ impl Leg {
         let (step, length) = (way.tau(step, length), way.length());
         // a path that is a whole number of steps long but for rounding reports its end once
         let steps = (length / step * (1.0 + 1e-12)).floor();
-        if steps > MOST_STEPS {
+        if steps > LIMITS.sweep.most_states {
             return Err(wrong);
         }
-        let beyond = steps * step < length - SAME_POSE;
+        let beyond = steps * step < length - LIMITS.step.same_pose;
         Ok(Self { way, step, reports: steps as usize + 1 + usize::from(beyond) })
     }
 }

@@ -22,9 +22,10 @@ pub use start::{Approach, Start, StartCandidate};
 use crate::contact_set::Configuration;
 use crate::continuation::branch::Corrector;
 use crate::continuation::stepper::Stepper;
-use crate::continuation::{FIRST_STEP, Point, Step};
+use crate::continuation::{Point, Step};
 use crate::error::{ContactError, Stop};
 use crate::friction::Friction;
+use crate::limits::LIMITS;
 use crate::path::Path;
 use crate::scene::setup::Setup;
 use crate::scene::way::Way;
@@ -65,17 +66,6 @@ enum Stage {
     /// At its end, and at the last point, if there was one.
     Over(Option<Box<Point>>),
 }
-
-/// Default limit of steps along branches, rejected ones included: one to two minutes. A sweep of the paper takes about 50.
-const MOST_STEPS_TAKEN: u64 = 2_000_000;
-
-/// Largest distance (lengths of the rod plus radians) between the first pose of a path and the pose of the state from which a
-/// sweep goes on: the rounding of poses that were written to a file.
-const SAME_START: f64 = 1e-9;
-
-/// Way (path parameter) by which a transition at the last pose of a path may be beyond it: the error of a located transition. The
-/// state after it is that of the last pose.
-const AT_END: f64 = 1e-10;
 
 impl<'a, R: PhysicalRod> Sweep<'a, R> {
     /// A sweep of `rod` along `path` past `objects` (m): one [`Composite`], or a list of them. States are reported at 0,
@@ -132,7 +122,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     ) -> Result<Self, ContactError> {
         let (first, pose) = (path.point(0.0).pose, state.pose);
         let off = (first.x - pose.x).hypot(first.y - pose.y) / rod.units().length + (first.phi - pose.phi).abs();
-        if off.is_nan() || off > SAME_START {
+        if off.is_nan() || off > LIMITS.resume.same_pose {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
         let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod.units())?, |_| step)?;
@@ -168,7 +158,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         let leg = |(number, way)| Leg::new(way, step(number), rod.units().length);
         let mut legs = ways.into_iter().enumerate().map(leg).collect::<Result<VecDeque<_>, _>>()?;
         let Leg { way, step, reports } = legs.pop_front().ok_or(ContactError::NoLegs)?;
-        let sweep = Self::from_setup(Setup::on(rod, objects, way), MOST_STEPS_TAKEN, step, reports);
+        let sweep = Self::from_setup(Setup::on(rod, objects, way), LIMITS.sweep.most_steps, step, reports);
         Ok(Self { course: sweep.course.followed_by(legs), ..sweep })
     }
 
@@ -190,7 +180,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     fn set_out(&mut self, path: Way, mut from: Configuration) {
         from.set_tau(0.0);
         self.stepper.corrector.setup.path = path;
-        self.stepper.h = FIRST_STEP;
+        self.stepper.h = LIMITS.step.first;
         self.stage = Stage::Begins(Some(Box::new(from)));
         self.pending.clear();
         (self.reached, self.crowd) = (0.0, Crowd::NONE);

@@ -1,10 +1,11 @@
 //! What is handed out: the poses to report, states, events and the reason of a stop.
 
-use super::{AT_END, Item, Stage, Sweep};
+use super::{Item, Stage, Sweep};
+use crate::continuation::Point;
 use crate::continuation::certify::{Quality, state};
-use crate::continuation::{Point, SAME_POSE};
 use crate::error::{Stop, StopReason};
 use crate::event::{Event, EventKind};
+use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use crate::state::State;
 use rod_core::{PhysicalRod, Pose};
@@ -17,7 +18,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// How far beyond the next pose to report the rod may be by rounding.
     pub(super) fn slack(&self) -> f64 {
-        if self.pose() < self.setup().path.length() { SAME_POSE } else { AT_END }
+        if self.pose() < self.setup().path.length() { LIMITS.step.same_pose } else { LIMITS.sweep.at_end }
     }
 
     pub(super) fn report(&mut self, point: &Point) {

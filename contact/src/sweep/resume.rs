@@ -7,20 +7,15 @@ use crate::continuation::certify::energy;
 use crate::continuation::recall::recall;
 use crate::continuation::{Point, Step};
 use crate::error::{ContactError, StopReason};
+use crate::limits::LIMITS;
 use crate::state::State;
 use rod_core::PhysicalRod;
-
-/// Pulling force (E I / L^2) up to which a state counts as an equilibrium.
-const PULL: f64 = 1e-9;
-/// Least d tau / d arclength at which the tangent of a stable equilibrium is known to lead along the path. Nearer to a fold its
-/// sense is rounding.
-const STEEP: f64 = 1e-4;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The configuration of a state at the first pose of the path.
     pub(super) fn recalled(&mut self, state: &State) -> Result<Configuration, ContactError> {
         let recalled = recall(&mut self.stepper.corrector, &state.contacts)?;
-        let pulls = (0..recalled.count()).any(|j| recalled.force(j) < -PULL);
+        let pulls = (0..recalled.count()).any(|j| recalled.force(j) < -LIMITS.resume.pull);
         let wrong = |reason| Err(ContactError::NotEquilibrium { reason });
         if pulls {
             return wrong("a contact pulls");
@@ -42,7 +37,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     fn resume_smooth(&mut self, given: Configuration) -> (Point, Option<Step>) {
         let mut point = self.at_rest(given);
-        if point.tangent.by_tau() > STEEP && point.quality.stable {
+        if point.tangent.by_tau() > LIMITS.resume.least_tau_rate && point.quality.stable {
             return (point, None);
         }
         let there = point.tangent.clone();

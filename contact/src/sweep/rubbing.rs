@@ -9,10 +9,8 @@ use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::friction::{Motion, UNLOADED, anew, dissipated, drags, smooth};
+use crate::limits::LIMITS;
 use rod_core::{Grip, PhysicalRod};
-
-/// Change of a force along the contour, relative to 1 + normal force, above which an equilibrium is solved anew.
-const CHANGED: f64 = 1e-9;
 
 /// The contact that has come to rest in an event of this kind.
 pub(super) fn stopped(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
@@ -68,8 +66,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 break;
             }
             // a coefficient that has changed at once moves the rod
-            let moved = (0..way.count())
-                .any(|j| (way.friction(j) - seen.configuration.friction(j)).abs() > CHANGED * (1.0 + way.force(j)));
+            let moved = (0..way.count()).any(|j| {
+                (way.friction(j) - seen.configuration.friction(j)).abs()
+                    > LIMITS.sweep.friction_change * (1.0 + way.force(j))
+            });
             let tau = way.tau();
             if moved {
                 let is_solved = self.stepper.corrector.at_pose(&mut way, tau).status.is_solved();

@@ -1,9 +1,10 @@
 //! A sweep in silence: it brings an equilibrium to another pose and hands out nothing on the way.
 
-use super::{AT_END, Sweep};
+use super::Sweep;
 use crate::contact_set::Configuration;
 use crate::continuation::Seen;
 use crate::continuation::stepper::Stepper;
+use crate::limits::LIMITS;
 use crate::path::ClampPath;
 use crate::scene::setup::Setup;
 use crate::snap::settle::settle;
@@ -37,7 +38,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let (mut start, end) = (ahead.clone(), way.length());
         start.set_tau(0.0);
         let setup = self.setup().along(way).without_friction();
-        let mut there = self.led(setup, start, end).filter(|there| there.tau() <= end + AT_END)?;
+        let mut there = self.led(setup, start, end).filter(|there| there.tau() <= end + LIMITS.sweep.at_end)?;
         there.set_tau(tau);
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         settle(corrector, scanner, there)
