@@ -1,7 +1,7 @@
 //! Equilibrium at one pose for a given contact set.
 
 use crate::contact_set::Configuration;
-use crate::contact_set::guess::supposed;
+use crate::contact_set::guess::contacts_of_guess;
 use crate::contact_set::on_piece::off_piece;
 use crate::contact_set::order::ordered;
 use crate::continuation::branch::Corrector;
@@ -59,7 +59,7 @@ impl Equilibrium {
 }
 
 /// The first condition that a solved or unsolved state breaks.
-fn judged(
+fn first_inadmissibility(
     report: &SolveReport,
     in_order: bool,
     off_piece: Option<usize>,
@@ -171,7 +171,7 @@ fn found<R: PhysicalRod>(
     check(pose, ["pose.x", "pose.y", "pose.phi"])?;
     let units = rod.units();
     let mut corrector = Corrector::new(Setup::new(rod, objects, ClampPath::standing(pose)));
-    let supposed = supposed(&corrector.setup.world, units, guess)?;
+    let supposed = contacts_of_guess(&corrector.setup.world, units, guess)?;
     let (configuration, report) = solve_guess(&mut corrector, &supposed, rescue);
     let mut scanner = Scanner::default();
     let setup = &corrector.setup;
@@ -181,6 +181,6 @@ fn found<R: PhysicalRod>(
     let in_order = ordered(&setup.world, &configuration);
     let off_piece = off_piece(&setup.world, &configuration);
     let state = state(setup, &configuration, &scan, quality);
-    let admissible = judged(&report, in_order, off_piece, &state, units.length);
+    let admissible = first_inadmissibility(&report, in_order, off_piece, &state, units.length);
     Ok(Equilibrium { state, report, admissible })
 }

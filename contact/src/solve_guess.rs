@@ -1,6 +1,6 @@
 //! The equations of a contact set solved from a rough guess: from several starts, until a root is one that a rod may be in.
 
-use crate::contact_set::guess::{Supposed, along_chords, by_chords, by_forces, held};
+use crate::contact_set::guess::{GuessedContact, along_chords, by_chords, by_forces, configuration_of_guess};
 use crate::contact_set::on_piece::off_piece;
 use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknowns};
@@ -16,7 +16,7 @@ type Root = (Configuration, SolveReport);
 /// Newton's method finds no root.
 pub(crate) fn solve_guess<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
-    supposed: &[Supposed],
+    supposed: &[GuessedContact],
     mut rescue: impl FnMut(&mut Corrector<'_, R>, &mut Configuration) -> Option<SolveReport>,
 ) -> Root {
     let [first, second, third] = starts(&corrector.setup, supposed);
@@ -66,11 +66,11 @@ fn is_plausible(world: &World<'_>, (configuration, report): &Root) -> bool {
 
 /// Where a solve may start: with the arc lengths and forces of the guess and the slope angles of arcs or those by the forces, the
 /// smaller residual first, since a force may be a mere guess; then with arc lengths and slope angles of the chords.
-fn starts<R: PhysicalRod>(setup: &Setup<'_, R>, supposed: &[Supposed]) -> [Configuration; 3] {
+fn starts<R: PhysicalRod>(setup: &Setup<'_, R>, supposed: &[GuessedContact]) -> [Configuration; 3] {
     let clamp = setup.path.at(0.0);
-    let arcs = held(supposed, &by_chords(clamp, supposed, 2.0));
-    let by_forces = held(supposed, &by_forces(setup.rod.model(), &setup.clamp(0.0), supposed));
-    let chords = held(&along_chords(clamp, supposed), &by_chords(clamp, supposed, 1.0));
+    let arcs = configuration_of_guess(supposed, &by_chords(clamp, supposed, 2.0));
+    let by_forces = configuration_of_guess(supposed, &by_forces(setup.rod.model(), &setup.clamp(0.0), supposed));
+    let chords = configuration_of_guess(&along_chords(clamp, supposed), &by_chords(clamp, supposed, 1.0));
     let off = |configuration: &Configuration| {
         let (supports, u) = (configuration.supports(&setup.world), configuration.of_contacts());
         let mut residual = Unknowns::from_elem(0.0, u.len());

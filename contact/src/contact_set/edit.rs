@@ -1,7 +1,7 @@
 //! Contact sets changed: a contact moved onto the next stretch, the tip onto the other side of a corner, a tip contact made
 //! tangential or the other way round.
 
-use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
+use crate::contact_set::{ActiveContact, Configuration, FORCE_TOLERANCE, Unknown, tangent_hold};
 use crate::limits::LIMITS;
 use crate::scene::corner::{Corner, Passing};
 use crate::scene::world::World;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 const SLIVER: f64 = 1e-9;
 
 /// The configuration without contact j.
-pub(crate) fn without(mut configuration: Configuration, j: usize) -> Configuration {
+pub(crate) fn without_contact(mut configuration: Configuration, j: usize) -> Configuration {
     configuration.remove(j);
     configuration
 }
@@ -39,7 +39,7 @@ pub(crate) fn onto_neighbour(
 }
 
 /// The contact sets with one contact that is at the border of its stretch on the next one.
-pub(crate) fn passed(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
+pub(crate) fn beyond_borders(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
     let mut passed = SmallVec::new();
     for (j, held) in configuration.contacts.iter().enumerate() {
         for upwards in [false, true] {
@@ -82,7 +82,7 @@ pub(crate) fn across_corner(mut configuration: Configuration, world: &World<'_>)
     let corner = corner_ahead(&configuration, last, world)?.0;
     let phi = configuration.slope(last);
     let Passing { alpha, t, .. } = Corner::new(world, corner).passing(&Section { x: 0.0, y: 0.0, phi, kappa: 0.0 })?;
-    configuration.contacts[last] = Held::smooth(corner, lying(phi - alpha));
+    configuration.contacts[last] = ActiveContact::smooth(corner, tangent_hold(phi - alpha));
     configuration.set(Unknown::Parameter(last), t);
     configuration.set(Unknown::ArcLength(last), 1.0);
     Some(configuration)
@@ -124,7 +124,7 @@ pub(crate) fn off_corner(configuration: &Configuration, world: &World<'_>) -> Sm
 /// The last contact, tangential at s = 1, as a contact of the tip.
 pub(crate) fn as_tip(mut configuration: Configuration, world: &World<'_>) -> Configuration {
     let last = configuration.count() - 1;
-    let Held { stretch, hold, .. } = configuration.contacts[last];
+    let ActiveContact { stretch, hold, .. } = configuration.contacts[last];
     if let Hold::Tangent { offset } = hold {
         let lying = world.support(stretch, configuration.t(last)).alpha + offset;
         configuration.set(Unknown::Slope(last), lying);
@@ -136,7 +136,7 @@ pub(crate) fn as_tip(mut configuration: Configuration, world: &World<'_>) -> Con
 /// The contact at the tip, where phi(1) - alpha is about `angle`, as a tangential one at s = 1.
 pub(crate) fn as_tangent(mut configuration: Configuration, angle: f64) -> Configuration {
     let last = configuration.count() - 1;
-    configuration.contacts[last].hold = lying(angle);
+    configuration.contacts[last].hold = tangent_hold(angle);
     configuration.set(Unknown::ArcLength(last), 1.0);
     configuration
 }

@@ -1,6 +1,6 @@
 //! A contact set from contacts in SI units: a guess of the user's, or the contacts of a state.
 
-use crate::contact_set::{Configuration, Held, lying};
+use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
 use crate::error::ContactError;
 use crate::scene::rod::{Walk, at_clamp, push};
 use crate::scene::world::{Foot, World};
@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A contact of a guess, dimensionless.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Supposed {
+pub(crate) struct GuessedContact {
     pub stretch: usize,
     pub foot: Foot,
     pub tip: bool,
@@ -22,7 +22,7 @@ pub(crate) struct Supposed {
     pub friction: Option<(f64, bool)>,
 }
 
-impl Supposed {
+impl GuessedContact {
     /// What it adds to (A, B).
     fn push(&self) -> (f64, f64) {
         push(self.force, self.friction.map_or(0.0, |(friction, _)| friction), self.foot.alpha)
@@ -39,9 +39,9 @@ type Slopes = SmallVec<[f64; 8]>;
 
 /// The rod's slope angles at the contacts from the chords between them, where the rod turns `turns` times as far as its chord: twice,
 /// if it is an arc, once, if it is straight. On a smooth contour it lies along that.
-pub(crate) fn by_chords(clamp: Pose, supposed: &[Supposed], turns: f64) -> Slopes {
+pub(crate) fn by_chords(clamp: Pose, supposed: &[GuessedContact], turns: f64) -> Slopes {
     let (mut from, mut phi) = ((clamp.x, clamp.y), clamp.phi);
-    let slope = |Supposed { foot, tip, .. }: &Supposed| {
+    let slope = |GuessedContact { foot, tip, .. }: &GuessedContact| {
         let chord = (foot.y - from.1).atan2(foot.x - from.0);
         let turn = chord - phi;
         phi += turns * (turn - TAU * (turn / TAU).round());
@@ -55,26 +55,26 @@ pub(crate) fn by_chords(clamp: Pose, supposed: &[Supposed], turns: f64) -> Slope
 }
 
 /// The contacts with arc lengths that are those of the chords between them.
-pub(crate) fn along_chords(clamp: Pose, supposed: &[Supposed]) -> SmallVec<[Supposed; 8]> {
+pub(crate) fn along_chords(clamp: Pose, supposed: &[GuessedContact]) -> SmallVec<[GuessedContact; 8]> {
     let (mut from, mut s) = ((clamp.x, clamp.y), 0.0);
-    let moved = |contact: &Supposed| {
+    let moved = |contact: &GuessedContact| {
         s += (contact.foot.x - from.0).hypot(contact.foot.y - from.1);
         from = (contact.foot.x, contact.foot.y);
-        Supposed { s, ..*contact }
+        GuessedContact { s, ..*contact }
     };
     supposed.iter().map(moved).collect()
 }
 
 /// The rod's slope angles at the contacts by the shape that the forces would give it.
-pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Supposed]) -> Slopes {
+pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[GuessedContact]) -> Slopes {
     if let Some(mut rod) = beyond_roller(rod, clamp, supposed) {
         return supposed.iter().map(|contact| rod.to(contact.s, contact.push())).collect();
     }
-    let (mut base, mut felt) = (clamp.pose(), felt(clamp.pose(), supposed));
+    let (mut base, mut felt) = (clamp.pose(), clamp_reactions(clamp.pose(), supposed));
     if clamp.law().is_some() {
         for _ in 0..GIVING_WAY {
             base = clamp.base(&felt);
-            felt = self::felt(base, supposed);
+            felt = clamp_reactions(base, supposed);
         }
     }
     let mut rod = Walk::new(rod, at_clamp(base, felt.m0z), (felt.f0y, -felt.f0x));
@@ -82,16 +82,16 @@ pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Sup
 }
 
 /// The rod from the roller of its clamp on, under the forces. None without a roller, and where it is not held there.
-fn beyond_roller<'a, M: RodModel>(rod: &'a M, clamp: &impl Clamp, supposed: &[Supposed]) -> Option<Walk<'a, M>> {
+fn beyond_roller<'a, M: RodModel>(rod: &'a M, clamp: &impl Clamp, supposed: &[GuessedContact]) -> Option<Walk<'a, M>> {
     let roller = clamp.roller()?;
     let [x, y] = roller.point(clamp.pose());
-    let Reactions { f0x, f0y, m0z } = felt(Pose { x, y, phi: 0.0 }, supposed);
+    let Reactions { f0x, f0y, m0z } = clamp_reactions(Pose { x, y, phi: 0.0 }, supposed);
     let hold = roller.under(rod, clamp.pose(), -m0z, f0y, -f0x)?;
     Some(Walk::beyond(rod, hold.s, hold.at, (f0y, -f0x)))
 }
 
 /// The reactions of the clamp to the forces, with its moment about the base.
-fn felt(base: Pose, supposed: &[Supposed]) -> Reactions {
+fn clamp_reactions(base: Pose, supposed: &[GuessedContact]) -> Reactions {
     let [mut a, mut b, mut m0z] = [0.0; 3];
     for contact in supposed {
         let (foot, (own_a, own_b)) = (&contact.foot, contact.push());
@@ -103,11 +103,11 @@ fn felt(base: Pose, supposed: &[Supposed]) -> Reactions {
 }
 
 /// The contacts of a guess with a rod that has such slope angles there.
-pub(crate) fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
+pub(crate) fn configuration_of_guess(supposed: &[GuessedContact], slopes: &[f64]) -> Configuration {
     let mut configuration = Configuration::free(0.0);
-    for (j, (Supposed { stretch, foot, tip, s, force, .. }, phi)) in supposed.iter().zip(slopes).enumerate() {
-        let (hold, third) = if *tip { (Hold::Tip, *phi) } else { (lying(phi - foot.alpha), *s) };
-        configuration.insert(j, Held::smooth(*stretch, hold), [foot.t, *force, third]);
+    for (j, (GuessedContact { stretch, foot, tip, s, force, .. }, phi)) in supposed.iter().zip(slopes).enumerate() {
+        let (hold, third) = if *tip { (Hold::Tip, *phi) } else { (tangent_hold(phi - foot.alpha), *s) };
+        configuration.insert(j, ActiveContact::smooth(*stretch, hold), [foot.t, *force, third]);
     }
     // behind all others, as their unknowns are
     for (j, contact) in supposed.iter().enumerate() {
@@ -119,12 +119,12 @@ pub(crate) fn held(supposed: &[Supposed], slopes: &[f64]) -> Configuration {
 }
 
 /// The contacts of a guess on the contours.
-pub(crate) fn supposed(
+pub(crate) fn contacts_of_guess(
     world: &World<'_>,
     units: Units,
     guess: &[Contact],
-) -> Result<SmallVec<[Supposed; 8]>, ContactError> {
-    let mut supposed: SmallVec<[Supposed; 8]> = SmallVec::new();
+) -> Result<SmallVec<[GuessedContact; 8]>, ContactError> {
+    let mut supposed: SmallVec<[GuessedContact; 8]> = SmallVec::new();
     for (index, contact) in guess.iter().enumerate() {
         let wrong = |reason| Err(ContactError::Guess { index, reason });
         if ![contact.s, contact.x, contact.y, contact.force].iter().all(|v| v.is_finite()) {
@@ -153,7 +153,7 @@ pub(crate) fn supposed(
         if friction.is_some_and(|(force, _)| !force.is_finite()) {
             return wrong("its friction is not finite");
         }
-        supposed.push(Supposed { stretch, foot, tip, s, force: contact.force / units.force, friction });
+        supposed.push(GuessedContact { stretch, foot, tip, s, force: contact.force / units.force, friction });
     }
     Ok(supposed)
 }

@@ -20,13 +20,13 @@ pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 
 /// Where a contact is (a stretch of the contour), how it holds the rod, and whether the rod slips or sticks there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Held {
+pub(crate) struct ActiveContact {
     pub stretch: usize,
     pub hold: Hold,
     pub grip: Grip,
 }
 
-impl Held {
+impl ActiveContact {
     /// A contact without friction, or whose friction is still to be chosen.
     pub const fn smooth(stretch: usize, hold: Hold) -> Self {
         Self { stretch, hold, grip: Grip::SMOOTH }
@@ -61,7 +61,7 @@ impl Unknown {
 }
 
 /// Contacts of a set. Sets of up to four, most of all, are on the stack; they are moved often, so that more room there costs more.
-pub(crate) type Contacts = SmallVec<[Held; 4]>;
+pub(crate) type Contacts = SmallVec<[ActiveContact; 4]>;
 
 /// Unknowns of the boundary-value problem, three a contact, then the tangential force of each contact that sticks, and the path
 /// parameter behind them.
@@ -132,7 +132,7 @@ impl Configuration {
         if self.is_tip(j) { 1.0 } else { self.get(Unknown::ArcLength(j)) }
     }
 
-    pub fn insert(&mut self, j: usize, held: Held, unknowns: [f64; 3]) {
+    pub fn insert(&mut self, j: usize, held: ActiveContact, unknowns: [f64; 3]) {
         self.contacts.insert(j, held);
         self.z.insert_from_slice(3 * j, &unknowns);
     }
@@ -200,8 +200,8 @@ impl Configuration {
     }
 
     /// The contacts as supports of the rod.
-    pub fn supports<'a>(&'a self, world: &'a World<'a>) -> Holding<'a> {
-        Holding { world, contacts: &self.contacts }
+    pub fn supports<'a>(&'a self, world: &'a World<'a>) -> ActiveSupports<'a> {
+        ActiveSupports { world, contacts: &self.contacts }
     }
 
     /// The rod's segments from the clamp to the tip; the last one is free.
@@ -214,7 +214,7 @@ impl Configuration {
     }
 
     pub fn kind(&self, world: &World<'_>, j: usize) -> ContactKind {
-        let Held { stretch, hold, .. } = self.contacts[j];
+        let ActiveContact { stretch, hold, .. } = self.contacts[j];
         match (world.kind(stretch), hold) {
             (StretchKind::Notch { .. }, _) => ContactKind::Notch,
             (_, Hold::Tip) => ContactKind::Tip,
@@ -228,18 +228,18 @@ impl Configuration {
 pub(crate) type Segments = SmallVec<[Segment; 9]>;
 
 /// The hold of a rod that lies on a contour, from its slope angle less the contour's, about a multiple of pi.
-pub(crate) fn lying(angle: f64) -> Hold {
+pub(crate) fn tangent_hold(angle: f64) -> Hold {
     Hold::Tangent { offset: PI * (angle / PI).round() }
 }
 
 /// Contacts as the rod's supports.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Holding<'a> {
+pub(crate) struct ActiveSupports<'a> {
     pub world: &'a World<'a>,
-    pub contacts: &'a [Held],
+    pub contacts: &'a [ActiveContact],
 }
 
-impl Supports for Holding<'_> {
+impl Supports for ActiveSupports<'_> {
     fn count(&self) -> usize {
         self.contacts.len()
     }

@@ -4,7 +4,7 @@
 //! leaves sideways: where the rod lies down on one wall at the tip, the force parts into a tangential contact on that wall,
 //! which then moves up the rod, and the tip on the other one.
 
-use crate::contact_set::{Configuration, Held, Unknown, lying};
+use crate::contact_set::{ActiveContact, Configuration, Unknown, tangent_hold};
 use crate::scene::world::World;
 use rod_core::Hold;
 use std::f64::consts::{PI, TAU};
@@ -39,7 +39,7 @@ pub(crate) fn lying_angle(world: &World<'_>, configuration: &Configuration, wall
 
 /// The tip in a notch, lying on `wall`, as two contacts: tangential on `wall`, still at s = 1, and the tip on the other
 /// wall.
-pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usize) -> Configuration {
+pub(crate) fn split_onto_walls(world: &World<'_>, configuration: &Configuration, wall: usize) -> Configuration {
     let mut parted = configuration.clone();
     let last = configuration.count() - 1;
     let notch = configuration.contacts[last].stretch;
@@ -47,12 +47,12 @@ pub(crate) fn parted(world: &World<'_>, configuration: &Configuration, wall: usi
     let ((t, alpha_wall), (t_other, alpha_other)) = (edge(world, notch, wall), edge(world, notch, other));
     let (f, alpha) = (configuration.force(last), world.support(notch, configuration.t(last)).alpha);
     let whole = (alpha_other - alpha_wall).sin();
-    let hold = lying(configuration.slope(last) - alpha_wall);
+    let hold = tangent_hold(configuration.slope(last) - alpha_wall);
     parted.contacts[last].stretch = other;
     parted.set(Unknown::Parameter(last), t_other);
     parted.set(Unknown::Force(last), f * (alpha - alpha_wall).sin() / whole);
     let force = f * (alpha_other - alpha).sin() / whole;
-    parted.insert(last, Held::smooth(wall, hold), [t, force, 1.0]);
+    parted.insert(last, ActiveContact::smooth(wall, hold), [t, force, 1.0]);
     parted
 }
 
@@ -106,7 +106,7 @@ fn rest_in(world: &World<'_>, configuration: &mut Configuration, notch: usize, o
 
 /// The tip in a notch and a contact on one of its walls as the tip in the notch alone, with the sum of their forces; and the slope angle
 /// at the tip with which the rod lies on that wall.
-pub(crate) fn gathered_in_notch(world: &World<'_>, configuration: &Configuration) -> (Configuration, f64) {
+pub(crate) fn tip_alone_in_notch(world: &World<'_>, configuration: &Configuration) -> (Configuration, f64) {
     let mut gathered = configuration.clone();
     let (lying, tip) = (configuration.count() - 2, configuration.count() - 1);
     let (wall, force) = (configuration.contacts[lying].stretch, configuration.force(lying));
@@ -121,7 +121,7 @@ pub(crate) fn gathered_in_notch(world: &World<'_>, configuration: &Configuration
 
 /// A rod that lies on a wall up to the tip in its notch, with the tip on the other wall: where the force in the notch vanishes it has no
 /// direction, but the equations of these two contacts are regular.
-pub(crate) fn lying_to_notch(world: &World<'_>, configuration: &Configuration) -> Option<Configuration> {
+pub(crate) fn split_at_notch(world: &World<'_>, configuration: &Configuration) -> Option<Configuration> {
     let [lying, tip] = configuration.contacts.last_chunk::<2>()?;
     let walls = Some(tip.stretch)
         .filter(|notch| tip.hold == Hold::Tip && world.is_notch(*notch))
@@ -144,7 +144,7 @@ pub(crate) fn straddles(world: &World<'_>, configuration: &Configuration) -> boo
 }
 
 /// Two contacts that have met in the notch between their walls as the one that they are there.
-pub(crate) fn merged(world: &World<'_>, configuration: &Configuration) -> Configuration {
+pub(crate) fn merge_in_notch(world: &World<'_>, configuration: &Configuration) -> Configuration {
     let mut merged = configuration.clone();
     let lying = configuration.count() - 2;
     let (stretch, force) = (configuration.contacts[lying].stretch, configuration.force(lying));
@@ -168,7 +168,7 @@ mod tests {
         let notch = world.find(0, StretchKind::Notch { before: 0 }).unwrap();
         let mut resting = Configuration::free(0.0);
         let t = 0.5 * (world.range(notch).from + world.range(notch).to);
-        resting.insert(0, Held::smooth(notch, Hold::Tip), [t, 2.0, phi]);
+        resting.insert(0, ActiveContact::smooth(notch, Hold::Tip), [t, 2.0, phi]);
         (resting, notch)
     }
 
@@ -194,11 +194,11 @@ mod tests {
         let world = World::new(contour.as_ref(), 1.0);
         let (resting, notch) = rests(&world, 0.25 * PI);
         let [wall, _] = world.walls(notch).map(Option::unwrap);
-        let two = parted(&world, &resting, wall);
+        let two = split_onto_walls(&world, &resting, wall);
         assert!(two.count() == 2 && straddles(&world, &two) && two.ends_at_tip());
         let root_2 = 2.0_f64.sqrt();
         assert!((two.force(0) - root_2).abs() < 1e-14 && (two.force(1) - root_2).abs() < 1e-14);
-        let one = merged(&world, &two);
+        let one = merge_in_notch(&world, &two);
         assert!(one.count() == 1 && one.contacts[0].stretch == notch);
         assert!((one.force(0) - 2.0).abs() < 1e-14 && (one.t(0) - resting.t(0)).abs() < 1e-14);
     }

@@ -22,7 +22,7 @@ pub(crate) fn off_piece(world: &World<'_>, configuration: &Configuration) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_set::Held;
+    use crate::contact_set::ActiveContact;
     use rod_contours::Composite;
     use rod_core::Hold;
 
@@ -32,7 +32,7 @@ mod tests {
         let world = World::new(square.as_ref(), 1.0);
         let off = |stretch: usize, t: f64| {
             let mut set = Configuration::free(0.0);
-            set.insert(0, Held::smooth(stretch, Hold::Tip), [t, 1.0, 0.0]);
+            set.insert(0, ActiveContact::smooth(stretch, Hold::Tip), [t, 1.0, 0.0]);
             off_piece(&world, &set)
         };
         for stretch in 0..square.stretches().len() {

@@ -14,7 +14,7 @@ pub(crate) fn ordered(world: &World<'_>, configuration: &Configuration) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_set::Held;
+    use crate::contact_set::ActiveContact;
     use rod_contours::{Composite, Parabola};
     use rod_core::Hold;
 
@@ -25,7 +25,7 @@ mod tests {
         let at = |places: &[f64]| {
             let mut set = Configuration::free(0.0);
             for (j, s) in places.iter().enumerate() {
-                set.insert(j, Held::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, *s]);
+                set.insert(j, ActiveContact::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, *s]);
             }
             ordered(&world, &set)
         };

@@ -40,7 +40,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
                 > LIMITS.step.largest_correction * length + LIMITS.step.correction_rounding
         };
         if !report.status.is_solved() || strayed(&here) {
-            here = self.by_arclength(&way, tau)?;
+            here = self.solve_by_arclength(&way, tau)?;
             report = self.corrector.at_pose(&mut here, tau);
         }
         if !report.status.is_solved()
@@ -70,7 +70,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     }
 
     /// The point of the way at the pose `tau` by its arclength: next to a fold the pose alone is ill-conditioned.
-    fn by_arclength(&mut self, way: &Way<'_>, tau: f64) -> Option<Configuration> {
+    fn solve_by_arclength(&mut self, way: &Way<'_>, tau: f64) -> Option<Configuration> {
         let Way { from, length, .. } = *way;
         let (mut low, mut high) = (0.0, length);
         let mut found = None;
@@ -115,7 +115,7 @@ impl Way<'_> {
     fn at(&self, x: f64) -> Configuration {
         let mut here = self.to.clone();
         for i in 0..here.z.len() {
-            here.z[i] = value(self.cubic(i), x);
+            here.z[i] = cubic_value(self.cubic(i), x);
         }
         here
     }
@@ -129,7 +129,7 @@ impl Way<'_> {
         }
         let (mut x, mut before) = (high * (tau - cubic[0]) / (self.to.tau() - cubic[0]), f64::NAN);
         for _ in 0..MOST_HALVINGS {
-            let off = value(cubic, x) - tau;
+            let off = cubic_value(cubic, x) - tau;
             if off < 0.0 {
                 low = x;
             } else {
@@ -148,7 +148,7 @@ impl Way<'_> {
 }
 
 /// The cubic with such coefficients at x.
-fn value([a, b, c, d]: [f64; 4], x: f64) -> f64 {
+fn cubic_value([a, b, c, d]: [f64; 4], x: f64) -> f64 {
     a + x * (b + x * (c + x * d))
 }
 

@@ -2,7 +2,7 @@
 //! more, linear, condition. The condition is what makes it a solve at a pose, a step of pseudo-arclength or the location of
 //! an event.
 
-use crate::contact_set::{Configuration, Held, Holding, Unknown, Unknowns};
+use crate::contact_set::{ActiveContact, ActiveSupports, Configuration, Unknown, Unknowns};
 use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use rod_core::{
@@ -83,7 +83,7 @@ impl Tangent {
 
 struct Bordered<'a, R = Rod> {
     setup: &'a Setup<'a, R>,
-    holding: Holding<'a>,
+    holding: ActiveSupports<'a>,
     condition: Condition<'a>,
     /// Number of unknowns.
     size: usize,
@@ -167,7 +167,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
 
     fn solve(&mut self, configuration: &mut Configuration, condition: Condition<'_>, iterations: u32) -> SolveReport {
         let Configuration { contacts, z } = configuration;
-        let system = bordered(&self.setup, contacts, condition, z.len());
+        let system = bordered_system(&self.setup, contacts, condition, z.len());
         solve(&system, z, &options(iterations), &mut self.workspace)
     }
 
@@ -206,7 +206,8 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         search: impl FnOnce(TrustRegionSearch<'_>) -> TrustRegionSearch<'_>,
     ) -> SolveReport {
         let Configuration { contacts, z } = configuration;
-        let system = bordered(&self.setup, contacts, Condition::Fixed { unknown: Unknown::Path, value: tau }, z.len());
+        let system =
+            bordered_system(&self.setup, contacts, Condition::Fixed { unknown: Unknown::Path, value: tau }, z.len());
         solve_by_trust_region(&system, z, &options(LIMITS.step.most_iterations_from_guess), &mut self.workspace, search)
     }
 
@@ -214,7 +215,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
     /// fixed towards growing tau, on a plane as the plane's own tangent), and how well the configuration solves its
     /// equations.
     pub fn inspect(&mut self, configuration: &Configuration, condition: Condition<'_>) -> (Tangent, SolveReport) {
-        let system = bordered(&self.setup, &configuration.contacts, condition, configuration.z.len());
+        let system = bordered_system(&self.setup, &configuration.contacts, condition, configuration.z.len());
         let mut z = configuration.z.clone();
         self.workspace.prepare(&system, &z);
         newton_step(&system, &mut z, &options(LIMITS.step.most_iterations), &mut self.workspace);
@@ -247,11 +248,11 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
     }
 }
 
-fn bordered<'a, R: PhysicalRod>(
+fn bordered_system<'a, R: PhysicalRod>(
     setup: &'a Setup<'a, R>,
-    contacts: &'a [Held],
+    contacts: &'a [ActiveContact],
     condition: Condition<'a>,
     size: usize,
 ) -> Bordered<'a, R> {
-    Bordered { setup, holding: Holding { world: &setup.world, contacts }, condition, size }
+    Bordered { setup, holding: ActiveSupports { world: &setup.world, contacts }, condition, size }
 }

@@ -75,7 +75,7 @@ pub(crate) fn state<R: PhysicalRod>(
         leg: 0,
         reactions: shape.reactions(),
         roller: roller(setup, configuration),
-        energy: stored(rod, &clamp, &shape),
+        energy: stored_energy(rod, &clamp, &shape),
         max_stress: rod.largest_stress(&shape),
         certificate,
     }
@@ -117,11 +117,11 @@ fn friction(
 pub(crate) fn energy<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> f64 {
     let supports = configuration.supports(&setup.world);
     let problem = setup.problem(&supports, configuration.tau());
-    stored(&setup.rod, &problem.clamp, &problem.elastica(configuration.of_contacts(), setup.rod.units()))
+    stored_energy(&setup.rod, &problem.clamp, &problem.elastica(configuration.of_contacts(), setup.rod.units()))
 }
 
 /// Energy (J) of a rod of this shape and of its clamp.
-fn stored<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: &Elastica<M>) -> f64 {
+fn stored_energy<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: &Elastica<M>) -> f64 {
     if clamp.law().is_none() {
         return shape.bending_energy();
     }

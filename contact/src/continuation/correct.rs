@@ -4,7 +4,7 @@ use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::Point;
 use crate::continuation::branch::{Condition, Tangent};
-use crate::continuation::joint::{self, Passed};
+use crate::continuation::joint::{BehindJoint, cross_joint, crosses_joint};
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::range_of_force;
 use crate::limits::LIMITS;
@@ -40,7 +40,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             if slope > LIMITS.step.least_tau_rate { (target - configuration.tau()) / slope } else { f64::INFINITY };
         // a free rod is safe as far as its gap reaches, and goes little further
         let reach = if configuration.count() == 0 {
-            let fastest = self.fastest();
+            let fastest = self.largest_speed();
             (scan.gap.lower.clamp(0.0, 1.0) / fastest).max(self.h.min(LIMITS.step.longest_free / fastest))
         } else {
             self.h.min(LIMITS.step.longest_way / slope.abs()).min(self.to_border(from))
@@ -55,7 +55,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     pub(super) fn correct(&mut self, from: &Point, prediction: Prediction, target: f64) -> Option<Corrected> {
         let Point { configuration, tangent, .. } = from;
         let Prediction { mut next, length, reach, mut lands } = prediction;
-        if joint::passes(&self.corrector, configuration, &next) {
+        if crosses_joint(&self.corrector, configuration, &next) {
             return self.over_joint(from, &next, target, reach);
         }
         let predicted = next.z.clone();
@@ -94,7 +94,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             let own = if lands { at_pose } else { condition };
             ahead = self.corrector.inspect(&next, own).0;
         }
-        if !joint::passes(&self.corrector, configuration, &next) {
+        if !crosses_joint(&self.corrector, configuration, &next) {
             let length = tangent.along(&next.z, &configuration.z);
             return Some(Corrected { next, tangent: ahead, report, length, kink: false });
         }
@@ -103,8 +103,8 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 
     /// The point just behind the first joint on the way to `next`, if that is as near as a step may go.
     fn over_joint(&mut self, from: &Point, next: &Configuration, target: f64, reach: f64) -> Option<Corrected> {
-        let Passed { configuration: next, tangent, report } =
-            joint::passed(&mut self.corrector, (&from.configuration, &from.tangent), next)?;
+        let BehindJoint { configuration: next, tangent, report } =
+            cross_joint(&mut self.corrector, (&from.configuration, &from.tangent), next)?;
         let length = from.tangent.along(&next.z, &from.configuration.z);
         let near = next.tau() <= target && (0.0..=2.0 * reach).contains(&length);
         let solved = report.residual <= LIMITS.step.largest_residual && ordered(&self.corrector.setup.world, &next);
@@ -129,8 +129,8 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     }
 
     /// Largest speed of any point of a free rod by the path parameter: none is farther from the clamp than 1.
-    pub(super) fn fastest(&self) -> f64 {
-        self.corrector.setup.path.fastest()
+    pub(super) fn largest_speed(&self) -> f64 {
+        self.corrector.setup.path.largest_speed()
     }
 }
 

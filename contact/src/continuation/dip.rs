@@ -2,7 +2,7 @@
 
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::Tangent;
-use crate::friction::{slip, slip_rate};
+use crate::friction::{slip_between, slip_rate};
 use crate::limits::LIMITS;
 use crate::scene::rod::Segment;
 use crate::scene::setup::Setup;
@@ -22,7 +22,7 @@ struct Course {
 
 impl Course {
     /// This quantity times `own` plus another one times `others`.
-    fn mixed(&self, own: f64, others: f64, other: &Self) -> Self {
+    fn weighted_sum(&self, own: f64, others: f64, other: &Self) -> Self {
         let sum = |a: [f64; 2], b: [f64; 2]| [own * a[0] + others * b[0], own * a[1] + others * b[1]];
         Self { ends: sum(self.ends, other.ends), rates: sum(self.rates, other.rates) }
     }
@@ -85,12 +85,12 @@ pub(super) fn dips(
             Grip::Sticks { .. } => {
                 let (friction, limit) =
                     (course(here.friction_index(j)), world.coefficients(here.contacts[j].stretch).at_rest);
-                [1.0, -1.0].into_iter().any(|side| force.mixed(limit, side, &friction).dips())
+                [1.0, -1.0].into_iter().any(|side| force.weighted_sum(limit, side, &friction).dips())
             }
             Grip::Slips { ratio } => {
                 let forward = -ratio.signum();
                 let rates = [slip_rate(world, here, start, j), slip_rate(world, next, after, j) / stretch];
-                turns_back(rates.map(|rate| forward * rate), forward * slip(world, here, next, j) / length)
+                turns_back(rates.map(|rate| forward * rate), forward * slip_between(world, here, next, j) / length)
             }
         };
         rubs || force.dips()

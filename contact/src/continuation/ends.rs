@@ -126,7 +126,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     /// of an open contour.
     fn is_around_an_end(&self, from: &Point, Corrected { next, length, .. }: &Corrected, scan: &Scan) -> bool {
         let is_open = !self.corrector.setup.world.open_ends().is_empty();
-        let is_free = next.count() == 0 && length * self.fastest() <= from.scan.gap.lower;
+        let is_free = next.count() == 0 && length * self.largest_speed() <= from.scan.gap.lower;
         is_open && is_free && scan.gap.seen < -LIMITS.end.deepest_free
     }
 

@@ -93,7 +93,7 @@ fn between<R: PhysicalRod>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_set::Held;
+    use crate::contact_set::ActiveContact;
     use crate::path::ClampPath;
     use rod_contours::{Composite, Parabola};
     use rod_core::{Hold, Pose, Rod};
@@ -108,7 +108,7 @@ mod tests {
         let setup = Setup::new(&Rod::new(1.0, 1.0).unwrap(), ceiling.as_ref(), path);
         let mut corrector = Corrector::new(setup);
         let mut here = Configuration::free(0.0);
-        here.insert(0, Held::smooth(0, Hold::Tip), [0.44, 0.05, FRAC_PI_2 - 0.1]);
+        here.insert(0, ActiveContact::smooth(0, Hold::Tip), [0.44, 0.05, FRAC_PI_2 - 0.1]);
         assert!(corrector.solve_from_guess(&mut here, 0.0).status.is_solved());
         let mut tangent = corrector.inspect_at_pose(&here).0;
         let (from, to) = loop {

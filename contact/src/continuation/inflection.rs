@@ -7,9 +7,9 @@
 //! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps. Of a rod that is bent at rest nothing is said.
 
 use crate::contact_set::order::ordered;
-use crate::contact_set::{Configuration, Held, Unknown};
+use crate::contact_set::{ActiveContact, Configuration, Unknown};
 use crate::continuation::branch::Corrector;
-use crate::continuation::transition::{Transition, on};
+use crate::continuation::transition::{Transition, solve_fixed};
 use crate::event::EventKind;
 use crate::limits::LIMITS;
 use crate::scene::world::World;
@@ -26,7 +26,7 @@ struct Inflection {
 
 /// The inflection next to contact j, with the concave side towards the clamp.
 fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<Inflection> {
-    let Held { stretch, hold: Hold::Tangent { offset }, .. } = configuration.contacts[j] else { return None };
+    let ActiveContact { stretch, hold: Hold::Tangent { offset }, .. } = configuration.contacts[j] else { return None };
     if !matches!(world.kind(stretch), StretchKind::Piece(_)) {
         return None;
     }
@@ -61,10 +61,13 @@ pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration)
 
 /// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is
 /// at the inflection, and after it the two as soon as they can be told apart.
-pub(crate) fn parted<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, from: &Configuration) -> Option<Transition> {
+pub(crate) fn split_at_inflection<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    from: &Configuration,
+) -> Option<Transition> {
     let j = from.count().checked_sub(1).filter(|_| corrector.setup.rod.model().is_straight())?;
     let Inflection { t, rate, by_s } = inflection(&corrector.setup.world, from, j)?;
-    let before = on(corrector, from.clone(), Unknown::Parameter(j), t).ok()?;
+    let before = solve_fixed(corrector, from.clone(), Unknown::Parameter(j), t).ok()?;
     let (s, f) = (before.s(j), before.force(j));
     let after = LIMITS.merge.multiples.into_iter().find_map(|farther| {
         let l = farther * LIMITS.merge.at_inflection;
@@ -72,7 +75,7 @@ pub(crate) fn parted<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, from: &Co
         let mut two = before.clone();
         two.set(Unknown::Force(j), rate);
         two.insert(j, two.contacts[j], [first, f - rate, s - l]);
-        let two = on(corrector, two, Unknown::Parameter(j), first).ok()?;
+        let two = solve_fixed(corrector, two, Unknown::Parameter(j), first).ok()?;
         let way = two.tau() - before.tau();
         let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && ordered(&corrector.setup.world, &two);
         ((0.0..LIMITS.merge.longest_way).contains(&way) && holds).then_some(two)
@@ -81,7 +84,7 @@ pub(crate) fn parted<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, from: &Co
 }
 
 /// The last two contacts, about to run together at an inflection between them, as the one that they will be.
-pub(crate) fn run_together<R: PhysicalRod>(
+pub(crate) fn merge_at_inflection<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,
 ) -> Option<Transition> {
@@ -94,7 +97,8 @@ pub(crate) fn run_together<R: PhysicalRod>(
     let mut together = from.clone();
     together.remove(j);
     together.set(Unknown::Force(j), from.force(j + 1) + from.force(j));
-    let after = on(corrector, together, Unknown::Parameter(j), t + LIMITS.merge.beside_inflection * by_s).ok()?;
+    let after =
+        solve_fixed(corrector, together, Unknown::Parameter(j), t + LIMITS.merge.beside_inflection * by_s).ok()?;
     let way = after.tau() - from.tau();
     (0.0..LIMITS.merge.longest_way).contains(&way).then(|| Transition {
         kind: EventKind::Release,
@@ -117,7 +121,7 @@ mod tests {
 
     fn lying_at(t: f64) -> Configuration {
         let mut lying = Configuration::free(0.0);
-        lying.insert(0, Held::smooth(0, Hold::Tangent { offset: 0.0 }), [t, 1.0, 0.7]);
+        lying.insert(0, ActiveContact::smooth(0, Hold::Tangent { offset: 0.0 }), [t, 1.0, 0.7]);
         lying
     }
 

@@ -6,7 +6,7 @@ use crate::limits::LIMITS;
 use rod_core::{PhysicalRod, RodModel, SolveReport};
 
 /// A point just behind a joint, and the branch from there on.
-pub(crate) struct Passed {
+pub(crate) struct BehindJoint {
     pub configuration: Configuration,
     pub tangent: Tangent,
     pub report: SolveReport,
@@ -15,11 +15,11 @@ pub(crate) struct Passed {
 /// The first joint that a contact goes over between two points of a branch: the point where it is just behind it. None where there is no
 /// joint between them, or it cannot be located; and where the branch, whose tangent at `from` is `start`, turns before it: there is a fold on
 /// the way, or another branch.
-pub(crate) fn passed<R: PhysicalRod>(
+pub(crate) fn cross_joint<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     (from, start): (&Configuration, &Tangent),
     to: &Configuration,
-) -> Option<Passed> {
+) -> Option<BehindJoint> {
     let joints = corrector.setup.rod.model().joints();
     let mut first: Option<(f64, usize, f64)> = None;
     for j in 0..to.count() {
@@ -42,23 +42,23 @@ pub(crate) fn passed<R: PhysicalRod>(
     // just before the joint, where the branch is still smooth
     let before = value - 2.0 * LIMITS.step.behind_joint.copysign(way);
     if (before - from.s(j)) * way > 0.0 {
-        let Passed { tangent, .. } = at(corrector, guess.clone(), j, before, way)?;
+        let BehindJoint { tangent, .. } = solve_at_arc_length(corrector, guess.clone(), j, before, way)?;
         if tangent.by_tau() <= 0.0 || tangent.cosine(&start.direction) < LIMITS.step.least_cosine {
             return None;
         }
     }
-    at(corrector, guess, j, value, way)
+    solve_at_arc_length(corrector, guess, j, value, way)
 }
 
 /// The point of the branch near `guess` where contact j is at an arc length, and the branch from there on, by its own Jacobian, in the sense
 /// of `way`.
-fn at<R: PhysicalRod>(
+fn solve_at_arc_length<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     mut configuration: Configuration,
     j: usize,
     value: f64,
     way: f64,
-) -> Option<Passed> {
+) -> Option<BehindJoint> {
     let condition = Condition::Fixed { unknown: Unknown::ArcLength(j), value };
     let report = corrector.correct(&mut configuration, condition);
     if !report.status.is_solved() {
@@ -69,11 +69,15 @@ fn at<R: PhysicalRod>(
     if way < 0.0 {
         tangent.direction.iter_mut().for_each(|rate| *rate = -*rate);
     }
-    Some(Passed { configuration, tangent, report })
+    Some(BehindJoint { configuration, tangent, report })
 }
 
 /// Whether a contact is on another side of a joint at both points.
-pub(crate) fn passes<R: PhysicalRod>(corrector: &Corrector<'_, R>, from: &Configuration, to: &Configuration) -> bool {
+pub(crate) fn crosses_joint<R: PhysicalRod>(
+    corrector: &Corrector<'_, R>,
+    from: &Configuration,
+    to: &Configuration,
+) -> bool {
     let joints = corrector.setup.rod.model().joints();
     let side = |s: f64| joints.partition_point(|joint| *joint < s);
     !joints.is_empty() && (0..to.count()).any(|j| side(from.s(j)) != side(to.s(j)))

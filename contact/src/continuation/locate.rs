@@ -6,13 +6,13 @@ use crate::continuation::correct::Corrected;
 use crate::continuation::dip::may_lie_down;
 use crate::continuation::ends::{ended_if_short, unexplained};
 use crate::continuation::fold::{locate_fold, locate_zero};
-use crate::continuation::inflection::parted;
+use crate::continuation::inflection::split_at_inflection;
 use crate::continuation::stepper::{Refused, Stepper};
 use crate::continuation::transition::{Break, NoTransition, Transition, breaks};
 use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{reversed, slip_rate};
+use crate::friction::{reversed_slips, slip_rate};
 use crate::gap::scan::Scan;
 use crate::limits::LIMITS;
 use crate::scene::rod::Segment;
@@ -127,7 +127,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         tangent: &Tangent,
     ) -> Result<Option<Transition>, NoTransition> {
         let mut first: Option<Transition> = None;
-        let slowed: SmallVec<[(usize, f64); 2]> = reversed(&self.corrector.setup.world, next, tangent).collect();
+        let slowed: SmallVec<[(usize, f64); 2]> = reversed_slips(&self.corrector.setup.world, next, tangent).collect();
         for (j, ratio) in slowed {
             let forward = |setup: &Setup<'_, R>, here: &Configuration, there: &Tangent| {
                 -ratio.signum() * slip_rate(&setup.world, here, there, j)
@@ -175,7 +175,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         if !self.may_split(&from.configuration) {
             return Ok(Some((along, Step::Stopped(StopReason::LineContact, Box::new(at)))));
         }
-        let split = parted(&mut self.corrector, &at.configuration);
+        let split = split_at_inflection(&mut self.corrector, &at.configuration);
         Ok(Some((along, split.map_or_else(|| Step::Ended(Box::new(at)), |transition| self.step_to(transition)))))
     }
 

@@ -1,11 +1,11 @@
 //! Merge two contacts that are about to become one, before their equations become singular.
 
-use crate::contact_set::notch::{gathered_in_notch, parted};
+use crate::contact_set::notch::{split_onto_walls, tip_alone_in_notch};
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::{Corrector, Tangent};
-use crate::continuation::inflection::run_together;
+use crate::continuation::inflection::merge_at_inflection;
 use crate::continuation::stepper::Stepper;
-use crate::continuation::transition::{Transition, breaks, on};
+use crate::continuation::transition::{Transition, breaks, solve_fixed};
 use crate::event::EventKind;
 use crate::limits::LIMITS;
 use rod_core::PhysicalRod;
@@ -21,11 +21,11 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let j = next.count().checked_sub(2)?;
         if next.ends_at_tip() {
             return (tangent.rate_of(Unknown::ArcLength(j)) > 0.0)
-                .then(|| merge_in_notch(&mut self.corrector, next))
+                .then(|| merge_at_notch(&mut self.corrector, next))
                 .flatten();
         }
         let closes = tangent.rate_of(Unknown::ArcLength(j + 1)) < tangent.rate_of(Unknown::ArcLength(j));
-        closes.then(|| run_together(&mut self.corrector, next)).flatten()
+        closes.then(|| merge_at_inflection(&mut self.corrector, next)).flatten()
     }
 
     /// Two contacts on one convex piece that approach each other, as one: where they are so close that the rod lies on the one alone as soon as
@@ -41,7 +41,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         one.set(Unknown::Force(strong), next.force(j) + next.force(j - 1));
         one.remove(weak);
         LIMITS.merge.ways.into_iter().find_map(|way| {
-            let after = on(&mut self.corrector, one.clone(), Unknown::Path, next.tau() + way).ok()?;
+            let after = solve_fixed(&mut self.corrector, one.clone(), Unknown::Path, next.tau() + way).ok()?;
             // proven as a state is, since the next one must be
             let scan = self.scan(&after);
             let mut holds = scan.is_outside() && self.is_stable(&after, &scan);
@@ -54,7 +54,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 /// The rod lies on a wall with the tip in its notch, held before the notch by a contact that slides there: the transition where
 /// that contact arrives, and the rod begins to stand up from the wall. At the transition itself the two contacts are one point, and
 /// their equations singular; so it is located on the branch after it, as [`Break::OntoWall`](super::transition::Break) is on the one before.
-fn merge_in_notch<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &Configuration) -> Option<Transition> {
+fn merge_at_notch<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &Configuration) -> Option<Transition> {
     let world = &corrector.setup.world;
     let lying = near.count().checked_sub(2)?;
     let wall = near.contacts[lying].stretch;
@@ -63,8 +63,8 @@ fn merge_in_notch<R: PhysicalRod>(corrector: &mut Corrector<'_, R>, near: &Confi
     if !rests || 1.0 - near.s(lying) > LIMITS.merge.at_notch {
         return None;
     }
-    let (start, angle) = gathered_in_notch(world, near);
-    let after = on(corrector, start, Unknown::Slope(lying), angle).ok()?;
-    let before = parted(&corrector.setup.world, &after, wall);
+    let (start, angle) = tip_alone_in_notch(world, near);
+    let after = solve_fixed(corrector, start, Unknown::Slope(lying), angle).ok()?;
+    let before = split_onto_walls(&corrector.setup.world, &after, wall);
     (after.tau() >= near.tau()).then_some(Transition { kind: EventKind::Release, before, after, along: 0.0 })
 }

@@ -5,7 +5,7 @@ use crate::continuation::Point;
 use crate::continuation::branch::Condition;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
-use crate::friction::reversed;
+use crate::friction::reversed_slips;
 use crate::limits::LIMITS;
 use rod_core::PhysicalRod;
 
@@ -42,7 +42,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         breaks(&self.corrector.setup.world, &probe, &scan.crossings, |_| holds = false);
         if probe.rubs() {
             let there = self.corrector.inspect(&probe, plane).0;
-            holds &= reversed(&self.corrector.setup.world, &probe, &there).next().is_none();
+            holds &= reversed_slips(&self.corrector.setup.world, &probe, &there).next().is_none();
         }
         holds && self.is_stable(&probe, &scan)
     }

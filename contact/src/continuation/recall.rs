@@ -1,6 +1,6 @@
 //! The configuration that a state was made from: its contact set with all unknowns, so that a sweep goes on from there.
 
-use crate::contact_set::guess::{by_forces, held, supposed};
+use crate::contact_set::guess::{by_forces, configuration_of_guess, contacts_of_guess};
 use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
 use crate::error::ContactError;
@@ -14,9 +14,9 @@ pub(crate) fn recall<R: PhysicalRod>(
     contacts: &[Contact],
 ) -> Result<Configuration, ContactError> {
     let setup = &corrector.setup;
-    let all = supposed(&setup.world, setup.rod.units(), contacts)?;
+    let all = contacts_of_guess(&setup.world, setup.rod.units(), contacts)?;
     // the forces give the rod's angle at each contact, and so its whole turns and the side on which it lies
-    let recalled = held(&all, &by_forces(setup.rod.model(), &setup.clamp(0.0), &all));
+    let recalled = configuration_of_guess(&all, &by_forces(setup.rod.model(), &setup.clamp(0.0), &all));
     let residual = residual(corrector, &recalled);
     if residual <= LIMITS.resume.solved {
         return Ok(recalled);

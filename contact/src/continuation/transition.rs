@@ -13,9 +13,11 @@
 //! | `Slip` | force along the contour within friction's limit | force along the contour = the limit | the same: its modes are chosen anew |
 //! | `Touch` | no crossing of rod and contour | force of one more contact = 0 | with that contact |
 
-use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour, without};
-use crate::contact_set::notch::{lying_angle, lying_to_notch, merged, parted, straddles, wall_run_into, with_cone};
-use crate::contact_set::{Configuration, FORCE_TOLERANCE, Held, Unknown, lying};
+use crate::contact_set::edit::{as_tangent, as_tip, onto_neighbour, without_contact};
+use crate::contact_set::notch::{
+    lying_angle, merge_in_notch, split_at_notch, split_onto_walls, straddles, wall_run_into, with_cone,
+};
+use crate::contact_set::{ActiveContact, Configuration, FORCE_TOLERANCE, Unknown, tangent_hold};
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::event::EventKind;
 use crate::gap::Crossing;
@@ -57,7 +59,7 @@ pub(crate) fn breaks(
         if configuration.force(j) < -FORCE_TOLERANCE {
             visit(Break::Release(j));
         }
-        if let Some(ratio) = slips(world, configuration, j) {
+        if let Some(ratio) = passed_slip_limit(world, configuration, j) {
             visit(Break::Slip(j, ratio));
         }
         let range = range_of_force(world, configuration.contacts[j].stretch);
@@ -108,7 +110,7 @@ pub(super) fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
 }
 
 /// The limit of f_t / f at contact j, which sticks, if it is passed.
-fn slips(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<f64> {
+fn passed_slip_limit(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<f64> {
     let held = configuration.contacts[j];
     // of one that would have to pull, its release tells on which side it has left the cone
     if !held.grip.sticks() || configuration.force(j) < -FORCE_TOLERANCE {
@@ -165,10 +167,10 @@ impl Break {
     ) -> Result<Transition, NoTransition> {
         let at = if let Self::Slip(j, ratio) = self {
             let (friction, force) = (broken.friction_index(j), Unknown::Force(j).index(broken.z.len()));
-            where_holds(corrector, broken.clone(), Condition::OnCone { friction, force, ratio })?
+            solve_where(corrector, broken.clone(), Condition::OnCone { friction, force, ratio })?
         } else {
             let (start, unknown, value) = self.vanishing(&corrector.setup.world, broken)?;
-            on(corrector, start, unknown, value)?
+            solve_fixed(corrector, start, unknown, value)?
         };
         // a contact that sticks slips before its force vanishes, unless both its parts vanish at once
         if let Self::Release(j) = self
@@ -193,7 +195,7 @@ impl Break {
         let last = broken.count().wrapping_sub(1);
         Ok(match self {
             Self::Release(j) => {
-                (lying_to_notch(world, broken).unwrap_or_else(|| broken.clone()), Unknown::Force(j), 0.0)
+                (split_at_notch(world, broken).unwrap_or_else(|| broken.clone()), Unknown::Force(j), 0.0)
             }
             Self::Border(j, upwards) => {
                 let here = broken.contacts[j].stretch;
@@ -226,7 +228,7 @@ impl Break {
         at: Configuration,
     ) -> Result<(EventKind, Configuration, Configuration), NoTransition> {
         Ok(match self {
-            Self::Release(j) => (EventKind::Release, at.clone(), without(at, j)),
+            Self::Release(j) => (EventKind::Release, at.clone(), without_contact(at, j)),
             Self::Border(j, upwards) => {
                 let here = at.contacts[j].stretch;
                 let next = world.neighbour(here, upwards).ok_or(NoTransition::EndOfContour)?;
@@ -235,12 +237,12 @@ impl Break {
                 }
                 let meets = |lying: usize| (1.0 - at.s(lying)).abs() < LIMITS.transition.meeting;
                 if world.is_notch(next) && straddles(world, &at) && meets(at.count() - 2) {
-                    let after = merged(world, &at);
+                    let after = merge_in_notch(world, &at);
                     (EventKind::Release, at, after)
                 } else if world.is_notch(next) && straddles(world, &at) && at.force(j) < LIMITS.transition.unloaded_tip
                 {
                     // the rod is straight from the contact on its wall to the tip
-                    (EventKind::Release, at.clone(), without(at, j))
+                    (EventKind::Release, at.clone(), without_contact(at, j))
                 } else {
                     let after = onto_neighbour(at.clone(), j, upwards, next, world);
                     let after = if world.rubs() { with_cone(world, &at, after, j, upwards) } else { after };
@@ -249,19 +251,19 @@ impl Break {
             }
             Self::Slip(..) => (EventKind::Slip, at.clone(), at),
             Self::OntoWall(wall, _) => {
-                let after = parted(world, &at, wall);
+                let after = split_onto_walls(world, &at, wall);
                 (EventKind::Touch, at, after)
             }
             Self::TangentToTip => (EventKind::TangentToTip, at.clone(), as_tip(at, world)),
             Self::TipToTangent(_) => (EventKind::TipToTangent, as_tip(at.clone(), world), at),
             Self::Touch(crossing) => {
-                let j = place(broken, &crossing);
+                let j = place_along_rod(broken, &crossing);
                 let (range, t) = (world.span(crossing.stretch), at.t(j));
                 if (t - range.clamp(t)).abs() > LIMITS.transition.beyond_stretch * (1.0 + t.abs()) {
                     // it has gone so deep that it is a neighbour that it met first
                     return Err(NoTransition::NotLocated);
                 }
-                let before = without(at.clone(), j);
+                let before = without_contact(at.clone(), j);
                 let kind = if before.count() == 0 { EventKind::FirstContact } else { EventKind::Touch };
                 (kind, before, at)
             }
@@ -270,17 +272,17 @@ impl Break {
 }
 
 /// The point of the branch near `start` where one unknown has a given value.
-pub(crate) fn on<R: PhysicalRod>(
+pub(crate) fn solve_fixed<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     start: Configuration,
     unknown: Unknown,
     value: f64,
 ) -> Result<Configuration, NoTransition> {
-    where_holds(corrector, start, Condition::Fixed { unknown, value })
+    solve_where(corrector, start, Condition::Fixed { unknown, value })
 }
 
 /// The point of the branch near `start` where a condition holds.
-fn where_holds<R: PhysicalRod>(
+fn solve_where<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     mut start: Configuration,
     condition: Condition<'_>,
@@ -292,15 +294,18 @@ fn where_holds<R: PhysicalRod>(
 /// `configuration` with one more contact, without force, where the rod crosses the contour; and its number.
 pub(crate) fn with_contact(configuration: &Configuration, crossing: &Crossing) -> (Configuration, usize) {
     let mut more = configuration.clone();
-    let j = place(configuration, crossing);
-    let (hold, third) =
-        if crossing.tip { (Hold::Tip, crossing.phi) } else { (lying(crossing.phi - crossing.foot.alpha), crossing.s) };
-    more.insert(j, Held::smooth(crossing.stretch, hold), [crossing.foot.t, 0.0, third]);
+    let j = place_along_rod(configuration, crossing);
+    let (hold, third) = if crossing.tip {
+        (Hold::Tip, crossing.phi)
+    } else {
+        (tangent_hold(crossing.phi - crossing.foot.alpha), crossing.s)
+    };
+    more.insert(j, ActiveContact::smooth(crossing.stretch, hold), [crossing.foot.t, 0.0, third]);
     (more, j)
 }
 
 /// The number that a contact at the crossing has along the rod.
-fn place(configuration: &Configuration, crossing: &Crossing) -> usize {
+fn place_along_rod(configuration: &Configuration, crossing: &Crossing) -> usize {
     let n = configuration.count();
     (0..n).find(|&j| configuration.s(j) > crossing.s).unwrap_or(n)
 }
@@ -320,7 +325,7 @@ mod tests {
         Composite::polyline(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]).unwrap()
     }
 
-    fn names(world: &World<'_>, held: Held, unknowns: [f64; 3], crossings: &[Crossing]) -> Vec<String> {
+    fn names(world: &World<'_>, held: ActiveContact, unknowns: [f64; 3], crossings: &[Crossing]) -> Vec<String> {
         let mut configuration = Configuration::free(0.0);
         configuration.insert(0, held, unknowns);
         let mut found = Vec::new();
@@ -338,8 +343,8 @@ mod tests {
         let edge = world.neighbour(corner, true).unwrap();
         let (from, to) = (world.border(edge, false), world.border(edge, true));
         let (middle, alpha) = (0.5 * (from + to), world.support(edge, from).alpha);
-        let tip = Held::smooth(edge, Hold::Tip);
-        let side = Held::smooth(edge, Hold::Tangent { offset: 0.0 });
+        let tip = ActiveContact::smooth(edge, Hold::Tip);
+        let side = ActiveContact::smooth(edge, Hold::Tangent { offset: 0.0 });
         let phi = alpha + 0.5;
         assert!(names(&world, tip, [middle, 1.0, phi], &[]).is_empty());
         assert!(names(&world, side, [middle, 1.0, 0.7], &[]).is_empty());
@@ -364,7 +369,7 @@ mod tests {
     }
 
     /// The first break at `tau`, located from the free rod at 0.
-    fn located(objects: &Composite, tau: f64) -> Transition {
+    fn first_transition_at(objects: &Composite, tau: f64) -> Transition {
         let mut corrector = Corrector::new(upright(objects));
         let (from, broken) = (Configuration::free(0.0), Configuration::free(tau));
         let scan = Scanner::default().scan(&corrector.setup, &broken);
@@ -378,7 +383,7 @@ mod tests {
     fn a_tip_touches_where_the_straight_rod_reaches() {
         // the tip, at (1 - tau, 1), meets y = 0.75 + x^2 at x = 1/2
         let ceiling = Composite::single(Parabola::new([0.0, 0.75], 1.0).unwrap()).unwrap();
-        let Transition { kind, before, after, along } = located(&ceiling, 0.52);
+        let Transition { kind, before, after, along } = first_transition_at(&ceiling, 0.52);
         assert_eq!(kind, EventKind::FirstContact);
         assert_eq!((before.count(), after.count()), (0, 1));
         assert!(after.ends_at_tip() && after.force(0) == 0.0);
@@ -391,7 +396,7 @@ mod tests {
         let wall = Parabola::new([0.0, 0.0], 1.0).unwrap();
         let motion = Motion::rotation(FRAC_PI_2).then(Motion::translation([-0.2, 0.6]));
         let wall = Composite::single(Moved::new(wall, motion).unwrap()).unwrap();
-        let Transition { kind, after, .. } = located(&wall, 1.23);
+        let Transition { kind, after, .. } = first_transition_at(&wall, 1.23);
         assert_eq!(kind, EventKind::FirstContact);
         assert!(!after.ends_at_tip() && (after.s(0) - 0.6).abs() < 1e-10 && (after.tau() - 1.2).abs() < 1e-13);
     }
@@ -401,7 +406,7 @@ mod tests {
         let line = Composite::single(Line::new([0.0, 1.0], [1.0, 1.0]).unwrap()).unwrap();
         let mut corrector = Corrector::new(upright(&line));
         let mut broken = Configuration::free(0.9);
-        broken.insert(0, Held::smooth(0, Hold::Tip), [-1e-3, 1.0, FRAC_PI_2]);
+        broken.insert(0, ActiveContact::smooth(0, Hold::Tip), [-1e-3, 1.0, FRAC_PI_2]);
         let tangent = Tangent { direction: SmallVec::from_elem(0.5, 4), weights: SmallVec::from_elem(1.0, 4) };
         let at_end = Break::Border(0, false).locate(&mut corrector, &broken, &broken, &tangent);
         assert!(matches!(at_end, Err(NoTransition::EndOfContour)), "{at_end:?}");

@@ -1,6 +1,6 @@
 //! A state as the boundary-value problem that it solves.
 
-use crate::contact_set::{Configuration, Held, lying};
+use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
 use crate::derivatives::given::Given;
 use crate::error::ContactError;
 use crate::scene::rod::{Walk, at_clamp, push};
@@ -87,8 +87,8 @@ fn configuration<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> R
             }
         };
         let tip = matches!(contact.kind, ContactKind::Tip | ContactKind::Notch);
-        let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), s) };
-        configuration.insert(j, Held::smooth(stretch, hold), [t, force, third]);
+        let (hold, third) = if tip { (Hold::Tip, phi) } else { (tangent_hold(phi - alpha), s) };
+        configuration.insert(j, ActiveContact::smooth(stretch, hold), [t, force, third]);
         configuration.rub(j, friction, false);
     }
     Ok(configuration)

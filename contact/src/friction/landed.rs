@@ -9,17 +9,17 @@ use rod_core::{Grip, PhysicalRod};
 const GROWTH: u32 = 10;
 
 /// The same contacts without friction: f_t is left out of the equations, not of the world.
-pub(crate) fn smooth(configuration: &Configuration) -> Configuration {
-    let mut smooth = configuration.clone();
-    for j in 0..smooth.count() {
-        smooth.set_slipping(j, 0.0);
+pub(crate) fn without_friction(configuration: &Configuration) -> Configuration {
+    let mut without = configuration.clone();
+    for j in 0..without.count() {
+        without.set_slipping(j, 0.0);
     }
-    smooth
+    without
 }
 
 /// The rod come to rest where a descent without friction has led it, held back by friction in the sense in which each of its contacts has moved
 /// from the shape `before`. None where there is no such equilibrium.
-pub(crate) fn drags<R: PhysicalRod>(
+pub(crate) fn with_drag<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     landed: &Configuration,
     before: &Segments,

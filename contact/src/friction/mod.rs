@@ -20,7 +20,7 @@ mod work;
 
 pub use law::{Coefficients, Friction};
 
-pub(crate) use landed::{drags, smooth};
-pub(crate) use modes::{Motion, UNLOADED, anew, loaded, resists};
-pub(crate) use rates::{reversed, slip, slip_coordinate, slip_rate};
-pub(crate) use work::dissipated;
+pub(crate) use landed::{with_drag, without_friction};
+pub(crate) use modes::{Motion, UNLOADED, possible_motions, resists, without_unloaded};
+pub(crate) use rates::{reversed_slips, slip_between, slip_coordinate, slip_rate};
+pub(crate) use work::friction_work;

@@ -42,7 +42,7 @@ enum Mode {
 }
 
 /// The modes in which the contacts of `configuration` may go on along the path. Contact `stopped` has just come to rest.
-pub(crate) fn anew<R: PhysicalRod>(
+pub(crate) fn possible_motions<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     configuration: &Configuration,
     stopped: Option<usize>,
@@ -250,7 +250,7 @@ impl AllRates {
 }
 
 /// The same without the contacts that bear nothing; none where all bear something.
-pub(crate) fn loaded(configuration: &Configuration) -> Option<Configuration> {
+pub(crate) fn without_unloaded(configuration: &Configuration) -> Option<Configuration> {
     let bears = |j: usize| configuration.force(j) >= UNLOADED;
     if (0..configuration.count()).all(bears) {
         return None;
@@ -264,7 +264,7 @@ pub(crate) fn loaded(configuration: &Configuration) -> Option<Configuration> {
 /// a fixed clamp has positive principal minors (a P-matrix; Klarbring 1990). It is singular at the fold of a branch on which the rod slips.
 pub(crate) fn resists<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> bool {
     // a contact that bears nothing holds nothing back
-    if let Some(loaded) = loaded(configuration) {
+    if let Some(loaded) = without_unloaded(configuration) {
         return resists(setup, &loaded);
     }
     let n = configuration.count();

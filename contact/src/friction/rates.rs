@@ -28,7 +28,7 @@ pub(crate) fn slip_rate(world: &World<'_>, configuration: &Configuration, tangen
 }
 
 /// How far (L) contact j has slipped from one point of a branch to another.
-pub(crate) fn slip(world: &World<'_>, from: &Configuration, to: &Configuration, j: usize) -> f64 {
+pub(crate) fn slip_between(world: &World<'_>, from: &Configuration, to: &Configuration, j: usize) -> f64 {
     let stretch = from.contacts[j].stretch;
     let along = arc_length(|t| world.support(stretch, t).speed, from.t(j), to.t(j));
     if from.is_tip(j) {
@@ -38,7 +38,7 @@ pub(crate) fn slip(world: &World<'_>, from: &Configuration, to: &Configuration, 
 }
 
 /// The contacts that slip against the sense of their friction, each with its f_t / f: they have stopped on the way here.
-pub(crate) fn reversed<'a>(
+pub(crate) fn reversed_slips<'a>(
     world: &'a World<'_>,
     configuration: &'a Configuration,
     tangent: &'a Tangent,

@@ -16,7 +16,7 @@ const POINTS: [(f64, f64); 6] = [
 ];
 
 /// int sum_j |f_t dg| along the branch from `from`, whose tangent is given, to `to` (E I / L). None where a point on the way is not found.
-pub(crate) fn dissipated<R: PhysicalRod>(
+pub(crate) fn friction_work<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     (from, tangent): (&Configuration, &Tangent),
     to: &Configuration,

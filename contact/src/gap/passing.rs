@@ -4,7 +4,7 @@
 //! over. An object that crosses neither rod nor one of the two ways is either outside of that, or all of it is inside: then
 //! the rod has gone through it.
 
-use crate::contact_set::{Configuration, Held};
+use crate::contact_set::{ActiveContact, Configuration};
 use crate::gap::interval::{Interval, Knot};
 use crate::gap::shape::Shape;
 use crate::scene::world::World;
@@ -91,5 +91,5 @@ fn turns_around((x, y): (f64, f64), polygon: &[(f64, f64)]) -> bool {
 /// Whether a run holds the rod: the way of the tip may cut it, since the rod slides along it.
 pub(crate) fn holds(world: &World<'_>, configuration: &Configuration, run: usize) -> bool {
     let contacts = configuration.contacts.iter().enumerate();
-    contacts.into_iter().any(|(j, Held { stretch, .. })| world.is_on_run(run, *stretch, configuration.t(j)))
+    contacts.into_iter().any(|(j, ActiveContact { stretch, .. })| world.is_on_run(run, *stretch, configuration.t(j)))
 }

@@ -88,7 +88,7 @@ impl Shape {
 
     /// The same with points so close that the chords between them, or an integral by Simpson's rule, may stand for the rod: an odd
     /// number of them on each segment.
-    pub fn refined(&self, rod: &impl RodModel) -> Self {
+    pub fn refine(&self, rod: &impl RodModel) -> Self {
         Self::through(rod, self.segments.clone(), self.lead, |from, to, force, loaded| {
             let spacing = spacing(rod, (from, to), force, FINE).min(if from < loaded { loaded / LOADED } else { FINE });
             2 * ((0.5 * (to - from) / spacing).ceil() as usize).max(FEWEST / 2)

@@ -48,7 +48,7 @@ impl<'a, R: PhysicalRod> Setup<'a, R> {
     }
 
     /// The same, where all that is behind an open contour is solid: for a rod that has not come there along the path.
-    pub fn filled(&self) -> Self {
+    pub fn with_filled_objects(&self) -> Self {
         let mut filled = self.clone();
         filled.world.fill();
         filled

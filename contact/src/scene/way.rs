@@ -133,7 +133,7 @@ impl Way {
     }
 
     /// Fastest way of any point of a straight rod by tau.
-    pub fn fastest(&self) -> f64 {
+    pub fn largest_speed(&self) -> f64 {
         match self {
             Self::Straight(path) => {
                 let rate = path.rate();

@@ -395,13 +395,13 @@ impl<'a> World<'a> {
         let (_, object, own) = self.own_run(run);
         let run = object.run(own);
         let end = |end: RunEnd| RunEnd { x: end.x / self.length, y: end.y / self.length, ..end };
-        Run { ends: run.ends.map(|one| one.map(end)), bounds: self.scaled(run.bounds), ..run }
+        Run { ends: run.ends.map(|one| one.map(end)), bounds: self.in_lengths(run.bounds), ..run }
     }
 
     /// A box around a run.
     pub fn run_bounds(&self, run: usize) -> Bounds {
         let (_, object, own) = self.own_run(run);
-        self.scaled(object.run_bounds(own))
+        self.in_lengths(object.run_bounds(own))
     }
 
     /// A box in the contours' unit.
@@ -411,7 +411,7 @@ impl<'a> World<'a> {
     }
 
     /// A box in lengths of the rod.
-    fn scaled(&self, Bounds { min, max }: Bounds) -> Bounds {
+    fn in_lengths(&self, Bounds { min, max }: Bounds) -> Bounds {
         let scaled = |side: [f64; 2]| side.map(|side| side / self.length);
         Bounds { min: scaled(min), max: scaled(max) }
     }
@@ -441,7 +441,7 @@ impl<'a> World<'a> {
     }
 
     /// The point of a stretch at `t` as the foot of a point `(x, y)` that touches it there.
-    pub fn touched(&self, stretch: usize, t: f64, x: f64, y: f64) -> Foot {
+    pub fn foot_at(&self, stretch: usize, t: f64, x: f64, y: f64) -> Foot {
         let at = self.support(stretch, t);
         let (sin, cos) = at.alpha.sin_cos();
         let gap = (x - at.x) * sin - (y - at.y) * cos;

@@ -1,10 +1,10 @@
 //! From a guess of the contacts to a verified equilibrium at one pose: solve, look what is broken, mend the contact set,
 //! solve again.
 
-use crate::contact_set::edit::{as_tangent, as_tip, beyond_corner, onto_neighbour, without};
-use crate::contact_set::notch::parted;
+use crate::contact_set::edit::{as_tangent, as_tip, beyond_corner, onto_neighbour, without_contact};
+use crate::contact_set::notch::split_onto_walls;
 use crate::contact_set::order::ordered;
-use crate::contact_set::{Configuration, Contacts, Held, Unknown};
+use crate::contact_set::{ActiveContact, Configuration, Contacts, Unknown};
 use crate::continuation::Seen;
 use crate::continuation::branch::Corrector;
 use crate::continuation::transition::{Break, breaks, with_contact};
@@ -52,7 +52,7 @@ pub(crate) fn settle<R: PhysicalRod>(
 }
 
 /// The first acceptable equilibrium of those where the chain comes to rest, with its clamp at `tau`.
-pub(crate) fn rest<R: PhysicalRod>(
+pub(crate) fn settle_chain<R: PhysicalRod>(
     chain: &mut Chain,
     corrector: &mut Corrector<'_, R>,
     scanner: &mut Scanner,
@@ -76,12 +76,12 @@ fn badness(b: &Break, configuration: &Configuration) -> f64 {
 
 fn mend(configuration: Configuration, b: Break, world: &World<'_>) -> Configuration {
     match b {
-        Break::Release(j) => without(configuration, j),
+        Break::Release(j) => without_contact(configuration, j),
         Break::Border(j, upwards) => {
-            slid(&configuration, j, upwards, world).unwrap_or_else(|| without(configuration, j))
+            slide_over_end(&configuration, j, upwards, world).unwrap_or_else(|| without_contact(configuration, j))
         }
         Break::TipToTangent(angle) => as_tangent(configuration, angle),
-        Break::OntoWall(wall, _) => parted(world, &configuration, wall),
+        Break::OntoWall(wall, _) => split_onto_walls(world, &configuration, wall),
         Break::TangentToTip => back_to_tip(configuration, world),
         Break::Slip(j, ratio) => {
             let mut slips = configuration;
@@ -94,7 +94,7 @@ fn mend(configuration: Configuration, b: Break, world: &World<'_>) -> Configurat
 
 /// Contact j moved over an end of its stretch: onto the next one, or, where it is the tip's, over the corner there onto the
 /// piece beyond. None where the contour ends.
-fn slid(configuration: &Configuration, j: usize, upwards: bool, world: &World<'_>) -> Option<Configuration> {
+fn slide_over_end(configuration: &Configuration, j: usize, upwards: bool, world: &World<'_>) -> Option<Configuration> {
     let over = configuration.is_tip(j).then(|| beyond_corner(configuration.clone(), world)).flatten();
     over.or_else(|| {
         let next = world.neighbour(configuration.contacts[j].stretch, upwards)?;
@@ -118,7 +118,9 @@ fn back_to_tip(configuration: Configuration, world: &World<'_>) -> Configuration
 /// the edge rolls back to there. None where the contour does not bend away there.
 fn onto_end(mut configuration: Configuration, world: &World<'_>) -> Option<Configuration> {
     let last = configuration.count().checked_sub(1)?;
-    let Held { stretch, hold: Hold::Tangent { offset }, .. } = configuration.contacts[last] else { return None };
+    let ActiveContact { stretch, hold: Hold::Tangent { offset }, .. } = configuration.contacts[last] else {
+        return None;
+    };
     let at = world.support(stretch, configuration.t(last));
     let after = offset.cos() < 0.0;
     let next = world.neighbour(stretch, after).filter(|next| at.turning == 0.0 && !world.is_notch(*next))?;
@@ -139,7 +141,7 @@ mod tests {
     use rod_core::{Pose, Rod};
 
     /// What becomes of a guess for a level rod, its clamp at (-0.5, `y`), below the solid above y = x^2.
-    fn settled(y: f64, guess: Configuration) -> Option<Configuration> {
+    fn settle_guess(y: f64, guess: Configuration) -> Option<Configuration> {
         let ceiling = Composite::single(Parabola::new([0.0, 0.0], 1.0).unwrap()).unwrap();
         let path = ClampPath::standing(Pose { x: -0.5, y, phi: 0.0 });
         let mut corrector = Corrector::new(Setup::new(&Rod::new(1.0, 1.0).unwrap(), ceiling.as_ref(), path));
@@ -148,24 +150,24 @@ mod tests {
 
     #[test]
     fn a_rod_that_goes_through_gets_a_contact() {
-        let held = settled(0.02, Configuration::free(0.0)).unwrap();
+        let held = settle_guess(0.02, Configuration::free(0.0)).unwrap();
         assert!(held.count() == 1 && !held.is_tip(0) && held.force(0) > 0.0);
     }
 
     #[test]
     fn a_contact_that_pulls_is_let_go() {
         let mut pulled = Configuration::free(0.0);
-        pulled.insert(0, Held::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, 0.5]);
-        assert_eq!(settled(-0.02, pulled).unwrap().count(), 0);
+        pulled.insert(0, ActiveContact::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, 0.5]);
+        assert_eq!(settle_guess(-0.02, pulled).unwrap().count(), 0);
     }
 
     #[test]
     fn a_tip_that_lies_down_gets_a_tangential_contact() {
-        let side = settled(0.02, Configuration::free(0.0)).unwrap();
+        let side = settle_guess(0.02, Configuration::free(0.0)).unwrap();
         let mut tip = side.clone();
         tip.contacts[0].hold = Hold::Tip;
         tip.set(Unknown::Slope(0), -0.1);
-        let mended = settled(0.02, tip).unwrap();
+        let mended = settle_guess(0.02, tip).unwrap();
         assert!(!mended.is_tip(0) && (mended.s(0) - side.s(0)).abs() < 1e-9);
     }
 }

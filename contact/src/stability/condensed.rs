@@ -95,7 +95,7 @@ fn stiffness(rod: &impl RodModel, shape: &Shape, j: usize) -> Option<[Ends; 4]> 
     // backwards, as it is solved, from the contact, where it is known
     let back = rod.carry_with_sensitivities(next.s, &next.start, segment.a, segment.b, segment.s - next.s);
     let (_, CutSensitivities { by_phi, by_moment, by_a, by_b, .. }) = back;
-    let inverse = inverted([by_moment, by_a, by_b])?;
+    let inverse = inverse([by_moment, by_a, by_b])?;
     let column = |turn_before: f64, turn: f64, (x, y): (f64, f64)| {
         let ends = [-x - turn * by_phi[0], -y - turn * by_phi[1], turn_before - turn * by_phi[2]];
         let [moment, a, b] = inverse.map(|row| row[0] * ends[0] + row[1] * ends[1] + row[2] * ends[2]);
@@ -111,7 +111,7 @@ fn stiffness(rod: &impl RodModel, shape: &Shape, j: usize) -> Option<[Ends; 4]> 
 }
 
 /// The rows of the inverse of the matrix with these columns, of which the first three entries count.
-fn inverted([p, q, r]: [[f64; 4]; 3]) -> Option<[[f64; 3]; 3]> {
+fn inverse([p, q, r]: [[f64; 4]; 3]) -> Option<[[f64; 3]; 3]> {
     let cross =
         |u: &[f64; 4], v: &[f64; 4]| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     let rows = [cross(&q, &r), cross(&r, &p), cross(&p, &q)];
@@ -154,7 +154,7 @@ fn has_pivots(matrix: &mut [f64], base: usize, size: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_set::{Held, lying};
+    use crate::contact_set::{ActiveContact, tangent_hold};
     use crate::path::ClampPath;
     use crate::stability::Judge;
     use proptest::prelude::*;
@@ -164,7 +164,7 @@ mod tests {
 
     /// A rod that bends from its tip on: at each contact a disc that touches it on the side of its force, until the clamp, which is
     /// where it ends. Whether it is proven stable, and stable by its modes.
-    fn judged(parts: &[(f64, f64, f64)], tip: Option<f64>, turn: f64) -> [bool; 2] {
+    fn verdicts(parts: &[(f64, f64, f64)], tip: Option<f64>, turn: f64) -> [bool; 2] {
         let length: f64 = parts.iter().map(|(_, length, _)| length).sum();
         let mut at = Section { x: 0.0, y: 0.0, phi: turn, kappa: 0.0 };
         let (mut a, mut b, mut s) = (0.0, 0.0, 1.0);
@@ -180,7 +180,7 @@ mod tests {
             let (sin, cos) = alpha.sin_cos();
             let (x, y) = (at.x - radius * sin, at.y + radius * cos);
             discs.push(Composite::single(CircularArc::new([x, y], *radius, 0.0, TAU).unwrap()).unwrap());
-            let hold = if j == 0 && tip.is_some() { Hold::Tip } else { lying(-side) };
+            let hold = if j == 0 && tip.is_some() { Hold::Tip } else { tangent_hold(-side) };
             let third = if hold == Hold::Tip { at.phi } else { s };
             held.push((hold, (at.x, at.y), force.abs(), third, alpha));
             (a, b) = (a + force.abs() * cos, b + force.abs() * sin);
@@ -201,7 +201,7 @@ mod tests {
                 Hold::Tangent { offset } => Hold::Tangent { offset: offset + turns },
                 Hold::Tip => Hold::Tip,
             };
-            configuration.insert(j, Held::smooth(stretch, hold), [foot.t, force, third]);
+            configuration.insert(j, ActiveContact::smooth(stretch, hold), [foot.t, force, third]);
         }
         let shape = Shape::of(&setup, &configuration);
         let miss = (shape.segments[0].start.x - at.x).hypot(shape.segments[0].start.y - at.y);
@@ -216,9 +216,9 @@ mod tests {
         // slips from
         let stiff = [(0.1, 0.5, 0.3), (2.0, 0.5, 0.3)];
         for parts in [&[(1.0, 1.0, 0.5)][..], &[(2.0, 0.5, 0.3), (-2.0, 0.5, 0.3)], &stiff] {
-            assert_eq!(judged(parts, None, 0.3), [true; 2], "{parts:?}");
+            assert_eq!(verdicts(parts, None, 0.3), [true; 2], "{parts:?}");
         }
-        assert_eq!(judged(&[(6.0, 1.0, 0.02)], Some(1.4), 0.3), [false; 2]);
+        assert_eq!(verdicts(&[(6.0, 1.0, 0.02)], Some(1.4), 0.3), [false; 2]);
     }
 
     proptest! {
@@ -232,7 +232,7 @@ mod tests {
         ) {
             let under = |load: f64| {
                 let parts: Vec<_> = parts.iter().map(|(f, length, radius)| (load * f, *length, *radius)).collect();
-                judged(&parts, tips.then_some(lean + 1.2), turn)
+                verdicts(&parts, tips.then_some(lean + 1.2), turn)
             };
             let loads = (1..=80).map(|k| 0.05 * f64::from(k));
             let [mut last, mut lost] = [0.0, f64::INFINITY];

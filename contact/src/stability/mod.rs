@@ -99,7 +99,7 @@ impl Judge {
         let (rod, world) = (setup.rod.model(), &setup.world);
         let n = configuration.count();
         let Self { integrals, quadratic: q, along, across, eta } = self;
-        let shape = &shape.refined(rod);
+        let shape = &shape.refine(rod);
         let springs = springs(setup.clamp(configuration.tau()).law());
         let lead = shape.lead();
         let modes = MODES + 2 * (n + lead);
@@ -513,23 +513,23 @@ fn is_straight(rod: &impl RodModel, configuration: &Configuration, (j, kappa): (
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_set::Held;
+    use crate::contact_set::ActiveContact;
     use crate::path::ClampPath;
     use rod_contours::{Composite, Parabola};
     use rod_core::{ElasticClamp, Mounted, Pose, Rod};
 
     /// A straight rod standing under a ceiling y = 1 + c x^2, pressed with force f: the tip slides, the clamp holds.
     fn stands(c: f64, f: f64) -> bool {
-        held(&Rod::new(1.0, 1.0).unwrap(), c, f)
+        is_held(&Rod::new(1.0, 1.0).unwrap(), c, f)
     }
 
     /// Another rod that stands so, by all that judges it.
-    pub(super) fn held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
+    pub(super) fn is_held(rod: &impl PhysicalRod, c: f64, f: f64) -> bool {
         let contour = Composite::single(Parabola::new([0.0, 1.0], c).unwrap()).unwrap();
         let path = ClampPath::standing(Pose { x: 0.0, y: 0.0, phi: 0.5 * PI });
         let setup = Setup::new(rod, contour.as_ref(), path);
         let mut column = Configuration::free(0.0);
-        column.insert(0, Held::smooth(0, Hold::Tip), [0.0, f, 0.5 * PI]);
+        column.insert(0, ActiveContact::smooth(0, Hold::Tip), [0.0, f, 0.5 * PI]);
         let shape = Shape::of(&setup, &column);
         let by_modes = Judge::default().is_positive_by_modes(&setup, &column, &shape);
         assert!(by_modes || !condensed::is_positive(&setup, &column, &shape));
@@ -577,7 +577,7 @@ mod tests {
                 let clamp = ElasticClamp::springs(shifts, shifts, Some(k)).unwrap();
                 // the path is that of the support, and the force of the ceiling pushes the base down
                 let rod = Mounted::new(Rod::new(1.0, 1.0).unwrap(), clamp);
-                let [less, more] = [0.998 * critical, 1.002 * critical].map(|f| held(&rod, 0.0, f));
+                let [less, more] = [0.998 * critical, 1.002 * critical].map(|f| is_held(&rod, 0.0, f));
                 assert!(less && !more, "{k} {shifts:?}");
             }
         }
@@ -591,7 +591,7 @@ mod tests {
         let clamp = ElasticClamp::springs(Some(k), None, None).unwrap();
         let rod = Mounted::new(Rod::new(1.0, stiff).unwrap(), clamp);
         let in_units = |f: f64| f / stiff;
-        assert!(held(&rod, 0.5 * c, in_units(0.99 * k / c)) != held(&rod, 0.5 * c, in_units(1.01 * k / c)));
-        assert!(held(&rod, -0.5 * c, in_units(10.0 * k / c)));
+        assert!(is_held(&rod, 0.5 * c, in_units(0.99 * k / c)) != is_held(&rod, 0.5 * c, in_units(1.01 * k / c)));
+        assert!(is_held(&rod, -0.5 * c, in_units(10.0 * k / c)));
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn form(rod: &impl RodModel, shape: &Shape) -> Form {
 
 #[cfg(test)]
 mod tests {
-    use crate::stability::tests::held;
+    use crate::stability::tests::is_held;
     use rod_core::{Guided, Rod};
 
     /// A column that is built in, runs through a roller at d and carries its load on an end that is free to move across: with p^2 the load and
@@ -48,7 +48,7 @@ mod tests {
             // a roller that does not hold would leave the load of Euler
             assert!(critical > 1.1 * 0.25 * std::f64::consts::PI.powi(2));
             let rod = Guided::new(Rod::new(1.0, 1.0).unwrap(), d).unwrap();
-            let [less, more] = [0.99 * critical, 1.01 * critical].map(|f| held(&rod, 0.0, f));
+            let [less, more] = [0.99 * critical, 1.01 * critical].map(|f| is_held(&rod, 0.0, f));
             assert!(less && !more, "{d}: {critical} {less} {more}");
         }
     }

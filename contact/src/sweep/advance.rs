@@ -1,6 +1,6 @@
 //! The loop of the sweep: one round at a time, from a point of a branch to the next.
 
-use super::rubbing::stopped;
+use super::rubbing::contact_at_rest;
 use super::{Stage, Sweep};
 use crate::contact_set::Configuration;
 use crate::contact_set::edit::{beside_corner, over_sliver};
@@ -33,7 +33,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         }
         let (start, step) = match given {
             Some(given) => self.resume(given)?,
-            None => self.begin()?,
+            None => self.find_start()?,
         };
         if self.course.is_new() {
             self.report(&start);
@@ -144,15 +144,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         // a corner at the very tip is none
         let beside = beside_corner(&after.configuration, &self.setup().world);
         self.stepper.h = LIMITS.step.first;
-        let stopped = stopped(kind, &before, &after.configuration);
+        let stopped = contact_at_rest(kind, &before, &after.configuration);
         let onto = (kind == EventKind::Piece).then(|| after.configuration.clone());
         let before = self.stepper.look(before);
 
         // Certify the new contact set, with friction in the modes that the path allows.
         let mut next = if self.setup().world.rubs() {
-            self.goes_on_rubbing(after, stopped)?
+            self.continue_rubbing(after, stopped)?
         } else {
-            self.goes_on(after).or_else(|| beside.into_iter().find_map(|beside| self.goes_on_as(beside)))
+            self.continue_with(after).or_else(|| beside.into_iter().find_map(|beside| self.continue_as(beside)))
         };
         if let (None, Some(onto)) = (&next, &onto) {
             next = self.beyond_sliver(&before.configuration, onto)?;
@@ -187,23 +187,23 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn beyond_sliver(&mut self, before: &Configuration, after: &Configuration) -> Result<Option<Point>, StopReason> {
         let Some(beyond) = over_sliver(before, after, &self.setup().world) else { return Ok(None) };
         let seen = self.stepper.look(beyond);
-        self.goes_on_from(seen)
+        self.continue_from(seen)
     }
 
     /// The point from which the sweep goes on with the contacts of `seen`, with or without friction.
-    pub(super) fn goes_on_from(&mut self, seen: Seen) -> Result<Option<Point>, StopReason> {
-        if self.setup().world.rubs() { self.goes_on_rubbing(seen, None) } else { Ok(self.goes_on(seen)) }
+    pub(super) fn continue_from(&mut self, seen: Seen) -> Result<Option<Point>, StopReason> {
+        if self.setup().world.rubs() { self.continue_rubbing(seen, None) } else { Ok(self.continue_with(seen)) }
     }
 
     /// The point of a new contact set, if the sweep can go on with it.
-    pub(super) fn goes_on(&mut self, seen: Seen) -> Option<Point> {
+    pub(super) fn continue_with(&mut self, seen: Seen) -> Option<Point> {
         let point = self.stepper.point(seen);
         self.stepper.goes_on(&point).then_some(point)
     }
 
-    fn goes_on_as(&mut self, configuration: Configuration) -> Option<Point> {
+    fn continue_as(&mut self, configuration: Configuration) -> Option<Point> {
         let seen = self.stepper.look(configuration);
-        self.goes_on(seen)
+        self.continue_with(seen)
     }
 
     /// The point of a configuration.

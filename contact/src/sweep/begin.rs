@@ -1,7 +1,7 @@
 //! The first equilibrium: free, or brought along the path, or of all that can be reached the one of least energy.
 
 use super::Sweep;
-use super::landing::same;
+use super::landing::is_same_equilibrium;
 use super::start::{Approach, Start, StartCandidate};
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
@@ -13,7 +13,7 @@ use crate::limits::LIMITS;
 use crate::path::ClampPath;
 use crate::phase::Phase;
 use crate::snap::chain::Chain;
-use crate::snap::settle::rest;
+use crate::snap::settle::settle_chain;
 use rod_core::PhysicalRod;
 use std::f64::consts::PI;
 
@@ -32,8 +32,8 @@ struct Candidate {
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The first point: free, come along the path, or in contact with the least energy; with the step that ends it as for
     /// [`resume`](Self::resume).
-    pub(super) fn begin(&mut self) -> Result<(Point, Option<Step>), StopReason> {
-        if let Some(start) = self.free(0.0) {
+    pub(super) fn find_start(&mut self) -> Result<(Point, Option<Step>), StopReason> {
+        if let Some(start) = self.free_configuration(0.0) {
             self.start = Some(Start::Free);
             return Ok((self.at_rest(start), None));
         }
@@ -42,24 +42,24 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         }
         let (mut found, mut has_come) = (Vec::new(), false);
         for (approach, way) in APPROACHES.into_iter().zip(self.setup().path.to_its_start()) {
-            if let Some((way, brought)) = self.brought_by(way) {
-                self.keep(&mut found, approach, Some(brought));
+            if let Some((way, brought)) = self.bring_along(way) {
+                self.keep_candidate(&mut found, approach, Some(brought));
                 has_come |= approach == Approach::AlongPath && way <= LIMITS.start.own_path && !found.is_empty();
             }
         }
         let let_go = LIMITS.start.bends.map(|bend| self.let_go(bend));
         // what lies behind an open contour has not come there by bending
         for let_go in let_go.iter().flatten().filter(|let_go| self.is_before(let_go)).cloned().collect::<Vec<_>>() {
-            self.keep(&mut found, Approach::LettingGo, Some(let_go));
+            self.keep_candidate(&mut found, Approach::LettingGo, Some(let_go));
         }
         if found.is_empty() {
-            self.keep(&mut found, Approach::LettingGo, let_go.into_iter().flatten().next());
+            self.keep_candidate(&mut found, Approach::LettingGo, let_go.into_iter().flatten().next());
         }
-        let best = if has_come { 0 } else { least(&found).ok_or(StopReason::NoStart)? };
+        let best = if has_come { 0 } else { least_energy(&found).ok_or(StopReason::NoStart)? };
         let best = found.remove(best);
         found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
         found.insert(0, best);
-        self.start = Some(Start::InContact(found.iter().map(Candidate::told).collect()));
+        self.start = Some(Start::InContact(found.iter().map(Candidate::start_candidate).collect()));
         let start = found.swap_remove(0).configuration;
         // it may have come there another way than it goes on
         if self.setup().world.rubs() {
@@ -69,9 +69,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// Keeps what an approach came to, if it holds and is not known yet.
-    fn keep(&mut self, found: &mut Vec<Candidate>, approach: Approach, reached: Option<Configuration>) {
+    fn keep_candidate(&mut self, found: &mut Vec<Candidate>, approach: Approach, reached: Option<Configuration>) {
         let Some(configuration) = reached else { return };
-        let known = found.iter().any(|known| same(&self.setup().world, &known.configuration, &configuration));
+        let known =
+            found.iter().any(|known| is_same_equilibrium(&self.setup().world, &known.configuration, &configuration));
         if known || !self.stepper.look(configuration.clone()).scan.is_outside() {
             return;
         }
@@ -81,15 +82,15 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
     /// further back, it is free; and how far back that was.
-    fn brought_by(&mut self, way: ClampPath) -> Option<(f64, Configuration)> {
+    fn bring_along(&mut self, way: ClampPath) -> Option<(f64, Configuration)> {
         let farthest = if way.turns_only() { PI } else { LIMITS.start.farthest_back };
         let tries = (farthest / LIMITS.start.step_back) as usize;
         let mut free = Self::from_setup(self.setup().along(way), 0, f64::INFINITY, 0);
-        let back = (1..=tries).find_map(|k| free.free(-LIMITS.start.step_back * k as f64))?;
+        let back = (1..=tries).find_map(|k| free.free_configuration(-LIMITS.start.step_back * k as f64))?;
         let way = ClampPath::between(way.at(back.tau()), way.at(0.0))?;
         let end = way.length();
         let mut brought = self
-            .led(self.setup().along(way), Configuration::free(0.0), end)
+            .lead_to(self.setup().along(way), Configuration::free(0.0), end)
             .filter(|brought| brought.tau() <= end + LIMITS.sweep.at_end)?;
         brought.set_tau(0.0);
         // the pose is the same but for rounding
@@ -99,20 +100,20 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The free rod at a pose, if it touches nothing there.
-    pub(super) fn free(&mut self, tau: f64) -> Option<Configuration> {
+    pub(super) fn free_configuration(&mut self, tau: f64) -> Option<Configuration> {
         let scan = self.scan_free(tau);
         scan.is_outside().then(|| Configuration::free(tau))
     }
 
     /// A look at the free rod where it has not come from elsewhere: all that is behind an open contour is solid.
     fn scan_free(&mut self, tau: f64) -> Scan {
-        let filled = self.setup().filled();
+        let filled = self.setup().with_filled_objects();
         self.stepper.scanner.scan(&filled, &Configuration::free(tau))
     }
 
     /// Whether no part of the rod lies behind an open contour.
     fn is_before(&mut self, configuration: &Configuration) -> bool {
-        let filled = self.setup().filled();
+        let filled = self.setup().with_filled_objects();
         self.stepper.scanner.scan(&filled, configuration).is_outside()
     }
 
@@ -120,12 +121,12 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn let_go(&mut self, bend: f64) -> Option<Configuration> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let mut chain = Chain::at_rest(corrector.setup.rod.model(), &corrector.setup.clamp(0.0), bend);
-        rest(&mut chain, corrector, scanner, 0.0, |_, _| true).map(|seen| seen.configuration)
+        settle_chain(&mut chain, corrector, scanner, 0.0, |_, _| true).map(|seen| seen.configuration)
     }
 }
 
 impl Candidate {
-    fn told(&self) -> StartCandidate {
+    fn start_candidate(&self) -> StartCandidate {
         let Self { approach, configuration, energy } = self;
         let phase = Phase { contacts: configuration.count(), tip: configuration.ends_at_tip() };
         StartCandidate { approach: *approach, phase, energy: *energy }
@@ -133,7 +134,7 @@ impl Candidate {
 }
 
 /// The candidate of least energy.
-fn least(found: &[Candidate]) -> Option<usize> {
+fn least_energy(found: &[Candidate]) -> Option<usize> {
     let lower = |best: usize, k: usize| found[k].energy < found[best].energy * (1.0 - LIMITS.start.same_energy);
     (0..found.len()).reduce(|best, k| if lower(best, k) { k } else { best })
 }

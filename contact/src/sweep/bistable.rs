@@ -2,7 +2,7 @@
 //! second, with the same contacts.
 
 use super::Sweep;
-use super::landing::same;
+use super::landing::is_same_equilibrium;
 use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
 use crate::continuation::Seen;
@@ -23,11 +23,11 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         }
         let (there, _) = self.stepper.corrector.inspect_at_pose(fold);
         let back = Tangent { direction: there.direction.iter().map(|d| -d).collect(), weights: there.weights.clone() };
-        [there, back].into_iter().find_map(|tangent| self.followed_back(fold, tangent))
+        [there, back].into_iter().find_map(|tangent| self.follow_to_next_fold(fold, tangent))
     }
 
     /// The same in one direction along the branch.
-    fn followed_back(&mut self, fold: &Configuration, mut tangent: Tangent) -> Option<Seen> {
+    fn follow_to_next_fold(&mut self, fold: &Configuration, mut tangent: Tangent) -> Option<Seen> {
         let tau = fold.tau();
         let mut h = LIMITS.snap.first_step;
         let (mut here, mut has_turned) = (fold.clone(), false);
@@ -53,7 +53,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 return None;
             }
             if has_turned && next.tau() >= tau {
-                return self.settled_at(tau, &here, &next, fold);
+                return self.settle_between(tau, &here, &next, fold);
             }
             has_turned |= after.by_tau() > 0.0 && next.tau() < tau;
             (here, tangent, h) = (next, after, (1.5 * h).min(LIMITS.snap.longest_step));
@@ -62,7 +62,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The equilibrium at `tau` between two points of the branch.
-    fn settled_at(&mut self, tau: f64, from: &Configuration, to: &Configuration, fold: &Configuration) -> Option<Seen> {
+    fn settle_between(
+        &mut self,
+        tau: f64,
+        from: &Configuration,
+        to: &Configuration,
+        fold: &Configuration,
+    ) -> Option<Seen> {
         let share = (tau - from.tau()) / (to.tau() - from.tau());
         let mut guess = from.clone();
         for (z, end) in guess.z.iter_mut().zip(&to.z) {
@@ -72,6 +78,6 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let landed = settle(corrector, scanner, guess)?;
         let lower = energy(self.setup(), &landed.configuration) < energy(self.setup(), fold);
-        (lower && !same(&self.setup().world, &landed.configuration, fold)).then_some(landed)
+        (lower && !is_same_equilibrium(&self.setup().world, &landed.configuration, fold)).then_some(landed)
     }
 }

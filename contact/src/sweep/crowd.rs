@@ -1,6 +1,6 @@
 //! Transitions without end at one pose.
 
-use crate::contact_set::{Configuration, Held};
+use crate::contact_set::{ActiveContact, Configuration};
 use crate::error::StopReason;
 use crate::limits::LIMITS;
 use crate::scene::world::World;
@@ -24,7 +24,7 @@ impl Crowd {
             return Ok(());
         }
         // an open contour that is met head-on at its end has no side to rest on
-        let at_end = |(held, j): (&Held, usize)| {
+        let at_end = |(held, j): (&ActiveContact, usize)| {
             let at = world.support(held.stretch, reached.t(j));
             world.open_ends().iter().any(|(x, y)| (at.x - x).hypot(at.y - y) < LIMITS.sweep.at_open_end)
         };

@@ -9,20 +9,20 @@ use crate::scene::rod::Segment;
 use rod_core::PhysicalRod;
 
 /// An equilibrium that has ended, and its energy (J).
-pub(super) struct Ended {
+pub(super) struct EndedBranch {
     pub seen: Seen,
     pub energy: f64,
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    pub(super) fn ended(&self, seen: Seen) -> Ended {
+    pub(super) fn end_with_energy(&self, seen: Seen) -> EndedBranch {
         let energy = energy(self.setup(), &seen.configuration);
-        Ended { seen, energy }
+        EndedBranch { seen, energy }
     }
 
     /// The same with the work that the clamp does at most on its way to another equilibrium further on, where its reactions on the way are between
     /// those at both ends.
-    pub(super) fn ended_pushed(&self, last: &Ended, ahead: &Configuration) -> Ended {
+    pub(super) fn end_with_clamp_work(&self, last: &EndedBranch, ahead: &Configuration) -> EndedBranch {
         let (setup, from) = (self.setup(), &last.seen.configuration);
         let [a, b] = [from.tau(), ahead.tau()].map(|tau| setup.path.at(tau));
         let work = [from, ahead].map(|configuration| {
@@ -31,7 +31,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             across * (a.x - b.x) + along * (b.y - a.y) + start.moment * (a.phi - b.phi)
         });
         let most = work[0].max(work[1]).max(0.0) * setup.rod.units().energy;
-        Ended { seen: last.seen.clone(), energy: last.energy + most }
+        EndedBranch { seen: last.seen.clone(), energy: last.energy + most }
     }
 
     /// Whether a rod with this energy (J) may come to another equilibrium by itself: energy of rod and clamp only falls.
@@ -41,7 +41,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// A point, if a rod with this energy may come to it.
-    pub(super) fn fallen(&self, before: f64, point: Option<Point>) -> Option<Point> {
+    pub(super) fn if_energy_falls(&self, before: f64, point: Option<Point>) -> Option<Point> {
         point.filter(|point| self.may_fall(before, &point.configuration))
     }
 }

@@ -62,7 +62,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
             return Err(Stop { pose, tau: 0.0, reason: StopReason::NoPose });
         };
         let mut sweep = Sweep::from_setup(Setup::new(rod, objects.as_ref(), path), LIMITS.sweep.most_steps, 1.0, 0);
-        match sweep.begin() {
+        match sweep.find_start() {
             Ok((at, _)) => Ok(Self::at_rest(sweep, at)),
             Err(reason) => Err(Stop { pose, tau: 0.0, reason }),
         }
@@ -82,7 +82,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         check(state.pose, ["state.pose.x", "state.pose.y", "state.pose.phi"])?;
         let setup = Setup::new(rod, objects.as_ref(), ClampPath::standing(state.pose));
         let mut sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
-        let recalled = sweep.recalled(state)?;
+        let recalled = sweep.recall_state(state)?;
         let at = sweep.at_rest(recalled);
         Ok(Self::at_rest(sweep, at))
     }
@@ -149,7 +149,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         let share = |tau: f64| (tau / way).min(1.0);
         let mut items = Vec::new();
         while let Some(item) = self.sweep.next() {
-            items.push(item.map_err(|stop| Stop { tau: share(self.sweep.reached()), ..stop })?);
+            items.push(item.map_err(|stop| Stop { tau: share(self.sweep.reached_tau()), ..stop })?);
         }
         match (items.last(), &self.sweep.stage) {
             (Some(Item::State(state)), Stage::Over(Some(at))) => {

@@ -1,22 +1,22 @@
 //! A snap: the equilibrium ends, and the rod slips or jumps to another one.
 
 use super::Sweep;
-use super::first_law::Ended;
-use crate::contact_set::edit::{across_corner, beyond_corner, off_corner, passed};
-use crate::contact_set::{Configuration, Held, Unknown};
+use super::first_law::EndedBranch;
+use crate::contact_set::edit::{across_corner, beyond_borders, beyond_corner, off_corner};
+use crate::contact_set::{ActiveContact, Configuration, Unknown};
 use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::stepper::Stepper;
-use crate::continuation::transition::on;
+use crate::continuation::transition::solve_fixed;
 use crate::continuation::{Point, Seen};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{UNLOADED, loaded, smooth};
+use crate::friction::{UNLOADED, without_friction, without_unloaded};
 use crate::gap::GAP_TOLERANCE;
 use crate::limits::LIMITS;
 use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::snap::chain::Chain;
-use crate::snap::settle::{rest, settle};
+use crate::snap::settle::{settle, settle_chain};
 use crate::stability::clearance;
 use rod_core::{Grip, PhysicalRod, Pose};
 use smallvec::SmallVec;
@@ -24,21 +24,25 @@ use smallvec::SmallVec;
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads. A landing with more energy than it has is none.
     pub(super) fn snap(&mut self, last: Seen) -> Result<Point, StopReason> {
-        let last = self.ended(last);
+        let last = self.end_with_energy(last);
         // the descent and the solves about it know no friction
-        let here = &smooth(&last.seen.configuration);
-        if let Some(lighter) = self.lightened(&last.seen.configuration) {
-            return Ok(self.landed(EventKind::Release, last, lighter));
+        let here = &without_friction(&last.seen.configuration);
+        if let Some(lighter) = self.let_go_of_unloaded(&last.seen.configuration) {
+            return Ok(self.report_landing(EventKind::Release, last, lighter));
         }
         // the links of the descent are longer than a slip over a corner
         if let Some(landed) = self.slip(here, &last).or_else(|| self.slip_off(here, &last)) {
-            return Ok(self.landed(EventKind::SlipOver, last, landed));
+            return Ok(self.report_landing(EventKind::SlipOver, last, landed));
         }
-        if let Some(landed) = self.descended(here, &last) {
-            return Ok(if here.count() == 0 { self.met(last, landed) } else { self.jumped(last, landed) });
+        if let Some(landed) = self.descend(here, &last) {
+            return Ok(if here.count() == 0 {
+                self.land_at_first_contact(last, landed)
+            } else {
+                self.land_after_jump(last, landed)
+            });
         }
         if let Some(landed) = self.slide_over(here, &last) {
-            return Ok(self.jumped(last, landed));
+            return Ok(self.land_after_jump(last, landed));
         }
         self.reached = here.tau();
         Err(if is_at_inflection(&self.setup().world, here) || self.is_along(here) {
@@ -51,7 +55,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// Where the descent leads from `here`, which is `last` without friction.
-    fn descended(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
+    fn descend(&mut self, here: &Configuration, last: &EndedBranch) -> Option<Point> {
         let (tau, is_free) = (here.tau(), here.count() == 0);
         // a free rod has no fold to get over
         let kicks = LIMITS.snap.ahead_of_touch.into_iter().filter(|_| is_free).chain(LIMITS.snap.ahead);
@@ -61,7 +65,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             if self.is_clamp_inside(tau + kick) {
                 continue;
             }
-            let Landed { at_pose, ahead } = self.land(here, tau, kick);
+            let Landing { at_pose, ahead } = self.landing(here, tau, kick);
             if is_free {
                 // one that touches something and stays free has gone past it
                 let mut found = at_pose.into_iter().chain(ahead).filter(|landed| landed.configuration.count() > 0);
@@ -75,13 +79,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 continue;
             }
             // one that does not hold further on would only lead back
-            if let Some(landed) = at_pose.and_then(|landed| self.goes_on_landed(landed, last)) {
+            if let Some(landed) = at_pose.and_then(|landed| self.continue_landed(landed, last)) {
                 return Some(landed);
             }
             beyond.extend(ahead);
         }
         if !self.setup().world.rubs()
-            && let Some(landed) = self.behind_next_fold(here).and_then(|landed| self.goes_on_landed(landed, last))
+            && let Some(landed) = self.behind_next_fold(here).and_then(|landed| self.continue_landed(landed, last))
         {
             return Some(landed);
         }
@@ -89,22 +93,22 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let is_silent = self.is_silent;
         for ahead in beyond.iter().filter(|_| !is_silent) {
             let back = self
-                .brought_back(&ahead.configuration, tau)
-                .filter(|back| !same(&self.setup().world, &back.configuration, here));
-            if let Some(landed) = back.and_then(|landed| self.goes_on_landed(landed, last)) {
+                .bring_back(&ahead.configuration, tau)
+                .filter(|back| !is_same_equilibrium(&self.setup().world, &back.configuration, here));
+            if let Some(landed) = back.and_then(|landed| self.continue_landed(landed, last)) {
                 return Some(landed);
             }
         }
         // where the new branch begins only just beyond, it is entered there
         for ahead in beyond {
-            let pushed = self.ended_pushed(last, &ahead.configuration);
-            if let Some(landed) = self.goes_on_landed(ahead, &pushed) {
+            let pushed = self.end_with_clamp_work(last, &ahead.configuration);
+            if let Some(landed) = self.continue_landed(ahead, &pushed) {
                 return Some(landed);
             }
         }
         // a rod that does not come to rest in the descent, but could be free, will be
-        let free = self.free(tau).filter(|_| !is_free).map(|free| self.stepper.look(free));
-        free.and_then(|free| self.goes_on_landed(free, last))
+        let free = self.free_configuration(tau).filter(|_| !is_free).map(|free| self.stepper.look(free));
+        free.and_then(|free| self.continue_landed(free, last))
     }
 
     /// Where a free rod, found in contact within `kick` of `tau`, meets the first of its contacts: there that has no force yet.
@@ -112,8 +116,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let touch = |j: usize| {
             let mut alone = Configuration::free(found.tau());
             let unknowns = [found.t(j), found.force(j), found.get(Unknown::ArcLength(j))];
-            alone.insert(0, Held::smooth(found.contacts[j].stretch, found.contacts[j].hold), unknowns);
-            let at = on(&mut self.stepper.corrector, alone, Unknown::Force(0), 0.0).ok()?;
+            alone.insert(0, ActiveContact::smooth(found.contacts[j].stretch, found.contacts[j].hold), unknowns);
+            let at = solve_fixed(&mut self.stepper.corrector, alone, Unknown::Force(0), 0.0).ok()?;
             (tau - LIMITS.transition.touch_slack..=tau + kick).contains(&at.tau()).then_some(at)
         };
         let touched = (0..found.count()).filter_map(touch).min_by(|a, b| a.tau().total_cmp(&b.tau()))?;
@@ -121,7 +125,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if !seen.scan.is_outside() {
             return None;
         }
-        self.goes_on_from(seen).ok().flatten()
+        self.continue_from(seen).ok().flatten()
     }
 
     /// A free rod that is met by a contour without curvature there: the touch has no isolated solution. The contact, found further on, is followed
@@ -147,16 +151,16 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         }
         followed.into_iter().rev().find_map(|near| {
             let seen = self.stepper.look(near);
-            self.goes_on_from(seen).ok().flatten()
+            self.continue_from(seen).ok().flatten()
         })
     }
 
     /// The free rod has come to a first contact.
-    fn met(&mut self, last: Ended, touching: Point) -> Point {
+    fn land_at_first_contact(&mut self, last: EndedBranch, touching: Point) -> Point {
         let there = self.stepper.look(Configuration::free(touching.configuration.tau()));
         // a rod that is met head-on buckles: in contact it is only further on
-        let free = if there.scan.is_outside() { self.ended(there) } else { last };
-        self.landed(EventKind::FirstContact, free, touching)
+        let free = if there.scan.is_outside() { self.end_with_energy(there) } else { last };
+        self.report_landing(EventKind::FirstContact, free, touching)
     }
 
     /// Whether the rod is as curved as the contour at a contact, and touches it along a line.
@@ -167,40 +171,40 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
     /// that comes to lie flat on an edge.
-    fn lightened(&mut self, last: &Configuration) -> Option<Point> {
-        let lighter = loaded(last).filter(|lighter| lighter.count() > 0)?;
-        let passed = passed(&lighter, &self.setup().world);
+    fn let_go_of_unloaded(&mut self, last: &Configuration) -> Option<Point> {
+        let lighter = without_unloaded(last).filter(|lighter| lighter.count() > 0)?;
+        let passed = beyond_borders(&lighter, &self.setup().world);
         [lighter].into_iter().chain(passed).find_map(|lighter| {
             let seen = self.stepper.look(lighter);
-            if seen.scan.is_outside() { self.goes_on_from(seen).ok().flatten() } else { None }
+            if seen.scan.is_outside() { self.continue_from(seen).ok().flatten() } else { None }
         })
     }
 
     /// The tip, come to a convex corner, slips over it and rests on the piece beyond: where the turn is small a short jump,
     /// which needs no descent to find.
-    fn slip(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
+    fn slip(&mut self, here: &Configuration, last: &EndedBranch) -> Option<Point> {
         let guess = beyond_corner(here.clone(), &self.setup().world)?;
-        self.slipped(here, last, guess)
+        self.slip_to(here, last, guess)
     }
 
     /// A corner slips off the tip, which rests on a piece beside it.
-    fn slip_off(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
-        off_corner(here, &self.setup().world).into_iter().find_map(|guess| self.slipped(here, last, guess))
+    fn slip_off(&mut self, here: &Configuration, last: &EndedBranch) -> Option<Point> {
+        off_corner(here, &self.setup().world).into_iter().find_map(|guess| self.slip_to(here, last, guess))
     }
 
     /// The tip, come to a convex corner, slides over it until the rod lies on the corner: where the descent comes to no rest.
-    fn slide_over(&mut self, here: &Configuration, last: &Ended) -> Option<Point> {
+    fn slide_over(&mut self, here: &Configuration, last: &EndedBranch) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let guess = across_corner(here.clone(), &corrector.setup.world)?;
         let landed = settle(corrector, scanner, guess)?;
-        if same(&corrector.setup.world, &landed.configuration, here) {
+        if is_same_equilibrium(&corrector.setup.world, &landed.configuration, here) {
             return None;
         }
-        self.goes_on_landed(landed, last)
+        self.continue_landed(landed, last)
     }
 
     /// The equilibrium by `guess`, if it is a slip away from `here`, which is `last` without friction.
-    fn slipped(&mut self, here: &Configuration, last: &Ended, guess: Configuration) -> Option<Point> {
+    fn slip_to(&mut self, here: &Configuration, last: &EndedBranch, guess: Configuration) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let piece = here.contacts.last()?.stretch;
         let landed = settle(corrector, scanner, guess)?;
@@ -217,10 +221,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             return None;
         }
         if rubs {
-            return self.goes_on_landed(landed, last);
+            return self.continue_landed(landed, last);
         }
         let landed = self.stepper.point(landed);
-        self.fallen(last.energy, Some(landed))
+        self.if_energy_falls(last.energy, Some(landed))
     }
 
     /// Whether the clamp is inside an object at `tau`.
@@ -232,7 +236,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         inside
     }
 
-    fn jumped(&mut self, last: Ended, landed: Point) -> Point {
+    fn land_after_jump(&mut self, last: EndedBranch, landed: Point) -> Point {
         let before = &last.seen.configuration;
         let bears = (0..before.count()).any(|j| before.force(j) > UNLOADED);
         let kind = match (before.count(), landed.configuration.count()) {
@@ -241,10 +245,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             (_, 0) => EventKind::SnapOff,
             _ => EventKind::Snap,
         };
-        self.landed(kind, last, landed)
+        self.report_landing(kind, last, landed)
     }
 
-    fn landed(&mut self, kind: EventKind, last: Ended, landed: Point) -> Point {
+    fn report_landing(&mut self, kind: EventKind, last: EndedBranch, landed: Point) -> Point {
         let before = self.stepper.point(last.seen);
         self.announce(kind, &before, &landed);
         self.stepper.h = LIMITS.step.first;
@@ -253,13 +257,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// Where the rod lands from `last`, whose clamp is at `tau`: found `kick` beyond, and brought back to `tau` if it
     /// can be.
-    fn land(&mut self, last: &Configuration, tau: f64, kick: f64) -> Landed {
+    fn landing(&mut self, last: &Configuration, tau: f64, kick: f64) -> Landing {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let mut chain = Chain::of(&corrector.setup, last, tau + kick);
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(LIMITS.snap.bend);
-        let ahead = rest(&mut chain, corrector, scanner, tau + kick, |_, _| true);
-        let elsewhere = |world: &World<'_>, found: &Seen| !same(world, &found.configuration, last);
+        let ahead = settle_chain(&mut chain, corrector, scanner, tau + kick, |_, _| true);
+        let elsewhere = |world: &World<'_>, found: &Seen| !is_same_equilibrium(world, &found.configuration, last);
         let back = ahead.as_ref().and_then(|ahead| {
             let mut back = ahead.configuration.clone();
             back.set_tau(tau);
@@ -267,20 +271,20 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         });
         let at_pose = back.or_else(|| {
             chain.clamp = corrector.setup.path.at(tau);
-            rest(&mut chain, corrector, scanner, tau, elsewhere)
+            settle_chain(&mut chain, corrector, scanner, tau, elsewhere)
         });
-        Landed { at_pose, ahead }
+        Landing { at_pose, ahead }
     }
 }
 
 /// Where a rod lands: at the pose where its equilibrium ended, and a little further along the path.
-struct Landed {
+struct Landing {
     at_pose: Option<Seen>,
     ahead: Option<Seen>,
 }
 
 /// Whether two configurations at one pose are the same equilibrium: the parameters of a closed curve may differ by rounds.
-pub(super) fn same(world: &World<'_>, a: &Configuration, b: &Configuration) -> bool {
+pub(super) fn is_same_equilibrium(world: &World<'_>, a: &Configuration, b: &Configuration) -> bool {
     let near = |u: f64, v: f64| (u - v).abs() < LIMITS.snap.same * (1.0 + v.abs());
     let alike = |j: usize| {
         let (one, other) = (&a.contacts[j], &b.contacts[j]);

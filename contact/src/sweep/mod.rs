@@ -126,7 +126,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
         let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod.units())?, |_| step)?;
-        sweep.stage = Stage::Begins(Some(Box::new(sweep.recalled(state)?)));
+        sweep.stage = Stage::Begins(Some(Box::new(sweep.recall_state(state)?)));
         sweep.start = Some(Start::Given);
         Ok(sweep)
     }

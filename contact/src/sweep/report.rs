@@ -50,7 +50,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// How far along the path the sweep has come.
-    pub(super) fn reached(&self) -> f64 {
+    pub(super) fn reached_tau(&self) -> f64 {
         let at = match &self.stage {
             Stage::At(point, _) | Stage::Over(Some(point)) => point.configuration.tau(),
             Stage::Begins(_) | Stage::Over(None) => 0.0,
@@ -60,7 +60,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     pub(super) fn stop(&self, reason: StopReason) -> Stop {
         let Setup { rod, path, .. } = self.setup();
-        let tau = self.reached();
+        let tau = self.reached_tau();
         let length = rod.units().length;
         let Pose { x, y, phi } = path.at(tau);
         let passed = self.course.before + path.parameter(tau, length);

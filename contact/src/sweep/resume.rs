@@ -13,7 +13,7 @@ use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The configuration of a state at the first pose of the path.
-    pub(super) fn recalled(&mut self, state: &State) -> Result<Configuration, ContactError> {
+    pub(super) fn recall_state(&mut self, state: &State) -> Result<Configuration, ContactError> {
         let recalled = recall(&mut self.stepper.corrector, &state.contacts)?;
         let pulls = (0..recalled.count()).any(|j| recalled.force(j) < -LIMITS.resume.pull);
         let wrong = |reason| Err(ContactError::NotEquilibrium { reason });

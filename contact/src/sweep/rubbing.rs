@@ -1,29 +1,29 @@
 //! What a sweep does where there is friction: it chooses the modes of the contacts anew at every event.
 
 use super::Sweep;
-use super::first_law::Ended;
-use super::landing::same;
+use super::first_law::EndedBranch;
+use super::landing::is_same_equilibrium;
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
 use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{Motion, UNLOADED, anew, dissipated, drags, smooth};
+use crate::friction::{Motion, UNLOADED, friction_work, possible_motions, with_drag, without_friction};
 use crate::limits::LIMITS;
 use rod_core::{Grip, PhysicalRod};
 
 /// The contact that has come to rest in an event of this kind.
-pub(super) fn stopped(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
-    if kind == EventKind::Stick { (0..after.count()).find(|&j| rests(before, after, j)) } else { None }
+pub(super) fn contact_at_rest(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
+    if kind == EventKind::Stick { (0..after.count()).find(|&j| comes_to_rest(before, after, j)) } else { None }
 }
 
 /// Whether contact j slips before and sticks after.
-fn rests(before: &Configuration, after: &Configuration, j: usize) -> bool {
+fn comes_to_rest(before: &Configuration, after: &Configuration, j: usize) -> bool {
     after.contacts[j].grip.sticks() && !before.contacts[j].grip.sticks()
 }
 
 /// Number of contacts under a force that go on in another mode.
-fn changed(before: &Configuration, after: &Configuration) -> usize {
+fn count_changed_modes(before: &Configuration, after: &Configuration) -> usize {
     let changes = |j: &usize| match (before.contacts[*j].grip, after.contacts[*j].grip) {
         (Grip::Sticks { .. }, Grip::Sticks { .. }) => false,
         (Grip::Slips { ratio }, Grip::Slips { ratio: then }) => ratio * then <= 0.0,
@@ -33,10 +33,10 @@ fn changed(before: &Configuration, after: &Configuration) -> usize {
 }
 
 /// What happens to the modes of the contacts where the path turns, if anything does.
-fn turned(before: &Configuration, after: &Configuration) -> Option<EventKind> {
+fn event_of_turn(before: &Configuration, after: &Configuration) -> Option<EventKind> {
     let slips = |j: usize| !after.contacts[j].grip.sticks();
     let turns = |j: usize| before.contacts[j].grip.sticks() || after.friction(j) * before.friction(j) < 0.0;
-    if (0..after.count()).any(|j| rests(before, after, j)) {
+    if (0..after.count()).any(|j| comes_to_rest(before, after, j)) {
         return Some(EventKind::Stick);
     }
     (0..after.count()).any(|j| slips(j) && turns(j)).then_some(EventKind::Slip)
@@ -45,18 +45,19 @@ fn turned(before: &Configuration, after: &Configuration) -> Option<EventKind> {
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The point from which the sweep goes on with the contacts of `seen` in modes that the path allows; none where there is no such
     /// motion, and the rod snaps.
-    pub(super) fn goes_on_rubbing(&mut self, seen: Seen, stopped: Option<usize>) -> Result<Option<Point>, StopReason> {
+    pub(super) fn continue_rubbing(&mut self, seen: Seen, stopped: Option<usize>) -> Result<Option<Point>, StopReason> {
         if seen.configuration.count() == 0 {
-            return Ok(self.goes_on(seen));
+            return Ok(self.continue_with(seen));
         }
-        let ways = match anew(self.setup(), &seen.configuration, stopped) {
+        let ways = match possible_motions(self.setup(), &seen.configuration, stopped) {
             Motion::Ways(ways) => ways,
             Motion::Jams => return Err(StopReason::Jammed),
             Motion::TooMany => return Err(StopReason::Undetermined),
         };
         // what slips goes on to slip where it can, although friction at rest could hold it; then a contact goes on as it did
-        let rank =
-            |way: &Configuration| (self.held_at_rest(&seen.configuration, way), changed(&seen.configuration, way));
+        let rank = |way: &Configuration| {
+            (self.count_held_at_rest(&seen.configuration, way), count_changed_modes(&seen.configuration, way))
+        };
         let mut ways: Vec<_> = ways.into_iter().map(|way| (rank(&way), way)).collect();
         ways.sort_by_key(|(rank, _)| *rank);
         // the least rank, and of two such motions the one that holds for longer; none of two that hold as long
@@ -111,18 +112,18 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// Number of contacts that slip before, and after stick where friction at rest is larger than in motion.
-    fn held_at_rest(&self, before: &Configuration, after: &Configuration) -> usize {
+    fn count_held_at_rest(&self, before: &Configuration, after: &Configuration) -> usize {
         let holds_more = |j: usize| {
             let coefficients = self.setup().world.coefficients(after.contacts[j].stretch);
             coefficients.at_rest > coefficients.slipping
         };
-        (0..after.count()).filter(|&j| rests(before, after, j) && holds_more(j)).count()
+        (0..after.count()).filter(|&j| comes_to_rest(before, after, j) && holds_more(j)).count()
     }
 
     /// Where a step leads from a point, with the work of friction on the way.
     pub(super) fn follow(&mut self, from: &Point, step: Step) -> Result<Box<Point>, StopReason> {
         if self.setup().world.rubs() {
-            let work = dissipated(&mut self.stepper.corrector, (&from.configuration, &from.tangent), step.last());
+            let work = friction_work(&mut self.stepper.corrector, (&from.configuration, &from.tangent), step.last());
             self.dissipated = self.dissipated.zip(work).map(|(before, more)| before + more);
         }
         self.arrive(step)
@@ -131,8 +132,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The point to begin with where a path turns, or where an equilibrium was given.
     pub(super) fn resume_rubbing(&mut self, given: Configuration) -> Result<(Point, Option<Step>), StopReason> {
         let seen = self.stepper.look(given);
-        if let Some(point) = self.goes_on_rubbing(seen.clone(), None)? {
-            let turned = turned(&seen.configuration, &point.configuration);
+        if let Some(point) = self.continue_rubbing(seen.clone(), None)? {
+            let turned = event_of_turn(&seen.configuration, &point.configuration);
             // the first state of all has the modes in which it goes on
             if let Some(kind) = turned.filter(|_| !self.course.is_new()) {
                 let before = self.stepper.point(seen);
@@ -148,20 +149,21 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// The point from which the sweep goes on where the rod has landed, with no more energy than it had in `last`. With friction each contact is
     /// held back in the sense in which it came from there. Where there is no such equilibrium, or where it is `last` itself, which has ended, all
     /// contacts stick without a force along the contour.
-    pub(super) fn goes_on_landed(&mut self, landed: Seen, last: &Ended) -> Option<Point> {
+    pub(super) fn continue_landed(&mut self, landed: Seen, last: &EndedBranch) -> Option<Point> {
         if !self.may_fall(last.energy, &landed.configuration) {
             return None;
         }
         if !self.setup().world.rubs() || landed.configuration.count() == 0 {
-            return self.goes_on(landed);
+            return self.continue_with(landed);
         }
         let before = last.seen.configuration.segments(self.setup());
-        let dragged = drags(&mut self.stepper.corrector, &landed.configuration, &before);
-        let elsewhere = dragged.filter(|dragged| !same(&self.setup().world, dragged, &last.seen.configuration));
-        for way in elsewhere.into_iter().chain([smooth(&landed.configuration)]) {
+        let dragged = with_drag(&mut self.stepper.corrector, &landed.configuration, &before);
+        let elsewhere =
+            dragged.filter(|dragged| !is_same_equilibrium(&self.setup().world, dragged, &last.seen.configuration));
+        for way in elsewhere.into_iter().chain([without_friction(&landed.configuration)]) {
             let seen = self.stepper.look(way);
-            let point = self.goes_on_rubbing(seen, None).ok().flatten();
-            if let Some(point) = self.fallen(last.energy, point) {
+            let point = self.continue_rubbing(seen, None).ok().flatten();
+            if let Some(point) = self.if_energy_falls(last.energy, point) {
                 return Some(point);
             }
         }

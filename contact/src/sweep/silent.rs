@@ -13,7 +13,7 @@ use rod_core::PhysicalRod;
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The equilibrium that the rod comes to at `end` of another way of the clamp, that of `setup`, from one on it. A `start` without
     /// contacts is the rod free there.
-    pub(super) fn led(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
+    pub(super) fn lead_to(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
         let mut silent = Sweep::from_setup(setup, self.stepper.steps_left, f64::INFINITY, 0);
         silent.is_silent = true;
         let mut point = Box::new(silent.at_rest(start));
@@ -32,13 +32,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// An equilibrium without friction, found further along the path, brought back to `tau` with its clamp. None where it does not come to it.
-    pub(super) fn brought_back(&mut self, ahead: &Configuration, tau: f64) -> Option<Seen> {
+    pub(super) fn bring_back(&mut self, ahead: &Configuration, tau: f64) -> Option<Seen> {
         let path = &self.setup().path;
         let way = ClampPath::between(path.at(ahead.tau()), path.at(tau))?;
         let (mut start, end) = (ahead.clone(), way.length());
         start.set_tau(0.0);
         let setup = self.setup().along(way).without_friction();
-        let mut there = self.led(setup, start, end).filter(|there| there.tau() <= end + LIMITS.sweep.at_end)?;
+        let mut there = self.lead_to(setup, start, end).filter(|there| there.tau() <= end + LIMITS.sweep.at_end)?;
         there.set_tau(tau);
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         settle(corrector, scanner, there)

@@ -1,7 +1,7 @@
 //! The gap of the rod next to a touch, and to what bends away from it: bounds that no line gives.
 
 use super::{LARGEST_TURN, Search, rate};
-use crate::contact_set::Held;
+use crate::contact_set::ActiveContact;
 use crate::gap::interval::{Interval, Knot};
 use crate::gap::separator::Line;
 use crate::scene::world::{AHEAD, RunFoot};
@@ -31,13 +31,13 @@ impl<M: RodModel> Search<'_, M> {
     /// The contacts with the run between two nodes.
     pub(super) fn touches(&self, first: usize, last: usize) -> SmallVec<[Touch; 2]> {
         let Some(configuration) = self.configuration else { return SmallVec::new() };
-        let touch = |(j, Held { stretch, hold, .. }): (usize, &Held)| {
+        let touch = |(j, ActiveContact { stretch, hold, .. }): (usize, &ActiveContact)| {
             let (node, t) = (self.shape.node_of(j), configuration.t(j));
             if !(first..=last).contains(&node) || !self.world.is_on_run(self.run, *stretch, t) {
                 return None;
             }
             let Station { x, y, .. } = self.shape.nodes[node].at;
-            let foot = self.world.touched(*stretch, t, x, y);
+            let foot = self.world.foot_at(*stretch, t, x, y);
             let outward = self.known.lines[self.place].run.is_some_and(|run| run.bend == Bend::Outward);
             let tangent = outward.then(|| Line { at: (foot.x, foot.y), normal: foot.normal(), outward });
             let foot = RunFoot { foot, stretch: *stretch, end: None, joint: self.world.is_corner(*stretch) };
@@ -58,7 +58,8 @@ impl<M: RodModel> Search<'_, M> {
             let [from, to] = [i, i + count].map(|k| Knot::from(&self.shape.nodes[k]));
             let part = Interval::new(self.rod, from, to, segment, self.shape.force(segment));
             let run = *self.run();
-            let bound = self.compared(&run, &touch.foot, &part, forward).filter(|bound| *bound > self.least())?;
+            let bound =
+                self.compare_on_tangent(&run, &touch.foot, &part, forward).filter(|bound| *bound > self.least())?;
             self.note(if forward { i } else { i + count - 1 }, bound, false);
             Some(count)
         })
@@ -68,7 +69,7 @@ impl<M: RodModel> Search<'_, M> {
     /// parallel to the contour. There both are graphs over the common tangent, with d(sin theta)/dx = curvature: while the rod
     /// bends towards the solid by no more than the contour does, slopes and heights stay in order. Where a contour that bends outwards
     /// has turned more than the rod does at all, its tangent keeps the two apart from there on.
-    pub(super) fn compared(
+    pub(super) fn compare_on_tangent(
         &self,
         run: &Run,
         RunFoot { foot, stretch, end, joint }: &RunFoot,

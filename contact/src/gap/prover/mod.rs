@@ -420,7 +420,7 @@ impl<'a, M: RodModel> Search<'a, M> {
             }
         }
         for (foot, forward) in [(&feet[0], true), (&feet[1], false)] {
-            if let Some(bound) = self.compared(&run, foot, part, forward).filter(|bound| *bound > least) {
+            if let Some(bound) = self.compare_on_tangent(&run, foot, part, forward).filter(|bound| *bound > least) {
                 self.note(i, bound, false);
                 return None;
             }

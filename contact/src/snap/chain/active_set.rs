@@ -13,14 +13,14 @@ const MOST_STEPS: usize = 20;
 /// programme by Goldfarb and Idnani's method (Mathematical Programming 27, 1983), which is finite. It starts without forces.
 /// In each round the force at the deepest violated gap rises until that gap closes, while the gaps that are held stay closed; a
 /// held node whose force falls to zero meanwhile lets go. None where the walls leave no room.
-pub(super) fn active_set(programme: &Programme) -> Option<Vec<f64>> {
+pub(super) fn solve_by_active_set(programme: &Programme) -> Option<Vec<f64>> {
     let m = programme.rows.len();
     let (mut forces, mut held, mut steps) = (vec![0.0; m], Vec::new(), MOST_STEPS * m);
     let mut factor = Cholesky::new(DMatrix::<f64>::zeros(0, 0))?;
     loop {
-        let bent = programme.bent(&forces);
+        let bent = programme.change_by(&forces);
         let open = (0..m).filter(|j| !held.contains(j));
-        let gaps = open.map(|j| (j, programme.gaps[j] + programme.closed(j, &bent)));
+        let gaps = open.map(|j| (j, programme.gaps[j] + programme.closing(j, &bent)));
         let Some((deepest, mut gap)) =
             gaps.filter(|(_, gap)| *gap < VIOLATED).min_by(|(_, left), (_, right)| left.total_cmp(right))
         else {

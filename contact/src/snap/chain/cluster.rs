@@ -3,7 +3,7 @@
 use super::near::Near;
 use super::{Chain, LINK, LINKS};
 use crate::contact_set::notch::into_notch;
-use crate::contact_set::{Configuration, Held, lying};
+use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
 use crate::scene::corner::Corner;
 use crate::scene::world::World;
 use rod_core::{Hold, Section};
@@ -81,8 +81,8 @@ pub(super) fn contacts(chain: &Chain, world: &World<'_>, clusters: &[Cluster], t
         let passing = corner.and_then(|corner| corner.passing(&Section { x, y, phi, kappa: 0.0 }));
         let (t, alpha) = passing.map_or((foot.t, foot.alpha), |passing| (passing.t, passing.alpha));
         let tip = middle > LINKS as f64 - 0.75 && corner.is_none();
-        let (hold, third) = if tip { (Hold::Tip, phi) } else { (lying(phi - alpha), middle * LINK) };
-        configuration.insert(configuration.count(), Held::smooth(stretch, hold), [t, force, third]);
+        let (hold, third) = if tip { (Hold::Tip, phi) } else { (tangent_hold(phi - alpha), middle * LINK) };
+        configuration.insert(configuration.count(), ActiveContact::smooth(stretch, hold), [t, force, third]);
     }
     configuration
 }

@@ -14,13 +14,13 @@ pub(super) const LEAST_PIVOT: f64 = 1e-10;
 /// contacts that supposing them is cheaper than finding them one by one (`active_set`): none at first, then what
 /// pulls lets go and what goes through is held, all at once, until both is nowhere the case (block pivoting, Portugal, Judice
 /// and Vicente 1994). That is the solution, for there is only one. None where it does not settle.
-pub(super) fn pressed(programme: &Programme) -> Option<Vec<f64>> {
+pub(super) fn solve_by_pivoting(programme: &Programme) -> Option<Vec<f64>> {
     let m = programme.rows.len();
     let mut forces = vec![0.0; m];
     let mut held: Vec<usize> = Vec::new();
     for _ in 0..MOST_ROUNDS {
-        let bent = programme.bent(&forces);
-        let gap = |j: usize| programme.gaps[j] + programme.closed(j, &bent) + programme.yielding * forces[j];
+        let bent = programme.change_by(&forces);
+        let gap = |j: usize| programme.gaps[j] + programme.closing(j, &bent) + programme.yielding * forces[j];
         let holds = |j: usize| if forces[j] == 0.0 { gap(j) < -CLOSED } else { forces[j] > 0.0 };
         let next: Vec<usize> = (0..m).filter(|j| holds(*j)).collect();
         if next == held {

@@ -63,12 +63,12 @@ impl Programme {
         let base_softness = chain.springs.iter().map(|spring| spring.softness / damped).collect();
         let mut programme = Self { rows, base_rows, gaps: Vec::new(), softness, base_softness, yielding: 0.0, free };
         programme.gaps =
-            near.iter().enumerate().map(|(i, near)| near.gap.max(-push) - programme.closed(i, &free)).collect();
+            near.iter().enumerate().map(|(i, near)| near.gap.max(-push) - programme.closing(i, &free)).collect();
         programme
     }
 
     /// By how much a change of the chain closes the gap of a near node.
-    pub fn closed(&self, i: usize, change: &Change) -> f64 {
+    pub fn closing(&self, i: usize, change: &Change) -> f64 {
         let by_base = self.base_rows.get(i).map_or(0.0, |row| row.iter().zip(change.base).map(|(r, d)| r * d).sum());
         dot(&self.rows[i], &change.joints) + by_base
     }
@@ -83,7 +83,7 @@ impl Programme {
     }
 
     /// How the chain gives way to forces at the near nodes.
-    pub fn bent(&self, forces: &[f64]) -> Change {
+    pub fn change_by(&self, forces: &[f64]) -> Change {
         let mut bent = Change { joints: [0.0; LINKS], base: [0.0; 3] };
         for (i, force) in forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
             for ((bent, softness), row) in bent.joints.iter_mut().zip(&self.softness).zip(&self.rows[i]) {

@@ -1,17 +1,17 @@
 //! The solution of the quadratic programme of a step: the contacts are supposed first, and found one by one where that fails.
 
-use super::active_set::active_set;
-use super::pressed::pressed;
+use super::active_set::solve_by_active_set;
+use super::pressed::solve_by_pivoting;
 use super::programme::{Change, Programme};
 
 /// Change d of the chain and the force at each near node. None where the walls leave no room, or where the `work` that is left (in
 /// units of the cube of the number of near nodes) does not suffice.
 pub(super) fn solve(programme: &Programme, work: &mut f64) -> Option<(Change, Vec<f64>)> {
-    let forces = pressed(programme).or_else(|| {
+    let forces = solve_by_pivoting(programme).or_else(|| {
         *work -= (programme.rows.len() as f64).powi(3);
-        (*work >= 0.0).then(|| active_set(programme)).flatten()
+        (*work >= 0.0).then(|| solve_by_active_set(programme)).flatten()
     })?;
-    let (free, bent) = (&programme.free, programme.bent(&forces));
+    let (free, bent) = (&programme.free, programme.change_by(&forces));
     let joints = std::array::from_fn(|i| free.joints[i] - bent.joints[i]);
     let base = std::array::from_fn(|k| free.base[k] - bent.base[k]);
     Some((Change { joints, base }, forces))
@@ -28,7 +28,7 @@ mod tests {
     use std::f64::consts::PI;
 
     /// A straight chain above a wavy floor that has come up to it in places.
-    fn floored(seed: u32) -> Programme {
+    fn programme_above_floor(seed: u32) -> Programme {
         let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
         let (nodes, _) = chain.nodes();
         let waves = 2.0 + f64::from(seed) * 0.7;
@@ -45,10 +45,10 @@ mod tests {
 
     /// No wall is gone through by more than rounding, none pulls, and only closed gaps press.
     fn solves(programme: &Programme, forces: &[f64]) -> bool {
-        let bent = programme.bent(forces);
+        let bent = programme.change_by(forces);
         let slack = 1e-10 + 1e-15 * forces.iter().copied().fold(0.0, f64::max);
         programme.gaps.iter().zip(forces).enumerate().all(|(i, (gap, force))| {
-            let gap = gap + programme.closed(i, &bent) + programme.yielding * force;
+            let gap = gap + programme.closing(i, &bent) + programme.yielding * force;
             gap > -slack && *force >= 0.0 && (*force == 0.0 || gap < slack)
         })
     }
@@ -57,10 +57,10 @@ mod tests {
     fn contacts_that_hold_are_those_of_the_active_set() {
         let mut settled = 0;
         for seed in 0..60 {
-            let programme = floored(seed);
-            let exact = active_set(&programme).unwrap();
+            let programme = programme_above_floor(seed);
+            let exact = solve_by_active_set(&programme).unwrap();
             assert!(solves(&programme, &exact), "{seed}");
-            let Some(forces) = pressed(&programme) else { continue };
+            let Some(forces) = solve_by_pivoting(&programme) else { continue };
             settled += 1;
             assert!(solves(&programme, &forces), "{seed}");
             let largest = exact.iter().copied().fold(0.0, f64::max);
@@ -93,7 +93,7 @@ mod tests {
             let near: Vec<Near> = walls.into_iter().enumerate().map(wall).collect();
             let mut programme = Programme::new(&chain, &nodes, &near, 10_f64.powf(time_step), 0.03);
             programme.yielding = if yields { 1e-5 } else { 0.0 };
-            let found = active_set(&programme);
+            let found = solve_by_active_set(&programme);
             prop_assert!(found.is_some() || !yields);
             prop_assert!(found.is_none_or(|forces| solves(&programme, &forces)));
         }
