@@ -176,7 +176,7 @@ pub(crate) struct ResumeLimits {
     /// Largest distance (lengths of the rod plus radians) between the first pose of a path and the pose of the state: the rounding of poses
     /// that were written to a file.
     pub same_pose: f64,
-    /// Pulling force up to which a state counts as an equilibrium: the rounding of states that were written to a file.
+    /// Pulling force up to which a state counts as an equilibrium.
     pub pull: f64,
     /// Least d tau / d arclength at which the tangent of a stable equilibrium is known to lead along the path. Nearer to a fold its
     /// sense is rounding.

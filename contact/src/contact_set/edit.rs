@@ -1,5 +1,5 @@
-//! Contact sets changed: a contact moved onto the next stretch, the tip onto the other side of a corner, a tip contact made
-//! tangential or the other way round.
+//! Changes of a contact set: they move a contact onto the next stretch or the tip to the other side of a corner, and turn a tip contact into a
+//! tangential one or the reverse.
 
 use crate::contact_set::{ActiveContact, Configuration, FORCE_TOLERANCE, Unknown, tangent_hold};
 use crate::limits::LIMITS;
@@ -38,7 +38,7 @@ pub(crate) fn onto_neighbour(
     configuration
 }
 
-/// The contact sets with one contact that is at the border of its stretch on the next one.
+/// For each contact at a border of its stretch: the contact set with this contact on the next stretch.
 pub(crate) fn beyond_borders(configuration: &Configuration, world: &World<'_>) -> SmallVec<[Configuration; 2]> {
     let mut passed = SmallVec::new();
     for (j, held) in configuration.contacts.iter().enumerate() {
@@ -51,8 +51,8 @@ pub(crate) fn beyond_borders(configuration: &Configuration, world: &World<'_>) -
     passed
 }
 
-/// A contact that has come from one stretch onto another, that is shorter than [`SLIVER`], at the other end of that. None where there is no such
-/// contact, and where the contour ends.
+/// The contact set beyond a stretch shorter than [`SLIVER`]: the contact that has come onto it is moved to its other end. None where no contact
+/// has come onto such a stretch, or where the contour ends.
 pub(crate) fn over_sliver(before: &Configuration, after: &Configuration, world: &World<'_>) -> Option<Configuration> {
     let passes = |j: &usize| before.contacts[*j].stretch != after.contacts[*j].stretch;
     let j = (0..before.count().min(after.count())).find(passes)?;

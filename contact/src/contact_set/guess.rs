@@ -1,4 +1,4 @@
-//! A contact set from contacts in SI units: a guess of the user's, or the contacts of a state.
+//! A contact set from contacts in SI units: those of a user's guess, or of a state.
 
 use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
 use crate::error::ContactError;
@@ -23,16 +23,16 @@ pub(crate) struct GuessedContact {
 }
 
 impl GuessedContact {
-    /// What it adds to (A, B).
+    /// Its contribution to the force (A, B) of the segment before it.
     fn push(&self) -> (f64, f64) {
         push(self.force, self.friction.map_or(0.0, |(friction, _)| friction), self.foot.alpha)
     }
 }
 
-/// Share of its cone by which the force of a state may point out of it.
+/// Largest angle, as a share of the cone of normals, by which the force of a state may point out of the cone by rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Rounds in which the base of a clamp on springs and the moment about it are found. Two suffice where turns and shifts are not coupled.
+/// Fixed-point iterations for the base of a clamp on springs and the moment about it. Two suffice where turns and shifts are not coupled.
 const GIVING_WAY: usize = 8;
 
 type Slopes = SmallVec<[f64; 8]>;
@@ -81,7 +81,7 @@ pub(crate) fn by_forces(rod: &impl RodModel, clamp: &impl Clamp, supposed: &[Gue
     supposed.iter().map(|contact| rod.to(contact.s, contact.push())).collect()
 }
 
-/// The rod from the roller of its clamp on, under the forces. None without a roller, and where it is not held there.
+/// The rod from the roller of its clamp on, under the forces. None without a roller, or where the roller does not hold the rod.
 fn beyond_roller<'a, M: RodModel>(rod: &'a M, clamp: &impl Clamp, supposed: &[GuessedContact]) -> Option<Walk<'a, M>> {
     let roller = clamp.roller()?;
     let [x, y] = roller.point(clamp.pose());
@@ -102,7 +102,7 @@ fn clamp_reactions(base: Pose, supposed: &[GuessedContact]) -> Reactions {
     Reactions { f0x: -b, f0y: a, m0z }
 }
 
-/// The contacts of a guess with a rod that has such slope angles there.
+/// The configuration of guessed contacts at which the rod has the slope angles `slopes`.
 pub(crate) fn configuration_of_guess(supposed: &[GuessedContact], slopes: &[f64]) -> Configuration {
     let mut configuration = Configuration::free(0.0);
     for (j, (GuessedContact { stretch, foot, tip, s, force, .. }, phi)) in supposed.iter().zip(slopes).enumerate() {
@@ -118,7 +118,7 @@ pub(crate) fn configuration_of_guess(supposed: &[GuessedContact], slopes: &[f64]
     configuration
 }
 
-/// The contacts of a guess on the contours.
+/// The contacts of a guess on the contours, dimensionless.
 pub(crate) fn contacts_of_guess(
     world: &World<'_>,
     units: Units,
@@ -158,7 +158,7 @@ pub(crate) fn contacts_of_guess(
     Ok(supposed)
 }
 
-/// On a vertex all parameters are one point: the direction of the force, if it is within the cone of the normals, tells them apart.
+/// On a vertex all parameters are the same point. The direction of the force, if it is within the cone of the normals, gives the parameter.
 fn turn_on_joint(world: &World<'_>, stretch: usize, foot: &mut Foot, alpha: f64) {
     if !(world.is_corner(stretch) || world.is_notch(stretch)) {
         return;

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 /// Pulling force (E I / L^2) that counts as zero: a hundred times the error of a solved force.
 pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
 
-/// Where a contact is (a stretch of the contour), how it holds the rod, and whether the rod slips or sticks there.
+/// A contact of the contact set: the stretch of the contour on which it is, how it holds the rod, and whether the rod slips or sticks there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ActiveContact {
     pub stretch: usize,
@@ -49,7 +49,7 @@ pub(crate) enum Unknown {
 }
 
 impl Unknown {
-    /// Its place among so many unknowns, the path parameter included.
+    /// Its index among `size` unknowns, the path parameter included.
     pub const fn index(self, size: usize) -> usize {
         match self {
             Self::Parameter(j) => 3 * j,
@@ -60,7 +60,8 @@ impl Unknown {
     }
 }
 
-/// Contacts of a set. Sets of up to four, most of all, are on the stack; they are moved often, so that more room there costs more.
+/// Contacts of a set. Up to four are on the stack, which nearly all sets have. Room for more there would cost more, because sets are moved
+/// often.
 pub(crate) type Contacts = SmallVec<[ActiveContact; 4]>;
 
 /// Unknowns of the boundary-value problem, three a contact, then the tangential force of each contact that sticks, and the path
@@ -227,12 +228,12 @@ impl Configuration {
 /// The segments of a rod.
 pub(crate) type Segments = SmallVec<[Segment; 9]>;
 
-/// The hold of a rod that lies on a contour, from its slope angle less the contour's, about a multiple of pi.
+/// The hold of a rod that lies on a contour. `angle` is its slope angle less the contour's, near a multiple of pi.
 pub(crate) fn tangent_hold(angle: f64) -> Hold {
     Hold::Tangent { offset: PI * (angle / PI).round() }
 }
 
-/// Contacts as the rod's supports.
+/// The contacts of a set as the supports of the boundary-value problem.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ActiveSupports<'a> {
     pub world: &'a World<'a>,

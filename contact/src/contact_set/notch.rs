@@ -1,15 +1,15 @@
 //! The tip in a notch: two walls hold it, given as one force whose direction is free between their normals.
 //!
-//! It gets there over the end of a wall (the contour's parameter simply runs on), and leaves so too. And it gets there and
-//! leaves sideways: where the rod lies down on one wall at the tip, the force parts into a tangential contact on that wall,
-//! which then moves up the rod, and the tip on the other one.
+//! The tip enters and leaves a notch over the end of a wall, where the contour's parameter runs on. It also enters and leaves sideways: where
+//! the rod lies down on one wall at the tip, the force splits into a tangential contact on that wall, which then moves up the rod, and a tip
+//! contact on the other wall.
 
 use crate::contact_set::{ActiveContact, Configuration, Unknown, tangent_hold};
 use crate::scene::world::World;
 use rod_core::Hold;
 use std::f64::consts::{PI, TAU};
 
-/// Where a wall of `notch` meets it: the wall's parameter and tangent angle there.
+/// The parameter and the tangent angle of a wall at its end in `notch`.
 fn edge(world: &World<'_>, notch: usize, wall: usize) -> (f64, f64) {
     let t = world.border(wall, world.neighbour(notch, false) == Some(wall));
     (t, world.support(wall, t).alpha)
@@ -104,7 +104,7 @@ fn rest_in(world: &World<'_>, configuration: &mut Configuration, notch: usize, o
     configuration.set(Unknown::Force(last), a.hypot(b));
 }
 
-/// The tip in a notch and a contact on one of its walls as the tip in the notch alone, with the sum of their forces; and the slope angle
+/// A tip in a notch and a contact on one of its walls replaced by the tip in the notch alone, with the sum of their forces; and the slope angle
 /// at the tip with which the rod lies on that wall.
 pub(crate) fn tip_alone_in_notch(world: &World<'_>, configuration: &Configuration) -> (Configuration, f64) {
     let mut gathered = configuration.clone();
@@ -119,8 +119,8 @@ pub(crate) fn tip_alone_in_notch(world: &World<'_>, configuration: &Configuratio
     (gathered, alpha + offset)
 }
 
-/// A rod that lies on a wall up to the tip in its notch, with the tip on the other wall: where the force in the notch vanishes it has no
-/// direction, but the equations of these two contacts are regular.
+/// The same rod with its tip on the other wall, if it lies on one wall up to its tip in the notch. Where the force in the notch vanishes, its
+/// direction is undefined, but the equations of the two contacts on the walls are regular.
 pub(crate) fn split_at_notch(world: &World<'_>, configuration: &Configuration) -> Option<Configuration> {
     let [lying, tip] = configuration.contacts.last_chunk::<2>()?;
     let walls = Some(tip.stretch)
@@ -143,7 +143,7 @@ pub(crate) fn straddles(world: &World<'_>, configuration: &Configuration) -> boo
     tip.hold == Hold::Tip && world.notch_between(lying.stretch, tip.stretch).is_some()
 }
 
-/// Two contacts that have met in the notch between their walls as the one that they are there.
+/// Two contacts that have met in the notch between their walls, replaced by the one contact in the notch.
 pub(crate) fn merge_in_notch(world: &World<'_>, configuration: &Configuration) -> Configuration {
     let mut merged = configuration.clone();
     let lying = configuration.count() - 2;

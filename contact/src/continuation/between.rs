@@ -1,4 +1,4 @@
-//! The equilibria to report between both ends of a step: by its cubic, corrected.
+//! The equilibria to report between both ends of a step: predicted by a cubic through both ends, corrected by Newton's method.
 
 use crate::contact_set::Configuration;
 use crate::contact_set::order::ordered;
@@ -12,14 +12,14 @@ use crate::limits::LIMITS;
 use crate::state::State;
 use rod_core::PhysicalRod;
 
-/// Halvings of an interval: 60 reach rounding.
+/// Limit of halvings of an interval. 60 halvings reach rounding.
 const MOST_HALVINGS: usize = 60;
 /// Distance (path parameter) from the pose at which the cubic is left to Newton's method, which comes to the pose in one step.
 const NEAR_POSE: f64 = 1e-12;
 
 impl<R: PhysicalRod> Stepper<'_, R> {
-    /// The equilibrium at the pose `tau` on the way of `step` from `from`, where all that was known of the step holds there
-    /// too.
+    /// The certified equilibrium at the pose `tau` between `from` and the end of `step`. None where it is not found, or where a condition of the
+    /// contact set is violated or it is not stable: the step has passed over a transition.
     pub fn between(&mut self, from: &Point, step: &Step, tau: f64) -> Option<State> {
         let last = step.last();
         if last.contacts.len() != from.configuration.contacts.len() {
@@ -58,9 +58,8 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         stable.then(|| state(&self.corrector.setup, &here, &scan, quality))
     }
 
-    /// Whether the equilibrium `here`, which was solved for last, is as stable as where its step comes from. On the way the signs
-    /// of the second variation change only in a fold, from where on tau falls along the branch, and where a contact wraps around the
-    /// contour.
+    /// Whether the equilibrium `here`, of which the corrector still holds the Jacobian, is stable because the start of its step is. Between the
+    /// two, the sign of the second variation changes only in a fold, where tau begins to fall, or where a contact wraps around the contour.
     fn stays_stable(&self, from: &Point, here: &Configuration, scan: &Scan) -> bool {
         let direction = self.corrector.direction(here.z.len());
         from.quality.stable
@@ -96,13 +95,13 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 struct Way<'a> {
     from: &'a Point,
     to: &'a Configuration,
-    /// The tangent at the end, where it is known, and its arclength for one along the first tangent.
+    /// The tangent at the end, where it is known, and the arclength along it per unit of arclength along the first tangent.
     after: Option<(&'a Tangent, f64)>,
     length: f64,
 }
 
 impl Way<'_> {
-    /// The cubic of unknown number `i` in x: what it is at 0, and the rates of its change from there.
+    /// The coefficients, constant first, of the cubic of unknown number `i` in the arclength.
     fn cubic(&self, i: usize) -> [f64; 4] {
         let (start, end, l) = (self.from.configuration.z[i], self.to.z[i], self.length);
         let rate = self.from.tangent.rate(i);
@@ -120,7 +119,7 @@ impl Way<'_> {
         here
     }
 
-    /// The point at the pose `tau`; none where there is no way.
+    /// The point at the pose `tau`. None where the step has no length.
     fn at_pose(&self, tau: f64) -> Option<Configuration> {
         let cubic = self.cubic(self.to.z.len() - 1);
         let (mut low, mut high) = (0.0, self.length);
@@ -147,7 +146,7 @@ impl Way<'_> {
     }
 }
 
-/// The cubic with such coefficients at x.
+/// The value of a cubic at x.
 fn cubic_value([a, b, c, d]: [f64; 4], x: f64) -> f64 {
     a + x * (b + x * (c + x * d))
 }

@@ -1,6 +1,5 @@
 //! A branch of equilibria along the path: the boundary-value problem with the path parameter as one more unknown and one
-//! more, linear, condition. The condition is what makes it a solve at a pose, a step of pseudo-arclength or the location of
-//! an event.
+//! more, linear, equation. This equation, the condition, selects a pose, a step of pseudo-arclength or an event.
 
 use crate::contact_set::{ActiveContact, ActiveSupports, Configuration, Unknown, Unknowns};
 use crate::limits::LIMITS;
@@ -16,8 +15,8 @@ use rod_core::{TrustRegionSearch, solve_by_trust_region};
 pub(crate) enum Condition<'a> {
     /// One unknown has a given value: the pose, a vanishing force, a contact at the tip or at the border of its stretch.
     Fixed { unknown: Unknown, value: f64 },
-    /// A contact that sticks has the force along the contour, unknown number `friction`, that it may have at most: `ratio` times the
-    /// normal one.
+    /// A contact that sticks is at the limit of friction: its force along the contour, unknown number `friction`, is `ratio` times its
+    /// normal force, unknown number `force`.
     OnCone { friction: usize, force: usize, ratio: f64 },
     /// The plane across a tangent at a distance from a point.
     Plane { tangent: &'a Tangent, from: &'a [f64], distance: f64 },
@@ -144,7 +143,7 @@ impl<R: PhysicalRod> System for Bordered<'_, R> {
     }
 }
 
-/// Solves for points of branches, with the memory to do so.
+/// Solves for points of branches. It keeps the memory of Newton's method.
 #[derive(Debug)]
 pub(crate) struct Corrector<'a, R = Rod> {
     pub setup: Setup<'a, R>,
@@ -171,8 +170,8 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         solve(&system, z, &options(iterations), &mut self.workspace)
     }
 
-    /// The same, with the tangent there by the last Jacobian of the solve, which was taken at most one small correction away;
-    /// none where the solve failed.
+    /// [`correct`](Self::correct), and the tangent at the solution: by the last Jacobian of the solve, which was taken at most one small
+    /// correction away. No tangent where the solve failed.
     pub fn correct_with_tangent(
         &mut self,
         configuration: &mut Configuration,
@@ -229,13 +228,13 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         self.inspect(configuration, Condition::Fixed { unknown: Unknown::Path, value: configuration.tau() })
     }
 
-    /// The direction, of any length, of the branch by the inverse that the workspace holds, for so many unknowns: with the pose fixed
-    /// in the last solve that of growing tau.
+    /// The direction of the branch, of any length, for `size` unknowns: the last column of the inverse Jacobian that the workspace holds. If
+    /// the pose was fixed in the last solve, tau grows along it.
     pub fn direction(&self, size: usize) -> &[f64] {
         &self.workspace.inverse()[size * (size - 1)..][..size]
     }
 
-    /// The tangent at `configuration` by the inverse that the workspace holds.
+    /// The tangent at `configuration` by the inverse Jacobian that the workspace holds.
     fn tangent(&self, configuration: &Configuration) -> Tangent {
         let size = configuration.z.len();
         let column = self.direction(size);

@@ -11,7 +11,7 @@ use rod_core::{
     Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RodModel, RollerHold, SolveReport, Supports, Units,
 };
 
-/// What is known of a configuration besides its unknowns.
+/// The quality of a configuration: the part of its certificate that comes from the solve and the stability.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quality {
     pub residual: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Quality {
 }
 
 impl Quality {
-    /// Of a free rod: nothing was solved.
+    /// The quality of a free rod, which needs no solve.
     pub const FREE: Self = Self { residual: 0.0, condition: 1.0, iterations: 0, stable: true };
 
     pub fn new(report: &SolveReport, stable: bool) -> Self {
@@ -96,7 +96,7 @@ fn roller<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -
     }))
 }
 
-/// What friction does at contact j, in these units of length and force.
+/// The friction at contact j, in SI units: `length` and `force` are the units.
 fn friction(
     world: &World<'_>,
     configuration: &Configuration,
@@ -131,8 +131,7 @@ fn stored_energy<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: 
     shape.bending_energy() + of_clamp * energy
 }
 
-/// An arc length beyond the tip by rounding is at the tip. One that is further beyond stays, and shows that the contact set is
-/// not the right one.
+/// An arc length, at the tip if it is beyond it by rounding. A larger one stays as it is: it shows that the contact set is wrong.
 fn on_rod(s: f64) -> f64 {
     if s <= 1.0 + LIMITS.transition.at_tip { s.min(1.0) } else { s }
 }

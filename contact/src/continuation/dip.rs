@@ -1,4 +1,5 @@
-//! A condition of the contact set that holds at both ends of a step and breaks in between, by values and rates there.
+//! Conditions of the contact set that hold at both ends of a step and are violated in between: found by the cubic through values and rates at
+//! both ends.
 
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::branch::Tangent;
@@ -10,7 +11,7 @@ use crate::scene::world::World;
 use crate::stability::{bends, clearance};
 use rod_core::{Grip, PhysicalRod, Support};
 
-/// Part of a step over which the rate of a clearance is a difference.
+/// Part of a step over which the rate of a clearance is computed as a difference quotient.
 const NUDGE: f64 = 1e-4;
 
 /// A quantity at both ends of a step, and its rates there times the length of the step.
@@ -27,13 +28,14 @@ impl Course {
         Self { ends: sum(self.ends, other.ends), rates: sum(self.rates, other.rates) }
     }
 
-    /// Where the tangents at both ends meet, if it falls at the start and rises at the end. A convex course, with kinks or without, stays above.
+    /// The value at which the tangents at both ends meet, if the quantity falls at the start and rises at the end. It is a lower bound of a convex
+    /// course, with kinks or without.
     fn least_of_tangents(&self) -> Option<f64> {
         let Self { ends: [p, q], rates: [u, v] } = *self;
         (u < 0.0 && v > 0.0).then(|| p + u * (q - v - p) / (u - v))
     }
 
-    /// Whether it is not negative at the ends, and is in between.
+    /// Whether the cubic is not negative at the ends and is negative in between.
     fn dips(&self) -> bool {
         let Self { ends: [p, q], rates: [u, v] } = *self;
         // without a fall at the start and a rise at the end its least value is at an end
@@ -50,8 +52,7 @@ impl Course {
     }
 }
 
-/// The least rate of a quantity within a step, by its rates at both ends and its mean rate: that of the cubic with these. None where
-/// it is at an end.
+/// The least rate of the cubic with these rates at both ends and this mean rate. None where it is at an end.
 pub(super) fn least_rate([first, last]: [f64; 2], mean: f64) -> Option<f64> {
     // first + x (linear + x square) with x from 0 to 1
     let (linear, square) = (6.0 * mean - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * mean);
@@ -59,7 +60,7 @@ pub(super) fn least_rate([first, last]: [f64; 2], mean: f64) -> Option<f64> {
     (square > 0.0 && (0.0..1.0).contains(&lowest)).then_some(first + 0.5 * linear * lowest)
 }
 
-/// Whether a rate is not negative at both ends of a step, and is in between.
+/// Whether a rate is not negative at both ends of a step and is negative in between, by the cubic with this mean rate.
 fn turns_back([first, last]: [f64; 2], mean: f64) -> bool {
     let room = LIMITS.course.error * (1.0 + first.abs().max(last.abs()));
     first > -room && last > -room && least_rate([first, last], mean).is_some_and(|least| least < -room)
@@ -97,8 +98,8 @@ pub(super) fn dips(
     })
 }
 
-/// Whether the contour is less curved (1 / L) halfway between the places of contact j at both ends of a step than the `least` at these: it has a
-/// hollow there, or a flat part between bumps.
+/// Whether the contour has a hollow, or a flat part between bumps, between the places of contact j at both ends of a step: halfway between them
+/// it is less curved than `least` (1 / L), the lower curvature of the two.
 fn flattens(world: &World<'_>, here: &Configuration, next: &Configuration, (j, least): (usize, f64)) -> bool {
     let halfway = || world.support(here.contacts[j].stretch, 0.5 * (here.t(j) + next.t(j)));
     least > 0.0 && {
@@ -107,8 +108,8 @@ fn flattens(world: &World<'_>, here: &Configuration, next: &Configuration, (j, l
     }
 }
 
-/// Whether a contact might lie along a line somewhere within a step, although it does not at its ends. Its clearance has kinks: those of the
-/// curvature of a spline or a rod.
+/// Whether a contact might lie along a line somewhere within a step, although it does not at its ends. The clearance has kinks where the
+/// curvature of a spline or of the rod has, so that no cubic describes it.
 pub(super) fn may_lie_down<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     (here, start): (&Configuration, &Tangent),

@@ -16,8 +16,8 @@ const BEYOND: [f64; 4] = [0.0, 0.1, 1.0, 10.0];
 /// Half the bracket of the second search, in arclength. It must be larger than the error of the first.
 const AROUND: f64 = 1e-5;
 
-/// The first fold between `from` and `to`, a point of the branch on the other side of it along `tangent`. None also where another
-/// fold is found: up to the first one the path parameter grows.
+/// The first fold between `from`, whose tangent is given, and `to`, a point of the branch beyond the fold. None where it is not located, or
+/// where the fold that is found lies before `from`: then it is another one, because up to the first fold the path parameter grows.
 pub(crate) fn locate_fold<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,
@@ -27,7 +27,7 @@ pub(crate) fn locate_fold<R: PhysicalRod>(
     locate_zero(corrector, from, tangent, to, |_, _, tangent| tangent.by_tau())
 }
 
-/// The first point between `from` and `to` where something that is positive at `from` vanishes along the branch: found as a fold is.
+/// The first point between `from` and `to` where `rate`, which is positive at `from`, vanishes along the branch.
 pub(crate) fn locate_zero<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,
@@ -57,7 +57,8 @@ pub(crate) fn locate_zero<R: PhysicalRod>(
     (fold.tau() > from.tau() - LIMITS.transition.same_fold).then_some(fold)
 }
 
-/// The fold on planes across `tangent` between one of the distances `firsts` and one of `lasts` from `from`, and its tangent.
+/// The zero of `rate` on planes across `tangent`, and the tangent there. The bracket is the first of the distances `firsts` from `from` at which
+/// the rate is positive, and the first of `lasts` at which it is negative.
 fn between<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,

@@ -1,10 +1,10 @@
-//! The last contact at an inflection of the contour, where one contact parts into two or two run together.
+//! The last contact at an inflection of the contour, where one contact splits into two or two merge.
 //!
 //! Behind its last contact the rod is straight, so that the contour is convex there. Where the contact comes to an
 //! inflection, with the concave part on the clamp's side, it cannot go on. The contour is y = c x^3 + d x^4 there, and
-//! so is the rod to the leading order: what holds it are two contacts a small distance l apart, the one nearer to the
-//! tip with the force 6 c (the rate of the contour's curvature) and at a distance of order l^2 from the inflection.
-//! That needs d < 0 where the solid is at y < 0 and c > 0; else the rod snaps. Of a rod that is bent at rest nothing is said.
+//! so is the rod to the leading order. Two contacts a small distance l apart hold it there: the one nearer to the
+//! tip has the force 6 c (the rate of the contour's curvature) and a distance of order l^2 from the inflection.
+//! This requires d < 0 if the solid is at y < 0 and c > 0; otherwise the rod snaps. The rod is assumed to be straight at rest.
 
 use crate::contact_set::order::ordered;
 use crate::contact_set::{ActiveContact, Configuration, Unknown};
@@ -48,8 +48,8 @@ fn inflection(world: &World<'_>, configuration: &Configuration, j: usize) -> Opt
     Some(Inflection { t, rate, by_s })
 }
 
-/// Whether the last contact is at an inflection. A rod that finds no other place there follows the contour, as every
-/// elastica does a cubic spline to the leading order.
+/// Whether the last contact is at an inflection. A rod that has no other equilibrium there lies along the contour, because an elastica
+/// follows a cubic spline to the leading order.
 pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration) -> bool {
     let last = configuration.count().checked_sub(1);
     last.is_some_and(|j| {
@@ -59,8 +59,8 @@ pub(crate) fn is_at_inflection(world: &World<'_>, configuration: &Configuration)
     })
 }
 
-/// The last contact, which has come to an inflection at `from` or just beyond, as two: the transition where the one is
-/// at the inflection, and after it the two as soon as they can be told apart.
+/// The transition at which the last contact, which has come to an inflection at `from` or just beyond, splits into two: before it one contact at
+/// the inflection, after it two contacts at the smallest distance at which their equations are solved.
 pub(crate) fn split_at_inflection<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,
@@ -83,7 +83,7 @@ pub(crate) fn split_at_inflection<R: PhysicalRod>(
     Some(Transition { kind: EventKind::Touch, before, after, along: 0.0 })
 }
 
-/// The last two contacts, about to run together at an inflection between them, as the one that they will be.
+/// The transition at which the last two contacts, close to an inflection between them, merge into one.
 pub(crate) fn merge_at_inflection<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     from: &Configuration,

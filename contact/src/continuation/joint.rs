@@ -12,9 +12,9 @@ pub(crate) struct BehindJoint {
     pub report: SolveReport,
 }
 
-/// The first joint that a contact goes over between two points of a branch: the point where it is just behind it. None where there is no
-/// joint between them, or it cannot be located; and where the branch, whose tangent at `from` is `start`, turns before it: there is a fold on
-/// the way, or another branch.
+/// The point of the branch where a contact is just behind the first joint that it crosses between two points. None where no joint is crossed or
+/// the point is not located; also where the branch, whose tangent at `from` is `start`, turns before the joint: a fold is on the way, or the
+/// point is on another branch.
 pub(crate) fn cross_joint<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     (from, start): (&Configuration, &Tangent),
@@ -50,8 +50,8 @@ pub(crate) fn cross_joint<R: PhysicalRod>(
     solve_at_arc_length(corrector, guess, j, value, way)
 }
 
-/// The point of the branch near `guess` where contact j is at an arc length, and the branch from there on, by its own Jacobian, in the sense
-/// of `way`.
+/// The point of the branch near `guess` where contact j is at the arc length `value`, and the tangent there by its own Jacobian, in the sense in
+/// which that arc length changes by `way`.
 fn solve_at_arc_length<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     mut configuration: Configuration,
@@ -72,7 +72,7 @@ fn solve_at_arc_length<R: PhysicalRod>(
     Some(BehindJoint { configuration, tangent, report })
 }
 
-/// Whether a contact is on another side of a joint at both points.
+/// Whether any contact is on different sides of a joint at the two points.
 pub(crate) fn crosses_joint<R: PhysicalRod>(
     corrector: &Corrector<'_, R>,
     from: &Configuration,

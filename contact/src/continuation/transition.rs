@@ -1,4 +1,4 @@
-//! Transitions: which condition of a contact set is broken, and where on the branch it broke.
+//! Transitions: which condition of a contact set is violated, and from which point of the branch on.
 //!
 //! Each condition is one variant of [`Break`] and one row of this table: [`breaks`] watches it, [`Break::vanishing`] gives the
 //! equation that holds where it breaks, and [`Break::change`] the contact sets on both sides.
@@ -40,13 +40,13 @@ pub(crate) enum Break {
     Border(usize, bool),
     /// The rod, its tip in a notch, lies down on one of the walls: the wall, and phi(1) minus its angle.
     OntoWall(usize, f64),
-    /// Contact j, which sticks, has this force along the contour over the normal one, more than friction can bear.
+    /// Contact j, which sticks, has more force along the contour than friction can bear: the limit of f_t / f, with its sign.
     Slip(usize, f64),
     /// The rod goes through the contour.
     Touch(Crossing),
 }
 
-/// Visits everything that is broken in `configuration`, whose rod goes through the contour at `crossings`.
+/// Calls `visit` with every violated condition of `configuration`, whose rod goes through the contour at `crossings`.
 pub(crate) fn breaks(
     world: &World<'_>,
     configuration: &Configuration,
@@ -99,7 +99,7 @@ pub(crate) fn breaks(
     crossings.iter().filter(is_new).for_each(|crossing| visit(Break::Touch(*crossing)));
 }
 
-/// The range of a stretch: of a notch with friction the directions of the force in the cones of both walls.
+/// The range of the parameter on a stretch. In a notch with friction it contains the directions of the force in the friction cones of both walls.
 pub(super) fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
     let Range { from, to } = world.span(stretch);
     if !world.rubs() || !world.is_notch(stretch) {
@@ -109,7 +109,7 @@ pub(super) fn range_of_force(world: &World<'_>, stretch: usize) -> Range {
     Range { from: from - angle, to: to + angle }
 }
 
-/// The limit of f_t / f at contact j, which sticks, if it is passed.
+/// The limit of f_t / f, with its sign, at contact j, if that sticks and its force exceeds the limit.
 fn passed_slip_limit(world: &World<'_>, configuration: &Configuration, j: usize) -> Option<f64> {
     let held = configuration.contacts[j];
     // of one that would have to pull, its release tells on which side it has left the cone
@@ -140,24 +140,24 @@ pub(crate) struct Transition {
     pub along: f64,
 }
 
-/// Why a transition could not be had.
+/// Why a transition was not located.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NoTransition {
-    /// Newton's method did not come to it: try a shorter step.
+    /// Newton's method did not converge to it. A shorter step may.
     NotLocated,
     /// The contour ends there.
     EndOfContour,
-    /// What comes is only followed without friction.
+    /// The contact set after it is only followed without friction.
     FrictionInNotch,
 }
 
 impl Break {
-    /// Arc length where the rod meets the contour anew; less than that for what concerns the contacts there are.
+    /// Arc length at which the rod meets the contour anew; minus infinity for a condition of an existing contact, which comes first.
     pub fn s(&self) -> f64 {
         if let Self::Touch(crossing) = self { crossing.s } else { f64::NEG_INFINITY }
     }
 
-    /// Finds where on the branch the condition broke, starting from `broken`, a point of the branch where it has.
+    /// Locates the point of the branch from which on the condition is violated. The solve starts from `broken`, a point where it is violated.
     pub fn locate<R: PhysicalRod>(
         self,
         corrector: &mut Corrector<'_, R>,
@@ -219,8 +219,7 @@ impl Break {
         })
     }
 
-    /// What happens where the condition breaks, and the contact sets before and after it: `at` is that point, found from
-    /// `broken`.
+    /// The kind of event at `at`, the point where the condition breaks, and the contact sets before and after it. `at` was located from `broken`.
     fn change(
         self,
         world: &World<'_>,
@@ -291,7 +290,7 @@ fn solve_where<R: PhysicalRod>(
     if report.status.is_solved() { Ok(start) } else { Err(NoTransition::NotLocated) }
 }
 
-/// `configuration` with one more contact, without force, where the rod crosses the contour; and its number.
+/// `configuration` with one more contact, without force, where the rod crosses the contour, and the number of this contact.
 pub(crate) fn with_contact(configuration: &Configuration, crossing: &Crossing) -> (Configuration, usize) {
     let mut more = configuration.clone();
     let j = place_along_rod(configuration, crossing);

@@ -1,4 +1,4 @@
-//! How far a clamp on springs has given way, and by how much more it does with a quantity.
+//! The displacement of a clamp on springs under its reactions, and its derivative by a quantity.
 
 use crate::derivatives::quantity::Quantity;
 use rod_core::{ClampLaw, Reactions, Units};

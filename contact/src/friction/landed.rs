@@ -8,7 +8,7 @@ use rod_core::{Grip, PhysicalRod};
 /// Steps in which the coefficient grows from 0: an equilibrium without friction is near the one with a tenth of it.
 const GROWTH: u32 = 10;
 
-/// The same contacts without friction: f_t is left out of the equations, not of the world.
+/// The same contacts without a force along the contour. The coefficients of friction of the objects stay.
 pub(crate) fn without_friction(configuration: &Configuration) -> Configuration {
     let mut without = configuration.clone();
     for j in 0..without.count() {
@@ -17,8 +17,8 @@ pub(crate) fn without_friction(configuration: &Configuration) -> Configuration {
     without
 }
 
-/// The rod come to rest where a descent without friction has led it, held back by friction in the sense in which each of its contacts has moved
-/// from the shape `before`. None where there is no such equilibrium.
+/// The equilibrium with friction near `landed`, to which a descent without friction has led. At each contact, friction opposes its motion from
+/// the shape `before`. None where there is no such equilibrium.
 pub(crate) fn with_drag<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     landed: &Configuration,

@@ -1,4 +1,4 @@
-//! The work that friction takes along a step of a branch.
+//! The energy that friction dissipates along a step of a branch.
 
 use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Corrector, Tangent};

@@ -1,4 +1,4 @@
-//! What a sweep is about: the rod, the objects and the way of its clamp.
+//! The setup of a sweep: the rod, the objects and the path of the clamp.
 
 use crate::path::ClampPath;
 use crate::scene::way::Way;
@@ -47,7 +47,7 @@ impl<'a, R: PhysicalRod> Setup<'a, R> {
         self
     }
 
-    /// The same, where all that is behind an open contour is solid: for a rod that has not come there along the path.
+    /// The same with all that is behind an open contour solid: for a rod that has not come there along the path.
     pub fn with_filled_objects(&self) -> Self {
         let mut filled = self.clone();
         filled.world.fill();

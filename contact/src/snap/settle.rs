@@ -17,8 +17,8 @@ use smallvec::SmallVec;
 /// Limit of repairs of one guess.
 const MOST_REPAIRS: usize = 12;
 
-/// Mends `guess` at its own pose until it is an equilibrium that holds (nothing is broken, and it is stable); none
-/// where that does not come about.
+/// Solves `guess` at its own pose and changes its contact set until it is a stable equilibrium of which no condition is violated. None where no
+/// such equilibrium is found.
 pub(crate) fn settle<R: PhysicalRod>(
     corrector: &mut Corrector<'_, R>,
     scanner: &mut Scanner,
@@ -65,7 +65,7 @@ pub(crate) fn settle_chain<R: PhysicalRod>(
         .find_map(|guess| settle(corrector, scanner, guess).filter(|found| accept(&corrector.setup.world, found)))
 }
 
-/// What to mend first: a force that pulls before all, then what is furthest off.
+/// The order in which violated conditions are mended: a force that pulls first, then the deepest penetration.
 fn badness(b: &Break, configuration: &Configuration) -> f64 {
     match b {
         Break::Release(j) => 1e3 - configuration.force(*j),

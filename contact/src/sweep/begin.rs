@@ -1,4 +1,4 @@
-//! The first equilibrium: free, or brought along the path, or of all that can be reached the one of least energy.
+//! The first equilibrium: the free rod, the one that a sweep along the path brings there, or the one of least energy that is reached.
 
 use super::Sweep;
 use super::landing::is_same_equilibrium;
@@ -30,8 +30,7 @@ struct Candidate {
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The first point: free, come along the path, or in contact with the least energy; with the step that ends it as for
-    /// [`resume`](Self::resume).
+    /// The first point, and, as for [`resume`](Self::resume), the step that ends the branch there at once, if it does.
     pub(super) fn find_start(&mut self) -> Result<(Point, Option<Step>), StopReason> {
         if let Some(start) = self.free_configuration(0.0) {
             self.start = Some(Start::Free);
@@ -68,7 +67,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         Ok((self.at_rest(start), None))
     }
 
-    /// Keeps what an approach came to, if it holds and is not known yet.
+    /// Keeps the equilibrium that an approach has reached, if it is outside of all objects and not known yet.
     fn keep_candidate(&mut self, found: &mut Vec<Candidate>, approach: Approach, reached: Option<Configuration>) {
         let Some(configuration) = reached else { return };
         let known =
@@ -80,8 +79,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         found.push(Candidate { approach, configuration, energy });
     }
 
-    /// The rod in the first pose, come there on a path that goes through that pose at 0: swept in silence from where,
-    /// further back, it is free; and how far back that was.
+    /// The rod brought to the first pose along `way`, which goes through this pose at 0, from the nearest free pose further back; and the distance
+    /// of that pose.
     fn bring_along(&mut self, way: ClampPath) -> Option<(f64, Configuration)> {
         let farthest = if way.turns_only() { PI } else { LIMITS.start.farthest_back };
         let tries = (farthest / LIMITS.start.step_back) as usize;
@@ -105,7 +104,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         scan.is_outside().then(|| Configuration::free(tau))
     }
 
-    /// A look at the free rod where it has not come from elsewhere: all that is behind an open contour is solid.
+    /// The scan of the free rod. All that is behind an open contour counts as solid, because the rod has not come from there.
     fn scan_free(&mut self, tau: f64) -> Scan {
         let filled = self.setup().with_filled_objects();
         self.stepper.scanner.scan(&filled, &Configuration::free(tau))

@@ -15,8 +15,8 @@ use crate::snap::settle::settle;
 use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The equilibrium at the pose of a fold on the same branch, behind its next fold; none where a contact forms or leaves on the way there,
-    /// or where it has more energy than the rod has in the fold.
+    /// The equilibrium on the same branch behind its next fold, at the pose of `fold`. None where a contact begins or ends on the way there, or where
+    /// it has more energy than the rod has in the fold.
     pub(super) fn behind_next_fold(&mut self, fold: &Configuration) -> Option<Seen> {
         if fold.count() == 0 {
             return None;

@@ -1,4 +1,4 @@
-//! The first law at a pose: the clamp does no work there and friction only takes energy, so that no transition gains any.
+//! The first law at a pose: the clamp does no work and friction dissipates, so that no transition gains energy.
 
 use super::Sweep;
 use crate::contact_set::Configuration;
@@ -20,8 +20,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         EndedBranch { seen, energy }
     }
 
-    /// The same with the work that the clamp does at most on its way to another equilibrium further on, where its reactions on the way are between
-    /// those at both ends.
+    /// The same with the energy that is available further on: that of `last` plus the largest work of the clamp on its way to `ahead`, if its
+    /// reactions on the way are between those at both ends.
     pub(super) fn end_with_clamp_work(&self, last: &EndedBranch, ahead: &Configuration) -> EndedBranch {
         let (setup, from) = (self.setup(), &last.seen.configuration);
         let [a, b] = [from.tau(), ahead.tau()].map(|tau| setup.path.at(tau));
@@ -34,7 +34,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         EndedBranch { seen: last.seen.clone(), energy: last.energy + most }
     }
 
-    /// Whether a rod with this energy (J) may come to another equilibrium by itself: energy of rod and clamp only falls.
+    /// Whether a rod with the energy `before` (J) may come to another equilibrium by itself: the energy of rod and clamp only falls.
     pub(super) fn may_fall(&self, before: f64, after: &Configuration) -> bool {
         let unit = self.setup().rod.units().energy;
         energy(self.setup(), after) <= before + LIMITS.snap.energy_rounding * (unit + before)

@@ -22,7 +22,8 @@ use rod_core::{Grip, PhysicalRod, Pose};
 use smallvec::SmallVec;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The equilibrium ends in `last`: the rod jumps to where the descent of its energy leads. A landing with more energy than it has is none.
+    /// The point where the rod lands after its equilibrium has ended in `last`. The candidates are tried in the order of `docs/sweep.md`, section 7;
+    /// one with more energy than `last` is refused.
     pub(super) fn snap(&mut self, last: Seen) -> Result<Point, StopReason> {
         let last = self.end_with_energy(last);
         // the descent and the solves about it know no friction
@@ -54,7 +55,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         })
     }
 
-    /// Where the descent leads from `here`, which is `last` without friction.
+    /// The landing by descent of the energy from `here`, which is `last` without friction, and by what is found beside the descent.
     fn descend(&mut self, here: &Configuration, last: &EndedBranch) -> Option<Point> {
         let (tau, is_free) = (here.tau(), here.count() == 0);
         // a free rod has no fold to get over
@@ -111,7 +112,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         free.and_then(|free| self.continue_landed(free, last))
     }
 
-    /// Where a free rod, found in contact within `kick` of `tau`, meets the first of its contacts: there that has no force yet.
+    /// The point where a free rod, found in contact within `kick` of `tau`, touches first: one contact, without force.
     fn first_touch(&mut self, found: &Configuration, (tau, kick): (f64, f64)) -> Option<Point> {
         let touch = |j: usize| {
             let mut alone = Configuration::free(found.tau());
@@ -128,8 +129,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.continue_from(seen).ok().flatten()
     }
 
-    /// A free rod that is met by a contour without curvature there: the touch has no isolated solution. The contact, found further on, is followed
-    /// back until its force is one of rounding.
+    /// The touch of a free rod by a contour without curvature there, which has no isolated solution: the contact, found further on, is followed
+    /// back until its force is of the order of rounding.
     fn flat_touch(&mut self, near: Configuration, tau: f64) -> Option<Point> {
         let (mut way, mut followed) = (near.tau() - tau, vec![near]);
         while way > LIMITS.snap.flat_way {
@@ -169,8 +170,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         (0..last.count()).any(|j| clearance(self.setup(), last, &segments, j) < LIMITS.snap.flat_clearance)
     }
 
-    /// The same equilibrium without the contacts that bear nothing: where one lets go while another comes to the border of its piece, as of a rod
-    /// that comes to lie flat on an edge.
+    /// The same equilibrium without its unloaded contacts. It is needed where one contact ends while another comes to the border of its piece, as
+    /// when a rod comes to lie flat on an edge.
     fn let_go_of_unloaded(&mut self, last: &Configuration) -> Option<Point> {
         let lighter = without_unloaded(last).filter(|lighter| lighter.count() > 0)?;
         let passed = beyond_borders(&lighter, &self.setup().world);
@@ -203,7 +204,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.continue_landed(landed, last)
     }
 
-    /// The equilibrium by `guess`, if it is a slip away from `here`, which is `last` without friction.
+    /// The equilibrium near `guess`, if the tip has slipped there from `here`, which is `last` without friction.
     fn slip_to(&mut self, here: &Configuration, last: &EndedBranch, guess: Configuration) -> Option<Point> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let piece = here.contacts.last()?.stretch;

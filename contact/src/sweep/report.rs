@@ -1,4 +1,4 @@
-//! What is handed out: the poses to report, states, events and the reason of a stop.
+//! The reports of a sweep: states at the poses to report, events and the reason of a stop.
 
 use super::{Item, Stage, Sweep};
 use crate::continuation::Point;
@@ -16,7 +16,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.course.next_pose(self.setup().path.length())
     }
 
-    /// How far beyond the next pose to report the rod may be by rounding.
+    /// Distance (path parameter) beyond the next pose to report that is rounding.
     pub(super) fn slack(&self) -> f64 {
         if self.pose() < self.setup().path.length() { LIMITS.step.same_pose } else { LIMITS.sweep.at_end }
     }

@@ -26,8 +26,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         Ok(recalled)
     }
 
-    /// The point to begin with. At a fold two branches meet, of which the sweep takes the stable one if that leads along the path;
-    /// otherwise the equilibrium ends here, and the step that is returned leads to a snap.
+    /// The point to begin with. At a fold two branches meet. The sweep takes the stable one, if the path parameter grows along it. Otherwise the
+    /// equilibrium ends here: the returned step ends the branch, and the rod snaps.
     pub(super) fn resume(&mut self, given: Configuration) -> Result<(Point, Option<Step>), StopReason> {
         if self.setup().world.rubs() && given.count() > 0 {
             return self.resume_rubbing(given);

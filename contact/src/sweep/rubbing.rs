@@ -1,4 +1,4 @@
-//! What a sweep does where there is friction: it chooses the modes of the contacts anew at every event.
+//! A sweep with friction: the modes of the contacts are chosen anew at every event.
 
 use super::Sweep;
 use super::first_law::EndedBranch;
@@ -12,7 +12,7 @@ use crate::friction::{Motion, UNLOADED, friction_work, possible_motions, with_dr
 use crate::limits::LIMITS;
 use rod_core::{Grip, PhysicalRod};
 
-/// The contact that has come to rest in an event of this kind.
+/// The contact that has come to rest, if the event is of kind `Stick`.
 pub(super) fn contact_at_rest(kind: EventKind, before: &Configuration, after: &Configuration) -> Option<usize> {
     if kind == EventKind::Stick { (0..after.count()).find(|&j| comes_to_rest(before, after, j)) } else { None }
 }
@@ -32,7 +32,7 @@ fn count_changed_modes(before: &Configuration, after: &Configuration) -> usize {
     (0..after.count()).filter(|j| before.force(*j) >= UNLOADED).filter(changes).count()
 }
 
-/// What happens to the modes of the contacts where the path turns, if anything does.
+/// The event where the path turns, if the mode of a contact changes there.
 fn event_of_turn(before: &Configuration, after: &Configuration) -> Option<EventKind> {
     let slips = |j: usize| !after.contacts[j].grip.sticks();
     let turns = |j: usize| before.contacts[j].grip.sticks() || after.friction(j) * before.friction(j) < 0.0;
@@ -43,8 +43,8 @@ fn event_of_turn(before: &Configuration, after: &Configuration) -> Option<EventK
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The point from which the sweep goes on with the contacts of `seen` in modes that the path allows; none where there is no such
-    /// motion, and the rod snaps.
+    /// The point from which the sweep goes on with the contacts of `seen`, in modes whose motion along the path is admissible. None where no
+    /// motion is: then the rod snaps. `stopped` is a contact that has just come to rest.
     pub(super) fn continue_rubbing(&mut self, seen: Seen, stopped: Option<usize>) -> Result<Option<Point>, StopReason> {
         if seen.configuration.count() == 0 {
             return Ok(self.continue_with(seen));
@@ -93,8 +93,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         }
     }
 
-    /// Whether a side of the rod that comes from one piece to another would be taken back from there: on the rougher one it would roll back, on the
-    /// smoother one slip forward. Then it stays on their border, and the force along the contour lies between what the two can bear.
+    /// Whether a tangential contact stays on the border of two pieces with different friction: on the rougher piece it would roll back, on the
+    /// smoother one slip forward. Its force along the contour is then between the limits of the two pieces.
     pub(super) fn is_held_at_border(&mut self, before: &Configuration, after: &Configuration) -> bool {
         let world = &self.setup().world;
         let roughness = |here: &Configuration, j: usize| world.coefficients(here.contacts[j].stretch);
@@ -111,7 +111,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         is_solved && range.clamp(slipping.t(j)) != slipping.t(j)
     }
 
-    /// Number of contacts that slip before, and after stick where friction at rest is larger than in motion.
+    /// Number of contacts that come to rest where the static coefficient is larger than the kinetic one.
     fn count_held_at_rest(&self, before: &Configuration, after: &Configuration) -> usize {
         let holds_more = |j: usize| {
             let coefficients = self.setup().world.coefficients(after.contacts[j].stretch);
@@ -146,9 +146,8 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         Ok((point, Some(ends)))
     }
 
-    /// The point from which the sweep goes on where the rod has landed, with no more energy than it had in `last`. With friction each contact is
-    /// held back in the sense in which it came from there. Where there is no such equilibrium, or where it is `last` itself, which has ended, all
-    /// contacts stick without a force along the contour.
+    /// The point from which the sweep goes on where the rod has landed, with no more energy than `last` has. Friction opposes the motion of each contact
+    /// from `last`. Where there is no such equilibrium, or where it is `last` itself, all contacts stick without a force along the contour.
     pub(super) fn continue_landed(&mut self, landed: Seen, last: &EndedBranch) -> Option<Point> {
         if !self.may_fall(last.energy, &landed.configuration) {
             return None;

@@ -1,4 +1,4 @@
-//! A sweep in silence: it brings an equilibrium to another pose and hands out nothing on the way.
+//! A silent sweep: it brings an equilibrium to another pose and reports nothing on the way.
 
 use super::Sweep;
 use crate::contact_set::Configuration;
@@ -11,8 +11,8 @@ use crate::snap::settle::settle;
 use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
-    /// The equilibrium that the rod comes to at `end` of another way of the clamp, that of `setup`, from one on it. A `start` without
-    /// contacts is the rod free there.
+    /// The equilibrium at `end` of the path of `setup`, swept to from `start`, an equilibrium on this path. A `start` without contacts is the free
+    /// rod.
     pub(super) fn lead_to(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
         let mut silent = Sweep::from_setup(setup, self.stepper.steps_left, f64::INFINITY, 0);
         silent.is_silent = true;
@@ -31,7 +31,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         led
     }
 
-    /// An equilibrium without friction, found further along the path, brought back to `tau` with its clamp. None where it does not come to it.
+    /// An equilibrium without friction, found further along the path, swept back to `tau`. None where the sweep does not arrive there.
     pub(super) fn bring_back(&mut self, ahead: &Configuration, tau: f64) -> Option<Seen> {
         let path = &self.setup().path;
         let way = ClampPath::between(path.at(ahead.tau()), path.at(tau))?;

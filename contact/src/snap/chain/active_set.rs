@@ -1,4 +1,4 @@
-//! The forces of the chain's programme by a dual active-set method, which needs no good guess.
+//! The contact forces of a step of the chain, by a dual active-set method.
 
 use super::pressed::LEAST_PIVOT;
 use super::programme::Programme;
@@ -9,8 +9,8 @@ const VIOLATED: f64 = -1e-10;
 /// Most steps a near node. One or two are usual; only rounding can make them repeat.
 const MOST_STEPS: usize = 20;
 
-/// The forces under which no node goes through a wall, none pulls, and only closed gaps press: the solution of the dual
-/// programme by Goldfarb and Idnani's method (Mathematical Programming 27, 1983), which is finite. It starts without forces.
+/// Contact forces with: no penetration, no adhesion, complementarity. The method of Goldfarb and Idnani (Mathematical Programming 27, 1983) solves
+/// the dual programme in finitely many steps. It starts without forces.
 /// In each round the force at the deepest violated gap rises until that gap closes, while the gaps that are held stay closed; a
 /// held node whose force falls to zero meanwhile lets go. None where the walls leave no room.
 pub(super) fn solve_by_active_set(programme: &Programme) -> Option<Vec<f64>> {

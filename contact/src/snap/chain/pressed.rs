@@ -1,4 +1,4 @@
-//! The forces of the chain's programme from a supposed contact set.
+//! The contact forces of a step of the chain, by block pivoting.
 
 use super::programme::Programme;
 use nalgebra::{DMatrix, DVector};
@@ -10,10 +10,10 @@ const CLOSED: f64 = 1e-13;
 /// Least pivot of the factorisation, relative. Below it two of the nodes are one by rounding.
 pub(super) const LEAST_PIVOT: f64 = 1e-10;
 
-/// The forces under which no node goes through a wall, none pulls, and only closed gaps press. Nearly every step has so few
-/// contacts that supposing them is cheaper than finding them one by one (`active_set`): none at first, then what
-/// pulls lets go and what goes through is held, all at once, until both is nowhere the case (block pivoting, Portugal, Judice
-/// and Vicente 1994). That is the solution, for there is only one. None where it does not settle.
+/// Contact forces with: no penetration, no adhesion, complementarity. Block pivoting (Portugal, Judice and Vicente 1994) begins without contacts.
+/// In each round all nodes that pull are released and all that penetrate are held, until there are neither: the unique solution. With the few
+/// contacts of nearly every step this is cheaper than the active-set method, which adds one contact at a time. None where the rounds cycle or
+/// the matrix is ill-conditioned.
 pub(super) fn solve_by_pivoting(programme: &Programme) -> Option<Vec<f64>> {
     let m = programme.rows.len();
     let mut forces = vec![0.0; m];
@@ -34,7 +34,7 @@ pub(super) fn solve_by_pivoting(programme: &Programme) -> Option<Vec<f64>> {
     None
 }
 
-/// The forces that close the gaps of what is held.
+/// The forces that close the gaps of the held nodes.
 fn solve(programme: &Programme, held: &[usize]) -> Option<DVector<f64>> {
     let n = held.len();
     let matrix = DMatrix::from_fn(n, n, |i, j| if i < j { 0.0 } else { programme.coupling(held[i], held[j]) });

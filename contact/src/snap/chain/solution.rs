@@ -1,4 +1,4 @@
-//! The solution of the quadratic programme of a step: the contacts are supposed first, and found one by one where that fails.
+//! The solution of the quadratic programme of a step: by block pivoting, or by the active-set method where block pivoting fails.
 
 use super::active_set::solve_by_active_set;
 use super::pressed::solve_by_pivoting;
