@@ -2,15 +2,13 @@
 
 use crate::contact_set::Configuration;
 use crate::contact_set::guess::contacts_of_guess;
-use crate::contact_set::on_piece::off_piece;
-use crate::contact_set::order::ordered;
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::error::ContactError;
-use crate::gap::scan::Scanner;
+use crate::gap::Scanner;
 use crate::inadmissible::Inadmissible;
 use crate::path::{ClampPath, check};
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::solve_guess::solve_guess;
 use crate::state::{Contact, State};
 use rod_contours::Composite;
@@ -178,8 +176,8 @@ fn found<R: PhysicalRod>(
     let scan = scanner.scan(setup, &configuration);
     let stable = report.status.is_solved() && scanner.is_stable(setup, &configuration, &scan);
     let quality = Quality::new(&report, stable);
-    let in_order = ordered(&setup.world, &configuration);
-    let off_piece = off_piece(&setup.world, &configuration);
+    let in_order = configuration.is_ordered(&setup.world);
+    let off_piece = configuration.off_piece(&setup.world);
     let state = state(setup, &configuration, &scan, quality);
     let admissible = first_inadmissibility(&report, in_order, off_piece, &state, units.length);
     Ok(Equilibrium { state, report, admissible })

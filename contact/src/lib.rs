@@ -34,8 +34,6 @@ mod solve_guess;
 mod stability;
 mod state;
 mod sweep;
-#[cfg(feature = "serde")]
-mod unbounded;
 
 pub use derivatives::{Derivatives, Quantity, TransitionDerivatives};
 #[cfg(feature = "argmin")]

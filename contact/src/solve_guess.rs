@@ -1,11 +1,9 @@
 //! The equations of a contact set solved from a rough guess: from several starts, until a root is one that a rod may be in.
 
 use crate::contact_set::guess::{GuessedContact, along_chords, by_chords, by_forces, configuration_of_guess};
-use crate::contact_set::on_piece::off_piece;
-use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::scene::world::World;
 use rod_core::{PhysicalRod, SolveReport};
 
@@ -60,8 +58,8 @@ fn is_plausible(world: &World<'_>, (configuration, report): &Root) -> bool {
     let solved = report.status.is_solved();
     solved
         && (0..configuration.count()).all(holds)
-        && ordered(world, configuration)
-        && off_piece(world, configuration).is_none()
+        && configuration.is_ordered(world)
+        && configuration.off_piece(world).is_none()
 }
 
 /// Where a solve may start: with the arc lengths and forces of the guess and the slope angles of arcs or those by the forces, the

@@ -133,13 +133,13 @@ pub struct GapBounds {
     /// the rod is inside an object by more than 1e-12 L, as it may be in a state at an event, or the search was given up.
     #[cfg_attr(
         feature = "serde",
-        serde(serialize_with = "crate::unbounded::finite", deserialize_with = "crate::unbounded::or_minus_infinity")
+        serde(serialize_with = "unbounded::finite", deserialize_with = "unbounded::or_minus_infinity")
     )]
     pub lower: f64,
     /// The smallest gap that was computed; negative: penetration. Infinity where there is no object.
     #[cfg_attr(
         feature = "serde",
-        serde(serialize_with = "crate::unbounded::finite", deserialize_with = "crate::unbounded::or_infinity")
+        serde(serialize_with = "unbounded::finite", deserialize_with = "unbounded::or_infinity")
     )]
     pub seen: f64,
     /// Whether `lower` is proven. It is not where the closest points of a shape are themselves looked for among samples
@@ -211,5 +211,23 @@ impl State {
         let loads: Vec<_> = of_roller.into_iter().chain(of_contacts).collect();
         let base = rod.base(self.pose, &self.reactions);
         Elastica::of_rod(rod.model().clone(), rod.units(), base, self.reactions.m0z, &loads)
+    }
+}
+
+/// Bounds that may be infinite, for formats such as JSON that have no infinity: it is written as none.
+#[cfg(feature = "serde")]
+mod unbounded {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn finite<S: Serializer>(bound: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        bound.is_finite().then_some(bound).serialize(serializer)
+    }
+
+    pub(super) fn or_infinity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+
+    pub(super) fn or_minus_infinity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NEG_INFINITY))
     }
 }

@@ -3,20 +3,23 @@
 pub(crate) mod edit;
 pub(crate) mod guess;
 pub(crate) mod notch;
-pub(crate) mod on_piece;
-pub(crate) mod order;
 
+use crate::limits::LIMITS;
+use crate::scene::Setup;
 use crate::scene::rod::Segment;
-use crate::scene::setup::Setup;
 use crate::scene::world::World;
 use crate::state::ContactKind;
-use rod_contours::StretchKind;
+use notch::straddles;
+use rod_contours::{Range, StretchKind};
 use rod_core::{Grip, Hold, PhysicalRod, Support, Supports};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
 /// Pulling force (E I / L^2) that counts as zero: a hundred times the error of a solved force.
 pub(crate) const FORCE_TOLERANCE: f64 = 1e-12;
+
+/// Way (L; rad at a corner) beyond the end of a piece that is rounding.
+const BEYOND_PIECE: f64 = 1e-9;
 
 /// A contact of the contact set: the stretch of the contour on which it is, how it holds the rod, and whether the rod slips or sticks there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -223,6 +226,45 @@ impl Configuration {
             _ => ContactKind::Tangent,
         }
     }
+
+    /// Whether the contacts follow each other along the rod. Two that straddle a notch may run past each other: their meeting
+    /// is a transition of its own.
+    pub fn is_ordered(&self, world: &World<'_>) -> bool {
+        let n = self.count() - usize::from(straddles(world, self));
+        (0..n).all(|j| self.s(j) > if j == 0 { 0.0 } else { self.s(j - 1) })
+    }
+
+    /// The first contact that lies beyond the end of its piece, where the equations follow the curve on which the piece lies. At a corner:
+    /// whose force points out of the cone of its normals.
+    pub fn off_piece(&self, world: &World<'_>) -> Option<usize> {
+        (0..self.count()).find(|j| {
+            let (stretch, t) = (self.contacts[*j].stretch, self.t(*j));
+            let Range { from, to } = world.span(stretch);
+            let beyond = (from - t).max(t - to);
+            let speed = world.support(stretch, t.clamp(from, to)).speed;
+            beyond * if speed > 0.0 { speed } else { 1.0 } > BEYOND_PIECE
+        })
+    }
+
+    /// Whether another configuration at the same pose is the same equilibrium: the parameters of a closed curve may differ by rounds.
+    pub fn is_same_equilibrium(&self, other: &Self, world: &World<'_>) -> bool {
+        let near = |u: f64, v: f64| (u - v).abs() < LIMITS.snap.same * (1.0 + v.abs());
+        let alike = |j: usize| {
+            let (mine, its) = (&self.contacts[j], &other.contacts[j]);
+            let [p, q] = [(self, mine), (other, its)].map(|(set, held)| world.support(held.stretch, set.t(j)));
+            let grips = match (mine.grip, its.grip) {
+                (Grip::Sticks { .. }, Grip::Sticks { .. }) => true,
+                (mine, its) => mine == its,
+            };
+            mine.stretch == its.stretch && self.is_tip(j) == other.is_tip(j) && grips && near(p.x, q.x) && near(p.y, q.y)
+                // on a joint the parameter is the direction of the force
+                && (p.speed != 0.0 || near(self.t(j), other.t(j)))
+        };
+        let is_parameter = |i: &usize| i.is_multiple_of(3) && *i < 3 * self.count();
+        self.count() == other.count()
+            && (0..self.count()).all(alike)
+            && (0..self.z.len()).filter(|i| !is_parameter(i)).all(|i| near(self.z[i], other.z[i]))
+    }
 }
 
 /// The segments of a rod.
@@ -253,5 +295,44 @@ impl Supports for ActiveSupports<'_> {
     #[inline(always)]
     fn grip(&self, j: usize) -> Grip {
         self.contacts[j].grip
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rod_contours::{Composite, Parabola};
+
+    #[test]
+    fn contacts_follow_each_other_from_the_clamp_on() {
+        let contour = Composite::single(Parabola::new([0.0, 0.0], 1.0).unwrap()).unwrap();
+        let world = World::new(contour.as_ref(), 1.0);
+        let at = |places: &[f64]| {
+            let mut set = Configuration::free(0.0);
+            for (j, s) in places.iter().enumerate() {
+                set.insert(j, ActiveContact::smooth(0, Hold::Tangent { offset: 0.0 }), [0.0, 1.0, *s]);
+            }
+            set.is_ordered(&world)
+        };
+        assert!(at(&[]) && at(&[0.3]) && at(&[0.3, 0.7]));
+        assert!(!at(&[0.7, 0.3]) && !at(&[0.3, 0.3]) && !at(&[-0.1]));
+    }
+
+    #[test]
+    fn an_edge_ends_at_its_corners() {
+        let square = Composite::polygon(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]).unwrap();
+        let world = World::new(square.as_ref(), 1.0);
+        let off = |stretch: usize, t: f64| {
+            let mut set = Configuration::free(0.0);
+            set.insert(0, ActiveContact::smooth(stretch, Hold::Tip), [t, 1.0, 0.0]);
+            set.off_piece(&world)
+        };
+        for stretch in 0..square.stretches().len() {
+            let [from, to] = [false, true].map(|upper| world.border(stretch, upper));
+            assert!(
+                off(stretch, from).is_none() && off(stretch, 0.5 * (from + to)).is_none() && off(stretch, to).is_none()
+            );
+            assert!(off(stretch, from - 1e-3) == Some(0) && off(stretch, to + 1e-3) == Some(0), "{stretch}");
+        }
     }
 }

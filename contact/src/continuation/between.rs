@@ -1,13 +1,12 @@
 //! The equilibria to report between both ends of a step: predicted by a cubic through both ends, corrected by Newton's method.
 
 use crate::contact_set::Configuration;
-use crate::contact_set::order::ordered;
 use crate::continuation::branch::{Condition, Tangent};
 use crate::continuation::certify::{Quality, state};
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
 use crate::continuation::{Point, Step};
-use crate::gap::scan::{Scan, Scanner};
+use crate::gap::{Scan, Scanner};
 use crate::limits::LIMITS;
 use crate::state::State;
 use rod_core::PhysicalRod;
@@ -45,7 +44,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         }
         if !report.status.is_solved()
             || report.residual > LIMITS.step.largest_residual
-            || !ordered(&self.corrector.setup.world, &here)
+            || !here.is_ordered(&self.corrector.setup.world)
         {
             return None;
         }

@@ -3,7 +3,7 @@
 
 use crate::contact_set::{ActiveContact, ActiveSupports, Configuration, Unknown, Unknowns};
 use crate::limits::LIMITS;
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use rod_core::{
     NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, System, newton_step, solve,
 };

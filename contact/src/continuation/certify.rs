@@ -2,9 +2,9 @@
 
 use crate::contact_set::Configuration;
 use crate::friction::slip_coordinate;
-use crate::gap::scan::Scan;
+use crate::gap::Scan;
 use crate::limits::LIMITS;
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::scene::world::World;
 use crate::state::{Certificate, Contact, ContactFriction, GapBounds, RollerContact, SlipMode, State};
 use rod_core::{

@@ -1,6 +1,5 @@
 //! Predict along the tangent, correct by Newton's method: the next point of a branch, before it is judged.
 
-use crate::contact_set::order::ordered;
 use crate::contact_set::{Configuration, Unknown};
 use crate::continuation::Point;
 use crate::continuation::branch::{Condition, Tangent};
@@ -66,7 +65,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let off = tangent.distance(&next.z, &predicted);
         if !report.status.is_solved()
             || report.residual > LIMITS.step.largest_residual
-            || !ordered(&self.corrector.setup.world, &next)
+            || !next.is_ordered(&self.corrector.setup.world)
             || off > LIMITS.step.largest_correction * length + LIMITS.step.correction_rounding
         {
             return None;
@@ -77,7 +76,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             (report, ahead) = self.corrector.correct_with_tangent(&mut next, at_pose);
             let length = tangent.along(&next.z, &configuration.z);
             if !report.status.is_solved()
-                || !ordered(&self.corrector.setup.world, &next)
+                || !next.is_ordered(&self.corrector.setup.world)
                 || !(0.0..=reach).contains(&length)
             {
                 return None;
@@ -107,7 +106,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             cross_joint(&mut self.corrector, (&from.configuration, &from.tangent), next)?;
         let length = from.tangent.along(&next.z, &from.configuration.z);
         let near = next.tau() <= target && (0.0..=2.0 * reach).contains(&length);
-        let solved = report.residual <= LIMITS.step.largest_residual && ordered(&self.corrector.setup.world, &next);
+        let solved = report.residual <= LIMITS.step.largest_residual && next.is_ordered(&self.corrector.setup.world);
         (near && solved).then_some(Corrected { next, tangent, report, length, kink: true })
     }
 

@@ -7,8 +7,8 @@ use crate::continuation::dip::{dips, least_rate};
 use crate::continuation::stepper::{Refused, Stepper};
 use crate::continuation::{Point, Step};
 use crate::error::{Obstacle, StopReason};
+use crate::gap::Scan;
 use crate::gap::passing::Passing;
-use crate::gap::scan::Scan;
 use crate::limits::LIMITS;
 use rod_core::{Clamp, PhysicalRod};
 

@@ -3,7 +3,7 @@
 use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Corrector, Tangent};
 use crate::limits::LIMITS;
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use rod_core::{PhysicalRod, RodError, find_root};
 use std::cell::RefCell;
 

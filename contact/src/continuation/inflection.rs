@@ -6,7 +6,6 @@
 //! tip has the force 6 c (the rate of the contour's curvature) and a distance of order l^2 from the inflection.
 //! This requires d < 0 if the solid is at y < 0 and c > 0; otherwise the rod snaps. The rod is assumed to be straight at rest.
 
-use crate::contact_set::order::ordered;
 use crate::contact_set::{ActiveContact, Configuration, Unknown};
 use crate::continuation::branch::Corrector;
 use crate::continuation::transition::{Transition, solve_fixed};
@@ -77,7 +76,7 @@ pub(crate) fn split_at_inflection<R: PhysicalRod>(
         two.insert(j, two.contacts[j], [first, f - rate, s - l]);
         let two = solve_fixed(corrector, two, Unknown::Parameter(j), first).ok()?;
         let way = two.tau() - before.tau();
-        let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && ordered(&corrector.setup.world, &two);
+        let holds = (0..two.count()).all(|k| two.force(k) > 0.0) && two.is_ordered(&corrector.setup.world);
         ((0.0..LIMITS.merge.longest_way).contains(&way) && holds).then_some(two)
     })?;
     Some(Transition { kind: EventKind::Touch, before, after, along: 0.0 })

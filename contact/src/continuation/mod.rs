@@ -12,7 +12,7 @@
 //! | merge two contacts | `merge` |
 //! | certify a state to report | `between`, `certify` |
 //!
-//! `probe` tells whether the sweep can go on with another contact set, `recall` finds the configuration of a state.
+//! `probe` tells whether the sweep can go on with another contact set.
 
 mod between;
 pub(crate) mod branch;
@@ -26,7 +26,6 @@ mod joint;
 mod locate;
 mod merge;
 mod probe;
-pub(crate) mod recall;
 pub(crate) mod stepper;
 pub(crate) mod transition;
 
@@ -35,7 +34,7 @@ use crate::continuation::branch::Tangent;
 use crate::continuation::certify::Quality;
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::gap::scan::Scan;
+use crate::gap::Scan;
 use crate::limits::LIMITS;
 
 /// A point of the sweep: an equilibrium, its scan, its quality, and the tangent of the branch there.

@@ -7,7 +7,7 @@ use crate::continuation::correct::Corrected;
 use crate::continuation::transition::Transition;
 use crate::continuation::{Change, Point, Seen, Step};
 use crate::error::{Obstacle, StopReason};
-use crate::gap::scan::{Scan, Scanner};
+use crate::gap::{Scan, Scanner};
 use crate::limits::LIMITS;
 use rod_core::{PhysicalRod, Rod};
 

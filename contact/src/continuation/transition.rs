@@ -312,9 +312,9 @@ fn place_along_rod(configuration: &Configuration, crossing: &Crossing) -> usize 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::scan::Scanner;
+    use crate::gap::Scanner;
     use crate::path::ClampPath;
-    use crate::scene::setup::Setup;
+    use crate::scene::Setup;
     use rod_contours::{Composite, Line, Motion, Moved, Parabola};
     use rod_core::{Pose, Rod};
     use std::f64::consts::{FRAC_PI_2, PI};

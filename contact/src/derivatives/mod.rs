@@ -1,6 +1,5 @@
 //! Derivatives of an equilibrium, and of the pose of a transition, by everything that they depend on.
 
-mod given;
 mod motion;
 mod quantity;
 mod restored;

@@ -1,7 +1,7 @@
 //! A state as the boundary-value problem that it solves.
 
 use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
-use crate::derivatives::given::Given;
+use crate::derivatives::motion::Given;
 use crate::error::ContactError;
 use crate::scene::rod::{Walk, at_clamp, push};
 use crate::scene::world::World;

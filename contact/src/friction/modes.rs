@@ -4,7 +4,7 @@
 //! t, f, s (or the slope angle of the tip) and f_t of each contact, and one equation a contact by its mode.
 
 use crate::contact_set::{Configuration, Unknowns};
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::scene::springs::springs;
 use nalgebra::{DMatrix, DVector};
 use rod_core::{Clamp, Grip, PhysicalRod, Pose, RodModel, System};

@@ -1,8 +1,8 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
 use crate::contact_set::{Configuration, Segments};
+use crate::scene::Setup;
 use crate::scene::rod::{self, Segment, lead};
-use crate::scene::setup::Setup;
 use rod_contours::Bounds;
 use rod_core::{Cut, PhysicalRod, RodModel, Station};
 use smallvec::{SmallVec, smallvec};

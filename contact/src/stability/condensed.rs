@@ -17,8 +17,8 @@
 use super::{Form, PENALTY, roller};
 use crate::contact_set::Configuration;
 use crate::gap::shape::Shape;
+use crate::scene::Setup;
 use crate::scene::rod::holds_between_ends;
-use crate::scene::setup::Setup;
 use crate::scene::springs::{Spring, springs};
 use rod_core::{Clamp, CutSensitivities, Grip, PhysicalRod, RodModel, Supports};
 use smallvec::SmallVec;

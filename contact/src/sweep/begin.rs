@@ -1,19 +1,19 @@
 //! The first equilibrium: the free rod, the one that a sweep along the path brings there, or the one of least energy that is reached.
 
 use super::Sweep;
-use super::landing::is_same_equilibrium;
-use super::start::{Approach, Start, StartCandidate};
+use super::outcome::{Approach, Start, StartCandidate};
 use crate::contact_set::Configuration;
 use crate::continuation::certify::energy;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::{Point, Step};
 use crate::error::StopReason;
-use crate::gap::scan::Scan;
+use crate::gap::Scan;
 use crate::limits::LIMITS;
 use crate::path::ClampPath;
 use crate::phase::Phase;
+use crate::scene::Setup;
 use crate::snap::chain::Chain;
-use crate::snap::settle::settle_chain;
+use crate::snap::settle_chain;
 use rod_core::PhysicalRod;
 use std::f64::consts::PI;
 
@@ -71,7 +71,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     fn keep_candidate(&mut self, found: &mut Vec<Candidate>, approach: Approach, reached: Option<Configuration>) {
         let Some(configuration) = reached else { return };
         let known =
-            found.iter().any(|known| is_same_equilibrium(&self.setup().world, &known.configuration, &configuration));
+            found.iter().any(|known| known.configuration.is_same_equilibrium(&configuration, &self.setup().world));
         if known || !self.stepper.look(configuration.clone()).scan.is_outside() {
             return;
         }
@@ -121,6 +121,26 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let mut chain = Chain::at_rest(corrector.setup.rod.model(), &corrector.setup.clamp(0.0), bend);
         settle_chain(&mut chain, corrector, scanner, 0.0, |_, _| true).map(|seen| seen.configuration)
+    }
+
+    /// The equilibrium at `end` of the path of `setup`, swept to from `start`, an equilibrium on this path. A `start` without contacts is the free
+    /// rod.
+    pub(super) fn lead_to(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
+        let mut silent = Sweep::from_setup(setup, self.stepper.steps_left, f64::INFINITY, 0);
+        silent.is_silent = true;
+        let mut point = Box::new(silent.at_rest(start));
+        let led = loop {
+            if point.configuration.tau() >= end {
+                break Some(point.configuration);
+            }
+            match silent.stepper.step(&point, end).and_then(|step| silent.arrive(step)) {
+                Ok(next) => point = next,
+                Err(_) => break None,
+            }
+            silent.pending.clear();
+        };
+        self.stepper.steps_left = silent.stepper.steps_left;
+        led
     }
 }
 

@@ -2,16 +2,14 @@
 //! second, with the same contacts.
 
 use super::Sweep;
-use super::landing::is_same_equilibrium;
 use crate::contact_set::Configuration;
-use crate::contact_set::order::ordered;
 use crate::continuation::Seen;
 use crate::continuation::branch::{Condition, Tangent};
 use crate::continuation::certify::energy;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::breaks;
 use crate::limits::LIMITS;
-use crate::snap::settle::settle;
+use crate::snap::settle;
 use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Sweep<'_, R> {
@@ -47,7 +45,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             };
             let scan = self.stepper.scan(&next);
             let world = &self.stepper.corrector.setup.world;
-            let mut holds = scan.is_outside() && ordered(world, &next);
+            let mut holds = scan.is_outside() && next.is_ordered(world);
             breaks(world, &next, &scan.crossings, |_| holds = false);
             if !holds {
                 return None;
@@ -78,6 +76,6 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let landed = settle(corrector, scanner, guess)?;
         let lower = energy(self.setup(), &landed.configuration) < energy(self.setup(), fold);
-        (lower && !is_same_equilibrium(&self.setup().world, &landed.configuration, fold)).then_some(landed)
+        (lower && !landed.configuration.is_same_equilibrium(fold, &self.setup().world)).then_some(landed)
     }
 }

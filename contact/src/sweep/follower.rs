@@ -8,7 +8,7 @@ use crate::error::{ContactError, Stop, StopReason};
 use crate::friction::Friction;
 use crate::limits::LIMITS;
 use crate::path::{ClampPath, check};
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::state::State;
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Rod};

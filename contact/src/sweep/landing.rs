@@ -1,25 +1,40 @@
 //! A snap: the equilibrium ends, and the rod slips or jumps to another one.
 
 use super::Sweep;
-use super::first_law::EndedBranch;
+use super::rubbing::without_friction;
 use crate::contact_set::edit::{across_corner, beyond_borders, beyond_corner, off_corner};
 use crate::contact_set::{ActiveContact, Configuration, Unknown};
+use crate::continuation::certify::energy;
 use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::solve_fixed;
 use crate::continuation::{Point, Seen};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{UNLOADED, without_friction, without_unloaded};
+use crate::friction::{UNLOADED, without_unloaded};
 use crate::gap::GAP_TOLERANCE;
 use crate::limits::LIMITS;
-use crate::scene::setup::Setup;
+use crate::path::ClampPath;
+use crate::scene::Setup;
+use crate::scene::rod::Segment;
 use crate::scene::world::World;
 use crate::snap::chain::Chain;
-use crate::snap::settle::{settle, settle_chain};
+use crate::snap::{settle, settle_chain};
 use crate::stability::clearance;
-use rod_core::{Grip, PhysicalRod, Pose};
+use rod_core::{PhysicalRod, Pose};
 use smallvec::SmallVec;
+
+/// An equilibrium that has ended, and its energy (J).
+pub(super) struct EndedBranch {
+    pub seen: Seen,
+    pub energy: f64,
+}
+
+/// Where a rod lands: at the pose where its equilibrium ended, and a little further along the path.
+struct Landing {
+    at_pose: Option<Seen>,
+    ahead: Option<Seen>,
+}
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The point where the rod lands after its equilibrium has ended in `last`. The candidates are tried in the order of `docs/sweep.md`, section 7;
@@ -95,7 +110,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         for ahead in beyond.iter().filter(|_| !is_silent) {
             let back = self
                 .bring_back(&ahead.configuration, tau)
-                .filter(|back| !is_same_equilibrium(&self.setup().world, &back.configuration, here));
+                .filter(|back| !back.configuration.is_same_equilibrium(here, &self.setup().world));
             if let Some(landed) = back.and_then(|landed| self.continue_landed(landed, last)) {
                 return Some(landed);
             }
@@ -198,7 +213,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
         let guess = across_corner(here.clone(), &corrector.setup.world)?;
         let landed = settle(corrector, scanner, guess)?;
-        if is_same_equilibrium(&corrector.setup.world, &landed.configuration, here) {
+        if landed.configuration.is_same_equilibrium(here, &corrector.setup.world) {
             return None;
         }
         self.continue_landed(landed, last)
@@ -264,7 +279,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         // head-on, a straight rod gives to either side
         chain.bend_if_straight(LIMITS.snap.bend);
         let ahead = settle_chain(&mut chain, corrector, scanner, tau + kick, |_, _| true);
-        let elsewhere = |world: &World<'_>, found: &Seen| !is_same_equilibrium(world, &found.configuration, last);
+        let elsewhere = |world: &World<'_>, found: &Seen| !found.configuration.is_same_equilibrium(last, world);
         let back = ahead.as_ref().and_then(|ahead| {
             let mut back = ahead.configuration.clone();
             back.set_tau(tau);
@@ -276,30 +291,50 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         });
         Landing { at_pose, ahead }
     }
+
+    /// An equilibrium without friction, found further along the path, swept back to `tau`. None where the sweep does not arrive there.
+    pub(super) fn bring_back(&mut self, ahead: &Configuration, tau: f64) -> Option<Seen> {
+        let path = &self.setup().path;
+        let way = ClampPath::between(path.at(ahead.tau()), path.at(tau))?;
+        let (mut start, end) = (ahead.clone(), way.length());
+        start.set_tau(0.0);
+        let setup = self.setup().along(way).without_friction();
+        let mut there = self.lead_to(setup, start, end).filter(|there| there.tau() <= end + LIMITS.sweep.at_end)?;
+        there.set_tau(tau);
+        let Stepper { corrector, scanner, .. } = &mut self.stepper;
+        settle(corrector, scanner, there)
+    }
 }
 
-/// Where a rod lands: at the pose where its equilibrium ended, and a little further along the path.
-struct Landing {
-    at_pose: Option<Seen>,
-    ahead: Option<Seen>,
-}
+/// The first law at a pose: the clamp does no work and friction dissipates, so that no transition gains energy.
+impl<R: PhysicalRod> Sweep<'_, R> {
+    pub(super) fn end_with_energy(&self, seen: Seen) -> EndedBranch {
+        let energy = energy(self.setup(), &seen.configuration);
+        EndedBranch { seen, energy }
+    }
 
-/// Whether two configurations at one pose are the same equilibrium: the parameters of a closed curve may differ by rounds.
-pub(super) fn is_same_equilibrium(world: &World<'_>, a: &Configuration, b: &Configuration) -> bool {
-    let near = |u: f64, v: f64| (u - v).abs() < LIMITS.snap.same * (1.0 + v.abs());
-    let alike = |j: usize| {
-        let (one, other) = (&a.contacts[j], &b.contacts[j]);
-        let [p, q] = [(a, one), (b, other)].map(|(set, held)| world.support(held.stretch, set.t(j)));
-        let grips = match (one.grip, other.grip) {
-            (Grip::Sticks { .. }, Grip::Sticks { .. }) => true,
-            (one, other) => one == other,
-        };
-        one.stretch == other.stretch && a.is_tip(j) == b.is_tip(j) && grips && near(p.x, q.x) && near(p.y, q.y)
-            // on a joint the parameter is the direction of the force
-            && (p.speed != 0.0 || near(a.t(j), b.t(j)))
-    };
-    let is_parameter = |i: &usize| i.is_multiple_of(3) && *i < 3 * a.count();
-    a.count() == b.count()
-        && (0..a.count()).all(alike)
-        && (0..a.z.len()).filter(|i| !is_parameter(i)).all(|i| near(a.z[i], b.z[i]))
+    /// The same with the energy that is available further on: that of `last` plus the largest work of the clamp on its way to `ahead`, if its
+    /// reactions on the way are between those at both ends.
+    pub(super) fn end_with_clamp_work(&self, last: &EndedBranch, ahead: &Configuration) -> EndedBranch {
+        let (setup, from) = (self.setup(), &last.seen.configuration);
+        let [a, b] = [from.tau(), ahead.tau()].map(|tau| setup.path.at(tau));
+        let work = [from, ahead].map(|configuration| {
+            let Segment { start, a: along, b: across, .. } = configuration.segments(setup)[0];
+            // f0x = -B, f0y = A, m0z = -M
+            across * (a.x - b.x) + along * (b.y - a.y) + start.moment * (a.phi - b.phi)
+        });
+        let most = work[0].max(work[1]).max(0.0) * setup.rod.units().energy;
+        EndedBranch { seen: last.seen.clone(), energy: last.energy + most }
+    }
+
+    /// Whether a rod with the energy `before` (J) may come to another equilibrium by itself: the energy of rod and clamp only falls.
+    pub(super) fn may_fall(&self, before: f64, after: &Configuration) -> bool {
+        let unit = self.setup().rod.units().energy;
+        energy(self.setup(), after) <= before + LIMITS.snap.energy_rounding * (unit + before)
+    }
+
+    /// A point, if a rod with this energy may come to it.
+    pub(super) fn if_energy_falls(&self, before: f64, point: Option<Point>) -> Option<Point> {
+        point.filter(|point| self.may_fall(before, &point.configuration))
+    }
 }

@@ -3,8 +3,6 @@
 mod advance;
 mod begin;
 mod bistable;
-mod crowd;
-mod first_law;
 mod follower;
 mod landing;
 mod leg;
@@ -12,12 +10,9 @@ mod outcome;
 mod report;
 mod resume;
 mod rubbing;
-mod silent;
-mod start;
 
 pub use follower::Follower;
-pub use outcome::{Item, Outcome};
-pub use start::{Approach, Start, StartCandidate};
+pub use outcome::{Approach, Item, Outcome, Start, StartCandidate};
 
 use crate::contact_set::Configuration;
 use crate::continuation::branch::Corrector;
@@ -27,10 +22,10 @@ use crate::error::{ContactError, Stop};
 use crate::friction::Friction;
 use crate::limits::LIMITS;
 use crate::path::Path;
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::scene::way::Way;
 use crate::state::State;
-use crowd::Crowd;
+use advance::Crowd;
 use leg::{Course, Leg, legs};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Rod};

@@ -6,7 +6,7 @@ use crate::continuation::certify::{Quality, state};
 use crate::error::{Stop, StopReason};
 use crate::event::{Event, EventKind};
 use crate::limits::LIMITS;
-use crate::scene::setup::Setup;
+use crate::scene::Setup;
 use crate::state::State;
 use rod_core::{PhysicalRod, Pose};
 

@@ -1,15 +1,16 @@
 //! A sweep with friction: the modes of the contacts are chosen anew at every event.
 
 use super::Sweep;
-use super::first_law::EndedBranch;
-use super::landing::is_same_equilibrium;
-use crate::contact_set::Configuration;
+use super::landing::EndedBranch;
+use crate::contact_set::{Configuration, Segments};
+use crate::continuation::branch::Corrector;
 use crate::continuation::certify::energy;
 use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
-use crate::friction::{Motion, UNLOADED, friction_work, possible_motions, with_drag, without_friction};
+use crate::friction::{Motion, UNLOADED, friction_work, possible_motions};
 use crate::limits::LIMITS;
+use crate::scene::rod::along;
 use rod_core::{Grip, PhysicalRod};
 
 /// The contact that has come to rest, if the event is of kind `Stick`.
@@ -40,6 +41,52 @@ fn event_of_turn(before: &Configuration, after: &Configuration) -> Option<EventK
         return Some(EventKind::Stick);
     }
     (0..after.count()).any(|j| slips(j) && turns(j)).then_some(EventKind::Slip)
+}
+
+/// Steps in which the coefficient grows from 0: an equilibrium without friction is near the one with a tenth of it.
+const GROWTH: u32 = 10;
+
+/// The same contacts without a force along the contour. The coefficients of friction of the objects stay.
+pub(super) fn without_friction(configuration: &Configuration) -> Configuration {
+    let mut without = configuration.clone();
+    for j in 0..without.count() {
+        without.set_slipping(j, 0.0);
+    }
+    without
+}
+
+/// The equilibrium with friction near `landed`, to which a descent without friction has led. Statics does not determine this friction, because it
+/// depends on the motion: at each contact it opposes the motion from the shape `before`. None where there is no such equilibrium.
+fn with_drag<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    landed: &Configuration,
+    before: &Segments,
+) -> Option<Configuration> {
+    let (world, tau) = (&corrector.setup.world, landed.tau());
+    let ratio = |j: usize| {
+        let held = landed.contacts[j];
+        if world.is_notch(held.stretch) {
+            return 0.0;
+        }
+        let at = world.support(held.stretch, landed.t(j));
+        let was = along(corrector.setup.rod.model(), before, landed.s(j));
+        let way = (at.x - was.x) * at.alpha.cos() + (at.y - was.y) * at.alpha.sin();
+        -world.coefficients(held.stretch).slipping * way.signum()
+    };
+    let ratios: Vec<f64> = (0..landed.count()).map(ratio).collect();
+    let mut dragged = landed.clone();
+    for step in 1..=GROWTH {
+        let share = f64::from(step) / f64::from(GROWTH);
+        for (j, ratio) in ratios.iter().enumerate() {
+            dragged.contacts[j].grip = Grip::Slips { ratio: share * ratio };
+        }
+        let report = corrector.at_pose(&mut dragged, tau);
+        let holds = |j: usize| dragged.force(j) > 0.0 && dragged.s(j) <= 1.0;
+        if !report.status.is_solved() || !(0..dragged.count()).all(holds) {
+            return None;
+        }
+    }
+    Some(dragged)
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
@@ -158,7 +205,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let before = last.seen.configuration.segments(self.setup());
         let dragged = with_drag(&mut self.stepper.corrector, &landed.configuration, &before);
         let elsewhere =
-            dragged.filter(|dragged| !is_same_equilibrium(&self.setup().world, dragged, &last.seen.configuration));
+            dragged.filter(|dragged| !dragged.is_same_equilibrium(&last.seen.configuration, &self.setup().world));
         for way in elsewhere.into_iter().chain([without_friction(&landed.configuration)]) {
             let seen = self.stepper.look(way);
             let point = self.continue_rubbing(seen, None).ok().flatten();

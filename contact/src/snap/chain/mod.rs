@@ -5,19 +5,16 @@
 //! Kelvin-Voigt damping), under the linearised gaps of all nodes and of corners to links, which is a small quadratic
 //! programme. The result is good to the square of a link's length: enough to see which contacts there are.
 
-mod active_set;
 mod cluster;
 mod near;
-mod pressed;
 mod programme;
 mod root;
 mod solution;
 
 use crate::contact_set::Configuration;
-use crate::scene::rod;
-use crate::scene::setup::Setup;
 use crate::scene::springs::{Spring, Springs, springs};
 use crate::scene::world::World;
+use crate::scene::{Setup, rod};
 use cluster::{Cluster, clusters, contacts};
 use near::{Near, near};
 use programme::Programme;
