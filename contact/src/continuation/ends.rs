@@ -13,13 +13,13 @@ use crate::limits::LIMITS;
 use rod_core::{Clamp, PhysicalRod};
 
 /// The obstacle of a step whose scan does not fit the transitions that were located.
-pub(super) fn unexplained(scan: &Scan) -> Obstacle {
+pub(super) fn obstacle_of(scan: &Scan) -> Obstacle {
     if scan.crossings.is_empty() { Obstacle::NotLocated } else { Obstacle::Touch }
 }
 
 /// The branch ends within a step of this length for `reason`: accepted if the step is short, otherwise the step is refused because of
 /// `obstacle`, and halved.
-pub(super) fn ended_if_short(length: f64, reason: StopReason, obstacle: Obstacle) -> Refused {
+pub(super) fn end_if_short(length: f64, reason: StopReason, obstacle: Obstacle) -> Refused {
     if length < LIMITS.end.short_step { Refused::Ended(reason) } else { Refused::TooLong(obstacle) }
 }
 
@@ -46,18 +46,18 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     /// Ends the branch, or refuses the step, where the scan at the end of the step shows that the branch ends within it.
     pub(super) fn check_ends(&self, from: &Point, corrected: &Corrected, scan: &Scan) -> Result<(), Refused> {
         let Corrected { next, length, .. } = corrected;
-        let ended_if_short = |reason| Err(ended_if_short(*length, reason, unexplained(scan)));
+        let end_if_short = |reason| Err(end_if_short(*length, reason, obstacle_of(scan)));
         if is_clamp_inside(next, scan) {
-            return ended_if_short(StopReason::ClampInside);
+            return end_if_short(StopReason::ClampInside);
         }
         if self.is_before_roller(next, scan, LIMITS.end.at_roller) {
-            return ended_if_short(StopReason::BeforeRoller);
+            return end_if_short(StopReason::BeforeRoller);
         }
         if self.is_around_an_end(from, corrected, scan) {
             return Err(Refused::Ended(StopReason::EndOfContour));
         }
         if scan.has_swept_over_an_end(&from.scan) {
-            return ended_if_short(StopReason::EndOfContour);
+            return end_if_short(StopReason::EndOfContour);
         }
         Ok(())
     }
@@ -74,9 +74,9 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let reached = ended.map_or(scan, Step::scan);
         match self.passing(from, reached, *length) {
             None => Ok(()),
-            Some(Passing::Rod) if ended.is_some() => Err(Refused::TooLong(unexplained(scan))),
+            Some(Passing::Rod) if ended.is_some() => Err(Refused::TooLong(obstacle_of(scan))),
             Some(Passing::Rod) => Err(Refused::TooLong(Obstacle::PassesOver)),
-            Some(Passing::Clamp) => Err(ended_if_short(*length, StopReason::ClampInside, unexplained(scan))),
+            Some(Passing::Clamp) => Err(end_if_short(*length, StopReason::ClampInside, obstacle_of(scan))),
         }
     }
 
@@ -103,7 +103,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         }
         // Where rod and contour are both without curvature, a touch has no isolated solution: the descent finds what follows it.
         if touches {
-            return Ok(from.ends());
+            return Ok(from.end());
         }
         if self.is_between_objects(&from.configuration) {
             return Err(StopReason::BetweenObjects);

@@ -4,7 +4,7 @@ use crate::contact_set::Configuration;
 use crate::continuation::branch::{Condition, Tangent};
 use crate::continuation::correct::Corrected;
 use crate::continuation::dip::may_lie_down;
-use crate::continuation::ends::{ended_if_short, unexplained};
+use crate::continuation::ends::{end_if_short, obstacle_of};
 use crate::continuation::fold::{locate_fold, locate_zero};
 use crate::continuation::inflection::split_at_inflection;
 use crate::continuation::stepper::{Refused, Stepper};
@@ -30,13 +30,13 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         corrected: &Corrected,
         scan: &Scan,
     ) -> Result<Option<Step>, Refused> {
-        let ended_if_short = |reason| Err(ended_if_short(corrected.length, reason, unexplained(scan)));
+        let end_if_short = |reason| Err(end_if_short(corrected.length, reason, obstacle_of(scan)));
         match self.first_transition(from, corrected, scan) {
-            Ok(None) if !scan.is_outside() => Err(Refused::TooLong(unexplained(scan))),
+            Ok(None) if !scan.is_outside() => Err(Refused::TooLong(obstacle_of(scan))),
             Ok(ended) => Ok(ended),
-            Err(NoTransition::EndOfContour) => ended_if_short(StopReason::EndOfContour),
-            Err(NoTransition::FrictionInNotch) => ended_if_short(StopReason::FrictionInNotch),
-            Err(NoTransition::NotLocated) => Err(Refused::TooLong(unexplained(scan))),
+            Err(NoTransition::EndOfContour) => end_if_short(StopReason::EndOfContour),
+            Err(NoTransition::FrictionInNotch) => end_if_short(StopReason::FrictionInNotch),
+            Err(NoTransition::NotLocated) => Err(Refused::TooLong(obstacle_of(scan))),
         }
     }
 
@@ -84,7 +84,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 
         // Certify the contact set after it. Nothing else may be broken there: a shorter step would have met it first.
         let Some(transition) = first else { return Ok(None) };
-        if !ordered_or_new(&transition.after) {
+        if !is_ordered_or_new(&transition.after) {
             return Err(NoTransition::NotLocated);
         }
         let step = self.step_to(transition);
@@ -196,7 +196,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
     /// The end of the branch at `from`, from where it is not stable any more. Mostly a fold, or the place where a contact lies down, is just
     /// ahead, and known better than the loss of stability is.
     pub(super) fn end_of_stability(&mut self, from: &Point) -> Step {
-        self.end_ahead(from).unwrap_or_else(|| from.ends())
+        self.end_ahead(from).unwrap_or_else(|| from.end())
     }
 
     /// The fold that follows `from` closely, or the place where a contact lies down along a line or comes to rest, if there is one.
@@ -224,7 +224,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
 }
 
 /// Whether the contacts follow each other along the rod; a new one may still be at the same place as its neighbour.
-fn ordered_or_new(configuration: &Configuration) -> bool {
+fn is_ordered_or_new(configuration: &Configuration) -> bool {
     let n = configuration.count();
     (1..n).all(|j| configuration.s(j) >= configuration.s(j - 1))
 }

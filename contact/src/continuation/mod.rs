@@ -76,7 +76,7 @@ pub(crate) enum Step {
 
 impl Point {
     /// The step of a branch that ends at this point.
-    pub fn ends(&self) -> Step {
+    pub fn end(&self) -> Step {
         Step::Ended(Box::new(Seen { configuration: self.configuration.clone(), scan: self.scan.clone() }))
     }
 }

@@ -208,7 +208,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The point of a configuration.
-    pub(super) fn at_rest(&mut self, configuration: Configuration) -> Point {
+    pub(super) fn point_of(&mut self, configuration: Configuration) -> Point {
         let seen = self.stepper.look(configuration);
         self.stepper.point(seen)
     }

@@ -34,7 +34,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn find_start(&mut self) -> Result<(Point, Option<Step>), StopReason> {
         if let Some(start) = self.free_configuration(0.0) {
             self.start = Some(Start::Free);
-            return Ok((self.at_rest(start), None));
+            return Ok((self.point_of(start), None));
         }
         if self.scan_free(0.0).clamp_inside {
             return Err(StopReason::ClampInside);
@@ -64,7 +64,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if self.setup().world.rubs() {
             return self.resume_rubbing(start);
         }
-        Ok((self.at_rest(start), None))
+        Ok((self.point_of(start), None))
     }
 
     /// Keeps the equilibrium that an approach has reached, if it is outside of all objects and not known yet.
@@ -128,7 +128,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn lead_to(&mut self, setup: Setup<'_, R>, start: Configuration, end: f64) -> Option<Configuration> {
         let mut silent = Sweep::from_setup(setup, self.stepper.steps_left, f64::INFINITY, 0);
         silent.is_silent = true;
-        let mut point = Box::new(silent.at_rest(start));
+        let mut point = Box::new(silent.point_of(start));
         let led = loop {
             if point.configuration.tau() >= end {
                 break Some(point.configuration);

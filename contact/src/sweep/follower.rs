@@ -83,7 +83,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         let setup = Setup::new(rod, objects.as_ref(), ClampPath::standing(state.pose));
         let mut sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
         let recalled = sweep.recall_state(state)?;
-        let at = sweep.at_rest(recalled);
+        let at = sweep.point_of(recalled);
         Ok(Self::at_rest(sweep, at))
     }
 

@@ -95,13 +95,14 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                 continue;
             }
             // one that does not hold further on would only lead back
-            if let Some(landed) = at_pose.and_then(|landed| self.continue_landed(landed, last)) {
+            if let Some(landed) = at_pose.and_then(|landed| self.continue_from_landing(landed, last)) {
                 return Some(landed);
             }
             beyond.extend(ahead);
         }
         if !self.setup().world.rubs()
-            && let Some(landed) = self.behind_next_fold(here).and_then(|landed| self.continue_landed(landed, last))
+            && let Some(landed) =
+                self.behind_next_fold(here).and_then(|landed| self.continue_from_landing(landed, last))
         {
             return Some(landed);
         }
@@ -111,20 +112,20 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             let back = self
                 .bring_back(&ahead.configuration, tau)
                 .filter(|back| !back.configuration.is_same_equilibrium(here, &self.setup().world));
-            if let Some(landed) = back.and_then(|landed| self.continue_landed(landed, last)) {
+            if let Some(landed) = back.and_then(|landed| self.continue_from_landing(landed, last)) {
                 return Some(landed);
             }
         }
         // where the new branch begins only just beyond, it is entered there
         for ahead in beyond {
             let pushed = self.end_with_clamp_work(last, &ahead.configuration);
-            if let Some(landed) = self.continue_landed(ahead, &pushed) {
+            if let Some(landed) = self.continue_from_landing(ahead, &pushed) {
                 return Some(landed);
             }
         }
         // a rod that does not come to rest in the descent, but could be free, will be
         let free = self.free_configuration(tau).filter(|_| !is_free).map(|free| self.stepper.look(free));
-        free.and_then(|free| self.continue_landed(free, last))
+        free.and_then(|free| self.continue_from_landing(free, last))
     }
 
     /// The point where a free rod, found in contact within `kick` of `tau`, touches first: one contact, without force.
@@ -171,7 +172,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         })
     }
 
-    /// The free rod has come to a first contact.
+    /// The free rod has come to a first contact: reports it.
     fn land_at_first_contact(&mut self, last: EndedBranch, touching: Point) -> Point {
         let there = self.stepper.look(Configuration::free(touching.configuration.tau()));
         // a rod that is met head-on buckles: in contact it is only further on
@@ -216,7 +217,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if landed.configuration.is_same_equilibrium(here, &corrector.setup.world) {
             return None;
         }
-        self.continue_landed(landed, last)
+        self.continue_from_landing(landed, last)
     }
 
     /// The equilibrium near `guess`, if the tip has slipped there from `here`, which is `last` without friction.
@@ -237,7 +238,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             return None;
         }
         if rubs {
-            return self.continue_landed(landed, last);
+            return self.continue_from_landing(landed, last);
         }
         let landed = self.stepper.point(landed);
         self.if_energy_falls(last.energy, Some(landed))
@@ -252,6 +253,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         inside
     }
 
+    /// The rod has jumped from `last` to `landed`: reports the event by its contacts before and after.
     fn land_after_jump(&mut self, last: EndedBranch, landed: Point) -> Point {
         let before = &last.seen.configuration;
         let bears = (0..before.count()).any(|j| before.force(j) > UNLOADED);
@@ -264,6 +266,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         self.report_landing(kind, last, landed)
     }
 
+    /// Reports the event from `last` to `landed`. The new branch begins with the first step.
     fn report_landing(&mut self, kind: EventKind, last: EndedBranch, landed: Point) -> Point {
         let before = self.stepper.point(last.seen);
         self.announce(kind, &before, &landed);
@@ -308,6 +311,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
 /// The first law at a pose: the clamp does no work and friction dissipates, so that no transition gains energy.
 impl<R: PhysicalRod> Sweep<'_, R> {
+    /// An equilibrium that has ended, with its energy.
     pub(super) fn end_with_energy(&self, seen: Seen) -> EndedBranch {
         let energy = energy(self.setup(), &seen.configuration);
         EndedBranch { seen, energy }

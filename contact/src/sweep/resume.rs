@@ -36,7 +36,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     fn resume_smooth(&mut self, given: Configuration) -> (Point, Option<Step>) {
-        let mut point = self.at_rest(given);
+        let mut point = self.point_of(given);
         if point.tangent.by_tau() > LIMITS.resume.least_tau_rate && point.quality.stable {
             return (point, None);
         }
@@ -50,7 +50,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             (Some(one), Some(other)) => self.is_lower(one, other),
             (one, _) => one.is_some(),
         };
-        let ends = (one.is_none() && other.is_none()).then(|| point.ends());
+        let ends = (one.is_none() && other.is_none()).then(|| point.end());
         point.tangent = if is_there { there } else { back };
         (point, ends)
     }

@@ -126,7 +126,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
                     continue;
                 }
             }
-            let point = self.at_rest(way);
+            let point = self.point_of(way);
             let Some(probe) = self.stepper.longest_rubbing_probe(&point) else { continue };
             match &mut found {
                 Some((_, longest, both)) if probe == *longest => *both = None,
@@ -189,13 +189,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             return Ok((point, None));
         }
         let point = self.stepper.point(seen);
-        let ends = point.ends();
+        let ends = point.end();
         Ok((point, Some(ends)))
     }
 
     /// The point from which the sweep goes on where the rod has landed, with no more energy than `last` has. Friction opposes the motion of each contact
     /// from `last`. Where there is no such equilibrium, or where it is `last` itself, all contacts stick without a force along the contour.
-    pub(super) fn continue_landed(&mut self, landed: Seen, last: &EndedBranch) -> Option<Point> {
+    pub(super) fn continue_from_landing(&mut self, landed: Seen, last: &EndedBranch) -> Option<Point> {
         if !self.may_fall(last.energy, &landed.configuration) {
             return None;
         }
