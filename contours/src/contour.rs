@@ -2,8 +2,10 @@
 
 use std::fmt::Debug;
 
+use crate::nearest::{cuts, search};
+use crate::proof::curvature;
 use crate::trust::{Seal, Trust};
-use crate::{Bounds, Closest, Frame, FrameRate, Range, curvature, cuts, search};
+use crate::{Bounds, Closest, Frame, FrameRate, Range};
 
 /// The border of a solid in the plane, travelled with the solid on its left.
 ///

@@ -1,0 +1,197 @@
+//! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
+
+use super::newton;
+use crate::vector::dot;
+use crate::{Bounds, Closest, Contour, Range};
+
+/// Cells of a search in a finite range: of a full circle, each turns by less than 4 degrees.
+pub(crate) const CELLS: usize = 96;
+
+/// Fewest cells of a part of a finite range: one alone would not see a minimum between two maxima at its ends.
+const FEWEST: usize = 2;
+
+/// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
+const CELLS_INFINITE: usize = 512;
+
+/// Steps towards the extremum of the slope within a cell. An extremum that they miss is too flat to change the result.
+const DIP_STEPS: usize = 12;
+
+/// A sample of the contour, seen from the point whose closest point is wanted.
+#[derive(Clone, Copy)]
+pub(crate) struct Probe {
+    t: f64,
+    distance: f64,
+    /// (r - p) . dr/dt, or the same by the unit tangent: the distance falls with t where this is negative.
+    slope: f64,
+    /// d slope / dt.
+    rate: f64,
+}
+
+impl Probe {
+    /// The point and its first two derivatives at `t`, seen from `(x, y)`: without alpha, whose sine and cosine would take
+    /// most of the time.
+    pub fn new(t: f64, [place, velocity, acceleration]: [[f64; 2]; 3], x: f64, y: f64) -> Self {
+        let way = [place[0] - x, place[1] - y];
+        Self {
+            t,
+            distance: way[0].hypot(way[1]),
+            slope: dot(way, velocity),
+            rate: dot(velocity, velocity) + dot(way, acceleration),
+        }
+    }
+
+    /// The same of a shape of which only the frame is known.
+    fn of<C: Contour + ?Sized>(shape: &C, t: f64, x: f64, y: f64) -> Self {
+        let frame = shape.frame(t);
+        let (ahead, outside) = frame.local(x, y);
+        Self { t, distance: ahead.hypot(outside), slope: -ahead, rate: frame.speed + frame.turning * outside }
+    }
+}
+
+/// The closest point, see [`Contour::closest_in`].
+pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f64) -> Closest {
+    closest_by(shape, range, x, y, |t| Probe::of(shape, t, x, y))
+}
+
+/// The closest point of a shape that has a cheaper way to its probes.
+pub(crate) fn closest_by<C: Contour + ?Sized>(
+    shape: &C,
+    range: Range,
+    x: f64,
+    y: f64,
+    probe: impl Fn(f64) -> Probe,
+) -> Closest {
+    let cells = cells(shape.range(), range);
+    let first = probe(range.at(0.0));
+    // An end is a candidate where the distance grows away from it. The first sample stands in when there is no candidate
+    // at all, which only numbers that are not finite and infinite ranges can bring about.
+    let (mut best, mut interior) = (first, false);
+    let mut left = first;
+    for cell in 1..=cells {
+        let right = probe(range.at(cell as f64 / cells as f64));
+        if let Some((low, high)) = falls_then_rises(&probe, left, right) {
+            let foot = refine(&probe, low, high);
+            if foot.distance < best.distance {
+                (best, interior) = (foot, foot.t < range.to);
+            }
+        }
+        left = right;
+    }
+    if left.distance < best.distance {
+        (best, interior) = (left, false);
+    }
+    Closest::new(best.t, shape.frame(best.t), interior, x, y)
+}
+
+/// Cells of the part in `range` of a contour whose own range is `whole`: in proportion where both are finite.
+fn cells(whole: Range, range: Range) -> usize {
+    match (whole.is_finite(), range.is_finite()) {
+        (_, false) => CELLS_INFINITE,
+        (false, true) => CELLS,
+        (true, true) => {
+            let share = range.length() / whole.length();
+            ((CELLS as f64 * share).ceil() as usize).clamp(FEWEST, CELLS)
+        }
+    }
+}
+
+/// Two probes in the cell from `left` to `right` between which the distance has a minimum, if it has one.
+///
+/// Where the slope has the same sign at both ends of the cell but tends towards 0 at both, as it does near a centre of
+/// curvature, it may change sign twice between them: its extremum is looked at, too.
+fn falls_then_rises(probe: impl Fn(f64) -> Probe, left: Probe, right: Probe) -> Option<(Probe, Probe)> {
+    let falls = left.slope < 0.0;
+    if falls != (right.slope < 0.0) {
+        return falls.then_some((left, right));
+    }
+    let sign = if falls { -1.0 } else { 1.0 };
+    let (rate_left, rate_right) = (sign * left.rate, sign * right.rate);
+    if rate_left >= 0.0 || rate_right <= 0.0 {
+        return None;
+    }
+    // The tangents of the slope at both ends meet below its extremum, unless it is bent both ways in the cell.
+    let lowest = (sign * (left.slope * rate_right - right.slope * rate_left)
+        + rate_left * rate_right * (right.t - left.t))
+        / (rate_right - rate_left);
+    if lowest > 0.0 || lowest.is_nan() {
+        return None;
+    }
+    let (mut low, mut high) = (left, right);
+    for _ in 0..DIP_STEPS {
+        let share = low.rate / (low.rate - high.rate);
+        let middle = probe(low.t + share.clamp(0.1, 0.9) * (high.t - low.t));
+        if falls != (middle.slope < 0.0) {
+            return Some(if falls { (left, middle) } else { (middle, right) });
+        }
+        if sign * middle.rate < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    None
+}
+
+/// The zero of the slope between `low` (slope negative) and `high` (slope not negative), to rounding.
+fn refine(probe: impl Fn(f64) -> Probe, low: Probe, high: Probe) -> Probe {
+    let resolution = f64::EPSILON * low.t.abs().max(high.t.abs());
+    // A slope of zero at the end of a cell may be a maximum's, behind the minimum.
+    let mut here = if -low.slope < high.slope || high.slope == 0.0 { low } else { high };
+    newton::zero(Range { from: low.t, to: high.t }, here.t, resolution, |t| {
+        if t != here.t {
+            here = probe(t);
+        }
+        [here.slope, here.rate]
+    });
+    here
+}
+
+/// The bounds, see [`Contour::bounds_in`].
+pub(crate) fn bounds<C: Contour + ?Sized>(shape: &C, range: Range) -> Bounds {
+    if !range.is_finite() {
+        return Bounds::ALL;
+    }
+    let step = range.length() / CELLS as f64;
+    let mut left = shape.frame(range.from);
+    let mut bounds = Bounds::EMPTY;
+    for cell in 1..=CELLS {
+        let right = shape.frame(range.at(cell as f64 / CELLS as f64));
+        let (sin, cos) = left.alpha.sin_cos();
+        let (sin_right, cos_right) = right.alpha.sin_cos();
+        let change = (right.speed * cos_right - left.speed * cos).hypot(right.speed * sin_right - left.speed * sin);
+        // An even change of dr/dt takes the curve |change| step / 8 off its chord, a sudden one (a kink) step / 4.
+        let cell_box = Bounds::EMPTY.with(left.x, left.y).with(right.x, right.y).grown(0.5 * change * step);
+        bounds = bounds.union(cell_box);
+        left = right;
+    }
+    bounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Graph;
+
+    #[test]
+    fn a_maximum_at_the_end_of_a_cell_does_not_hide_the_minimum() {
+        // From just beyond the centre of curvature the vertex is a maximum, between two minima at x^2 = e.
+        let parabola = Graph::new(Range { from: -1.0, to: 0.0 }, |x| x * x).unwrap();
+        for e in [1e-6, 1e-5, 1e-4] {
+            let closest = parabola.closest(0.0, 0.5 + e);
+            assert!((closest.gap.abs() - (0.25 + e).sqrt()).abs() < 1e-15, "{e}: {closest:?}");
+            assert!((closest.t.abs() - e.sqrt()).abs() < 1e-9, "{e}: {closest:?}");
+        }
+    }
+
+    #[test]
+    fn parts_get_their_share_of_the_cells() {
+        let whole = Range { from: -1.0, to: 3.0 };
+        assert_eq!(cells(whole, whole), 96);
+        assert_eq!(cells(whole, Range { from: 0.0, to: 1.0 }), 24);
+        assert_eq!(cells(whole, Range { from: 0.0, to: 1e-9 }), 2);
+        assert_eq!(cells(whole, Range { from: 0.0, to: 0.0 }), 2);
+        assert_eq!(cells(whole, Range { from: -9.0, to: 9.0 }), 96);
+        assert_eq!(cells(Range::ALL, whole), 96);
+        assert_eq!(cells(Range::ALL, Range::ALL), 512);
+    }
+}
