@@ -3,8 +3,7 @@
 use std::fmt::Debug;
 
 use crate::nearest::{cuts, search};
-use crate::proof::curvature;
-use crate::trust::{Seal, Trust};
+use crate::proof::limits;
 use crate::{Bounds, Closest, Frame, FrameRate, Range};
 
 /// The border of a solid in the plane, travelled with the solid on its left.
@@ -82,7 +81,7 @@ pub trait Contour: Send + Sync + Debug {
     /// 2, so that a short part costs little. What this misses are several nearest points within one cell: cut such a
     /// shape into pieces, or override the method. A point that is not finite gives a gap that is not finite.
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        search::closest(self, range, x, y)
+        search::closest(|t| self.frame(t), self.range(), range, x, y)
     }
 
     /// Signed distance of the point `(x, y)` from the contour, a length: positive outside the solid.
@@ -100,7 +99,7 @@ pub trait Contour: Send + Sync + Debug {
     /// By default the box of 97 samples, widened cell by cell by what the change of `dr/dt` across the cell allows the
     /// curve to leave its chord, times two; the whole plane for an infinite range.
     fn bounds_in(&self, range: Range) -> Bounds {
-        search::bounds(self, range)
+        search::bounds(|t| self.frame(t), range)
     }
 
     /// Parameters inside `range`, in order, that part it into simple arcs: each bends one way only (no inflection
@@ -110,7 +109,7 @@ pub trait Contour: Send + Sync + Debug {
     /// more between two of them is parted evenly by angle. Two inflections within one cell go unseen, and a range that
     /// goes on for ever is not parted. A shape whose closest points are exact on any arc may return none.
     fn cuts(&self, range: Range) -> Vec<f64> {
-        cuts::sampled(self, range)
+        cuts::sampled(|t| self.frame(t), range)
     }
 
     /// Whether the part in `range`, as a whole, lies on one side of each of its tangents: a point outside of it, as far as
@@ -131,7 +130,7 @@ pub trait Contour: Send + Sync + Debug {
     /// outside; wrong ones let it "prove" what is false.
     fn curvature_in(&self, range: Range) -> (f64, f64) {
         let _ = range;
-        curvature::ANY
+        limits::ANY_CURVATURE
     }
 
     /// Whether [`closest_in`](Self::closest_in) always gives the true nearest point, to rounding, and
@@ -162,6 +161,28 @@ pub trait Contour: Send + Sync + Debug {
         Trust::NONE
     }
 }
+
+/// What is known of a shape by how it was made. [`Contour::trust`](crate::Contour::trust) gives it.
+#[derive(Clone, Copy, Debug)]
+pub struct Trust {
+    /// Its methods keep the contract.
+    pub(crate) contract: bool,
+    /// It does not cross itself.
+    pub(crate) simple: bool,
+}
+
+impl Trust {
+    /// Nothing is known: a shape from outside this crate.
+    pub(crate) const NONE: Self = Self { contract: false, simple: false };
+    /// Its methods are tested here, its data may let it cross itself.
+    pub(crate) const TESTED: Self = Self { contract: true, simple: false };
+    /// The same, and no data let it cross itself.
+    pub(crate) const SIMPLE: Self = Self { contract: true, simple: true };
+}
+
+/// An argument that no other crate can name, so that no other crate can write the method that takes it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seal(pub(crate) ());
 
 /// A shape behind a pointer, or another thing with a `Deref` to it, is that shape.
 macro_rules! behind_pointer {

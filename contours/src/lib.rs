@@ -11,7 +11,6 @@
 //! long as one scene uses one kind; angles are radians.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
-mod angle;
 mod bounds;
 mod check;
 mod composite;
@@ -21,14 +20,12 @@ mod error;
 #[cfg(feature = "files")]
 mod files;
 mod frame;
-mod frame_rate;
 mod nearest;
+mod point;
 mod proof;
 mod range;
 mod shapes;
 mod transform;
-mod trust;
-mod vector;
 
 pub use bounds::Bounds;
 pub use composite::{Bend, Composite, Part, Run, RunClosest, RunEnd, SelfCrossing, Stretch, StretchKind};
@@ -36,8 +33,7 @@ pub use contour::Contour;
 pub use error::{Broken, ContourError};
 #[cfg(feature = "files")]
 pub use files::{description, file};
-pub use frame::Frame;
-pub use frame_rate::FrameRate;
+pub use frame::{Frame, FrameRate};
 pub use nearest::{Closest, Index};
 pub use proof::Limits;
 pub use range::Range;

@@ -4,17 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use super::crossing::{self, Crossing};
 use super::piece::Piece;
-use crate::angle::wrapped;
+use crate::contour::Seal;
 use crate::contract::spot_check;
-use crate::trust::Seal;
+use crate::point::{SMOOTH, wrap_angle};
 use crate::{Contour, ContourError, Frame, Range};
 
 /// Largest distance between the ends of consecutive pieces, relative to the largest coordinate of [`Piece::scale`]:
 /// room for breaks typed to ten digits, far below anything mechanical.
 const MEETING: f64 = 1e-9;
-
-/// Largest turn, rad, that is still a smooth joint: what a break computed in double precision leaves between tangents.
-pub(crate) const SMOOTH: f64 = 1e-9;
 
 /// The shapes as pieces, whole.
 ///
@@ -91,7 +88,7 @@ pub(crate) fn placed(pieces: &mut [Piece]) -> Result<i32, ContourError> {
 
 /// The turn, rad, from one direction to the next: a reversal is the end of a plate, which is convex.
 fn turn(end: Frame, start: Frame) -> f64 {
-    let turn = wrapped(start.alpha - end.alpha);
+    let turn = wrap_angle(start.alpha - end.alpha);
     if turn < SMOOTH - PI { turn + TAU } else { turn }
 }
 

@@ -1,6 +1,6 @@
 //! Where a contour enters the solid of the next one.
 
-use crate::vector::cross;
+use crate::point::cross;
 use crate::{Contour, Frame, Range};
 
 /// Cells in which the search begins.

@@ -1,7 +1,7 @@
-//! The point where two pieces meet at an angle.
+//! The point where two pieces meet at an angle, and how it moves with a parameter of one of them.
 
-use crate::angle::wrapped;
-use crate::{Bounds, Closest, Frame, Range};
+use crate::point::{cross, minus, plus, wrap_angle};
+use crate::{Bounds, Closest, Frame, FrameRate, Range};
 
 /// A vertex: the point stands still while alpha runs from one tangent to the other. Its own parameter is the angle turned, from
 /// 0: that of the composite, behind long pieces, would lose digits of it.
@@ -56,7 +56,7 @@ impl Joint {
         // Seen from a corner the point lies against the normal, seen from a notch along it.
         let alpha = if convex { dx.atan2(-dy) } else { (-dx).atan2(dy) };
         let distance = dx.hypot(dy);
-        let off = if distance > 0.0 { wrapped(alpha - self.frame(middle).alpha) } else { 0.0 };
+        let off = if distance > 0.0 { wrap_angle(alpha - self.frame(middle).alpha) } else { 0.0 };
         let t = middle + self.start.turning * off;
         // The solid at a corner is what lies left of both tangents, at a notch what lies left of either.
         let left = |t: f64| self.frame(t).local(x, y).1 < 0.0;
@@ -69,6 +69,33 @@ impl Joint {
             frame: self.frame(on),
             interior: range.contains(t),
         }
+    }
+}
+
+/// The change of a vertex, the point where the two pieces, continued, cross, per unit of a parameter.
+pub(crate) struct VertexRate {
+    /// Of the point.
+    pub point: [f64; 2],
+    /// Of the parameters of the two pieces where they end there.
+    pub ends: [f64; 2],
+    /// Of the tangent angles of the two pieces there, rad.
+    pub alphas: [f64; 2],
+}
+
+impl VertexRate {
+    /// The vertex between two pieces that end there in these frames, which change by `rates` at the fixed parameters of the
+    /// ends.
+    pub fn new(frames: [Frame; 2], rates: [FrameRate; 2]) -> Self {
+        let along = frames.map(|Frame { alpha, speed, .. }| {
+            let (sin, cos) = alpha.sin_cos();
+            [speed * cos, speed * sin]
+        });
+        let points = rates.map(|rate| [rate.x, rate.y]);
+        // r_1 + a r_1' = r_2 + b r_2'
+        let (apart, across) = (minus(points[1], points[0]), cross(along[0], along[1]));
+        let ends = [cross(apart, along[1]) / across, cross(apart, along[0]) / across];
+        let alphas = [0, 1].map(|side| rates[side].alpha + ends[side] * frames[side].turning);
+        Self { point: plus(points[0], ends[0], along[0]), ends, alphas }
     }
 }
 

@@ -1,35 +1,28 @@
 //! Several pieces as one contour.
 
-pub(crate) mod assembly;
-mod carry;
+mod assembly;
 mod crossing;
 mod joint;
-mod part;
 mod piece;
 pub(crate) mod polygon;
 mod run;
 mod self_crossing;
-mod shared;
 mod stretch;
-mod taken_apart;
-mod vertex_rate;
+mod transform;
 
-pub use part::Part;
 pub use run::{Bend, Run, RunEnd};
 pub use self_crossing::SelfCrossing;
-pub use stretch::{Stretch, StretchKind};
+pub use stretch::{Part, Stretch, StretchKind};
 
 use std::sync::Arc;
 
 use crate::Index;
-use crate::proof::curvature;
-use crate::trust::{Seal, Trust};
+use crate::contour::{Seal, Trust};
+use crate::proof::limits;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range};
-use joint::Joint;
-use piece::Piece;
+use joint::{Joint, VertexRate};
+use piece::{Piece, owned};
 use run::Stored;
-use shared::owned;
-use vertex_rate::VertexRate;
 
 /// Pieces in order, with the solid on the left, as one contour with one parameter.
 ///
@@ -268,7 +261,7 @@ impl Composite {
             Some(if number == piece { rate } else { FrameRate::ZERO })
         };
         let rates = [rate(pieces[0], one.range.to)?, rate(pieces[1], other.range.from)?];
-        Some(VertexRate::new(one, other, rates))
+        Some(VertexRate::new([one.last(), other.first()], rates))
     }
 
     fn piece_before(&self, piece: usize) -> Option<usize> {
@@ -693,12 +686,12 @@ impl Contour for Composite {
 
     fn curvature_in(&self, range: Range) -> (f64, f64) {
         let (first, last) = (self.stretch_at(range.from), self.stretch_at(range.to));
-        (first..=last).fold(curvature::NONE, |bounds, stretch| {
+        (first..=last).fold(limits::NO_CURVATURE, |bounds, stretch| {
             let of_stretch = match self.at(stretch) {
                 At::Piece(piece) => piece.shape.curvature_in(piece.range.within(range.shifted(-piece.offset))),
                 At::Joint(joint) => joint.curvature(),
             };
-            curvature::union(bounds, of_stretch)
+            limits::curvature_union(bounds, of_stretch)
         })
     }
 

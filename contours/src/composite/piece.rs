@@ -1,9 +1,12 @@
 //! One shape in its place in a composite.
 
 use std::f64::consts::TAU;
+use std::ops::Deref;
+use std::sync::Arc;
 
 use super::joint::Joint;
-use crate::{Bounds, Closest, Contour, Frame, Range};
+use crate::contour::{Seal, Trust, behind_pointer};
+use crate::{Bounds, Closest, Contour, Frame, FrameRate, Range};
 
 /// A shape, the part of it that belongs to the composite, how its parameter and angle continue those before it, and the
 /// joint after it. Kept small: there may be 1e5 of them.
@@ -121,4 +124,30 @@ impl Piece {
     fn wound(&self, frame: Frame) -> Frame {
         Frame { alpha: frame.alpha + TAU * f64::from(self.turns), ..frame }
     }
+}
+
+/// The shape of one of the pieces that the clones of a composite share, so that no shape need be `Clone`.
+#[derive(Debug)]
+struct Shared {
+    pieces: Arc<Vec<Piece>>,
+    index: usize,
+}
+
+impl Deref for Shared {
+    type Target = dyn Contour;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.pieces[self.index].shape
+    }
+}
+
+behind_pointer!(impl Contour for Shared);
+
+/// The pieces for another contour: themselves where nobody else has them.
+pub(crate) fn owned(pieces: Arc<Vec<Piece>>) -> Vec<Piece> {
+    Arc::try_unwrap(pieces).unwrap_or_else(|pieces| {
+        let shared =
+            |(index, piece): (usize, &Piece)| piece.with_shape(Box::new(Shared { pieces: pieces.clone(), index }));
+        pieces.iter().enumerate().map(shared).collect()
+    })
 }

@@ -1,10 +1,7 @@
 //! Contours of straight edges.
 
-use crate::vector::distance;
+use crate::point::comes_back;
 use crate::{Composite, Contour, ContourError, Line, check};
-
-/// Distance of the last from the first point, relative to the circumference, below which the last point repeats the first.
-const CLOSED: f64 = 1e-9;
 
 impl Composite {
     /// The edges from point to point (lengths), with the solid on the left; closed if the last point is the first one.
@@ -68,13 +65,6 @@ impl Composite {
         encloses(points)?;
         if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
     }
-}
-
-/// Whether the last point is the first one given again.
-pub(crate) fn comes_back(points: &[[f64; 2]]) -> bool {
-    let [first, .., last] = *points else { return false };
-    let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
-    distance(first, last) <= CLOSED * around
 }
 
 /// Whether the edges of a closed polygon enclose an area larger than rounding.

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::piece::Piece;
+use crate::point::wrap_angle;
 use crate::{Bounds, Contour, Frame, Range};
 
 /// A kink between two pieces that bends the wrong way by no more than this is rounding, rad. It moves a line that should
@@ -89,7 +90,7 @@ pub(crate) fn runs<'a>(arcs: impl Iterator<Item = Arc<'a>>, turns: i32) -> Vec<S
         let turn = if let [Some(from), Some(to)] = frames { to.alpha - from.alpha } else { PI };
         // where no joint stands, the frames still tell of a kink too small for one
         let kink = match (before, frames[0]) {
-            (Some(was), Some(is)) if joint == 0.0 => crate::angle::wrapped(is.alpha - was.alpha),
+            (Some(was), Some(is)) if joint == 0.0 => wrap_angle(is.alpha - was.alpha),
             _ => joint,
         };
         let goes_on = runs.last().is_some_and(|run| run.bend == Bend::Outward) && !ends_at_infinity;

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::crossing::brought_together;
 use crate::Index;
-use crate::vector::{cross, minus};
+use crate::point::{cross, minus};
 use crate::{Bounds, Composite, ContourError, Frame, Part, Range, StretchKind};
 
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::search::CELLS;
-use crate::{Contour, Range};
+use crate::{Frame, Range};
 
 /// Angle (rad) that a whole range turns at the rate of a sample whose sign counts for nothing: a straight contour has
 /// only rounding there.
@@ -22,8 +22,8 @@ const SHORTEST: f64 = 1e-9;
 /// Steps of a bisection, which halves a cell to rounding.
 const STEPS: usize = 60;
 
-/// The cuts of a contour of which only the frame is known, see [`Contour::cuts`].
-pub(crate) fn sampled<C: Contour + ?Sized>(shape: &C, range: Range) -> Vec<f64> {
+/// The cuts of a contour of which only the frame is known, see [`Contour::cuts`](crate::Contour::cuts).
+pub(crate) fn sampled(frame: impl Fn(f64) -> Frame, range: Range) -> Vec<f64> {
     if !range.is_finite() {
         return Vec::new();
     }
@@ -32,23 +32,23 @@ pub(crate) fn sampled<C: Contour + ?Sized>(shape: &C, range: Range) -> Vec<f64> 
     let mut last = None;
     for sample in 0..=CELLS {
         let t = range.at(sample as f64 / CELLS as f64);
-        let turning = shape.frame(t).turning;
+        let turning = frame(t).turning;
         if turning.abs() * range.length() <= STRAIGHT {
             continue;
         }
         if let Some((before, convex)) = last
             && convex != (turning > 0.0)
         {
-            bends.push(last_where(before, t, |t| (shape.frame(t).turning > 0.0) == convex));
+            bends.push(last_where(before, t, |t| (frame(t).turning > 0.0) == convex));
         }
         last = Some((t, turning > 0.0));
     }
-    by_turn(shape, range, &bends)
+    by_turn(frame, range, &bends)
 }
 
 /// The cuts of a contour whose inflections inside `range` are `bends`, in order: those, and between two of them as many
 /// as it needs, at equal angles.
-pub(crate) fn by_turn<C: Contour + ?Sized>(shape: &C, range: Range, bends: &[f64]) -> Vec<f64> {
+pub(crate) fn by_turn(frame: impl Fn(f64) -> Frame, range: Range, bends: &[f64]) -> Vec<f64> {
     let mut cuts = Vec::new();
     let mut from = range.from;
     let shortest = SHORTEST * range.length();
@@ -56,11 +56,11 @@ pub(crate) fn by_turn<C: Contour + ?Sized>(shape: &C, range: Range, bends: &[f64
         if to < range.to && (to - from < shortest || range.to - to < shortest) {
             continue;
         }
-        let (first, last) = (shape.frame(from).alpha, shape.frame(to).alpha);
+        let (first, last) = (frame(from).alpha, frame(to).alpha);
         let count = arcs(last - first);
         for arc in 1..count {
             let turned = (last - first).abs() * arc as f64 / count as f64;
-            let cut = last_where(from, to, |t| (shape.frame(t).alpha - first).abs() < turned);
+            let cut = last_where(from, to, |t| (frame(t).alpha - first).abs() < turned);
             cuts.push(cut);
         }
         if to < range.to {
@@ -101,7 +101,7 @@ pub(crate) fn last_where(low: f64, high: f64, before: impl Fn(f64) -> bool) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Frame;
+    use crate::Contour;
 
     /// One wave of y = sin x.
     #[derive(Debug)]

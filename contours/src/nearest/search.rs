@@ -1,8 +1,7 @@
 //! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
 
-use super::newton;
-use crate::vector::dot;
-use crate::{Bounds, Closest, Contour, Range};
+use crate::point::dot;
+use crate::{Bounds, Closest, Frame, Range};
 
 /// Cells of a search in a finite range: of a full circle, each turns by less than 4 degrees.
 pub(crate) const CELLS: usize = 96;
@@ -15,6 +14,9 @@ const CELLS_INFINITE: usize = 512;
 
 /// Steps towards the extremum of the slope within a cell. An extremum that they miss is too flat to change the result.
 const DIP_STEPS: usize = 12;
+
+/// Largest number of steps; bisection alone reaches rounding in about 60.
+const ZERO_STEPS: usize = 80;
 
 /// A sample of the contour, seen from the point whose closest point is wanted.
 #[derive(Clone, Copy)]
@@ -41,27 +43,28 @@ impl Probe {
     }
 
     /// The same of a shape of which only the frame is known.
-    fn of<C: Contour + ?Sized>(shape: &C, t: f64, x: f64, y: f64) -> Self {
-        let frame = shape.frame(t);
+    fn of_frame(t: f64, frame: Frame, x: f64, y: f64) -> Self {
         let (ahead, outside) = frame.local(x, y);
         Self { t, distance: ahead.hypot(outside), slope: -ahead, rate: frame.speed + frame.turning * outside }
     }
 }
 
-/// The closest point, see [`Contour::closest_in`].
-pub(crate) fn closest<C: Contour + ?Sized>(shape: &C, range: Range, x: f64, y: f64) -> Closest {
-    closest_by(shape, range, x, y, |t| Probe::of(shape, t, x, y))
+/// The closest point on the part in `range` of a contour whose own range is `whole`, see
+/// [`Contour::closest_in`](crate::Contour::closest_in).
+pub(crate) fn closest(frame: impl Fn(f64) -> Frame, whole: Range, range: Range, x: f64, y: f64) -> Closest {
+    closest_by(&frame, whole, range, x, y, |t| Probe::of_frame(t, frame(t), x, y))
 }
 
 /// The closest point of a shape that has a cheaper way to its probes.
-pub(crate) fn closest_by<C: Contour + ?Sized>(
-    shape: &C,
+pub(crate) fn closest_by(
+    frame: impl Fn(f64) -> Frame,
+    whole: Range,
     range: Range,
     x: f64,
     y: f64,
     probe: impl Fn(f64) -> Probe,
 ) -> Closest {
-    let cells = cells(shape.range(), range);
+    let cells = cells(whole, range);
     let first = probe(range.at(0.0));
     // An end is a candidate where the distance grows away from it. The first sample stands in when there is no candidate
     // at all, which only numbers that are not finite and infinite ranges can bring about.
@@ -80,7 +83,7 @@ pub(crate) fn closest_by<C: Contour + ?Sized>(
     if left.distance < best.distance {
         (best, interior) = (left, false);
     }
-    Closest::new(best.t, shape.frame(best.t), interior, x, y)
+    Closest::new(best.t, frame(best.t), interior, x, y)
 }
 
 /// Cells of the part in `range` of a contour whose own range is `whole`: in proportion where both are finite.
@@ -137,7 +140,7 @@ fn refine(probe: impl Fn(f64) -> Probe, low: Probe, high: Probe) -> Probe {
     let resolution = f64::EPSILON * low.t.abs().max(high.t.abs());
     // A slope of zero at the end of a cell may be a maximum's, behind the minimum.
     let mut here = if -low.slope < high.slope || high.slope == 0.0 { low } else { high };
-    newton::zero(Range { from: low.t, to: high.t }, here.t, resolution, |t| {
+    zero(Range { from: low.t, to: high.t }, here.t, resolution, |t| {
         if t != here.t {
             here = probe(t);
         }
@@ -146,16 +149,52 @@ fn refine(probe: impl Fn(f64) -> Probe, low: Probe, high: Probe) -> Probe {
     here
 }
 
-/// The bounds, see [`Contour::bounds_in`].
-pub(crate) fn bounds<C: Contour + ?Sized>(shape: &C, range: Range) -> Bounds {
+/// The zero, to `resolution`, of a function that is negative where the range begins and not where it ends. `function`
+/// gives value and derivative; it is called with `start`, a place in the range, and at last with the zero.
+pub(crate) fn zero(range: Range, start: f64, resolution: f64, mut function: impl FnMut(f64) -> [f64; 2]) -> f64 {
+    let Range { from: mut low, to: mut high } = range;
+    let mut t = start;
+    let mut step_before = range.length();
+    let [mut value, mut rate] = function(t);
+    for _ in 0..ZERO_STEPS {
+        if value < 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        if value == 0.0 || high - low <= resolution {
+            break;
+        }
+        let mut step = -value / rate;
+        let mut next = t + step;
+        // Newton only while it stays inside and converges faster than halving would.
+        if !(next > low && next < high && step.abs() <= 0.5 * step_before.abs()) {
+            next = 0.5 * (low + high);
+            step = next - t;
+        }
+        if next == t {
+            break;
+        }
+        t = next;
+        [value, rate] = function(t);
+        if step.abs() <= resolution {
+            break;
+        }
+        step_before = step;
+    }
+    t
+}
+
+/// The bounds, see [`Contour::bounds_in`](crate::Contour::bounds_in).
+pub(crate) fn bounds(frame: impl Fn(f64) -> Frame, range: Range) -> Bounds {
     if !range.is_finite() {
         return Bounds::ALL;
     }
     let step = range.length() / CELLS as f64;
-    let mut left = shape.frame(range.from);
+    let mut left = frame(range.from);
     let mut bounds = Bounds::EMPTY;
     for cell in 1..=CELLS {
-        let right = shape.frame(range.at(cell as f64 / CELLS as f64));
+        let right = frame(range.at(cell as f64 / CELLS as f64));
         let (sin, cos) = left.alpha.sin_cos();
         let (sin_right, cos_right) = right.alpha.sin_cos();
         let change = (right.speed * cos_right - left.speed * cos).hypot(right.speed * sin_right - left.speed * sin);
@@ -170,7 +209,7 @@ pub(crate) fn bounds<C: Contour + ?Sized>(shape: &C, range: Range) -> Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Graph;
+    use crate::{Contour, Graph};
 
     #[test]
     fn a_maximum_at_the_end_of_a_cell_does_not_hide_the_minimum() {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{Bounds, Contour, ContourError, Range};
+use crate::{Bounds, ContourError, Frame, Range};
 
 /// Parts of the range on which limits are checked, and of which a box is made up.
 const CELLS: usize = 96;
@@ -29,9 +29,8 @@ pub struct Limits {
 /// The limits over a part.
 pub(crate) type LimitsOf = Arc<dyn Fn(Range) -> Limits + Send + Sync>;
 
-/// Checks that samples of the shape lie within their limits: of the whole range, of halves and so on, and of 96 parts.
-pub(crate) fn check(shape: &dyn Contour, limits: &LimitsOf) -> Result<(), ContourError> {
-    let range = shape.range();
+/// Checks that samples of a shape lie within their limits: of the whole range, of halves and so on, and of 96 parts.
+pub(crate) fn check(frame: impl Fn(f64) -> Frame, limits: &LimitsOf, range: Range) -> Result<(), ContourError> {
     let wholes = [1, 2, 4, 8, 16, 32, CELLS];
     for count in wholes {
         let samples = SAMPLES.max(CELLS / count);
@@ -41,7 +40,7 @@ pub(crate) fn check(shape: &dyn Contour, limits: &LimitsOf) -> Result<(), Contou
             let Limits { speed, curvature: (least, largest) } = limits(part);
             for sample in 0..=samples {
                 let t = part.at(sample as f64 / samples as f64);
-                let frame = shape.frame(t);
+                let frame = frame(t);
                 let wrong = |what, value: f64, limit: f64| {
                     Err(ContourError::BeyondLimit { what, t, value, limit, from: part.from, to: part.to })
                 };
@@ -65,13 +64,13 @@ pub(crate) fn check(shape: &dyn Contour, limits: &LimitsOf) -> Result<(), Contou
 }
 
 /// A box that contains the part: an arc lies within the ellipse whose foci are its ends and whose axis is as long as it is.
-pub(crate) fn bounds(shape: &dyn Contour, limits: &LimitsOf, range: Range) -> Bounds {
+pub(crate) fn bounds(frame: impl Fn(f64) -> Frame, limits: &LimitsOf, range: Range) -> Bounds {
     let mut bounds = Bounds::EMPTY;
-    let mut left = shape.frame(range.from);
+    let mut left = frame(range.from);
     let mut from = range.from;
     for cell in 1..=CELLS {
         let to = range.at(cell as f64 / CELLS as f64);
-        let right = shape.frame(to);
+        let right = frame(to);
         let length = limits(Range { from, to }).speed * (to - from);
         let chord = [right.x - left.x, right.y - left.y];
         let square = (length * length - chord[0] * chord[0] - chord[1] * chord[1]).max(0.0);
@@ -84,4 +83,23 @@ pub(crate) fn bounds(shape: &dyn Contour, limits: &LimitsOf, range: Range) -> Bo
         (from, left) = (to, right);
     }
     if bounds.is_finite() { bounds } else { Bounds::ALL }
+}
+
+/// Bounds of a curvature of which nothing is known, one over a length.
+pub(crate) const ANY_CURVATURE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
+/// Bounds of no curvature at all, to begin a union with.
+pub(crate) const NO_CURVATURE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+/// The bounds of the curvatures within either of two bounds.
+pub(crate) fn curvature_union(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    (one.0.min(other.0), one.1.max(other.1))
+}
+
+/// The bounds of some curvatures, each widened by `relative` of itself.
+pub(crate) fn curvature_bounds(values: impl IntoIterator<Item = f64>, relative: f64) -> (f64, f64) {
+    values.into_iter().fold(NO_CURVATURE, |bounds, value| {
+        let margin = relative * value.abs();
+        curvature_union(bounds, (value - margin, value + margin))
+    })
 }

@@ -1,8 +1,7 @@
 //! Closest points, cuts and convexity that are proven from bounds of the speed and of the curvature.
 
-pub(crate) mod curvature;
+pub(crate) mod bending;
+pub(crate) mod branch_and_bound;
 pub(crate) mod limits;
-pub(crate) mod one_way;
-pub(crate) mod proven;
 
 pub use limits::Limits;

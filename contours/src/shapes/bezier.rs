@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use super::cubic::{Cubic, nearest, roots};
+use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
-use crate::trust::{Seal, Trust};
-use crate::vector::{between, cross, dot, minus, scaled};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, angle, check};
+use crate::point::{between, cross, dot, minus, nearest_turn, scaled};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// Smallest speed accepted, relative to the largest: below it the curve turns round within 1e-6 of its length, and
 /// nothing that bends can follow.
@@ -144,7 +144,7 @@ impl Contour for Bezier {
         Frame {
             x,
             y,
-            alpha: angle::near(velocity[1].atan2(velocity[0]), self.start + self.cubic().velocity().turned(t)),
+            alpha: nearest_turn(velocity[1].atan2(velocity[0]), self.start + self.cubic().velocity().turned(t)),
             speed: square.sqrt(),
             turning: cross(velocity, acceleration) / square,
         }
@@ -178,7 +178,7 @@ impl Contour for Bezier {
     fn cuts(&self, range: Range) -> Vec<f64> {
         let range = Range::UNIT.within(range);
         let bends: Vec<f64> = self.cubic().velocity().inflections().filter(|&t| range.is_interior(t)).collect();
-        cuts::by_turn(self, range, &bends)
+        cuts::by_turn(|t| self.frame(t), range, &bends)
     }
 
     /// What bends one way only and turns by at most a half turn, in which case it lies on one side of each tangent.

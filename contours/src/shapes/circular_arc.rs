@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::span::Span;
+use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
-use crate::proof::curvature;
-use crate::trust::{Seal, Trust};
+use crate::proof::limits;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// Rounding of the curvature, relative.
@@ -142,7 +142,7 @@ impl Contour for CircularArc {
     }
 
     fn curvature_in(&self, _: Range) -> (f64, f64) {
-        curvature::of_values([self.span.sign() / self.radius], CURVATURE_ROUNDING)
+        limits::curvature_bounds([self.span.sign() / self.radius], CURVATURE_ROUNDING)
     }
 
     fn closest_is_exact(&self) -> bool {

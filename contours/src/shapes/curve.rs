@@ -4,11 +4,11 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::function::{self, Function};
-use super::jet::{Jet, variable};
+use super::function::{Jet, variable};
 use crate::nearest::search::CELLS;
+use crate::point::{cross, dot, nearest_turn};
 use crate::proof::limits::LimitsOf;
-use crate::vector::{cross, dot};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, angle, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, check};
 
 /// Halvings of a cell in which the direction turns fast, before it counts as a jump.
 const HALVINGS: u32 = 30;
@@ -119,7 +119,7 @@ impl Curve {
         let ([t_before, before], [t_after, after]) = (self.angles[after - 1], self.angles[after]);
         let share = ((t - t_before) / (t_after - t_before)).clamp(0.0, 1.0);
         let near = before + share * (after - before);
-        angle::near(angle, near)
+        nearest_turn(angle, near)
     }
 }
 

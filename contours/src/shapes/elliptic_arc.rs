@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::ellipse;
 use super::span::Span;
+use crate::contour::{Seal, Trust};
 use crate::nearest::gap;
-use crate::proof::curvature;
-use crate::trust::{Seal, Trust};
+use crate::proof::limits;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// Smallest distance of a cut from an end of the range, relative to the angles: nearer ones are the end itself, rounded.
@@ -232,7 +232,7 @@ impl Contour for EllipticArc {
         // Near the sharp end of a thin ellipse the rounding of the angle counts by as much as the ellipse is thin.
         let angle = self.span.from.abs().max(self.span.to.abs());
         let relative = ROUNDING * (1.0 + angle) * (a / b).max(b / a);
-        curvature::of_values(ends.into_iter().chain(axes), relative)
+        limits::curvature_bounds(ends.into_iter().chain(axes), relative)
     }
 
     fn closest_is_exact(&self) -> bool {

@@ -1,12 +1,35 @@
-//! Shapes made of a function: proven by the limits that its author gives, sampled without them.
+//! Shapes made of a function, and the numbers that carry its derivatives. Their closest points are proven where its author gives
+//! limits, and come from samples where not.
 
 use std::sync::Arc;
 
 use crate::nearest::cuts;
 use crate::nearest::search::{self, Probe};
 use crate::proof::limits::{self, LimitsOf};
-use crate::proof::{curvature, one_way, proven};
+use crate::proof::{bending, branch_and_bound};
 use crate::{Bounds, Closest, Contour, ContourError, Limits, Range, check};
+
+/// A number with its first and second derivative (a second-order dual number): fields `re`, `v1` and `v2`.
+///
+/// Arithmetic works as with floating-point numbers, also mixed with them (the float on the right); functions such as
+/// `sqrt`, `sin` and `powi` are methods of the trait [`DualNum`], which must be in scope.
+///
+/// ```
+/// use rod_contours::{DualNum, Jet};
+///
+/// let x = Jet::from_re(2.0).derivative();
+/// let y = x.powi(3) + x * 0.5;
+/// assert_eq!((y.re, y.v1, y.v2), (9.0, 12.5, 12.0));
+/// ```
+pub use num_dual::Dual2_64 as Jet;
+
+/// The functions of a [`Jet`].
+pub use num_dual::DualNum;
+
+/// The variable itself at `t`: derivative 1, second derivative 0.
+pub(crate) fn variable(t: f64) -> Jet {
+    Jet::from_re(t).derivative()
+}
 
 /// A shape made of a function.
 pub(crate) trait Function: Contour + Sized {
@@ -25,35 +48,35 @@ pub(crate) fn checked(
     let Range { from, to } = shape.range();
     check::finite([("the start of the range", from), ("the end of the range", to)])?;
     let known: LimitsOf = Arc::new(limits);
-    limits::check(shape, &known)?;
+    limits::check(|t| shape.frame(t), &known, shape.range())?;
     Ok(known)
 }
 
 pub(crate) fn closest_in(shape: &impl Function, range: Range, x: f64, y: f64) -> Closest {
     if let Some(limits) = shape.limits() {
         let range = shape.range().within(range);
-        let t = proven::nearest(|t| shape.derivatives_at(t), &**limits, range, [x, y]);
+        let t = branch_and_bound::closest_parameter(|t| shape.derivatives_at(t), &**limits, range, [x, y]);
         return Closest::new(t, shape.frame(t), range.is_interior(t), x, y);
     }
-    search::closest_by(shape, range, x, y, |t| Probe::new(t, shape.derivatives_at(t), x, y))
+    search::closest_by(|t| shape.frame(t), shape.range(), range, x, y, |t| Probe::new(t, shape.derivatives_at(t), x, y))
 }
 
 pub(crate) fn bounds_in(shape: &impl Function, range: Range) -> Bounds {
     match shape.limits() {
-        Some(known) => limits::bounds(shape, known, shape.range().within(range)),
-        None => search::bounds(shape, range),
+        Some(known) => limits::bounds(|t| shape.frame(t), known, shape.range().within(range)),
+        None => search::bounds(|t| shape.frame(t), range),
     }
 }
 
 pub(crate) fn cuts(shape: &impl Function, range: Range) -> Vec<f64> {
-    let known = shape.limits().and_then(|known| one_way::cuts(shape, known, shape.range().within(range)));
-    known.unwrap_or_else(|| cuts::sampled(shape, range))
+    let known = shape.limits().and_then(|known| bending::cuts(|t| shape.frame(t), known, shape.range().within(range)));
+    known.unwrap_or_else(|| cuts::sampled(|t| shape.frame(t), range))
 }
 
 pub(crate) fn is_convex(shape: &impl Function, range: Range) -> bool {
-    shape.limits().is_some_and(|known| one_way::is_convex(shape, known, shape.range().within(range)))
+    shape.limits().is_some_and(|known| bending::is_convex(|t| shape.frame(t), known, shape.range().within(range)))
 }
 
 pub(crate) fn curvature_in(shape: &impl Function, range: Range) -> (f64, f64) {
-    shape.limits().map_or(curvature::ANY, |known| known(shape.range().within(range)).curvature)
+    shape.limits().map_or(limits::ANY_CURVATURE, |known| known(shape.range().within(range)).curvature)
 }

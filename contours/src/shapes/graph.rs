@@ -4,10 +4,10 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::function::{self, Function};
-use super::jet::{Jet, variable};
+use super::function::{Jet, variable};
+use crate::contour::{Seal, Trust};
 use crate::nearest::search::CELLS;
 use crate::proof::limits::LimitsOf;
-use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, check};
 
 /// g, g' and g'' at x.

@@ -1,7 +1,7 @@
 //! The straight line from one point to another.
 
+use crate::contour::{Seal, Trust};
 use crate::nearest::gap;
-use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.

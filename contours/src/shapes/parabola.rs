@@ -1,8 +1,8 @@
 //! The parabola, the object of Merker et al. 2020.
 
+use crate::contour::{Seal, Trust};
 use crate::nearest::gap;
-use crate::proof::curvature;
-use crate::trust::{Seal, Trust};
+use crate::proof::limits;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// Rounding of the curvature, relative.
@@ -183,7 +183,7 @@ impl Contour for Parabola {
             return (0.0, 0.0);
         }
         let vertex = range.contains(0.0).then_some(0.0);
-        curvature::of_values([range.from, range.to].into_iter().chain(vertex).map(at), CURVATURE_ROUNDING)
+        limits::curvature_bounds([range.from, range.to].into_iter().chain(vertex).map(at), CURVATURE_ROUNDING)
     }
 
     fn closest_is_exact(&self) -> bool {

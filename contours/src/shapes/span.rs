@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::{ContourError, Range, angle};
+use crate::point::nearest_turn;
+use crate::{ContourError, Range};
 
 /// Excess of an arc over a full turn, relative to its angles, that is rounding of `from + TAU`.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -48,7 +49,7 @@ impl Span {
     /// How far (rad) one has travelled at the angle, of all the times it is passed the one nearest to the middle of
     /// `range`, at most half a turn away from it.
     pub fn travelled(&self, angle: f64, range: Range) -> f64 {
-        angle::near(self.sign() * (angle - self.from), 0.5 * (range.from + range.to))
+        nearest_turn(self.sign() * (angle - self.from), 0.5 * (range.from + range.to))
     }
 
     /// Whether the angle is passed within `range`, by the angle travelled.

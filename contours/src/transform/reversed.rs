@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
-use crate::trust::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, Frame, FrameRate, Range};
 
 /// The same curve travelled the other way, by `-t`: solid and outside are exchanged.

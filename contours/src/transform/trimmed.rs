@@ -1,6 +1,6 @@
 //! A part of a shape.
 
-use crate::trust::{Seal, Trust};
+use crate::contour::{Seal, Trust};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
 
 /// The part of a shape in a range of its parameter, which it keeps.

@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::listing::{FieldInfo, FieldUnit, Written, fields, has_default};
-use super::{Pieces, ShapeError, pairs};
+use super::{Pieces, ShapeError};
 use crate::composite::polygon;
-use crate::file::{self, FileError};
+use crate::files::{FileError, SvgError, csv, path, svg};
 use crate::{CircularArc, Contour, ContourError, EllipticArc, Line, Parabola, Spline, SplineEnd};
 
 /// Degrees of a full turn.
@@ -26,7 +26,7 @@ fields! {
     /// `y = vertex.y + coefficient (x - vertex.x)^2`, travelled to +x: the solid is above.
     ParabolaFields {
         /// The vertex.
-        #[serde(deserialize_with = "pairs::one")]
+        #[serde(deserialize_with = "pair")]
         vertex: [f64; 2] => Length,
         /// The coefficient of the square.
         coefficient: f64 => PerLength,
@@ -62,10 +62,10 @@ fields! {
     /// A straight line; the solid is on the left of the way.
     LineFields {
         /// The first point.
-        #[serde(deserialize_with = "pairs::one")]
+        #[serde(deserialize_with = "pair")]
         from: [f64; 2] => Length,
         /// The last point.
-        #[serde(deserialize_with = "pairs::one")]
+        #[serde(deserialize_with = "pair")]
         to: [f64; 2] => Length,
     }
 }
@@ -81,7 +81,7 @@ fields! {
     /// Straight edges from point to point; the solid is on the left, inside if the points run counterclockwise.
     PolygonFields {
         /// The points; or else `file`.
-        #[serde(default, deserialize_with = "pairs::list", skip_serializing_if = "Option::is_none")]
+        #[serde(default, deserialize_with = "pair_list", skip_serializing_if = "Option::is_none")]
         points: Option<Vec<[f64; 2]>> => Length,
         /// A CSV file of points.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -111,7 +111,7 @@ fields! {
     /// An arc of a circle. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
     ArcFields {
         /// The centre.
-        #[serde(deserialize_with = "pairs::one")]
+        #[serde(deserialize_with = "pair")]
         center: [f64; 2] => Length,
         /// The radius.
         radius: f64 => Length,
@@ -141,10 +141,10 @@ fields! {
     /// An arc of an ellipse. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
     EllipseFields {
         /// The centre.
-        #[serde(deserialize_with = "pairs::one")]
+        #[serde(deserialize_with = "pair")]
         center: [f64; 2] => Length,
         /// The radii along its own axes.
-        #[serde(deserialize_with = "pairs::one")]
+        #[serde(deserialize_with = "pair")]
         radii: [f64; 2] => Length,
         /// The angle of its first axis; 0 unless given.
         #[serde(default)]
@@ -195,7 +195,7 @@ fields! {
     /// A smooth curve through points, or near them; the solid is on the left of the way.
     SplineFields {
         /// The points; or else `file`.
-        #[serde(default, deserialize_with = "pairs::list", skip_serializing_if = "Option::is_none")]
+        #[serde(default, deserialize_with = "pair_list", skip_serializing_if = "Option::is_none")]
         points: Option<Vec<[f64; 2]>> => Length,
         /// A CSV file of points.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -289,9 +289,8 @@ impl SvgFields {
         let (field, path) = match (&self.file, &self.path) {
             (Some(file), None) => {
                 let file = directory.join(file);
-                let path = file::svg_data(&file, self.id.as_deref());
-                let id_is_wrong =
-                    matches!(&path, Err(FileError::Svg { source: file::SvgError::NoSuchPath { .. }, .. }));
+                let path = svg::data(&file, self.id.as_deref());
+                let id_is_wrong = matches!(&path, Err(FileError::Svg { source: SvgError::NoSuchPath { .. }, .. }));
                 ("file", path.map_err(|error| ShapeError::at(if id_is_wrong { "id" } else { "file" }, error))?)
             }
             (None, Some(path)) => match self.id {
@@ -301,7 +300,7 @@ impl SvgFields {
             (Some(_), Some(_)) => return Err(ShapeError::says("path", "given beside file, expected one of them")),
             (None, None) => return Err(ShapeError::of_all("missing field `file` or `path`, expected one of them")),
         };
-        file::svg_piece(&path, self.scale).map_err(|source| match &self.file {
+        path::piece(&path, self.scale).map_err(|source| match &self.file {
             Some(file) => ShapeError::at(field, FileError::Svg { file: directory.join(file), source }),
             None => ShapeError::at(field, source),
         })
@@ -322,7 +321,7 @@ impl<'a> Points<'a> {
             (None, Some(file)) => {
                 let file = directory.join(file);
                 let (points, lines) =
-                    file::points_with_lines(&file).map_err(|error| ShapeError::at("file", error))?.into_iter().unzip();
+                    csv::points_with_lines(&file).map_err(|error| ShapeError::at("file", error))?.into_iter().unzip();
                 Ok(Self { points: Cow::Owned(points), source: Some((file, lines)) })
             }
             (Some(_), Some(_)) => Err(ShapeError::says("file", "given beside points, expected one of them")),
@@ -341,4 +340,25 @@ impl<'a> Points<'a> {
         let line = blamed.point.and_then(|point| lines.get(point.checked_sub(1)?).copied());
         ShapeError::at("file", FileError::Points { file, line, source: error })
     }
+}
+
+/// Two numbers `[x, y]`: of an array of two serde would overlook a third one.
+fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
+    let numbers = Vec::<f64>::deserialize(deserializer)?;
+    let found = numbers.len();
+    numbers
+        .try_into()
+        .map_err(|_| serde::de::Error::custom(format!("found a list of {found}, expected two numbers: [x, y]")))
+}
+
+/// A list of such pairs.
+fn pair_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<[f64; 2]>>, D::Error> {
+    let points = Vec::<Vec<f64>>::deserialize(deserializer)?;
+    let pair = |(index, numbers): (usize, Vec<f64>)| {
+        let (point, found) = (index + 1, numbers.len());
+        let fault =
+            |_| serde::de::Error::custom(format!("point {point} is a list of {found}, expected two numbers: [x, y]"));
+        numbers.try_into().map_err(fault)
+    };
+    points.into_iter().enumerate().map(pair).collect::<Result<_, _>>().map(Some)
 }

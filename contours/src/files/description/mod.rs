@@ -3,17 +3,16 @@
 //! A [`Shape`] is one piece of a contour, or several in a row (a polygon gives its edges, an SVG path its segments).
 //! Lengths have the unit of the file. This is the single list of shapes that have a name, and of their fields.
 
-mod error;
 mod fields;
 mod listing;
-mod pairs;
 
-pub use error::{ShapeError, ShapeFault};
 pub use fields::{
     ArcFields, EllipseFields, LineFields, ParabolaFields, PolygonFields, SplineEndField, SplineFields, SvgFields,
 };
 
 pub use listing::{FieldInfo, FieldUnit, ShapeInfo};
+
+pub use super::error::{ShapeError, ShapeFault};
 
 use std::path::Path;
 

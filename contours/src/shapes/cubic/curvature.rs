@@ -5,8 +5,8 @@
 //! lies between its least and its largest Bernstein coefficient on a part (Farin, Curves and Surfaces for CAGD, 2002).
 
 use super::{Cubic, Velocity};
-use crate::proof::curvature::{ANY, union};
-use crate::vector::{cross, dot, plus, scaled};
+use crate::point::{cross, dot, plus, scaled};
+use crate::proof::limits::{ANY_CURVATURE, curvature_union};
 
 /// Times a part is halved where the speed is not known to be positive. More would bound the curvature of sharper hairpins.
 const HALVINGS: u32 = 12;
@@ -67,7 +67,7 @@ impl Velocity {
 fn bounded(velocity: &Velocity, from: f64, to: f64, halvings: u32) -> (f64, f64) {
     let halved = || {
         let middle = 0.5 * (from + to);
-        union(bounded(velocity, from, middle, halvings - 1), bounded(velocity, middle, to, halvings - 1))
+        curvature_union(bounded(velocity, from, middle, halvings - 1), bounded(velocity, middle, to, halvings - 1))
     };
     let size = velocity.size();
     let [u, v, w] = [(from, from), (from, to), (to, to)].map(|(a, b)| {
@@ -77,10 +77,10 @@ fn bounded(velocity: &Velocity, from: f64, to: f64, halvings: u32) -> (f64, f64)
     let squares = [dot(u, u), dot(u, v), (2.0 * dot(v, v) + dot(u, w)) / 3.0, dot(v, w), dot(w, w)];
     let (least, most) = extremes(&squares, ROUNDING * size * size);
     if least.is_nan() || most.is_nan() {
-        return ANY;
+        return ANY_CURVATURE;
     }
     if least <= 0.0 {
-        return if halvings > 0 { halved() } else { ANY };
+        return if halvings > 0 { halved() } else { ANY_CURVATURE };
     }
     let bends = velocity.bends(from, to);
     let bend_slack = ROUNDING * size * size;
@@ -102,7 +102,7 @@ fn bounded(velocity: &Velocity, from: f64, to: f64, halvings: u32) -> (f64, f64)
     let bounds = (direct.0.max(sloped.0 - margin), direct.1.min(sloped.1 + margin));
     let last_bits = |value: f64| ROUNDING * value.abs();
     let bounds = (bounds.0 - last_bits(bounds.0), bounds.1 + last_bits(bounds.1));
-    if bounds.0.is_nan() || bounds.1.is_nan() { ANY } else { bounds }
+    if bounds.0.is_nan() || bounds.1.is_nan() { ANY_CURVATURE } else { bounds }
 }
 
 /// The Bernstein coefficients of `N`.
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn a_part_that_stands_still_has_no_bounds() {
         let cusp = cubic([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0]]);
-        assert_eq!(cusp.curvature(0.0, 1.0), ANY);
+        assert_eq!(cusp.curvature(0.0, 1.0), ANY_CURVATURE);
         assert!(cusp.curvature(0.6, 1.0).0.is_finite());
     }
 

@@ -5,7 +5,7 @@ mod nearest;
 mod velocity;
 
 use crate::Bounds;
-use crate::vector::{between, dot, minus, plus, scaled};
+use crate::point::{between, dot, minus, plus, scaled};
 pub(crate) use nearest::nearest;
 pub(crate) use velocity::{Velocity, roots};
 

@@ -2,8 +2,8 @@
 
 use super::Cubic;
 use crate::Range;
-use crate::nearest::newton;
-use crate::vector::{dot, minus};
+use crate::nearest::search::zero;
+use crate::point::{dot, minus};
 
 /// Rounding of a slope, relative to the square of the largest distance it is made of.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -46,7 +46,7 @@ fn search(part: &Cubic, halvings: u32, look: &mut impl FnMut(f64, f64)) {
             let along = Cubic::unit(part.control).velocity();
             let secant = slopes[0] / (slopes[0] - slopes[5]);
             let mut place = [0.0; 2];
-            let s = newton::zero(Range::UNIT, secant, f64::EPSILON, |s| {
+            let s = zero(Range::UNIT, secant, f64::EPSILON, |s| {
                 place = part.point(s);
                 let velocity = along.at(s);
                 [dot(place, velocity), dot(velocity, velocity) + dot(place, along.rate(s))]

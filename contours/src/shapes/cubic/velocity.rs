@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::vector::{cross, dot, plus};
+use crate::point::{cross, dot, plus};
 
 /// The velocity `start + linear s + square s^2` of a cubic.
 #[derive(Clone, Copy, Debug)]

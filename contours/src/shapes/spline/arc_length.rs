@@ -1,8 +1,7 @@
-//! How long a spline is.
+//! Arc lengths of cubics and of splines.
 
-use super::Spline;
+use crate::point::dot;
 use crate::shapes::cubic::{Cubic, Velocity};
-use crate::vector::dot;
 
 /// Nodes and weights of the Gauss-Legendre rule with 8 nodes on -1 to 1, symmetric about 0 (Abramowitz and Stegun,
 /// table 25.4).
@@ -20,40 +19,13 @@ const ACCURACY: f64 = 1e-12;
 /// Times a part is halved; the speed of a near cusp varies over 1e-9 of the cubic.
 const HALVINGS: u32 = 40;
 
-impl Spline {
-    /// The length of the whole spline, exact to 1e-13 relative.
-    pub fn length(&self) -> f64 {
-        self.lengths[self.lengths.len() - 1]
-    }
-
-    /// The length of the spline from its start to the parameter `t`, exact to 1e-13 relative to the whole; beyond the ends
-    /// that of the continued end cubics, negative before the start.
-    ///
-    /// ```
-    /// use rod_contours::{Spline, SplineEnd};
-    ///
-    /// let bent = Spline::through(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]], SplineEnd::Natural)?;
-    /// assert_eq!(bent.arc_length(0.0), 0.0);
-    /// assert!((bent.arc_length(2.0_f64.sqrt()) - 0.5 * bent.length()).abs() < 1e-15);
-    /// # Ok::<(), rod_contours::ContourError>(())
-    /// ```
-    pub fn arc_length(&self, t: f64) -> f64 {
-        let index = self.keys.cubic_at(t);
-        if t == self.keys.knot(index + 1) {
-            return self.lengths[index + 1];
-        }
-        let cubic = self.keys.cubic(index);
-        self.lengths[index] + part(&cubic, cubic.fraction(t))
-    }
-}
-
 /// The lengths from the start to each point.
 pub(super) fn lengths(cubics: impl Iterator<Item = Cubic>) -> Vec<f64> {
     let mut lengths = vec![0.0];
     // What rounding took off the sum so far: a hundred thousand equal cubics would add up to 1e-12.
     let (mut sum, mut lost) = (0.0, 0.0);
     for cubic in cubics {
-        let length: f64 = part(&cubic, 1.0);
+        let length: f64 = length_to(&cubic, 1.0);
         let next = sum + length;
         lost += if sum >= length { (sum - next) + length } else { (length - next) + sum };
         sum = next;
@@ -63,7 +35,7 @@ pub(super) fn lengths(cubics: impl Iterator<Item = Cubic>) -> Vec<f64> {
 }
 
 /// The length of a cubic from its start to the fraction `s`.
-fn part(cubic: &Cubic, s: f64) -> f64 {
+pub(super) fn length_to(cubic: &Cubic, s: f64) -> f64 {
     let velocity = cubic.velocity();
     cubic.width * halved(&velocity, 0.0, s, gauss(&velocity, 0.0, s), HALVINGS)
 }
@@ -111,7 +83,7 @@ mod tests {
             let cubic = Cubic { control, from: -1.0, width: 2.0 };
             let k: f64 = 2.0 * c;
             let exact = (1.0 + k * k).sqrt() + k.asinh() / k;
-            let error = part(&cubic, 1.0) / exact - 1.0;
+            let error = length_to(&cubic, 1.0) / exact - 1.0;
             assert!(error.abs() < 5e-14, "{c:e}: {error:e}");
         }
     }

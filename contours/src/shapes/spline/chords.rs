@@ -2,8 +2,8 @@
 
 use std::ops::Range as Span;
 
+use crate::point::{dot, minus, plus};
 use crate::shapes::cubic::Cubic;
-use crate::vector::{dot, minus, plus};
 
 /// A binary tree over the cubics: a node covers a run of them and knows within what distance of the chord from its first
 /// point to its last one they stay. Where the curve is smooth that is the square of what a box leaves open.

@@ -1,6 +1,6 @@
 //! What holds at the ends of a spline.
 
-use crate::vector::{minus, plus};
+use crate::point::{minus, plus};
 use crate::{ContourError, check};
 
 /// What holds at the ends of a spline through points.

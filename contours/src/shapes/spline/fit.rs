@@ -3,8 +3,7 @@
 use super::end::direction;
 use super::keys::Keys;
 use super::{Spline, SplineEnd};
-use crate::composite::polygon::comes_back;
-use crate::vector::{distance, minus, plus};
+use crate::point::{comes_back, distance, minus, plus};
 use crate::{ContourError, check};
 
 impl Spline {
@@ -166,7 +165,7 @@ fn solve_around(mut rows: Vec<Row>) -> Vec<[f64; 3]> {
 mod tests {
     use super::*;
     use crate::Contour;
-    use crate::vector::dot;
+    use crate::point::dot;
 
     /// Unevenly spaced points of a curve that is nowhere straight.
     fn wiggle(count: u32) -> Vec<[f64; 2]> {

@@ -13,13 +13,12 @@ use std::ops::Range as Span;
 
 pub use end::SplineEnd;
 
-use crate::composite::assembly::SMOOTH;
-use crate::proof::curvature;
+use crate::contour::{Seal, Trust};
+use crate::point::{SMOOTH, cross, dot, nearest_turn};
+use crate::proof::limits;
 use crate::shapes::cubic::nearest;
-use crate::trust::{Seal, Trust};
-use crate::vector::{cross, dot};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, angle, check};
-use arc_length::lengths;
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
+use arc_length::{length_to, lengths};
 use chords::Chords;
 use keys::Keys;
 
@@ -90,6 +89,31 @@ impl Spline {
         self.keys.sample(t)
     }
 
+    /// The length of the whole spline, exact to 1e-13 relative.
+    pub fn length(&self) -> f64 {
+        self.lengths[self.lengths.len() - 1]
+    }
+
+    /// The length of the spline from its start to the parameter `t`, exact to 1e-13 relative to the whole; beyond the ends
+    /// that of the continued end cubics, negative before the start.
+    ///
+    /// ```
+    /// use rod_contours::{Spline, SplineEnd};
+    ///
+    /// let bent = Spline::through(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]], SplineEnd::Natural)?;
+    /// assert_eq!(bent.arc_length(0.0), 0.0);
+    /// assert!((bent.arc_length(2.0_f64.sqrt()) - 0.5 * bent.length()).abs() < 1e-15);
+    /// # Ok::<(), rod_contours::ContourError>(())
+    /// ```
+    pub fn arc_length(&self, t: f64) -> f64 {
+        let index = self.keys.cubic_at(t);
+        if t == self.keys.knot(index + 1) {
+            return self.lengths[index + 1];
+        }
+        let cubic = self.keys.cubic(index);
+        self.lengths[index] + length_to(&cubic, cubic.fraction(t))
+    }
+
     /// The spline of keys that may come from anywhere.
     fn from_keys(keys: Keys) -> Result<Self, ContourError> {
         keys.check()?;
@@ -152,7 +176,7 @@ fn angles(keys: &Keys) -> Result<Vec<f64>, ContourError> {
         let [first, _, last] = cubic.sides().map(|side| dot(side, side).sqrt());
         let scale = cubic.control.iter().flatten().fold(0.0_f64, |scale, side| scale.max(side.abs()));
         if let Some((expected, rounding)) = before {
-            angle = angle::near(angle, expected);
+            angle = nearest_turn(angle, expected);
             let turn = angle - expected;
             if turn.abs() > SMOOTH + rounding + ROUNDING * scale / first {
                 return Err(ContourError::Kink { key: index + 1, turn });
@@ -246,9 +270,9 @@ impl Contour for Spline {
 
     fn curvature_in(&self, range: Range) -> (f64, f64) {
         let range = self.range().within(range);
-        self.span(range).fold(curvature::NONE, |bounds, index| {
+        self.span(range).fold(limits::NO_CURVATURE, |bounds, index| {
             let ([from, to], _) = self.part(index, range);
-            curvature::union(bounds, self.keys.cubic(index).curvature(from, to))
+            limits::curvature_union(bounds, self.keys.cubic(index).curvature(from, to))
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::fit::{interpolant, knots};
 use super::{Spline, SplineEnd};
-use crate::vector::{dot, minus, plus};
+use crate::point::{dot, minus, plus};
 use crate::{ContourError, check};
 
 /// Weight of the bending beside the rest, relative, below which rounding begins to spoil the system: the curve then is

@@ -7,8 +7,8 @@
 
 use super::limits::Limits;
 use crate::Range;
-use crate::nearest::newton;
-use crate::vector::{cross, dot};
+use crate::nearest::search::zero;
+use crate::point::{cross, dot};
 
 /// Largest number of parts for one point. Tight limits need some tens; limits that do not tighten on smaller parts end here.
 const MOST: usize = 200_000;
@@ -55,7 +55,7 @@ impl Place {
 
 /// The parameter of the point of the part in `range` that is nearest to `point`; of several, one. `derivatives` gives
 /// r, dr/dt and its derivative.
-pub(crate) fn nearest(
+pub(crate) fn closest_parameter(
     derivatives: impl Fn(f64) -> [[f64; 2]; 3],
     limits: impl Fn(Range) -> Limits,
     range: Range,
@@ -140,7 +140,7 @@ impl Known {
 fn foot(place: &impl Fn(f64) -> Place, left: Place, right: Place) -> Place {
     let mut here = if -left.slope < right.slope { left } else { right };
     let resolution = f64::EPSILON * left.t.abs().max(right.t.abs());
-    newton::zero(Range { from: left.t, to: right.t }, here.t, resolution, |t| {
+    zero(Range { from: left.t, to: right.t }, here.t, resolution, |t| {
         if t != here.t {
             here = place(t);
         }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::limits::LimitsOf;
 use crate::nearest::cuts::{by_turn, last_where};
-use crate::{Contour, Range};
+use crate::{Frame, Range};
 
 /// Angle (rad) that a part of undecided sense may turn and still count as straight: rounding. A curve leaves its tangent by
 /// less than this times its length.
@@ -54,7 +54,7 @@ fn bends(limits: &LimitsOf, range: Range) -> Option<Vec<Bend>> {
 }
 
 /// The inflections, and between them as many cuts as it takes at equal angles; none where the limits do not show the inflections.
-pub(crate) fn cuts<C: Contour + ?Sized>(shape: &C, limits: &LimitsOf, range: Range) -> Option<Vec<f64>> {
+pub(crate) fn cuts(frame: impl Fn(f64) -> Frame, limits: &LimitsOf, range: Range) -> Option<Vec<f64>> {
     let bends = bends(limits, range)?;
     let mut inflections = Vec::new();
     let mut last: Option<&Bend> = None;
@@ -63,17 +63,17 @@ pub(crate) fn cuts<C: Contour + ?Sized>(shape: &C, limits: &LimitsOf, range: Ran
             && before.sense != bend.sense
         {
             // The undecided part between the two is short.
-            let same = |t: f64| shape.frame(t).turning * before.sense > 0.0;
+            let same = |t: f64| frame(t).turning * before.sense > 0.0;
             inflections.push(last_where(before.range.to, bend.range.from, same));
         }
         last = Some(bend);
     }
-    Some(by_turn(shape, range, &inflections))
+    Some(by_turn(frame, range, &inflections))
 }
 
 /// Whether the part bends one way and turns by at most a half turn: then it lies on one side of each of its tangents.
-pub(crate) fn is_convex<C: Contour + ?Sized>(shape: &C, limits: &LimitsOf, range: Range) -> bool {
-    if (shape.frame(range.to).alpha - shape.frame(range.from).alpha).abs() > PI {
+pub(crate) fn is_convex(frame: impl Fn(f64) -> Frame, limits: &LimitsOf, range: Range) -> bool {
+    if (frame(range.to).alpha - frame(range.from).alpha).abs() > PI {
         return false;
     }
     bends(limits, range)

@@ -1,0 +1,59 @@
+//! Places, directions and angles in the plane.
+
+use std::f64::consts::{PI, TAU};
+
+/// Largest turn, rad, that is still a smooth joint: what a break computed in double precision leaves between tangents.
+pub(crate) const SMOOTH: f64 = 1e-9;
+
+/// Distance of the last from the first point, relative to the circumference, below which the last point repeats the first.
+const CLOSED: f64 = 1e-9;
+
+/// From `p` to `q` by the fraction `t`; both come out exactly.
+pub(crate) fn between(p: [f64; 2], q: [f64; 2], t: f64) -> [f64; 2] {
+    [0, 1].map(|k| p[k] * (1.0 - t) + q[k] * t)
+}
+
+/// `p + s q`.
+pub(crate) fn plus(p: [f64; 2], s: f64, q: [f64; 2]) -> [f64; 2] {
+    [p[0] + s * q[0], p[1] + s * q[1]]
+}
+
+pub(crate) fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [p[0] - q[0], p[1] - q[1]]
+}
+
+pub(crate) fn scaled(factor: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    [factor * x, factor * y]
+}
+
+pub(crate) fn dot(p: [f64; 2], q: [f64; 2]) -> f64 {
+    p[0] * q[0] + p[1] * q[1]
+}
+
+/// The distance between two points, without overflow.
+pub(crate) fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    let [x, y] = minus(q, p);
+    x.hypot(y)
+}
+
+/// Positive where `q` is to the left of `p`.
+pub(crate) fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
+    p[0] * q[1] - p[1] * q[0]
+}
+
+/// Whether the last point is the first one given again.
+pub(crate) fn comes_back(points: &[[f64; 2]]) -> bool {
+    let [first, .., last] = *points else { return false };
+    let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
+    distance(first, last) <= CLOSED * around
+}
+
+/// The same angle (rad) in the turn in which it is nearest to another one.
+pub(crate) fn nearest_turn(angle: f64, other: f64) -> f64 {
+    angle + TAU * ((other - angle) / TAU).round()
+}
+
+/// The same angle between -pi and pi, rad.
+pub(crate) fn wrap_angle(angle: f64) -> f64 {
+    if angle.abs() <= PI { angle } else { nearest_turn(angle, 0.0) }
+}
