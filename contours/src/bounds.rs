@@ -1,5 +1,7 @@
 //! A box around a contour.
 
+use crate::{Point, Vector};
+
 /// A box with sides along the axes that contains a contour; its sides may be infinitely far.
 ///
 /// ```
@@ -14,9 +16,9 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Smallest x and y, lengths.
-    pub min: [f64; 2],
+    pub min: Point,
     /// Largest x and y, lengths.
-    pub max: [f64; 2],
+    pub max: Point,
 }
 
 impl Bounds {
@@ -73,7 +75,7 @@ impl Bounds {
     }
 
     /// How far the point is beyond the sides, along x and along y.
-    fn away(&self, x: f64, y: f64) -> [f64; 2] {
+    fn away(&self, x: f64, y: f64) -> Vector {
         [(self.min[0] - x).max(x - self.max[0]).max(0.0), (self.min[1] - y).max(y - self.max[1]).max(0.0)]
     }
 }

@@ -1,6 +1,6 @@
 //! What numbers must be before a contour can be made of them.
 
-use crate::{ContourError, Range};
+use crate::{ContourError, Point, Range};
 
 /// Finite, all of them.
 pub(crate) fn finite(numbers: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ContourError> {
@@ -27,7 +27,7 @@ pub(crate) fn range(what: &'static str, Range { from, to }: Range) -> Result<(),
 }
 
 /// Finite points.
-pub(crate) fn points(points: &[[f64; 2]]) -> Result<(), ContourError> {
+pub(crate) fn points(points: &[Point]) -> Result<(), ContourError> {
     match points.iter().position(|point| !point.iter().all(|side| side.is_finite())) {
         Some(index) => Err(ContourError::PointNotFinite { point: index + 1, x: points[index][0], y: points[index][1] }),
         None => Ok(()),

@@ -1,5 +1,7 @@
 //! The point, the direction and their rates at one parameter; how they change with a parameter of the shape.
 
+use crate::Vector;
+
 /// Point, tangent angle and their rates at a parameter `t` of a contour:
 /// `dr/dt = speed (cos alpha, sin alpha)`, `d alpha/dt = turning`.
 ///
@@ -84,7 +86,7 @@ impl FrameRate {
     pub(crate) const ALONG_Y: Self = Self { y: 1.0, ..Self::ZERO };
 
     /// The rotation, per rad, of what is at this distance from the pivot, lengths.
-    pub(crate) fn rotation([dx, dy]: [f64; 2]) -> Self {
+    pub(crate) fn rotation([dx, dy]: Vector) -> Self {
         Self { x: -dy, y: dx, alpha: 1.0 }
     }
 }

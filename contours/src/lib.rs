@@ -35,6 +35,7 @@ pub use error::{Broken, ContourError};
 pub use files::{description, file};
 pub use frame::{Frame, FrameRate};
 pub use nearest::{Closest, Index};
+pub use point::{Point, Vector};
 pub use proof::Limits;
 pub use range::Range;
 pub use shapes::{Bezier, CircularArc, Curve, DualNum, EllipticArc, Graph, Jet, Line, Parabola, Spline, SplineEnd};

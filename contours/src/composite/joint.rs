@@ -1,7 +1,7 @@
 //! The point where two pieces meet at an angle, and how it moves with a parameter of one of them.
 
 use crate::point::{cross, minus, plus, wrap_angle};
-use crate::{Bounds, Closest, Frame, FrameRate, Range};
+use crate::{Bounds, Closest, Frame, FrameRate, Range, Vector};
 
 /// A vertex: the point stands still while alpha runs from one tangent to the other. Its own parameter is the angle turned, from
 /// 0: that of the composite, behind long pieces, would lose digits of it.
@@ -75,7 +75,7 @@ impl Joint {
 /// The change of a vertex, the point where the two pieces, continued, cross, per unit of a parameter.
 pub(crate) struct VertexRate {
     /// Of the point.
-    pub point: [f64; 2],
+    pub point: Vector,
     /// Of the parameters of the two pieces where they end there.
     pub ends: [f64; 2],
     /// Of the tangent angles of the two pieces there, rad.

@@ -1,7 +1,7 @@
 //! Contours of straight edges.
 
 use crate::point::comes_back;
-use crate::{Composite, Contour, ContourError, Line, check};
+use crate::{Composite, Contour, ContourError, Line, Point, check};
 
 impl Composite {
     /// The edges from point to point (lengths), with the solid on the left; closed if the last point is the first one.
@@ -20,7 +20,7 @@ impl Composite {
     /// Fewer than two points ([`ContourError::TooFewPoints`]); a point that is not finite
     /// ([`ContourError::PointNotFinite`]) or the same as the one before ([`ContourError::RepeatedPoint`]); edges that cross
     /// ([`ContourError::Crosses`]).
-    pub fn polyline(points: &[[f64; 2]]) -> Result<Self, ContourError> {
+    pub fn polyline(points: &[Point]) -> Result<Self, ContourError> {
         of_edges(edges(points, false)?)
     }
 
@@ -41,7 +41,7 @@ impl Composite {
     ///
     /// Those of [`polyline`](Self::polyline), for fewer than three points; no area, as of points on one line
     /// ([`ContourError::NoArea`]); points that run clockwise ([`ContourError::Clockwise`]).
-    pub fn polygon(points: &[[f64; 2]]) -> Result<Self, ContourError> {
+    pub fn polygon(points: &[Point]) -> Result<Self, ContourError> {
         let polygon = of_edges(edges(points, true)?)?;
         encloses(points)?;
         if polygon.is_cavity() { Err(ContourError::Clockwise) } else { Ok(polygon) }
@@ -60,7 +60,7 @@ impl Composite {
     /// # Errors
     ///
     /// Those of [`polygon`](Self::polygon), with [`ContourError::Counterclockwise`] for the other direction.
-    pub fn cavity(points: &[[f64; 2]]) -> Result<Self, ContourError> {
+    pub fn cavity(points: &[Point]) -> Result<Self, ContourError> {
         let cavity = of_edges(edges(points, true)?)?;
         encloses(points)?;
         if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
@@ -68,7 +68,7 @@ impl Composite {
 }
 
 /// Whether the edges of a closed polygon enclose an area larger than rounding.
-fn encloses(points: &[[f64; 2]]) -> Result<(), ContourError> {
+fn encloses(points: &[Point]) -> Result<(), ContourError> {
     let [first, rest @ ..] = points else { return Ok(()) };
     let (mut area, mut terms) = (0.0, 0.0);
     for pair in rest.windows(2) {
@@ -81,7 +81,7 @@ fn encloses(points: &[[f64; 2]]) -> Result<(), ContourError> {
 }
 
 /// The edges from point to point, and back to the first one if they are closed.
-pub(crate) fn edges(points: &[[f64; 2]], closed: bool) -> Result<Vec<Box<dyn Contour>>, ContourError> {
+pub(crate) fn edges(points: &[Point], closed: bool) -> Result<Vec<Box<dyn Contour>>, ContourError> {
     check::points(points)?;
     let mut corners = points.to_vec();
     if closed && comes_back(points) {
@@ -98,7 +98,7 @@ pub(crate) fn edges(points: &[[f64; 2]], closed: bool) -> Result<Vec<Box<dyn Con
     if closed {
         corners.push(corners[0]);
     }
-    let edge = |(index, pair): (usize, &[[f64; 2]])| match Line::new(pair[0], pair[1]) {
+    let edge = |(index, pair): (usize, &[Point])| match Line::new(pair[0], pair[1]) {
         Ok(line) => Ok(Box::new(line) as Box<dyn Contour>),
         // Apart, but by less than a line can be long.
         Err(ContourError::SamePoint { x, y }) => Err(ContourError::RepeatedPoint { point: index + 2, x, y }),
@@ -133,7 +133,7 @@ mod tests {
         assert!(Composite::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e-12]]).is_ok());
     }
 
-    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    const SQUARE: [Point; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
     fn message(result: Result<Composite, ContourError>) -> String {
         result.unwrap_err().to_string()
@@ -141,13 +141,13 @@ mod tests {
 
     #[test]
     fn the_first_point_may_be_repeated() {
-        let closed: Vec<[f64; 2]> = SQUARE.into_iter().chain([SQUARE[0]]).collect();
+        let closed: Vec<Point> = SQUARE.into_iter().chain([SQUARE[0]]).collect();
         assert_eq!(Composite::polygon(&closed).unwrap().pieces(), 4);
         assert_eq!(Composite::polygon(&SQUARE).unwrap().pieces(), 4);
         assert!(Composite::polyline(&closed).unwrap().is_closed());
         assert!(!Composite::polyline(&SQUARE).unwrap().is_closed());
         // The last bit of a computed last point does not matter.
-        let nearly: Vec<[f64; 2]> = SQUARE.into_iter().chain([[1e-16, -1e-16]]).collect();
+        let nearly: Vec<Point> = SQUARE.into_iter().chain([[1e-16, -1e-16]]).collect();
         assert_eq!(Composite::polygon(&nearly).unwrap().pieces(), 4);
     }
 
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn points_in_the_wrong_order() {
-        let clockwise: Vec<[f64; 2]> = SQUARE.into_iter().rev().collect();
+        let clockwise: Vec<Point> = SQUARE.into_iter().rev().collect();
         assert_eq!(
             message(Composite::polygon(&clockwise)),
             "the points run clockwise, which would put the solid outside; reverse them, or ask for a cavity"

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::piece::Piece;
 use crate::point::wrap_angle;
-use crate::{Bounds, Contour, Frame, Range};
+use crate::{Bounds, Contour, Frame, Range, Vector};
 
 /// A kink between two pieces that bends the wrong way by no more than this is rounding, rad. It moves a line that should
 /// support the run by this angle times the run's length.
@@ -32,9 +32,9 @@ pub struct RunEnd {
     /// Position, a length.
     pub y: f64,
     /// Direction along the contour into the run.
-    pub into: [f64; 2],
+    pub into: Vector,
     /// Outward normal of the contour.
-    pub normal: [f64; 2],
+    pub normal: Vector,
 }
 
 /// Neighbouring arcs of a contour that bend one way.
@@ -53,7 +53,7 @@ pub struct Run {
     /// The ends, in the contour's order; none at infinity, and none of a closed run.
     pub ends: [Option<RunEnd>; 2],
     /// The direction in which the run goes to infinity, where it does.
-    pub far: [Option<[f64; 2]>; 2],
+    pub far: [Option<Vector>; 2],
     /// A box that contains it.
     pub bounds: Bounds,
 }
@@ -152,7 +152,7 @@ impl Run {
 }
 
 /// The direction in which a piece goes to infinity at an end of its range: what bends one way has one.
-fn far(piece: &Piece, t: f64, sign: f64) -> Option<[f64; 2]> {
+fn far(piece: &Piece, t: f64, sign: f64) -> Option<Vector> {
     let alpha = t.is_infinite().then(|| piece.own_frame(t.signum() * AT_INFINITY).alpha)?;
     let (sin, cos) = alpha.sin_cos();
     alpha.is_finite().then_some([sign * cos, sign * sin])

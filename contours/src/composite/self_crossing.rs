@@ -3,9 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::crossing::brought_together;
-use crate::Index;
 use crate::point::{cross, minus};
 use crate::{Bounds, Composite, ContourError, Frame, Part, Range, StretchKind};
+use crate::{Index, Point};
 
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.
 const CHORDS: f64 = 8.0;
@@ -38,7 +38,7 @@ pub struct SelfCrossing {
     /// Index of the piece each of the two times.
     pub pieces: [usize; 2],
     /// The point, lengths.
-    pub point: [f64; 2],
+    pub point: Point,
 }
 
 impl From<SelfCrossing> for ContourError {
@@ -123,8 +123,8 @@ struct Chord {
     stretch: usize,
     /// The stretch's own parameter.
     range: Range,
-    from: [f64; 2],
-    to: [f64; 2],
+    from: Point,
+    to: Point,
 }
 
 /// The chords of a part in order; none of a joint, which is a point.
@@ -220,7 +220,7 @@ fn next_piece(contour: &Composite, stretch: usize) -> Option<usize> {
     if matches!(contour.kind(next), StretchKind::Piece(_)) { Some(next) } else { contour.neighbour(next, true) }
 }
 
-fn point(frame: Frame) -> [f64; 2] {
+fn point(frame: Frame) -> Point {
     [frame.x, frame.y]
 }
 
@@ -231,7 +231,7 @@ mod tests {
     use super::*;
     use crate::{CircularArc, Contour, EllipticArc, Line, Parabola};
 
-    fn line(from: [f64; 2], to: [f64; 2]) -> Box<dyn Contour> {
+    fn line(from: Point, to: Point) -> Box<dyn Contour> {
         Box::new(Line::new(from, to).unwrap())
     }
 
@@ -275,10 +275,9 @@ mod tests {
 
     #[test]
     fn a_long_comb_is_free_and_its_last_tooth_is_found() {
-        let mut points: Vec<[f64; 2]> = (0..20_000).map(|k| [f64::from(k), f64::from(k % 2)]).collect();
-        let comb = |points: &[[f64; 2]]| {
-            Composite::new(points.windows(2).map(|pair| line(pair[0], pair[1])).collect()).unwrap()
-        };
+        let mut points: Vec<Point> = (0..20_000).map(|k| [f64::from(k), f64::from(k % 2)]).collect();
+        let comb =
+            |points: &[Point]| Composite::new(points.windows(2).map(|pair| line(pair[0], pair[1])).collect()).unwrap();
         assert_eq!(comb(&points).self_crossing(), None);
         points.push([19_997.0, 0.5]);
         let crossing = comb(&points).self_crossing().unwrap();

@@ -14,7 +14,7 @@
 
 pub(crate) mod spot_check;
 
-use crate::{Bounds, Contour, Frame, Range};
+use crate::{Bounds, Contour, Frame, Point, Range, Vector};
 
 /// Part of an infinite range that [`check`] tests, in units of the parameter.
 const WINDOW: f64 = 10.0;
@@ -91,7 +91,7 @@ pub fn c4_moving(shape: &dyn Contour, t: f64) -> Result<(), String> {
 }
 
 /// 5: the closest point to `point` lies in the range, has the frame of its parameter, and is `|gap|` away.
-pub fn c5_foot(shape: &dyn Contour, point: [f64; 2]) -> Result<(), String> {
+pub fn c5_foot(shape: &dyn Contour, point: Point) -> Result<(), String> {
     let [x, y] = point;
     let closest = shape.closest(x, y);
     let range = shape.range();
@@ -118,7 +118,7 @@ pub fn c5_foot(shape: &dyn Contour, point: [f64; 2]) -> Result<(), String> {
 }
 
 /// 6: none of 257 samples of the contour is nearer to `point` than the closest point.
-pub fn c6_nearest(shape: &dyn Contour, point: [f64; 2]) -> Result<(), String> {
+pub fn c6_nearest(shape: &dyn Contour, point: Point) -> Result<(), String> {
     let [x, y] = point;
     let gap = shape.gap(x, y);
     let accepted = CLOSE * scale(shape, point);
@@ -157,7 +157,7 @@ pub fn c7_side(shape: &dyn Contour, t: f64) -> Result<(), String> {
 
 /// 8: from `point` to `other` the gap changes by no more than their distance: always in absolute value, and with its sign
 /// where nine points on the way all have interior closest points.
-pub fn c8_lipschitz(shape: &dyn Contour, point: [f64; 2], other: [f64; 2]) -> Result<(), String> {
+pub fn c8_lipschitz(shape: &dyn Contour, point: Point, other: Point) -> Result<(), String> {
     let way = [other[0] - point[0], other[1] - point[1]];
     let stops: Vec<_> = (0..=8)
         .map(|stop| f64::from(stop) / 8.0)
@@ -235,7 +235,7 @@ pub fn c11_curvature(shape: &dyn Contour, range: Range) -> Result<(), String> {
 
 /// 12: unless closest points are not exact, that of the part in `range` to `point` lies in the part, and none of 257
 /// samples of the part is nearer, to rounding.
-pub fn c12_exact(shape: &dyn Contour, range: Range, point: [f64; 2]) -> Result<(), String> {
+pub fn c12_exact(shape: &dyn Contour, range: Range, point: Point) -> Result<(), String> {
     if !shape.closest_is_exact() {
         return Ok(());
     }
@@ -341,14 +341,14 @@ impl Difference {
 }
 
 /// `dr/dt` as the frame has it.
-fn velocity(frame: Frame) -> [f64; 2] {
+fn velocity(frame: Frame) -> Vector {
     let (sin, cos) = frame.alpha.sin_cos();
     [frame.speed * cos, frame.speed * sin]
 }
 
 /// The largest coordinate of the point and of the contour (where it goes on for ever, of one unit of its parameter): the
 /// length against which rounding is judged. The point alone will not do, it may be the origin.
-fn scale(shape: &dyn Contour, point: [f64; 2]) -> f64 {
+fn scale(shape: &dyn Contour, point: Point) -> f64 {
     let near = shape.range().window(1.0);
     (0..=4)
         .map(|k| shape.frame(near.at(f64::from(k) / 4.0)))

@@ -4,7 +4,7 @@
 //! to four digits passes.
 
 use crate::error::Broken;
-use crate::{Contour, Frame, Range};
+use crate::{Contour, Frame, Range, Vector};
 
 /// Places, as fractions of the range. The ends are left out, so that differences stay within the range.
 const FRACTIONS: [f64; 5] = [0.03, 0.26, 0.5, 0.74, 0.97];
@@ -177,7 +177,7 @@ impl Probe<'_> {
     }
 }
 
-fn velocity(frame: Frame) -> [f64; 2] {
+fn velocity(frame: Frame) -> Vector {
     let (sin, cos) = frame.alpha.sin_cos();
     [frame.speed * cos, frame.speed * sin]
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::FileError;
+use crate::Point;
 
 /// The points of a CSV file: the columns x and y of its header, in the unit the file uses; other columns are ignored.
 ///
@@ -18,12 +19,12 @@ use super::FileError;
 /// # Errors
 ///
 /// [`FileError`] names the line, the column and the text of a cell that is no finite number.
-pub fn points(file: &Path) -> Result<Vec<[f64; 2]>, FileError> {
+pub fn points(file: &Path) -> Result<Vec<Point>, FileError> {
     points_with_lines(file).map(|points| points.into_iter().map(|(point, _)| point).collect())
 }
 
 /// The points, each with its line, from 1.
-pub(crate) fn points_with_lines(file: &Path) -> Result<Vec<([f64; 2], u64)>, FileError> {
+pub(crate) fn points_with_lines(file: &Path) -> Result<Vec<(Point, u64)>, FileError> {
     let text = super::text(file)?;
     // A mark that some programs put before the text.
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
@@ -93,7 +94,7 @@ impl<'a> Lines<'a> {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Vec<([f64; 2], u64)>, String> {
+    fn read(text: &str) -> Result<Vec<(Point, u64)>, String> {
         let directory = tempfile::tempdir().unwrap();
         let file = directory.path().join("points.csv");
         std::fs::write(&file, text).unwrap();

@@ -6,7 +6,7 @@ pub(crate) mod search;
 
 pub use index::Index;
 
-use crate::Frame;
+use crate::{Frame, Vector};
 
 /// The point of a contour nearest to a given point, and how far away it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl Closest {
 
 /// The gap of a point that is `outside` along the outward normal of its closest one: in the interior that, else the
 /// length of the way between the two, with the side of the tangent as its sign; the tangent itself is outside.
-pub(crate) fn gap(interior: bool, outside: f64, [dx, dy]: [f64; 2]) -> f64 {
+pub(crate) fn gap(interior: bool, outside: f64, [dx, dy]: Vector) -> f64 {
     match (interior, outside < 0.0) {
         (true, _) => outside,
         (false, false) => dx.hypot(dy),

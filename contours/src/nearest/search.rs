@@ -1,7 +1,7 @@
 //! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
 
 use crate::point::dot;
-use crate::{Bounds, Closest, Frame, Range};
+use crate::{Bounds, Closest, Frame, Range, Vector};
 
 /// Cells of a search in a finite range: of a full circle, each turns by less than 4 degrees.
 pub(crate) const CELLS: usize = 96;
@@ -32,7 +32,7 @@ pub(crate) struct Probe {
 impl Probe {
     /// The point and its first two derivatives at `t`, seen from `(x, y)`: without alpha, whose sine and cosine would take
     /// most of the time.
-    pub fn new(t: f64, [place, velocity, acceleration]: [[f64; 2]; 3], x: f64, y: f64) -> Self {
+    pub fn new(t: f64, [place, velocity, acceleration]: [Vector; 3], x: f64, y: f64) -> Self {
         let way = [place[0] - x, place[1] - y];
         Self {
             t,

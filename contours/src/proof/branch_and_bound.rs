@@ -6,9 +6,9 @@
 //! the distance found is passed over, one with a single foot is left to Newton's iteration, any other is halved.
 
 use super::limits::Limits;
-use crate::Range;
 use crate::nearest::search::zero;
 use crate::point::{cross, dot};
+use crate::{Point, Range, Vector};
 
 /// Largest number of parts for one point. Tight limits need some tens; limits that do not tighten on smaller parts end here.
 const MOST: usize = 200_000;
@@ -38,7 +38,7 @@ struct Place {
 }
 
 impl Place {
-    fn new(t: f64, [at, velocity, acceleration]: [[f64; 2]; 3], [x, y]: [f64; 2]) -> Self {
+    fn new(t: f64, [at, velocity, acceleration]: [Vector; 3], [x, y]: Point) -> Self {
         let way = [at[0] - x, at[1] - y];
         let speed = velocity[0].hypot(velocity[1]);
         let slope = dot(way, velocity);
@@ -56,10 +56,10 @@ impl Place {
 /// The parameter of the point of the part in `range` that is nearest to `point`; of several, one. `derivatives` gives
 /// r, dr/dt and its derivative.
 pub(crate) fn closest_parameter(
-    derivatives: impl Fn(f64) -> [[f64; 2]; 3],
+    derivatives: impl Fn(f64) -> [Vector; 3],
     limits: impl Fn(Range) -> Limits,
     range: Range,
-    point: [f64; 2],
+    point: Point,
 ) -> f64 {
     let place = |t: f64| Place::new(t, derivatives(t), point);
     let (first, last) = (place(range.from), place(range.to));

@@ -6,7 +6,7 @@ use super::cubic::{Cubic, nearest, roots};
 use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
 use crate::point::{between, cross, dot, minus, nearest_turn, scaled};
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Point, Range, Vector, check};
 
 /// Smallest speed accepted, relative to the largest: below it the curve turns round within 1e-6 of its length, and
 /// nothing that bends can follow.
@@ -40,7 +40,7 @@ const THIRDS: usize = 40;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bezier {
-    control: [[f64; 2]; 4],
+    control: [Point; 4],
     /// The tangent angle at the start, rad.
     start: f64,
 }
@@ -53,7 +53,7 @@ impl Bezier {
     /// [`ContourError::NotFinite`] for a coordinate that is not finite; [`ContourError::Standstill`] for a curve whose
     /// speed vanishes somewhere, or falls below 1e-6 of the largest: a cusp, or an end whose first two (last two)
     /// control points coincide. There the curvature is infinite. A straight line so written is a [`Line`](crate::Line).
-    pub fn new(control: [[f64; 2]; 4]) -> Result<Self, ContourError> {
+    pub fn new(control: [Point; 4]) -> Result<Self, ContourError> {
         check::finite(
             control.into_iter().flat_map(|[x, y]| [("x of a control point", x), ("y of a control point", y)]),
         )?;
@@ -80,14 +80,14 @@ impl Bezier {
     /// assert!((frame.y - frame.x * frame.x).abs() < 1e-15);
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
-    pub fn quadratic(control: [[f64; 2]; 3]) -> Result<Self, ContourError> {
+    pub fn quadratic(control: [Point; 3]) -> Result<Self, ContourError> {
         let [first, middle, last] = control;
-        let towards = |end: [f64; 2]| [0, 1].map(|k| end[k] + 2.0 / 3.0 * (middle[k] - end[k]));
+        let towards = |end: Point| [0, 1].map(|k| end[k] + 2.0 / 3.0 * (middle[k] - end[k]));
         Self::new([first, towards(first), towards(last), last])
     }
 
     /// The control points, lengths.
-    pub fn control(&self) -> [[f64; 2]; 4] {
+    pub fn control(&self) -> [Point; 4] {
         self.control
     }
 
@@ -96,7 +96,7 @@ impl Bezier {
     }
 
     /// Point, first and second derivative; both ends come out exactly.
-    fn derivatives(&self, t: f64) -> [[f64; 2]; 3] {
+    fn derivatives(&self, t: f64) -> [Vector; 3] {
         let cubic = self.cubic();
         let [u, v, w] = cubic.sides().map(|side| scaled(3.0, side));
         let (uv, vw) = (between(u, v, t), between(v, w, t));
@@ -246,7 +246,7 @@ mod tests {
             for flip in [1.0, -1.0] {
                 let (sin, cos) = (f64::from(k) * 0.1).sin_cos();
                 let control = [[0.0, 0.0], [3.0, 2.0], [-2.0, 2.0], [1.0, 0.0]]
-                    .map(|[x, y]: [f64; 2]| [x * cos - flip * y * sin, x * sin + flip * y * cos]);
+                    .map(|[x, y]: Point| [x * cos - flip * y * sin, x * sin + flip * y * cos]);
                 let curve = Bezier::new(control).unwrap();
                 assert!(continuity(&curve) < 0.05);
                 let turn = curve.frame(1.0).alpha - curve.frame(0.0).alpha;
@@ -260,7 +260,7 @@ mod tests {
     fn alpha_is_continuous_on_hairpins_and_straight_curves() {
         for k in 0..64 {
             let (sin, cos) = (f64::from(k) * 0.1).sin_cos();
-            let turned = |[x, y]: [f64; 2]| [x * cos - y * sin, x * sin + y * cos];
+            let turned = |[x, y]: Point| [x * cos - y * sin, x * sin + y * cos];
             // A quadratic hairpin whose ends differ by almost a half turn, and a straight curve with uneven speed.
             let hairpin = Bezier::quadratic([[0.0, 0.0], [9.0, 0.5], [0.5, 1.0]].map(turned)).unwrap();
             assert!(continuity(&hairpin) < 0.1);

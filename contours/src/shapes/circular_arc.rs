@@ -6,7 +6,7 @@ use super::span::Span;
 use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
 use crate::proof::limits;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Point, Range, check};
 
 /// Rounding of the curvature, relative.
 const CURVATURE_ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -38,7 +38,7 @@ const CURVATURE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CircularArc {
-    center: [f64; 2],
+    center: Point,
     radius: f64,
     span: Span,
 }
@@ -50,7 +50,7 @@ impl CircularArc {
     ///
     /// [`ContourError::NotFinite`] for a number that is not finite, [`ContourError::NotPositive`] for a radius that is not
     /// positive, [`ContourError::ArcAngle`] for angles that are the same or more than a full turn apart.
-    pub fn new(center: [f64; 2], radius: f64, from_angle: f64, to_angle: f64) -> Result<Self, ContourError> {
+    pub fn new(center: Point, radius: f64, from_angle: f64, to_angle: f64) -> Result<Self, ContourError> {
         check::finite([
             ("x of the arc's centre", center[0]),
             ("y of the arc's centre", center[1]),
@@ -63,7 +63,7 @@ impl CircularArc {
     }
 
     /// The centre, lengths.
-    pub fn center(&self) -> [f64; 2] {
+    pub fn center(&self) -> Point {
         self.center
     }
 

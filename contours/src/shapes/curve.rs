@@ -8,7 +8,7 @@ use super::function::{Jet, variable};
 use crate::nearest::search::CELLS;
 use crate::point::{cross, dot, nearest_turn};
 use crate::proof::limits::LimitsOf;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, Vector, check};
 
 /// Halvings of a cell in which the direction turns fast, before it counts as a jump.
 const HALVINGS: u32 = 30;
@@ -18,7 +18,7 @@ const HALVINGS: u32 = 30;
 const STANDSTILL: f64 = 1e-9;
 
 /// r, r' and r'' at t.
-type Derivatives = dyn Fn(f64) -> [[f64; 2]; 3] + Send + Sync;
+type Derivatives = dyn Fn(f64) -> [Vector; 3] + Send + Sync;
 
 /// The curve `r(t) = (x(t), y(t))` over a finite range; the solid is on the left of the way to larger t.
 ///
@@ -69,7 +69,7 @@ impl Curve {
     /// As for [`new`](Self::new).
     pub fn with_derivatives(
         range: Range,
-        derivatives: impl Fn(f64) -> [[f64; 2]; 3] + Send + Sync + 'static,
+        derivatives: impl Fn(f64) -> [Vector; 3] + Send + Sync + 'static,
     ) -> Result<Self, ContourError> {
         check::range("the curve's parameter", range)?;
         let Range { from, to } = range;
@@ -128,7 +128,7 @@ impl Function for Curve {
         self.limits.as_ref()
     }
 
-    fn derivatives_at(&self, t: f64) -> [[f64; 2]; 3] {
+    fn derivatives_at(&self, t: f64) -> [Vector; 3] {
         (self.derivatives)(t)
     }
 }
@@ -187,7 +187,7 @@ impl Contour for Curve {
 #[derive(Clone, Copy)]
 struct Stop {
     t: f64,
-    direction: [f64; 2],
+    direction: Vector,
     speed: f64,
     /// In the right turn only for those found.
     alpha: f64,
@@ -201,7 +201,7 @@ struct Follow<'a, F> {
     found: Vec<Stop>,
 }
 
-impl<F: Fn(f64) -> [[f64; 2]; 3]> Follow<'_, F> {
+impl<F: Fn(f64) -> [Vector; 3]> Follow<'_, F> {
     fn start(&mut self, t: f64) -> Result<Stop, ContourError> {
         let stop = self.stop(t)?;
         self.found.push(stop);

@@ -7,7 +7,7 @@ use super::span::Span;
 use crate::contour::{Seal, Trust};
 use crate::nearest::gap;
 use crate::proof::limits;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Point, Range, Vector, check};
 
 /// Smallest distance of a cut from an end of the range, relative to the angles: nearer ones are the end itself, rounded.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -40,11 +40,11 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipticArc {
-    center: [f64; 2],
+    center: Point,
     radii: [f64; 2],
     rotation: f64,
     /// Cosine and sine of the rotation.
-    axis: [f64; 2],
+    axis: Vector,
     span: Span,
 }
 
@@ -57,7 +57,7 @@ impl EllipticArc {
     /// [`ContourError::NotFinite`] for a number that is not finite, [`ContourError::NotPositive`] for a radius that is not
     /// positive, [`ContourError::ArcAngle`] for angles that are the same or more than a full turn apart.
     pub fn new(
-        center: [f64; 2],
+        center: Point,
         radii: [f64; 2],
         rotation: f64,
         from_angle: f64,
@@ -81,7 +81,7 @@ impl EllipticArc {
     }
 
     /// The centre, lengths.
-    pub fn center(&self) -> [f64; 2] {
+    pub fn center(&self) -> Point {
         self.center
     }
 
@@ -96,7 +96,7 @@ impl EllipticArc {
     }
 
     /// The point in coordinates along the axes, from the centre.
-    fn inward(&self, x: f64, y: f64) -> [f64; 2] {
+    fn inward(&self, x: f64, y: f64) -> Vector {
         let [cos, sin] = self.axis;
         let (dx, dy) = (x - self.center[0], y - self.center[1]);
         [dx * cos + dy * sin, dy * cos - dx * sin]
@@ -123,7 +123,7 @@ impl EllipticArc {
     }
 
     /// The closest point at `t` to a point given along the axes.
-    fn closest_at(&self, t: f64, interior: bool, [px, py]: [f64; 2]) -> Closest {
+    fn closest_at(&self, t: f64, interior: bool, [px, py]: Point) -> Closest {
         let [a, b] = self.radii;
         let (frame, [cos, sin]) = self.frame_and_angle(t);
         let (dx, dy) = (px - a * cos, py - b * sin);
@@ -134,7 +134,7 @@ impl EllipticArc {
 
     /// Where the feet of a point along the axes are passed, by the angle travelled in `range`: the nearest point of the
     /// whole ellipse, or the other minimum of the distance.
-    fn foot(&self, [px, py]: [f64; 2], range: Range, other: bool) -> Option<f64> {
+    fn foot(&self, [px, py]: Point, range: Range, other: bool) -> Option<f64> {
         let [a, b] = self.radii;
         let (major, ratio) = if a >= b { (a, b / a) } else { (b, a / b) };
         let (mut x, mut y) = (px.abs() / major, py.abs() / major);

@@ -7,7 +7,7 @@ use crate::nearest::cuts;
 use crate::nearest::search::{self, Probe};
 use crate::proof::limits::{self, LimitsOf};
 use crate::proof::{bending, branch_and_bound};
-use crate::{Bounds, Closest, Contour, ContourError, Limits, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Limits, Range, Vector, check};
 
 /// A number with its first and second derivative (a second-order dual number): fields `re`, `v1` and `v2`.
 ///
@@ -37,7 +37,7 @@ pub(crate) trait Function: Contour + Sized {
     fn limits(&self) -> Option<&LimitsOf>;
 
     /// r, r' and r'' at `t`.
-    fn derivatives_at(&self, t: f64) -> [[f64; 2]; 3];
+    fn derivatives_at(&self, t: f64) -> [Vector; 3];
 }
 
 /// Limits given for a shape, checked against samples of it.

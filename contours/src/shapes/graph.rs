@@ -8,7 +8,7 @@ use super::function::{Jet, variable};
 use crate::contour::{Seal, Trust};
 use crate::nearest::search::CELLS;
 use crate::proof::limits::LimitsOf;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Limits, Range, Vector, check};
 
 /// g, g' and g'' at x.
 type Derivatives = dyn Fn(f64) -> [f64; 3] + Send + Sync;
@@ -107,7 +107,7 @@ impl Function for Graph {
         self.limits.as_ref()
     }
 
-    fn derivatives_at(&self, t: f64) -> [[f64; 2]; 3] {
+    fn derivatives_at(&self, t: f64) -> [Vector; 3] {
         let [value, first, second] = (self.derivatives)(t);
         [[t, value], [1.0, first], [0.0, second]]
     }

@@ -2,7 +2,7 @@
 
 use crate::contour::{Seal, Trust};
 use crate::nearest::gap;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Point, Range, Vector, check};
 
 /// A straight line from one point to another; the solid is on the left of the way from the first to the second.
 ///
@@ -28,8 +28,8 @@ use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, che
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     // No more than this: a polygon holds very many.
-    from: [f64; 2],
-    to: [f64; 2],
+    from: Point,
+    to: Point,
 }
 
 impl Line {
@@ -39,7 +39,7 @@ impl Line {
     ///
     /// [`ContourError::NotFinite`] for a coordinate, or a distance of the points, that is not finite;
     /// [`ContourError::SamePoint`] for points that coincide or are less than 1e-153 apart.
-    pub fn new(from: [f64; 2], to: [f64; 2]) -> Result<Self, ContourError> {
+    pub fn new(from: Point, to: Point) -> Result<Self, ContourError> {
         let line = Self { from, to };
         let (length, _) = line.measured();
         check::finite([
@@ -57,24 +57,24 @@ impl Line {
     }
 
     /// The first point, lengths.
-    pub fn from(&self) -> [f64; 2] {
+    pub fn from(&self) -> Point {
         self.from
     }
 
     /// The second point, lengths.
-    pub fn to(&self) -> [f64; 2] {
+    pub fn to(&self) -> Point {
         self.to
     }
 
     /// Length and direction.
-    fn measured(&self) -> (f64, [f64; 2]) {
+    fn measured(&self) -> (f64, Vector) {
         let (dx, dy) = (self.to[0] - self.from[0], self.to[1] - self.from[1]);
         let length = (dx * dx + dy * dy).sqrt();
         (length, [dx / length, dy / length])
     }
 
     /// The frame at `t` of a line with this length and direction: from the nearer end, so that both are exact.
-    fn frame_along(&self, t: f64, length: f64, [cos, sin]: [f64; 2]) -> Frame {
+    fn frame_along(&self, t: f64, length: f64, [cos, sin]: Vector) -> Frame {
         let (end, along) = if t <= 0.5 * length { (self.from, t) } else { (self.to, t - length) };
         Frame { x: end[0] + along * cos, y: end[1] + along * sin, alpha: sin.atan2(cos), speed: 1.0, turning: 0.0 }
     }

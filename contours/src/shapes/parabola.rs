@@ -3,7 +3,7 @@
 use crate::contour::{Seal, Trust};
 use crate::nearest::gap;
 use crate::proof::limits;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Point, Range, check};
 
 /// Rounding of the curvature, relative.
 const CURVATURE_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -43,7 +43,7 @@ const NEAR: f64 = 0.25;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parabola {
-    vertex: [f64; 2],
+    vertex: Point,
     coefficient: f64,
     range: Range,
 }
@@ -54,7 +54,7 @@ impl Parabola {
     /// # Errors
     ///
     /// [`ContourError::NotFinite`] for a number that is not finite.
-    pub fn new(vertex: [f64; 2], coefficient: f64) -> Result<Self, ContourError> {
+    pub fn new(vertex: Point, coefficient: f64) -> Result<Self, ContourError> {
         check::finite([
             ("x of the parabola's vertex", vertex[0]),
             ("y of the parabola's vertex", vertex[1]),
@@ -78,7 +78,7 @@ impl Parabola {
     }
 
     /// The vertex, lengths.
-    pub fn vertex(&self) -> [f64; 2] {
+    pub fn vertex(&self) -> Point {
         self.vertex
     }
 
@@ -160,7 +160,7 @@ impl Contour for Parabola {
     fn bounds_in(&self, range: Range) -> Bounds {
         let ends = Bounds::EMPTY.with(range.from, self.height(range.from)).with(range.to, self.height(range.to));
         let bounds = if range.contains(0.0) { ends.with(0.0, 0.0) } else { ends };
-        let moved = |side: [f64; 2]| [side[0] + self.vertex[0], side[1] + self.vertex[1]];
+        let moved = |side: Point| [side[0] + self.vertex[0], side[1] + self.vertex[1]];
         Bounds { min: moved(bounds.min), max: moved(bounds.max) }
     }
     /// None: its closest points are exact on any part.

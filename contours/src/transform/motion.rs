@@ -1,6 +1,6 @@
 //! Rotation, translation, scaling and mirroring of the plane.
 
-use crate::{ContourError, check};
+use crate::{ContourError, Point, Vector, check};
 
 /// A similarity of the plane: `r' = translation + scale R(rotation) M r`, where M maps `y` to `-y` if `mirror` is set.
 ///
@@ -24,7 +24,7 @@ pub struct Motion {
     /// Angle of the rotation, rad, counterclockwise.
     pub rotation: f64,
     /// What is added at the end, lengths.
-    pub translation: [f64; 2],
+    pub translation: Vector,
     /// Factor of all lengths, positive.
     pub scale: f64,
     /// Whether y becomes -y, before anything else.
@@ -41,7 +41,7 @@ impl Motion {
     }
 
     /// The translation by `offset`, lengths.
-    pub fn translation(offset: [f64; 2]) -> Self {
+    pub fn translation(offset: Vector) -> Self {
         Self { translation: offset, ..Self::IDENTITY }
     }
 
@@ -67,19 +67,19 @@ impl Motion {
     }
 
     /// Where the motion takes the point.
-    pub fn apply(&self, point: [f64; 2]) -> [f64; 2] {
+    pub fn apply(&self, point: Point) -> Point {
         let (sin, cos) = self.rotation.sin_cos();
         self.apply_with([cos, sin], point)
     }
 
     /// [`apply`](Self::apply) with cosine and sine of the rotation known.
-    pub(crate) fn apply_with(&self, [cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn apply_with(&self, [cos, sin]: Vector, [x, y]: Point) -> Point {
         let y = if self.mirror { -y } else { y };
         [self.translation[0] + self.scale * (x * cos - y * sin), self.translation[1] + self.scale * (x * sin + y * cos)]
     }
 
     /// The point that the motion takes to `point`, with cosine and sine of the rotation known.
-    pub(crate) fn undo_with(&self, [cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn undo_with(&self, [cos, sin]: Vector, [x, y]: Point) -> Point {
         let (dx, dy) = ((x - self.translation[0]) / self.scale, (y - self.translation[1]) / self.scale);
         let (x, y) = (dx * cos + dy * sin, dy * cos - dx * sin);
         [x, if self.mirror { -y } else { y }]

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Motion, Range};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Motion, Range, Vector};
 
 /// A shape after a [`Motion`].
 ///
@@ -33,7 +33,7 @@ pub struct Moved<C> {
     shape: C,
     motion: Motion,
     /// Cosine and sine of the rotation.
-    axis: [f64; 2],
+    axis: Vector,
 }
 
 impl<C: Contour> Moved<C> {

@@ -9,7 +9,7 @@ use super::listing::{FieldInfo, FieldUnit, Written, fields, has_default};
 use super::{Pieces, ShapeError};
 use crate::composite::polygon;
 use crate::files::{FileError, SvgError, csv, path, svg};
-use crate::{CircularArc, Contour, ContourError, EllipticArc, Line, Parabola, Spline, SplineEnd};
+use crate::{CircularArc, Contour, ContourError, EllipticArc, Line, Parabola, Point, Spline, SplineEnd};
 
 /// Degrees of a full turn.
 const TURN: f64 = 360.0;
@@ -27,7 +27,7 @@ fields! {
     ParabolaFields {
         /// The vertex.
         #[serde(deserialize_with = "pair")]
-        vertex: [f64; 2] => Length,
+        vertex: Point => Length,
         /// The coefficient of the square.
         coefficient: f64 => PerLength,
         /// Where it starts, x; minus infinity unless given.
@@ -63,10 +63,10 @@ fields! {
     LineFields {
         /// The first point.
         #[serde(deserialize_with = "pair")]
-        from: [f64; 2] => Length,
+        from: Point => Length,
         /// The last point.
         #[serde(deserialize_with = "pair")]
-        to: [f64; 2] => Length,
+        to: Point => Length,
     }
 }
 
@@ -82,7 +82,7 @@ fields! {
     PolygonFields {
         /// The points; or else `file`.
         #[serde(default, deserialize_with = "pair_list", skip_serializing_if = "Option::is_none")]
-        points: Option<Vec<[f64; 2]>> => Length,
+        points: Option<Vec<Point>> => Length,
         /// A CSV file of points.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         file: Option<PathBuf> => None,
@@ -112,7 +112,7 @@ fields! {
     ArcFields {
         /// The centre.
         #[serde(deserialize_with = "pair")]
-        center: [f64; 2] => Length,
+        center: Point => Length,
         /// The radius.
         radius: f64 => Length,
         /// Polar angle where it starts.
@@ -142,7 +142,7 @@ fields! {
     EllipseFields {
         /// The centre.
         #[serde(deserialize_with = "pair")]
-        center: [f64; 2] => Length,
+        center: Point => Length,
         /// The radii along its own axes.
         #[serde(deserialize_with = "pair")]
         radii: [f64; 2] => Length,
@@ -196,7 +196,7 @@ fields! {
     SplineFields {
         /// The points; or else `file`.
         #[serde(default, deserialize_with = "pair_list", skip_serializing_if = "Option::is_none")]
-        points: Option<Vec<[f64; 2]>> => Length,
+        points: Option<Vec<Point>> => Length,
         /// A CSV file of points.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         file: Option<PathBuf> => None,
@@ -309,13 +309,13 @@ impl SvgFields {
 
 /// Points, and where they come from.
 struct Points<'a> {
-    points: Cow<'a, [[f64; 2]]>,
+    points: Cow<'a, [Point]>,
     /// The file, and the line of each point.
     source: Option<(PathBuf, Vec<u64>)>,
 }
 
 impl<'a> Points<'a> {
-    fn of(points: Option<&'a [[f64; 2]]>, file: Option<&Path>, directory: &Path) -> Result<Self, ShapeError> {
+    fn of(points: Option<&'a [Point]>, file: Option<&Path>, directory: &Path) -> Result<Self, ShapeError> {
         match (points, file) {
             (Some(points), None) => Ok(Self { points: Cow::Borrowed(points), source: None }),
             (None, Some(file)) => {
@@ -343,7 +343,7 @@ impl<'a> Points<'a> {
 }
 
 /// Two numbers `[x, y]`: of an array of two serde would overlook a third one.
-fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
+fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Point, D::Error> {
     let numbers = Vec::<f64>::deserialize(deserializer)?;
     let found = numbers.len();
     numbers
@@ -352,7 +352,7 @@ fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error
 }
 
 /// A list of such pairs.
-fn pair_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<[f64; 2]>>, D::Error> {
+fn pair_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<Point>>, D::Error> {
     let points = Vec::<Vec<f64>>::deserialize(deserializer)?;
     let pair = |(index, numbers): (usize, Vec<f64>)| {
         let (point, found) = (index + 1, numbers.len());

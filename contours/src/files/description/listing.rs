@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::Point;
+
 /// What a field is measured in.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum FieldUnit {
@@ -57,8 +59,8 @@ macro_rules! written {
 
 written! {
     f64 = "number";
-    [f64; 2] = "[x, y]";
-    Vec<[f64; 2]> = "list of [x, y]";
+    Point = "[x, y]";
+    Vec<Point> = "list of [x, y]";
     bool = "true or false";
     String = "text";
     PathBuf = "path";

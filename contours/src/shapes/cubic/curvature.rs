@@ -5,6 +5,7 @@
 //! lies between its least and its largest Bernstein coefficient on a part (Farin, Curves and Surfaces for CAGD, 2002).
 
 use super::{Cubic, Velocity};
+use crate::Vector;
 use crate::point::{cross, dot, plus, scaled};
 use crate::proof::limits::{ANY_CURVATURE, curvature_union};
 
@@ -106,7 +107,7 @@ fn bounded(velocity: &Velocity, from: f64, to: f64, halvings: u32) -> (f64, f64)
 }
 
 /// The Bernstein coefficients of `N`.
-fn slopes(velocity: &Velocity, [u, v, w]: [[f64; 2]; 3], s: [f64; 5], c: [f64; 3], [from, to]: [f64; 2]) -> [f64; 6] {
+fn slopes(velocity: &Velocity, [u, v, w]: [Vector; 3], s: [f64; 5], c: [f64; 3], [from, to]: [f64; 2]) -> [f64; 6] {
     let (a, b) = (velocity.rate(from), velocity.rate(to));
     let e = [dot(u, a), (2.0 * dot(v, a) + dot(u, b)) / 3.0, (dot(w, a) + 2.0 * dot(v, b)) / 3.0, dot(w, b)];
     // d(v x a)/ds = v x (2 square), as a x a vanishes.

@@ -4,8 +4,8 @@ mod curvature;
 mod nearest;
 mod velocity;
 
-use crate::Bounds;
 use crate::point::{between, dot, minus, plus, scaled};
+use crate::{Bounds, Point, Vector};
 pub(crate) use nearest::nearest;
 pub(crate) use velocity::{Velocity, roots};
 
@@ -16,24 +16,24 @@ const HALVINGS: u32 = 30;
 /// A cubic Bezier curve over the parameters `from` to `from + width`; `s` below runs from 0 to 1 over the same.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cubic {
-    pub control: [[f64; 2]; 4],
+    pub control: [Point; 4],
     pub from: f64,
     pub width: f64,
 }
 
 impl Cubic {
     /// The one over the parameters 0 to 1.
-    pub fn unit(control: [[f64; 2]; 4]) -> Self {
+    pub fn unit(control: [Point; 4]) -> Self {
         Self { control, from: 0.0, width: 1.0 }
     }
 
     /// The sides of the control polygon.
-    pub fn sides(&self) -> [[f64; 2]; 3] {
+    pub fn sides(&self) -> [Vector; 3] {
         [0, 1, 2].map(|k| minus(self.control[k + 1], self.control[k]))
     }
 
     /// The first side of the control polygon, how the second differs from it, and how the third changes that.
-    fn differences(&self) -> [[f64; 2]; 3] {
+    fn differences(&self) -> [Vector; 3] {
         let [first, second, third] = self.sides();
         let bend = minus(second, first);
         [first, bend, minus(minus(third, second), bend)]
@@ -44,7 +44,7 @@ impl Cubic {
         (t - self.from) / self.width
     }
 
-    pub fn point(&self, s: f64) -> [f64; 2] {
+    pub fn point(&self, s: f64) -> Point {
         let [first, bend, twist] = self.differences();
         // From the start outwards: each term is small beside the one before.
         let inner = plus(scaled(3.0, bend), s, twist);
@@ -61,7 +61,7 @@ impl Cubic {
 
     /// The blossom: one of the three numbers in each round of de Casteljau's scheme. With three times `s` that is the
     /// point, and both ends come out exactly.
-    pub fn blossom(&self, [r, s, t]: [f64; 3]) -> [f64; 2] {
+    pub fn blossom(&self, [r, s, t]: [f64; 3]) -> Point {
         let [a, b, c, d] = self.control;
         let [a, b, c] = [between(a, b, r), between(b, c, r), between(c, d, r)];
         let [a, b] = [between(a, b, s), between(b, c, s)];
@@ -69,7 +69,7 @@ impl Cubic {
     }
 
     /// The control points of the part between two fractions.
-    pub fn part(&self, from: f64, to: f64) -> [[f64; 2]; 4] {
+    pub fn part(&self, from: f64, to: f64) -> [Point; 4] {
         if from == 0.0 && to == 1.0 {
             return self.control;
         }
@@ -101,7 +101,7 @@ impl Cubic {
 }
 
 /// Where the quadratic Bezier curve with these control points, which runs from `from` to `to`, meets the origin.
-fn standstill(control: [[f64; 2]; 3], from: f64, to: f64, halvings: u32) -> Option<f64> {
+fn standstill(control: [Point; 3], from: f64, to: f64, halvings: u32) -> Option<f64> {
     let [a, b, c] = control;
     // All on one side of a line through the origin, so that their hull does not contain it.
     let middle = plus(plus(a, 1.0, b), 1.0, c);
@@ -121,7 +121,7 @@ fn standstill(control: [[f64; 2]; 3], from: f64, to: f64, halvings: u32) -> Opti
 mod tests {
     use super::*;
 
-    pub fn cubic(control: [[f64; 2]; 4]) -> Cubic {
+    pub fn cubic(control: [Point; 4]) -> Cubic {
         Cubic { control, from: 2.0, width: 0.5 }
     }
 

@@ -1,9 +1,9 @@
 //! The nearest points of one cubic.
 
 use super::Cubic;
-use crate::Range;
 use crate::nearest::search::zero;
 use crate::point::{dot, minus};
+use crate::{Point, Range};
 
 /// Rounding of a slope, relative to the square of the largest distance it is made of.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -17,7 +17,7 @@ const HALVINGS: u32 = 50;
 /// `(r - p) . dr/ds` is a polynomial of degree 5. Its Bernstein coefficients have at least as many changes of sign as
 /// it has roots: with one change, or where they only rise, the root is bracketed and found to rounding, else the part
 /// is halved. No minimum is missed.
-pub(crate) fn nearest(cubic: &Cubic, from: f64, to: f64, point: [f64; 2], look: &mut impl FnMut(f64, f64)) {
+pub(crate) fn nearest(cubic: &Cubic, from: f64, to: f64, point: Point, look: &mut impl FnMut(f64, f64)) {
     let part = Cubic { control: cubic.part(from, to).map(|corner| minus(corner, point)), from, width: to - from };
     look(from, dot(part.control[0], part.control[0]));
     look(to, dot(part.control[3], part.control[3]));
@@ -65,7 +65,7 @@ fn search(part: &Cubic, halvings: u32, look: &mut impl FnMut(f64, f64)) {
 }
 
 /// A third of `r . dr/ds` in Bernstein form for a cubic with these control points, and what is rounding beside it.
-fn slopes(control: [[f64; 2]; 4]) -> ([f64; 6], f64) {
+fn slopes(control: [Point; 4]) -> ([f64; 6], f64) {
     let [a, b, c, d] = control;
     let [u, v, w] = [minus(b, a), minus(c, b), minus(d, c)];
     let slopes = [
@@ -84,7 +84,7 @@ mod tests {
     use super::super::tests::random;
     use super::*;
 
-    fn best(cubic: &Cubic, from: f64, to: f64, point: [f64; 2]) -> (f64, f64) {
+    fn best(cubic: &Cubic, from: f64, to: f64, point: Point) -> (f64, f64) {
         let mut best = (f64::NAN, f64::INFINITY);
         nearest(cubic, from, to, point, &mut |s, square| {
             if square < best.1 {

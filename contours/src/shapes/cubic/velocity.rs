@@ -2,23 +2,24 @@
 
 use std::f64::consts::TAU;
 
+use crate::Vector;
 use crate::point::{cross, dot, plus};
 
 /// The velocity `start + linear s + square s^2` of a cubic.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Velocity {
-    pub start: [f64; 2],
-    pub linear: [f64; 2],
-    pub square: [f64; 2],
+    pub start: Vector,
+    pub linear: Vector,
+    pub square: Vector,
 }
 
 impl Velocity {
-    pub fn at(&self, s: f64) -> [f64; 2] {
+    pub fn at(&self, s: f64) -> Vector {
         plus(self.start, s, plus(self.linear, s, self.square))
     }
 
     /// Derivative by `s`.
-    pub fn rate(&self, s: f64) -> [f64; 2] {
+    pub fn rate(&self, s: f64) -> Vector {
         plus(self.linear, 2.0 * s, self.square)
     }
 

@@ -2,6 +2,7 @@
 
 use std::ops::Range as Span;
 
+use crate::Point;
 use crate::point::{dot, minus, plus};
 use crate::shapes::cubic::Cubic;
 
@@ -41,7 +42,7 @@ impl Node {
 /// What [`Chords::visit`] looks for.
 struct Visit<'a, P, F> {
     span: Span<usize>,
-    seen_from: [f64; 2],
+    seen_from: Point,
     points: P,
     limit: f64,
     look: &'a mut F,
@@ -60,8 +61,8 @@ impl Chords {
     pub fn visit(
         &self,
         span: Span<usize>,
-        seen_from: [f64; 2],
-        points: impl Fn(usize) -> [f64; 2],
+        seen_from: Point,
+        points: impl Fn(usize) -> Point,
         look: &mut impl FnMut(usize) -> f64,
     ) {
         // Straight down to the run that the span is in: a short part of a long spline costs what it is long.
@@ -102,7 +103,7 @@ impl Chords {
     /// `nearest` is a lower bound of the distance of the node's cubics.
     fn descend<P, F>(&self, node: Node, nearest: f64, visit: &mut Visit<'_, P, F>)
     where
-        P: Fn(usize) -> [f64; 2],
+        P: Fn(usize) -> Point,
         F: FnMut(usize) -> f64,
     {
         let outside = node.end <= visit.span.start || visit.span.end <= node.first;
@@ -130,7 +131,7 @@ impl Chords {
 }
 
 /// The distance of a point from the chord between two others.
-fn distance(start: [f64; 2], stop: [f64; 2], point: [f64; 2]) -> f64 {
+fn distance(start: Point, stop: Point, point: Point) -> f64 {
     let (chord, way) = (minus(stop, start), minus(point, start));
     let along = dot(way, chord) / dot(chord, chord);
     // The chord of a closed curve is a point.

@@ -1,7 +1,7 @@
 //! What holds at the ends of a spline.
 
 use crate::point::{minus, plus};
-use crate::{ContourError, check};
+use crate::{ContourError, Vector, check};
 
 /// What holds at the ends of a spline through points.
 ///
@@ -47,7 +47,7 @@ impl SplineEnd {
 
 /// The unit vector at this angle, or without one the direction in which the polynomial through these knots and points (up
 /// to four) passes the first of them.
-pub(super) fn direction(angle: Option<f64>, near: Vec<(f64, [f64; 2])>) -> [f64; 2] {
+pub(super) fn direction(angle: Option<f64>, near: Vec<(f64, Vector)>) -> Vector {
     if let Some(angle) = angle {
         let (sin, cos) = angle.sin_cos();
         return [cos, sin];

@@ -4,7 +4,7 @@ use super::end::direction;
 use super::keys::Keys;
 use super::{Spline, SplineEnd};
 use crate::point::{comes_back, distance, minus, plus};
-use crate::{ContourError, check};
+use crate::{ContourError, Point, Vector, check};
 
 impl Spline {
     /// The cubic spline through these points (lengths), in their order, with continuous direction and curvature.
@@ -29,7 +29,7 @@ impl Spline {
     /// assert!((disc.length() - std::f64::consts::TAU).abs() < 2e-5);
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
-    pub fn through(points: &[[f64; 2]], end: SplineEnd) -> Result<Self, ContourError> {
+    pub fn through(points: &[Point], end: SplineEnd) -> Result<Self, ContourError> {
         end.check()?;
         let closed = end == SplineEnd::Periodic;
         let mut points = points.to_vec();
@@ -47,7 +47,7 @@ impl Spline {
 }
 
 /// Makes the last point the first one: in its place where it is the same to rounding, else after it.
-fn close(points: &mut Vec<[f64; 2]>) {
+fn close(points: &mut Vec<Point>) {
     if comes_back(points) {
         points.pop();
     }
@@ -55,7 +55,7 @@ fn close(points: &mut Vec<[f64; 2]>) {
 }
 
 /// The length of the polygon up to each point.
-pub(super) fn knots(points: &[[f64; 2]]) -> Result<Vec<f64>, ContourError> {
+pub(super) fn knots(points: &[Point]) -> Result<Vec<f64>, ContourError> {
     if points.len() < 2 {
         return Err(ContourError::TooFewPoints { what: "a spline", count: points.len(), needed: 2 });
     }
@@ -76,7 +76,7 @@ pub(super) fn knots(points: &[[f64; 2]]) -> Result<Vec<f64>, ContourError> {
 }
 
 /// The keys of the spline with continuous second derivative through the points at the knots.
-pub(super) fn interpolant(knots: &[f64], points: &[[f64; 2]], end: SplineEnd) -> Keys {
+pub(super) fn interpolant(knots: &[f64], points: &[Point], end: SplineEnd) -> Keys {
     let last = points.len() - 1;
     let width = |k: usize| knots[k + 1] - knots[k];
     let chord = |k: usize| minus(points[k + 1], points[k]).map(|side| side / width(k));
@@ -87,11 +87,11 @@ pub(super) fn interpolant(knots: &[f64], points: &[[f64; 2]], end: SplineEnd) ->
         let right_side = [0, 1].map(|side| 3.0 * (share * left[side] + (1.0 - share) * right[side]));
         Row { below: share, diagonal: 2.0, above: 1.0 - share, right: [right_side[0], right_side[1], 0.0] }
     };
-    let free = |below: f64, above: f64, chord: [f64; 2]| {
+    let free = |below: f64, above: f64, chord: Vector| {
         let right = [3.0 * chord[0], 3.0 * chord[1], 0.0];
         Row { below, diagonal: 2.0, above, right }
     };
-    let fixed = |[x, y]: [f64; 2]| Row { below: 0.0, diagonal: 1.0, above: 0.0, right: [x, y, 0.0] };
+    let fixed = |[x, y]: Point| Row { below: 0.0, diagonal: 1.0, above: 0.0, right: [x, y, 0.0] };
     let inner = (1..last).map(|k| row(k - 1, k));
     let velocities = match end {
         SplineEnd::Natural => {
@@ -168,7 +168,7 @@ mod tests {
     use crate::point::dot;
 
     /// Unevenly spaced points of a curve that is nowhere straight.
-    fn wiggle(count: u32) -> Vec<[f64; 2]> {
+    fn wiggle(count: u32) -> Vec<Point> {
         (0..count).map(|k| f64::from(k) + 0.3 * f64::from(k % 3)).map(|a| [0.3 * a, (0.5 * a).sin()]).collect()
     }
 
@@ -193,8 +193,7 @@ mod tests {
                 assert!(points.iter().zip(spline.points()).all(|(&given, point)| given == point));
                 let cubics: Vec<_> = (0..spline.keys.len() - 1).map(|k| spline.keys.cubic(k)).collect();
                 let second = |k: usize, s: f64| cubics[k].velocity().rate(s).map(|side| side / cubics[k].width);
-                let close =
-                    |a: [f64; 2], b: [f64; 2]| assert!(dot(minus(a, b), minus(a, b)).sqrt() < 1e-12, "{a:?} {b:?}");
+                let close = |a: Point, b: Point| assert!(dot(minus(a, b), minus(a, b)).sqrt() < 1e-12, "{a:?} {b:?}");
                 for k in 1..cubics.len() {
                     close(cubics[k - 1].velocity().at(1.0), cubics[k].velocity().at(0.0));
                     close(second(k - 1, 1.0), second(k, 0.0));

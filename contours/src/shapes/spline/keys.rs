@@ -2,32 +2,32 @@
 
 use splines::{Interpolate, Interpolation, Key};
 
-use crate::ContourError;
 use crate::shapes::cubic::Cubic;
+use crate::{ContourError, Point, Vector};
 
 /// Points of a spline with their parameters and the two Bezier handles of each, 64 bytes a point.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize), serde(transparent))]
-pub(super) struct Keys(splines::Spline<f64, Point>);
+pub(super) struct Keys(splines::Spline<f64, KeyPoint>);
 
 /// A point of the plane that the crate can interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
-struct Point([f64; 2]);
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize), serde(rename = "Point"))]
+struct KeyPoint(Point);
 
 impl Keys {
     /// The cubics that pass through the points at the knots with these velocities (`dr/dt`). All three are equally long;
     /// the knots rise.
-    pub fn new(knots: &[f64], points: &[[f64; 2]], velocities: &[[f64; 2]]) -> Self {
+    pub fn new(knots: &[f64], points: &[Point], velocities: &[Vector]) -> Self {
         let width = |k: usize| knots.get(k + 1).map(|next| next - knots[k]);
         let keys = points.iter().zip(velocities).enumerate().map(|(k, (&point, velocity))| {
             let before = k.checked_sub(1).and_then(width);
             let after = width(k);
             // The outer handles of the two ends are never used; they mirror the inner ones.
             let (before, after) = (before.or(after).unwrap_or(0.0), after.or(before).unwrap_or(0.0));
-            let handle = |third: f64| Point([0, 1].map(|side| point[side] + third * velocity[side]));
+            let handle = |third: f64| KeyPoint([0, 1].map(|side| point[side] + third * velocity[side]));
             let handles = Interpolation::StrokeBezier(handle(-before / 3.0), handle(after / 3.0));
-            Key::new(knots[k], Point(point), handles)
+            Key::new(knots[k], KeyPoint(point), handles)
         });
         Self(splines::Spline::from_iter(keys))
     }
@@ -41,7 +41,7 @@ impl Keys {
         let mut before = f64::NEG_INFINITY;
         for (index, key) in keys.iter().enumerate() {
             let number = index + 1;
-            let Interpolation::StrokeBezier(Point(first), Point(second)) = key.interpolation else {
+            let Interpolation::StrokeBezier(KeyPoint(first), KeyPoint(second)) = key.interpolation else {
                 return Err(ContourError::KeyKind { key: number });
             };
             let numbers = [key.t, key.value.0[0], key.value.0[1], first[0], first[1], second[0], second[1]];
@@ -67,7 +67,7 @@ impl Keys {
     }
 
     /// A point.
-    pub fn point(&self, index: usize) -> [f64; 2] {
+    pub fn point(&self, index: usize) -> Point {
         self.0.keys()[index].value.0
     }
 
@@ -88,7 +88,7 @@ impl Keys {
     }
 
     /// The point at `t` by the crate's own arithmetic; none beyond the ends.
-    pub fn sample(&self, t: f64) -> Option<[f64; 2]> {
+    pub fn sample(&self, t: f64) -> Option<Point> {
         // The crate gives no value at the last key, and panics on NaN.
         let (first, last) = (self.knot(0), self.knot(self.len() - 1));
         if !(first <= t && t <= last) {
@@ -99,7 +99,7 @@ impl Keys {
 }
 
 /// Both coordinates by the crate's arithmetic for numbers.
-impl Interpolate<f64> for Point {
+impl Interpolate<f64> for KeyPoint {
     fn step(t: f64, threshold: f64, a: Self, b: Self) -> Self {
         Self([0, 1].map(|k| f64::step(t, threshold, a.0[k], b.0[k])))
     }
@@ -134,7 +134,7 @@ impl Interpolate<f64> for Point {
 mod tests {
     use super::*;
 
-    fn keys(points: &[[f64; 2]]) -> Keys {
+    fn keys(points: &[Point]) -> Keys {
         let knots: Vec<_> = (0..points.len()).map(|k| k as f64).collect();
         Keys::new(&knots, points, &vec![[1.0, 0.5]; points.len()])
     }

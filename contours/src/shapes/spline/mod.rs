@@ -17,7 +17,7 @@ use crate::contour::{Seal, Trust};
 use crate::point::{SMOOTH, cross, dot, nearest_turn};
 use crate::proof::limits;
 use crate::shapes::cubic::nearest;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, Range, check};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, Point, Range, Vector, check};
 use arc_length::{length_to, lengths};
 use chords::Chords;
 use keys::Keys;
@@ -65,7 +65,7 @@ pub struct Spline {
 
 impl Spline {
     /// The points that the spline passes, in order, lengths; a closed one ends with its first point.
-    pub fn points(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
+    pub fn points(&self) -> impl ExactSizeIterator<Item = Point> + '_ {
         (0..self.keys.len()).map(|index| self.keys.point(index))
     }
 
@@ -85,7 +85,7 @@ impl Spline {
     /// assert_eq!(line.sample(5.1), None);
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
-    pub fn sample(&self, t: f64) -> Option<[f64; 2]> {
+    pub fn sample(&self, t: f64) -> Option<Point> {
         self.keys.sample(t)
     }
 
@@ -135,7 +135,7 @@ impl Spline {
     }
 
     /// The fractions between which a cubic lies in the range, and the parameters there.
-    fn part(&self, index: usize, range: Range) -> ([f64; 2], Range) {
+    fn part(&self, index: usize, range: Range) -> (Point, Range) {
         let cubic = self.keys.cubic(index);
         let whole = Range { from: cubic.from, to: self.keys.knot(index + 1) };
         let part = whole.within(range);
@@ -147,7 +147,7 @@ impl Spline {
     /// spline from a file may turn by up to 1e-9 rad from one to the next).
     fn bends_one_way(&self, range: Range) -> bool {
         let one_way = |sense: f64| {
-            let mut before: Option<[f64; 2]> = None;
+            let mut before: Option<Vector> = None;
             self.span(range).all(|index| {
                 let cubic = self.keys.cubic(index);
                 let ([from, to], _) = self.part(index, range);

@@ -3,7 +3,7 @@
 use super::fit::{interpolant, knots};
 use super::{Spline, SplineEnd};
 use crate::point::{dot, minus, plus};
-use crate::{ContourError, check};
+use crate::{ContourError, Point, Vector, check};
 
 /// Weight of the bending beside the rest, relative, below which rounding begins to spoil the system: the curve then is
 /// smooth over a thousand points or so.
@@ -39,7 +39,7 @@ impl Spline {
     /// assert!(floor.frame(2.0).alpha.abs() < 1e-9 && (floor.gap(2.0, -1.0) - 1.0).abs() < 0.01);
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
-    pub fn smoothing(points: &[[f64; 2]], sigma: f64) -> Result<Self, ContourError> {
+    pub fn smoothing(points: &[Point], sigma: f64) -> Result<Self, ContourError> {
         let what = "the noise of the spline's points";
         check::finite([(what, sigma)])?;
         if sigma < 0.0 {
@@ -53,7 +53,7 @@ impl Spline {
 }
 
 /// The points at the knots through which the smoothest curve with this residual sum passes.
-fn fitted(knots: &[f64], points: &[[f64; 2]], allowed: f64) -> Vec<[f64; 2]> {
+fn fitted(knots: &[f64], points: &[Point], allowed: f64) -> Vec<Point> {
     if allowed == 0.0 || points.len() < 3 {
         return points.to_vec();
     }
@@ -90,7 +90,7 @@ fn fitted(knots: &[f64], points: &[[f64; 2]], allowed: f64) -> Vec<[f64; 2]> {
 }
 
 /// The points of the straight line of least squares at the knots.
-fn line(knots: &[f64], points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+fn line(knots: &[f64], points: &[Point]) -> Vec<Point> {
     let count = points.len() as f64;
     let middle = knots.iter().sum::<f64>() / count;
     let centre = points.iter().fold([0.0; 2], |sum, &point| plus(sum, 1.0 / count, point));
@@ -110,7 +110,7 @@ struct System {
     /// Distance between knots.
     width: Vec<f64>,
     /// `q' y`.
-    right: Vec<[f64; 2]>,
+    right: Vec<Vector>,
 }
 
 /// A symmetric matrix with two diagonals beside the main one as the product of triangles.
@@ -125,7 +125,7 @@ struct Pivot {
 }
 
 impl System {
-    fn new(knots: &[f64], points: &[[f64; 2]]) -> Self {
+    fn new(knots: &[f64], points: &[Point]) -> Self {
         let width: Vec<_> = knots.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let slope: Vec<_> = width.iter().map(|width| 1.0 / width).collect();
         let chord = |k: usize| minus(points[k + 1], points[k]).map(|side| side * slope[k]);
@@ -141,7 +141,7 @@ impl System {
     }
 
     /// Diagonals of `r` at an inner point.
-    fn bending(&self, k: usize) -> [f64; 2] {
+    fn bending(&self, k: usize) -> Vector {
         [(self.width[k] + self.width[k + 1]) / 3.0, self.width[k + 1] / 6.0]
     }
 
@@ -172,7 +172,7 @@ impl System {
     }
 
     /// `q u`.
-    fn spread(&self, tensions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    fn spread(&self, tensions: &[Vector]) -> Vec<Vector> {
         let tension = |k: Option<usize>| k.and_then(|k| tensions.get(k)).copied().unwrap_or([0.0; 2]);
         // The change of tension per length, before and after each point.
         let slope = |k: Option<usize>| {
@@ -183,7 +183,7 @@ impl System {
     }
 
     /// `r u`.
-    fn stiffness(&self, tensions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    fn stiffness(&self, tensions: &[Vector]) -> Vec<Vector> {
         let mut product: Vec<_> =
             tensions.iter().enumerate().map(|(k, tension)| tension.map(|side| side * self.bending(k)[0])).collect();
         for k in 1..tensions.len() {
@@ -196,7 +196,7 @@ impl System {
 }
 
 impl Factors {
-    fn solve(&self, mut right: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    fn solve(&self, mut right: Vec<Vector>) -> Vec<Vector> {
         let rows = &self.rows;
         for k in 1..right.len() {
             right[k] = plus(right[k], -rows[k - 1].below, right[k - 1]);
