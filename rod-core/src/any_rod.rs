@@ -1,17 +1,15 @@
 //! A rod of any kind on any clamp, as one type.
 
-use crate::clamp::{Clamp, ClampLaw, ElasticClamp, Guided, Roller};
+use crate::clamp::{Clamp, ClampLaw, ElasticClamp, Roller};
 use crate::elastica::Elastica;
 use crate::error::RodError;
-use crate::model::{CutSensitivities, RodModel, Uniform};
-use crate::physical::{PhysicalRod, RodParameter};
+use crate::model::{Cut, CutSensitivities, RodModel, Uniform};
+use crate::physical::{Guided, PhysicalRod, RodParameter};
 use crate::pose::Pose;
-use crate::propagator::Cut;
 use crate::rod::Rod;
-use crate::segment::Segment;
+use crate::segment::{Segment, Station};
 use crate::units::Units;
 use crate::varying::VaryingRod;
-use crate::walk::Station;
 
 /// A rod of any kind on any clamp: for programs that learn only at run time which it is. [`RodSpec`](crate::RodSpec) makes it from the
 /// fields of a file.

@@ -24,57 +24,31 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
-mod agm;
 #[cfg(feature = "std")]
 mod any_rod;
-#[cfg(feature = "argmin")]
-mod argmin_newton;
-mod basis;
-#[cfg(feature = "std")]
-mod brent;
-mod circular;
 #[cfg(feature = "std")]
 mod clamp;
-mod dual;
 #[cfg(feature = "std")]
 mod elastica;
 mod error;
 #[cfg(feature = "std")]
-mod general;
-#[cfg(feature = "std")]
-mod grip;
-mod inflection;
-#[cfg(feature = "std")]
-mod linear;
-#[cfg(feature = "std")]
-mod linearisation;
-#[cfg(feature = "std")]
-mod loads;
+mod judges;
 #[cfg(feature = "std")]
 mod model;
 #[cfg(feature = "std")]
-mod multipoint;
-#[cfg(feature = "std")]
-mod newton;
-#[cfg(feature = "ode")]
-mod ode;
-#[cfg(feature = "std")]
 mod physical;
 mod pose;
-#[cfg(feature = "std")]
-mod propagator;
 mod rod;
-mod sample;
-mod scalar;
 mod segment;
 #[cfg(feature = "std")]
+mod solve;
+#[cfg(feature = "std")]
 mod spec;
-#[cfg(feature = "argmin")]
-mod trust_region;
+#[cfg(feature = "std")]
+mod support_problem;
 mod units;
 #[cfg(feature = "std")]
 mod varying;
-mod walk;
 
 // Their types are in the interface of `NewtonSolver`.
 #[cfg(feature = "argmin")]
@@ -82,47 +56,41 @@ pub use {argmin, nalgebra};
 
 #[cfg(feature = "std")]
 pub use any_rod::{AnyClamp, AnyRod};
-#[cfg(feature = "argmin")]
-pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 #[cfg(feature = "std")]
-pub use brent::{Root, find_root};
+pub use clamp::{Clamp, ClampLaw, Elastic, ElasticClamp, Pivot, Roller, RollerHold};
 #[cfg(feature = "std")]
-pub use clamp::{Clamp, ClampLaw, Elastic, ElasticClamp, Guided, Mounted, Pivot, Roller, RollerClamp, RollerHold};
-pub use dual::Dual;
-#[cfg(feature = "std")]
-pub use elastica::Elastica;
+pub use elastica::{Elastica, Load};
 pub use error::RodError;
 #[cfg(feature = "std")]
-pub use general::GeneralElastica;
-#[cfg(feature = "std")]
-pub use grip::{Grip, arc_length};
-pub use inflection::inflection;
-#[cfg(feature = "std")]
-pub use linearisation::{ContactRate, Linearisation, PathRow, Response, SupportRate};
-#[cfg(feature = "std")]
-pub use loads::Load;
-#[cfg(feature = "std")]
-pub use model::{Bent, Cone, CutSensitivities, Profile, RodModel, RodSection, Sections, Smooth, Uniform};
-#[cfg(feature = "std")]
-pub use multipoint::{Hold, MultiPoint, Support, Supports};
-#[cfg(feature = "std")]
-pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
+pub use judges::GeneralElastica;
 #[cfg(feature = "ode")]
-pub use ode::{Method, Ode};
+pub use judges::{Method, Ode};
 #[cfg(feature = "std")]
-pub use physical::{PhysicalRod, RodParameter};
-pub use pose::{Pose, Reactions};
+pub use model::{
+    Bent, Cone, Cut, CutSensitivities, Profile, Propagator, RodModel, RodSection, Sections, Smooth, Uniform,
+};
 #[cfg(feature = "std")]
-pub use propagator::{Cut, Propagator};
+pub use physical::{Guided, Mounted, PhysicalRod, RodParameter, RollerClamp};
+pub use pose::{Pose, Reactions, Sample};
 pub use rod::Rod;
-pub use sample::Sample;
-pub use scalar::Scalar;
-pub use segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
+pub use segment::{
+    Dual, Scalar, Section, Segment, Sensitivities, Station, advance, advance_with_sensitivities, inflection, stations,
+    walk,
+};
+#[cfg(feature = "std")]
+pub use solve::{
+    NewtonOptions, NewtonWorkspace, Root, SolveReport, SolveStatus, StepOutcome, System, find_root, newton_step, solve,
+};
+#[cfg(feature = "argmin")]
+pub use solve::{
+    NewtonSolver, NewtonState, RootProblem, Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region,
+};
 #[cfg(feature = "std")]
 pub use spec::{ClampSpec, CurvatureSpec, RodFault, RodSpec, SectionSpec, StiffnessSpec};
-#[cfg(feature = "argmin")]
-pub use trust_region::{Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region};
+#[cfg(feature = "std")]
+pub use support_problem::{
+    ContactRate, Grip, Hold, Linearisation, MultiPoint, PathRow, Response, Support, SupportRate, Supports, arc_length,
+};
 pub use units::Units;
 #[cfg(feature = "std")]
 pub use varying::{NaturalCurvature, VaryingRod};
-pub use walk::{Station, stations, walk};

@@ -1,7 +1,7 @@
 //! The rod: length, bending stiffness and, where it is known, the wire behind it.
 
 use crate::error::RodError;
-use crate::scalar::Scalar;
+use crate::segment::Scalar;
 use crate::units::Units;
 use core::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! The one place that converts between SI and the dimensionless quantities inside.
 
-use crate::scalar::Scalar;
+use crate::segment::Scalar;
 
 /// What one dimensionless unit is in SI: multiply to come out, divide to go in. Lengths are in L, forces in E I / L^2,
 /// moments in E I / L (Merker et al. 2020, eq. 1).

@@ -4,14 +4,10 @@
 //! parameter of [`MultiPoint`](crate::MultiPoint): the rigid one, a [`Pose`], costs nothing.
 
 mod elastic;
-mod guided;
-mod mounted;
 mod roller;
 mod springs;
 
 pub use elastic::{Elastic, Pivot};
-pub use guided::{Guided, RollerClamp};
-pub use mounted::Mounted;
 pub(crate) use roller::Passage;
 pub use roller::{Roller, RollerHold};
 pub use springs::ElasticClamp;

@@ -12,9 +12,8 @@
 //! What is left are the three equations of a rigid clamp: the base is where the clamp is. Nothing in these two equations depends on where
 //! that is, and the derivatives of the base follow by the implicit function theorem.
 
-use crate::model::{CutSensitivities, RodModel};
+use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::pose::Pose;
-use crate::propagator::Cut;
 
 /// A roller, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! Intervals put together of parts, each of which knows its own derivatives.
 
-use crate::model::CutSensitivities;
-use crate::propagator::Cut;
+use crate::model::{Cut, CutSensitivities};
 
 /// How a cut along an interval changes with angle, moment and force at the start of the interval.
 pub(crate) struct Chain {

@@ -4,8 +4,7 @@
 //! the force (A, B) / EI. A natural curvature that is constant does not enter it.
 
 use crate::model::uniform::Uniform;
-use crate::model::{CutSensitivities, RodModel};
-use crate::propagator::Cut;
+use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities};
 
 /// Stiffness and natural curvature of a part, dimensionless.

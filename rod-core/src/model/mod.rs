@@ -8,12 +8,15 @@ mod chain;
 mod constant;
 mod pieces;
 mod profile;
+mod propagator;
 mod sections;
 mod sensitivities;
 mod smooth;
 pub(crate) mod uniform;
 
 pub use profile::{Bent, Cone, Profile};
+pub(crate) use propagator::check;
+pub use propagator::{Cut, Propagator};
 pub(crate) use sections::check_sections;
 pub use sections::{RodSection, Sections};
 pub use sensitivities::CutSensitivities;
@@ -22,9 +25,7 @@ pub(crate) use smooth::gauss::{AT, WEIGHT};
 pub use uniform::Uniform;
 
 use crate::error::RodError;
-use crate::propagator::{Cut, Propagator, check};
-use crate::segment::Segment;
-use crate::walk::Station;
+use crate::segment::{Segment, Station};
 
 /// A rod that carries a [`Cut`] along an interval under a constant force, with exact derivatives:
 ///

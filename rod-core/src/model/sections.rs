@@ -5,8 +5,7 @@ use crate::model::bounds::{largest_curvature, moment_range, product, union};
 use crate::model::chain::Chain;
 use crate::model::constant::Constant;
 use crate::model::pieces::{piece_at, pieces};
-use crate::model::{CutSensitivities, RodModel};
-use crate::propagator::Cut;
+use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::Segment;
 
 /// By how much the lengths of the sections of a rod of length 1 may miss it: rounding of some hundred lengths.

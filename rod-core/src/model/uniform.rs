@@ -1,11 +1,10 @@
 //! The uniform straight rod, in closed form.
 
-use crate::agm::agm;
 use crate::model::bounds::moment_range;
-use crate::model::{CutSensitivities, RodModel};
-use crate::propagator::Cut;
-use crate::segment::{Section, Segment, Sensitivities, advance, advance_with_sensitivities, axial};
-use crate::walk::{Station, stations};
+use crate::model::{Cut, CutSensitivities, RodModel};
+use crate::segment::{
+    Section, Segment, Sensitivities, Station, advance, advance_with_sensitivities, agm, axial, stations,
+};
 use std::f64::consts::{PI, TAU};
 
 /// The uniform straight rod: curvature = moment. See [`advance`] for the closed form.

@@ -6,10 +6,9 @@ mod stress;
 
 use crate::elastica::Elastica;
 use crate::error::{RodError, finite};
-use crate::model::{Cone, CutSensitivities, RodModel, RodSection, check_sections};
+use crate::model::{Cone, Cut, CutSensitivities, RodModel, RodSection, check_sections};
 use crate::physical::{PhysicalRod, RodParameter};
 use crate::pose::Pose;
-use crate::propagator::Cut;
 use crate::rod::{Rod, positive};
 use crate::segment::Segment;
 use crate::units::Units;

@@ -1,7 +1,6 @@
 //! The bending stress at the surface of a round rod whose diameter varies.
 
-use crate::model::RodModel;
-use crate::propagator::Cut;
+use crate::model::{Cut, RodModel};
 use crate::segment::Segment;
 use core::f64::consts::PI;
 

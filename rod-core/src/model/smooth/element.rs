@@ -14,8 +14,8 @@
 )]
 
 use super::gauss::{AT, NODES, UP_TO, WEIGHT};
+use crate::model::Cut;
 use crate::model::profile::Profile;
-use crate::propagator::Cut;
 
 pub(super) type Values = [f64; NODES];
 

@@ -1,6 +1,6 @@
 //! A rod that runs through a roller ahead of its clamp.
 
-use super::{Clamp, Roller};
+use crate::clamp::{Clamp, Roller};
 use crate::elastica::Elastica;
 use crate::error::RodError;
 use crate::model::RodModel;

@@ -24,14 +24,13 @@
 //! A clamp that gives way ([`ClampLaw`]) changes the three equations of segment 0. The moment in them is that at the end of the segment,
 //! which is the base of the rod: m0z has the lever of the displaced base.
 
+use super::grip::{Grip, arc_length};
 use crate::clamp::{Clamp, ClampLaw, Passage, RollerHold};
 use crate::elastica::Elastica;
-use crate::grip::{Grip, arc_length};
-use crate::model::{CutSensitivities, RodModel, Uniform, uniform};
-use crate::newton::System;
+use crate::model::{Cut, CutSensitivities, RodModel, Uniform, uniform};
 use crate::pose::{Pose, Reactions};
-use crate::propagator::Cut;
 use crate::segment::Segment;
+use crate::solve::System;
 use crate::units::Units;
 use smallvec::SmallVec;
 

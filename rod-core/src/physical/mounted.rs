@@ -1,6 +1,6 @@
 //! A rod on a clamp that gives way.
 
-use super::{Elastic, ElasticClamp};
+use crate::clamp::{Elastic, ElasticClamp};
 use crate::elastica::Elastica;
 use crate::model::RodModel;
 use crate::physical::{PhysicalRod, RodParameter};

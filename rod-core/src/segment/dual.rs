@@ -1,6 +1,6 @@
 //! Dual numbers: a value with its exact first derivatives by `N` variables.
 
-use crate::scalar::Scalar;
+use super::scalar::Scalar;
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Rem, Sub};
 

@@ -3,8 +3,8 @@
 use super::*;
 use crate::clamp::{Elastic, Pivot};
 use crate::model::Uniform;
-use crate::multipoint::Support;
-use crate::newton::System;
+use crate::solve::System;
+use crate::support_problem::Support;
 use proptest::prelude::*;
 
 /// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre.

@@ -5,13 +5,12 @@
 
 mod bend;
 
+use super::Grip;
+use super::multipoint::{Hold, MultiPoint, Node, Supports, friction_size, natural_sizes, reactions};
 use crate::clamp::{Clamp, ClampLaw, Passage, product};
-use crate::grip::Grip;
-use crate::linear::{invert, multiply};
-use crate::model::{CutSensitivities, RodModel};
-use crate::multipoint::{Hold, MultiPoint, Node, Supports, friction_size, natural_sizes, reactions};
+use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::pose::{Pose, Reactions};
-use crate::propagator::Cut;
+use crate::solve::linear::{invert, multiply};
 use smallvec::SmallVec;
 
 /// The change of a support's point and tangent angle per unit of something, at a fixed parameter of its curve.

@@ -3,10 +3,10 @@
 //! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2020, eq. 10), a pendulum arc.
 //! It is evaluated by the addition theorem of its flow, without any case distinction.
 
-use crate::agm::agm;
-use crate::basis::{Basis, basis};
-use crate::dual::Dual;
-use crate::scalar::Scalar;
+use super::agm::agm;
+use super::basis::{Basis, basis};
+use super::dual::Dual;
+use super::scalar::Scalar;
 
 /// A cross-section of the rod: where it is, where it points, how it bends. Dimensionless (length of the rod = bending
 /// stiffness = 1) inside the library; the kernel itself takes any consistent units.

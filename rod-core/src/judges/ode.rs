@@ -1,7 +1,7 @@
 //! Rods that no closed form describes, by numerical integration. The only file that knows the crate `ode_solvers`.
 
 use crate::error::{RodError, finite};
-use crate::propagator::{Cut, Propagator, check};
+use crate::model::{Cut, Propagator, check};
 use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dop853, Dopri5, OutputType, System, Vector5};
 

@@ -3,7 +3,7 @@
 //! They are Jacobi's elliptic functions scaled so that nothing is ever divided by P or M, hence smooth for every
 //! P, M >= 0: the inflectional, the orbit-like, the separatrix, the circle (P = 0) and the straight line are one formula.
 
-use crate::scalar::{Scalar, tolerance};
+use super::scalar::{Scalar, tolerance};
 
 /// Values of the basis functions at one arc length. S' = C D, C' = -P S D, D' = -M S C, with S(0) = 0, C(0) = D(0) = 1.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,9 @@
 //! Dead loads: the clamp's moment that given forces ask for, so that nothing bends the rod beyond the last of them.
 
-use crate::brent::{Root, find_root};
 use crate::error::{RodError, finite};
+use crate::model::{Cut, Propagator};
 use crate::pose::Pose;
-use crate::propagator::{Cut, Propagator};
+use crate::solve::{Root, find_root};
 use crate::units::Units;
 
 /// A point force on the rod: `force` pushes along (sin alpha, -cos alpha), away from a solid whose tangent angle is alpha.

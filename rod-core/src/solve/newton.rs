@@ -5,7 +5,7 @@
 //! the trial point, is shorter than the correction itself. Where it is much shorter, the old Jacobian serves on.
 //! [`argmin`](crate::NewtonSolver) drives the same step.
 
-use crate::linear::{invert, multiply, norm_1};
+use super::linear::{invert, multiply, norm_1};
 
 /// A square system of nonlinear equations F(u) = 0 with its exact Jacobian.
 pub trait System {

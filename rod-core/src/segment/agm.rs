@@ -1,6 +1,6 @@
 //! The arithmetic-geometric mean, which gives the period of a pendulum.
 
-use crate::scalar::{Scalar, tolerance};
+use super::scalar::{Scalar, tolerance};
 
 /// From a relative difference of this the next step leaves half of 5e-17, for it converges quadratically. For `f64`; less exact
 /// numbers by the square root.

@@ -1,11 +1,11 @@
 //! The shape of any rod under point forces, through any [`Propagator`].
 
-use crate::brent::Root;
+use crate::elastica::loads::{Load, clamp_cut, clamp_moment, forces_ahead, march};
 use crate::error::{RodError, finite};
-use crate::loads::{Load, clamp_cut, clamp_moment, forces_ahead, march};
+use crate::model::{Cut, Propagator};
 use crate::pose::{Pose, Reactions};
-use crate::propagator::{Cut, Propagator};
 use crate::segment::{Section, Segment};
+use crate::solve::Root;
 use crate::units::Units;
 
 /// The elastica of a clamped rod of any kind under n point forces: what [`Elastica`](crate::Elastica) is to the uniform
@@ -110,10 +110,10 @@ impl<'rod> GeneralElastica<'rod> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::ode::{Method, Ode};
     use super::*;
     use crate::elastica::Elastica;
     use crate::model::Uniform;
-    use crate::ode::{Method, Ode};
     use crate::rod::Rod;
 
     fn scene() -> (Units, Pose, Vec<Load>) {

@@ -1,8 +1,8 @@
 //! Where a bent segment is straight: the first section without moment, in closed form.
 
-use crate::agm::agm;
-use crate::scalar::{Scalar, is_finite, tolerance};
-use crate::segment::{Section, axial, in_frame};
+use super::agm::agm;
+use super::kernel::{Section, axial, in_frame};
+use super::scalar::{Scalar, is_finite, tolerance};
 
 /// Carlson's expansion is exact to rounding where the three arguments deviate from their mean by no more than this: its
 /// first omitted term is of order 8, and 0.0085^8 = 3e-17. For `f64`; less exact numbers are content with less, by the eighth
@@ -90,10 +90,10 @@ fn carlson<T: Scalar>(mut x: T, mut y: T, mut z: T) -> T {
 
 #[cfg(test)]
 mod tests {
+    use super::super::dual::Dual;
+    use super::super::kernel::{advance, advance_with_sensitivities};
+    use super::super::walk::walk;
     use super::*;
-    use crate::dual::Dual;
-    use crate::segment::{advance, advance_with_sensitivities};
-    use crate::walk::walk;
     use proptest::prelude::*;
 
     #[test]

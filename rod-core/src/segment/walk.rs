@@ -1,8 +1,8 @@
 //! Many sections of one segment at equal distances, cheaper than one [`advance`] each.
 
-use crate::basis::{Basis, basis};
-use crate::scalar::{Scalar, is_finite};
-use crate::segment::{Arc, End, LEAST_COIL, Section, advance, axial, in_frame};
+use super::basis::{Basis, basis};
+use super::kernel::{Arc, End, LEAST_COIL, Section, advance, axial, in_frame};
+use super::scalar::{Scalar, is_finite};
 
 /// Number of steps after which the walk starts anew from the closed form, so that rounding does not accumulate.
 const STRIDE: usize = 64;

@@ -1,7 +1,7 @@
 //! What carries the state of a rod from one place to another: a rod model, an integrator, or a rod of your own.
 
 use crate::error::{RodError, finite};
-use crate::walk::Station;
+use crate::segment::Station;
 
 /// What one side of a cut through the rod hands to the other: where it is, where it points, and the bending moment.
 /// Dimensionless (lengths in L, moments in E I / L, E I being the reference stiffness of a rod that varies).
@@ -77,8 +77,8 @@ pub(crate) fn check(s: f64, start: &Cut, a: f64, b: f64, length: f64) -> Result<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judges::{Method, Ode};
     use crate::model::Uniform;
-    use crate::ode::{Method, Ode};
     use proptest::prelude::*;
 
     fn distance(u: &Cut, v: &Cut) -> f64 {

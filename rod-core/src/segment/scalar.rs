@@ -1,6 +1,6 @@
 //! The numbers the segment kernel runs on.
 
-use crate::circular;
+use super::circular;
 use core::ops::Neg;
 use num_traits::NumOps;
 

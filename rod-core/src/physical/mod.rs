@@ -1,5 +1,11 @@
 //! A rod in SI units, and the model that computes it.
 
+mod guided;
+mod mounted;
+
+pub use guided::{Guided, RollerClamp};
+pub use mounted::Mounted;
+
 use crate::clamp::Clamp;
 use crate::elastica::Elastica;
 use crate::model::{RodModel, Uniform};

@@ -1,13 +1,16 @@
 //! The shape of a rod under any number of point forces.
 
-use crate::brent::Root;
+pub(crate) mod loads;
+
+pub use loads::Load;
+
 use crate::error::{RodError, finite};
-use crate::loads::{Load, clamp_cut, clamp_moment, forces_ahead, march};
-use crate::model::{RodModel, Uniform};
+use crate::model::{Cut, RodModel, Uniform};
 use crate::pose::{Pose, Reactions};
-use crate::propagator::Cut;
 use crate::segment::{Section, Segment};
+use crate::solve::Root;
 use crate::units::Units;
+use loads::{clamp_cut, clamp_moment, forces_ahead, march};
 
 /// The elastica of a clamped rod under n point forces, segment by segment: of a uniform one by the closed form, of another
 /// [`RodModel`] by what that offers.

@@ -10,8 +10,8 @@
 
 use super::{Held, Linearisation, Response, Vector};
 use crate::model::{AT, RodModel, WEIGHT};
-use crate::multipoint::Node;
 use crate::pose::{Pose, Reactions};
+use crate::support_problem::multipoint::Node;
 use smallvec::SmallVec;
 
 /// Change of an integral by halving, relative to 1 + the integral, below which it is taken.

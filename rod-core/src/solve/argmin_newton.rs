@@ -2,7 +2,7 @@
 //!
 //! [`solve`](crate::solve) is the plain loop around the same step and costs less; both give the same iterates.
 
-use crate::newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step};
+use super::newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step};
 use argmin::core::{
     CostFunction, Error, Gradient, Hessian, IterState, Jacobian, KV, Operator, Problem, Solver, TerminationReason,
     TerminationStatus,
@@ -188,8 +188,8 @@ impl<S: System> Solver<RootProblem<S>, NewtonState> for NewtonSolver {
 
 #[cfg(test)]
 mod tests {
+    use super::super::newton::solve;
     use super::*;
-    use crate::newton::solve;
     use argmin::core::observers::{Observe, ObserverMode};
     use argmin::core::{Executor, State};
     use argmin::solver::gaussnewton::GaussNewton;

@@ -5,8 +5,8 @@
 //! the guess, so that its ball is round in natural sizes. Each accepted step lessens |F|. It may end in a minimum of |F| that is not
 //! a root.
 
-use crate::argmin_newton::RootProblem;
-use crate::newton::{NewtonOptions, NewtonWorkspace, SolveReport, System, solve};
+use super::argmin_newton::RootProblem;
+use super::newton::{NewtonOptions, NewtonWorkspace, SolveReport, System, solve};
 use argmin::core::{Error, Executor, IterState, State};
 use argmin::solver::trustregion::{Steihaug, TrustRegion};
 use nalgebra::{DMatrix, DVector};
@@ -131,8 +131,8 @@ fn approach(
 mod tests {
     use super::*;
     use crate::model::Uniform;
-    use crate::multipoint::{Hold, MultiPoint, Support, Supports};
     use crate::pose::Pose;
+    use crate::support_problem::{Hold, MultiPoint, Support, Supports};
     use argmin::core::KV;
     use argmin::core::observers::{Observe, ObserverMode};
     use std::sync::{Arc, Mutex};

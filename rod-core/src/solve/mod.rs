@@ -1,0 +1,17 @@
+//! Solvers that know no rods: damped Newton's method, alone and under `argmin`, a trust region for bad guesses, the root of one
+//! variable, and small dense matrices.
+
+#[cfg(feature = "argmin")]
+mod argmin_newton;
+mod brent;
+pub(crate) mod linear;
+mod newton;
+#[cfg(feature = "argmin")]
+mod trust_region;
+
+#[cfg(feature = "argmin")]
+pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
+pub use brent::{Root, find_root};
+pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
+#[cfg(feature = "argmin")]
+pub use trust_region::{Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region};
