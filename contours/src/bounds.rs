@@ -63,19 +63,19 @@ impl Bounds {
 
     /// Distance of the point `(x, y)` from the box, a length; 0 inside.
     pub fn distance(&self, x: f64, y: f64) -> f64 {
-        let [dx, dy] = self.away(x, y);
+        let [dx, dy] = self.vector_from(x, y);
         // One of the two is 0 for most points: no root then.
         if dx == 0.0 || dy == 0.0 { dx + dy } else { (dx * dx + dy * dy).sqrt() }
     }
 
     /// The square of [`distance`](Self::distance).
-    pub(crate) fn square(&self, x: f64, y: f64) -> f64 {
-        let [dx, dy] = self.away(x, y);
+    pub(crate) fn square_distance(&self, x: f64, y: f64) -> f64 {
+        let [dx, dy] = self.vector_from(x, y);
         dx * dx + dy * dy
     }
 
     /// How far the point is beyond the sides, along x and along y.
-    fn away(&self, x: f64, y: f64) -> Vector {
+    fn vector_from(&self, x: f64, y: f64) -> Vector {
         [(self.min[0] - x).max(x - self.max[0]).max(0.0), (self.min[1] - y).max(y - self.max[1]).max(0.0)]
     }
 }

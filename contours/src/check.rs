@@ -1,13 +1,13 @@
-//! What numbers must be before a contour can be made of them.
+//! Checks of the numbers from which contours are made.
 
 use crate::{ContourError, Point, Range};
 
-/// Finite, all of them.
+/// Checks that all of the numbers are finite.
 pub(crate) fn finite(numbers: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ContourError> {
     not_finite(numbers).map_or(Ok(()), |(what, value)| Err(ContourError::NotFinite { what, value }))
 }
 
-/// Finite, all of what a function gives at `t`.
+/// Checks that all numbers that a function gives at `t` are finite.
 pub(crate) fn finite_at(t: f64, numbers: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), ContourError> {
     not_finite(numbers).map_or(Ok(()), |(what, value)| Err(ContourError::NotFiniteAt { what, t, value }))
 }
@@ -16,17 +16,17 @@ fn not_finite(numbers: impl IntoIterator<Item = (&'static str, f64)>) -> Option<
     numbers.into_iter().find(|(_, value)| !value.is_finite())
 }
 
-/// Positive, for a number that is finite.
+/// Checks that a finite number is positive.
 pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), ContourError> {
     if value <= 0.0 { Err(ContourError::NotPositive { what, value }) } else { Ok(()) }
 }
 
-/// A range with a start before its end, neither of them NaN.
+/// Checks that the start of a range lies before its end, and that neither is NaN.
 pub(crate) fn range(what: &'static str, Range { from, to }: Range) -> Result<(), ContourError> {
     if from < to { Ok(()) } else { Err(ContourError::EmptyRange { what, from, to }) }
 }
 
-/// Finite points.
+/// Checks that the coordinates of all points are finite.
 pub(crate) fn points(points: &[Point]) -> Result<(), ContourError> {
     match points.iter().position(|point| !point.iter().all(|side| side.is_finite())) {
         Some(index) => Err(ContourError::PointNotFinite { point: index + 1, x: points[index][0], y: points[index][1] }),

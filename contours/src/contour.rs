@@ -109,7 +109,7 @@ pub trait Contour: Send + Sync + Debug {
     /// more between two of them is parted evenly by angle. Two inflections within one cell go unseen, and a range that
     /// goes on for ever is not parted. A shape whose closest points are exact on any arc may return none.
     fn cuts(&self, range: Range) -> Vec<f64> {
-        cuts::sampled(|t| self.frame(t), range)
+        cuts::from_samples(|t| self.frame(t), range)
     }
 
     /// Whether the part in `range`, as a whole, lies on one side of each of its tangents: a point outside of it, as far as

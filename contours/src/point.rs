@@ -15,7 +15,7 @@ pub(crate) const SMOOTH: f64 = 1e-9;
 const CLOSED: f64 = 1e-9;
 
 /// From `p` to `q` by the fraction `t`; both come out exactly.
-pub(crate) fn between(p: Point, q: Point, t: f64) -> Point {
+pub(crate) fn lerp(p: Point, q: Point, t: f64) -> Point {
     [0, 1].map(|k| p[k] * (1.0 - t) + q[k] * t)
 }
 
@@ -28,7 +28,7 @@ pub(crate) fn minus(p: Vector, q: Vector) -> Vector {
     [p[0] - q[0], p[1] - q[1]]
 }
 
-pub(crate) fn scaled(factor: f64, [x, y]: Vector) -> Vector {
+pub(crate) fn scale(factor: f64, [x, y]: Vector) -> Vector {
     [factor * x, factor * y]
 }
 
@@ -47,8 +47,8 @@ pub(crate) fn cross(p: Vector, q: Vector) -> f64 {
     p[0] * q[1] - p[1] * q[0]
 }
 
-/// Whether the last point is the first one given again.
-pub(crate) fn comes_back(points: &[Point]) -> bool {
+/// Whether the last point repeats the first one.
+pub(crate) fn is_closed(points: &[Point]) -> bool {
     let [first, .., last] = *points else { return false };
     let around: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
     distance(first, last) <= CLOSED * around

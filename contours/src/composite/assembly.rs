@@ -1,4 +1,4 @@
-//! Putting pieces in their places: where consecutive ones meet or cross, and what stands between them.
+//! Puts pieces in their places: finds where consecutive ones meet or cross, and the joints between them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,11 +16,11 @@ const MEETING: f64 = 1e-9;
 /// The shapes as pieces, whole.
 ///
 /// Those that are not known to keep the contract of [`Contour`] are tested for plain mistakes.
-pub(crate) fn whole(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
+pub(crate) fn whole_pieces(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
     let piece = |(index, shape): (usize, Box<dyn Contour>)| {
-        let range = checked(shape.range(), index + 1)?;
+        let range = check_range(shape.range(), index + 1)?;
         let tested = shape.trust(Seal(())).contract;
-        match if tested { None } else { spot_check::broken(&*shape) } {
+        match if tested { None } else { spot_check::broken_line(&*shape) } {
             Some(broken) => Err(ContourError::Contract { piece: index + 1, broken }),
             None => Ok(Piece::new(shape, range)),
         }
@@ -29,14 +29,14 @@ pub(crate) fn whole(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, Contour
 }
 
 /// Each piece up to where it meets the next one or enters its solid, see [`Composite::joined`](crate::Composite::joined).
-pub(crate) fn crossing(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
-    let mut pieces = whole(shapes)?;
+pub(crate) fn crossing_pieces(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, ContourError> {
+    let mut pieces = whole_pieces(shapes)?;
     for next in 2..=pieces.len() {
         let piece = next - 1;
         let (before, after) = pieces.split_at_mut(piece);
         let (before, after) = (&mut before[piece - 1], &mut after[0]);
-        let range = checked(before.range, piece)?;
-        let apart = match meeting(before, after, piece) {
+        let range = check_range(before.range, piece)?;
+        let apart = match meeting_frames(before, after, piece) {
             Ok(_) => continue,
             // Ends that should have met, but for the crossing that is not there either.
             Err(error @ ContourError::Apart { .. }) => error,
@@ -54,17 +54,17 @@ pub(crate) fn crossing(shapes: Vec<Box<dyn Contour>>) -> Result<Vec<Piece>, Cont
 
 /// Checks that consecutive ends meet, and sets the pieces' offsets, whole turns and the joints between them. Returns
 /// how many turns the contour takes if its end meets its start, 0 if it does not.
-pub(crate) fn placed(pieces: &mut [Piece]) -> Result<i32, ContourError> {
+pub(crate) fn place_pieces(pieces: &mut [Piece]) -> Result<i32, ContourError> {
     if pieces.is_empty() {
         return Err(ContourError::Empty);
     }
     for (index, piece) in pieces.iter().enumerate() {
-        checked(piece.range, index + 1)?;
+        check_range(piece.range, index + 1)?;
     }
     for index in 1..pieces.len() {
         let (before, after) = pieces.split_at_mut(index);
         let (before, after) = (&mut before[index - 1], &mut after[0]);
-        let (end, start) = meeting(before, after, index)?;
+        let (end, start) = meeting_frames(before, after, index)?;
         let turn = turn(end, start);
         // Rounded to whole turns, the piece keeps the digits of its own angle.
         after.turns = whole_turns(end.alpha + turn - start.alpha);
@@ -74,7 +74,7 @@ pub(crate) fn placed(pieces: &mut [Piece]) -> Result<i32, ContourError> {
         after.offset = before.after() - after.range.from;
     }
     let last = pieces.len() - 1;
-    let Ok((end, start)) = meeting(&pieces[last], &pieces[0], last + 1) else { return Ok(0) };
+    let Ok((end, start)) = meeting_frames(&pieces[last], &pieces[0], last + 1) else { return Ok(0) };
     let turn = turn(end, start);
     let turns = whole_turns(end.alpha + turn - start.alpha);
     if turns.abs() != 1 {
@@ -96,8 +96,8 @@ fn whole_turns(angle: f64) -> i32 {
     (angle / TAU).round() as i32
 }
 
-/// The range of a piece, if it is one.
-fn checked(range: Range, piece: usize) -> Result<Range, ContourError> {
+/// Checks that the range of a piece has a length.
+fn check_range(range: Range, piece: usize) -> Result<Range, ContourError> {
     if range.from < range.to {
         Ok(range)
     } else {
@@ -106,7 +106,7 @@ fn checked(range: Range, piece: usize) -> Result<Range, ContourError> {
 }
 
 /// The frames in which piece `number` (from 1) ends and the next one starts, if they meet.
-fn meeting(before: &Piece, after: &Piece, number: usize) -> Result<(Frame, Frame), ContourError> {
+fn meeting_frames(before: &Piece, after: &Piece, number: usize) -> Result<(Frame, Frame), ContourError> {
     let (end, start) = (before.last(), after.first());
     let finite = |t: f64, frame: Frame| t.is_finite() && frame.x.is_finite() && frame.y.is_finite();
     if !finite(before.range.to, end) {

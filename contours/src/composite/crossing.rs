@@ -117,14 +117,14 @@ impl Walk<'_> {
         }
         let places = [high.t, self.next.closest(frame.x, frame.y).t];
         let frames = |[leaves, enters]: [f64; 2]| [self.shape.frame(leaves), self.next.frame(enters)];
-        let (_, [leaves, enters]) = brought_together(places, [self.shape.range(), self.next.range()], frames);
+        let (_, [leaves, enters]) = newton_crossing(places, [self.shape.range(), self.next.range()], frames);
         Some(Crossing { leaves, enters })
     }
 }
 
 /// Newton's iteration on `r1(places[0]) = r2(places[1])`, as long as it brings the two points together: how far apart
 /// they are then, and the places.
-pub(crate) fn brought_together(
+pub(crate) fn newton_crossing(
     places: [f64; 2],
     ranges: [Range; 2],
     frames: impl Fn([f64; 2]) -> [Frame; 2],

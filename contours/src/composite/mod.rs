@@ -16,13 +16,12 @@ pub use stretch::{Part, Stretch, StretchKind};
 
 use std::sync::Arc;
 
-use crate::Index;
 use crate::contour::{Seal, Trust};
 use crate::proof::limits;
-use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Range};
+use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Index, Range};
 use joint::{Joint, VertexRate};
-use piece::{Piece, owned};
-use run::Stored;
+use piece::{Piece, unshared_pieces};
+use run::StoredRun;
 
 /// Pieces in order, with the solid on the left, as one contour with one parameter.
 ///
@@ -59,7 +58,7 @@ pub struct Composite {
     /// Of the cells (of the pieces, where none is cut), each with the joint after it.
     index: Index,
     /// Neighbouring cells that bend one way, in order, and their boxes.
-    runs: Vec<Stored>,
+    runs: Vec<StoredRun>,
     /// None where each cell is a run.
     run_index: Option<Index>,
     /// The boxes of the runs where they are few and the index keeps none.
@@ -87,7 +86,7 @@ impl Composite {
     /// A shape from outside this crate, a [`Graph`](crate::Graph) and a [`Curve`](crate::Curve) are tested at five places;
     /// one that breaks the contract of [`Contour`] there is refused ([`ContourError::Contract`]).
     pub fn new(pieces: Vec<Box<dyn Contour>>) -> Result<Self, ContourError> {
-        Self::assembled(assembly::whole(pieces)?)
+        Self::assemble(assembly::whole_pieces(pieces)?)
     }
 
     /// Pieces that meet or cross: each is left at its end, where the next one starts there, and else at the first point
@@ -101,7 +100,7 @@ impl Composite {
     /// Those of [`Composite::new`]; consecutive pieces that do not cross ([`ContourError::NoCrossing`]); a piece that
     /// its neighbours hide ([`ContourError::Hidden`]).
     pub fn joined(pieces: Vec<Box<dyn Contour>>) -> Result<Self, ContourError> {
-        Self::assembled(assembly::crossing(pieces)?)
+        Self::assemble(assembly::crossing_pieces(pieces)?)
     }
 
     /// One shape as a composite, with its own parameter; closed if its end meets its start after one turn.
@@ -135,7 +134,7 @@ impl Composite {
 
     /// One of the [`stretches`](Self::stretches); too large an index means the last.
     pub fn stretch(&self, index: usize) -> Stretch {
-        let (piece, joint) = self.place(self.known(index));
+        let (piece, joint) = self.piece_of(self.clamp_stretch(index));
         let at = &self.pieces[piece];
         let range = if joint {
             at.joint().range()
@@ -149,7 +148,7 @@ impl Composite {
 
     /// What one of the [`stretches`](Self::stretches) is; too large an index means the last.
     pub fn kind(&self, stretch: usize) -> StretchKind {
-        let (piece, joint) = self.place(self.known(stretch));
+        let (piece, joint) = self.piece_of(self.clamp_stretch(stretch));
         match self.pieces[piece].turn() {
             _ if !joint => StretchKind::Piece(piece),
             turn if turn > 0.0 => StretchKind::Corner { before: piece },
@@ -160,7 +159,7 @@ impl Composite {
     /// The stretch after or before another one: none beyond the ends of an open contour.
     pub fn neighbour(&self, stretch: usize, after: bool) -> Option<usize> {
         let last = self.order.len() - 1;
-        match (after, self.known(stretch)) {
+        match (after, self.clamp_stretch(stretch)) {
             (true, stretch) if stretch == last => self.is_closed().then_some(0),
             (true, stretch) => Some(stretch + 1),
             (false, 0) => self.is_closed().then_some(last),
@@ -178,9 +177,9 @@ impl Composite {
     /// The frame of one stretch (index of [`stretches`](Self::stretches); too large a one means the last) at the
     /// composite's parameter `t`, continued smoothly beyond the stretch's range.
     pub fn frame_on(&self, stretch: usize, t: f64) -> Frame {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.frame(t),
-            At::Joint(joint) => joint.frame(t - joint.range().from),
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => piece.frame(t),
+            PieceOrJoint::Joint(joint) => joint.frame(t - joint.range().from),
         }
     }
 
@@ -190,7 +189,7 @@ impl Composite {
     /// one, that is, where the point lies between the outward normals of a corner or the inward normals of a notch.
     pub fn closest_on(&self, stretch: usize, x: f64, y: f64) -> Closest {
         let closest = self.own_closest_in(stretch, self.own_range(stretch), x, y);
-        Closest { t: self.common(stretch, closest.t), ..closest }
+        Closest { t: self.common_parameter(stretch, closest.t), ..closest }
     }
 
     /// Index of the piece and its own parameter at the composite's parameter `t` on one stretch; none on a joint.
@@ -198,24 +197,24 @@ impl Composite {
         if stretch >= self.order.len() {
             return None;
         }
-        let (piece, joint) = self.place(stretch);
+        let (piece, joint) = self.piece_of(stretch);
         (!joint).then(|| (piece, t - self.pieces[piece].offset))
     }
 
     /// The range of one stretch in its own parameter, free of the rounding that an offset brings: that of the piece's
     /// shape, or the angle turned at a joint, from 0.
     pub fn own_range(&self, stretch: usize) -> Range {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.range,
-            At::Joint(joint) => joint.own_range(),
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => piece.range,
+            PieceOrJoint::Joint(joint) => joint.own_range(),
         }
     }
 
     /// [`frame_on`](Self::frame_on) by the stretch's own parameter.
     pub fn own_frame(&self, stretch: usize, u: f64) -> Frame {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.own_frame(u),
-            At::Joint(joint) => joint.frame(u),
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => piece.own_frame(u),
+            PieceOrJoint::Joint(joint) => joint.frame(u),
         }
     }
 
@@ -226,7 +225,7 @@ impl Composite {
     /// is the angle.
     pub fn own_frame_rate(&self, stretch: usize, u: f64, piece: usize, parameter: &str) -> Option<FrameRate> {
         let shape = &self.pieces.get(piece)?.shape;
-        let (at, is_joint) = self.place(self.known(stretch));
+        let (at, is_joint) = self.piece_of(self.clamp_stretch(stretch));
         if !is_joint {
             let rate = shape.frame_rate(u, parameter)?;
             return Some(if at == piece { rate } else { FrameRate::ZERO });
@@ -238,7 +237,7 @@ impl Composite {
     /// The change of the upper or lower end of [`own_range`](Self::own_range) with a parameter of the shape of `piece`; none as
     /// for [`own_frame_rate`](Self::own_frame_rate), and where the piece has no vertex there.
     pub fn own_border_rate(&self, stretch: usize, upper: bool, piece: usize, parameter: &str) -> Option<f64> {
-        let (at, is_joint) = self.place(self.known(stretch));
+        let (at, is_joint) = self.piece_of(self.clamp_stretch(stretch));
         if is_joint {
             let [before, after] = self.vertex_rate(at, piece, parameter)?.alphas;
             // The own parameter of a joint begins with 0 at the angle where the piece before it ends.
@@ -280,32 +279,32 @@ impl Composite {
     /// Change of a stretch's own parameter per length of the contour, about its middle and rounded to a power of two; none for
     /// a joint, whose parameter is an angle.
     pub fn own_pace(&self, stretch: usize) -> Option<f64> {
-        let (piece, joint) = self.place(self.known(stretch));
+        let (piece, joint) = self.piece_of(self.clamp_stretch(stretch));
         (!joint).then(|| self.pieces[piece].pace)
     }
 
     /// [`closest_on`](Self::closest_on) for a part of the stretch, by the stretch's own parameter.
     pub fn own_closest_in(&self, stretch: usize, range: Range, x: f64, y: f64) -> Closest {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.own_closest_in(range, x, y),
-            At::Joint(joint) => joint.closest_in(range, x, y),
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => piece.own_closest_in(range, x, y),
+            PieceOrJoint::Joint(joint) => joint.closest_in(range, x, y),
         }
     }
 
     /// The least and the largest [curvature](Contour::curvature_in) of a part of a stretch, by the stretch's own parameter:
     /// infinity for a corner, minus infinity for a notch.
     pub fn own_curvature_in(&self, stretch: usize, range: Range) -> (f64, f64) {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.shape.curvature_in(range),
-            At::Joint(joint) => joint.curvature(),
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => piece.shape.curvature_in(range),
+            PieceOrJoint::Joint(joint) => joint.curvature(),
         }
     }
 
     /// Whether the closest points of a stretch [are exact](Contour::closest_is_exact); those of joints are.
     pub fn own_closest_is_exact(&self, stretch: usize) -> bool {
-        match self.at(stretch) {
-            At::Piece(piece) => piece.shape.closest_is_exact(),
-            At::Joint(_) => true,
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => piece.shape.closest_is_exact(),
+            PieceOrJoint::Joint(_) => true,
         }
     }
 
@@ -352,7 +351,7 @@ impl Composite {
 
     /// Whether it is the border of a convex body: closed, and nowhere bent inwards.
     pub fn is_convex_body(&self) -> bool {
-        matches!(self.runs[..], [Stored { closed: true, .. }])
+        matches!(self.runs[..], [StoredRun { closed: true, .. }])
     }
 
     /// Whether bends and closest points of all pieces are proven, not sampled.
@@ -369,7 +368,7 @@ impl Composite {
 
     /// The closest point of a run, with the joints inside it; too large a number means the last run.
     pub fn run_closest(&self, run: usize, x: f64, y: f64) -> RunClosest {
-        let Stored { cells: [first, last], closed, .. } = self.runs[run.min(self.runs.len() - 1)];
+        let StoredRun { cells: [first, last], closed, .. } = self.runs[run.min(self.runs.len() - 1)];
         let mut best: Option<RunClosest> = None;
         self.index.nearest_among([first as usize, last as usize], x, y, &mut |cell| {
             let [arc, joint] = self.parts_of(cell);
@@ -405,8 +404,8 @@ impl Composite {
 
     /// Whether a stretch, at its own parameter `t`, is part of a run.
     pub fn run_holds(&self, run: usize, stretch: usize, t: f64) -> bool {
-        let Stored { cells: [first, last], closed, .. } = self.runs[run.min(self.runs.len() - 1)];
-        let (piece, is_joint) = self.place(self.known(stretch));
+        let StoredRun { cells: [first, last], closed, .. } = self.runs[run.min(self.runs.len() - 1)];
+        let (piece, is_joint) = self.piece_of(self.clamp_stretch(stretch));
         let cell = if self.cells.is_empty() {
             piece
         } else {
@@ -436,42 +435,44 @@ impl Composite {
 
     /// The arcs of a run, without the joints between them.
     pub fn run_arcs(&self, run: usize) -> impl Iterator<Item = Part> {
-        let Stored { cells: [first, last], .. } = self.runs[run.min(self.runs.len() - 1)];
+        let StoredRun { cells: [first, last], .. } = self.runs[run.min(self.runs.len() - 1)];
         (first as usize..last as usize).filter_map(|cell| self.parts_of(cell)[0])
     }
 
-    fn assembled(mut pieces: Vec<Piece>) -> Result<Self, ContourError> {
-        match assembly::placed(&mut pieces) {
+    fn assemble(mut pieces: Vec<Piece>) -> Result<Self, ContourError> {
+        match assembly::place_pieces(&mut pieces) {
             Ok(turns) => {
-                let contour = Self::laid_out(pieces, turns);
+                let contour = Self::from_placed_pieces(pieces, turns);
                 contour.crossing_of_a_piece().map_or(Ok(contour), |crossing| Err(crossing.into()))
             }
             // Where it crosses itself is easier to mend than how often it turns.
-            Err(error @ ContourError::Loops { .. }) => Err(Self::laid_out(pieces, 0).simple().err().unwrap_or(error)),
+            Err(error @ ContourError::Loops { .. }) => {
+                Err(Self::from_placed_pieces(pieces, 0).without_self_crossing().err().unwrap_or(error))
+            }
             Err(error) => Err(error),
         }
     }
 
     /// The contour itself, unless it crosses itself: then [`ContourError::Crosses`].
-    pub(crate) fn simple(self) -> Result<Self, ContourError> {
+    pub(crate) fn without_self_crossing(self) -> Result<Self, ContourError> {
         match self.self_crossing() {
             None => Ok(self),
             Some(crossing) => Err(crossing.into()),
         }
     }
 
-    /// Whether each piece, by what is known of its shape, may cross itself.
+    /// For each piece, whether its shape may cross itself: false only where the way in which it was made excludes that.
     pub(crate) fn may_cross_themselves(&self) -> impl Iterator<Item = bool> {
         self.pieces.iter().map(|piece| !piece.shape.trust(Seal(())).simple)
     }
 
     /// The pieces in order, and the turns of a closed contour (0 for an open one).
-    pub(crate) fn taken_apart(self) -> (Vec<Piece>, i32) {
-        (owned(self.pieces), self.turns)
+    pub(crate) fn into_placed_pieces(self) -> (Vec<Piece>, i32) {
+        (unshared_pieces(self.pieces), self.turns)
     }
 
-    /// Lists the stretches of placed pieces and cuts them into cells.
-    pub(crate) fn laid_out(mut pieces: Vec<Piece>, turns: i32) -> Self {
+    /// The contour of pieces that are in their places: lists their stretches, cuts them into cells and groups these into runs.
+    pub(crate) fn from_placed_pieces(mut pieces: Vec<Piece>, turns: i32) -> Self {
         let mut order = Vec::with_capacity(pieces.iter().map(|piece| 1 + usize::from(piece.has_joint())).sum());
         for (index, piece) in pieces.iter_mut().enumerate() {
             piece.set_pace();
@@ -497,7 +498,7 @@ impl Composite {
             let joint = if range.to == piece.range.to { piece.turn() } else { 0.0 };
             run::Arc { piece, range: *range, joint }
         });
-        let runs = run::runs(arcs, turns);
+        let runs = run::group_into_runs(arcs, turns);
         let boxes = runs.iter().map(|run| {
             let arcs = &cells[run.cells[0] as usize..run.cells[1] as usize];
             let boxes = arcs.iter().map(|cell| pieces[cell.piece as usize].bounds_in(cell.range));
@@ -516,37 +517,37 @@ impl Composite {
         Self { pieces, order, turns, cells, index, runs, run_index, run_boxes, proven, bounds }
     }
 
-    fn known(&self, stretch: usize) -> usize {
+    fn clamp_stretch(&self, stretch: usize) -> usize {
         stretch.min(self.order.len() - 1)
     }
 
     /// The piece of a stretch, and whether the stretch is the joint after it.
-    fn place(&self, stretch: usize) -> (usize, bool) {
+    fn piece_of(&self, stretch: usize) -> (usize, bool) {
         let place = self.order[stretch];
         ((place / 2) as usize, place % 2 == 1)
     }
 
-    fn at(&self, stretch: usize) -> At<'_> {
-        let (piece, joint) = self.place(self.known(stretch));
+    fn piece_or_joint(&self, stretch: usize) -> PieceOrJoint<'_> {
+        let (piece, joint) = self.piece_of(self.clamp_stretch(stretch));
         let piece = &self.pieces[piece];
-        if joint { At::Joint(piece.joint()) } else { At::Piece(piece) }
+        if joint { PieceOrJoint::Joint(piece.joint()) } else { PieceOrJoint::Piece(piece) }
     }
 
     /// The composite's parameter from the stretch's own.
-    pub(crate) fn common(&self, stretch: usize, t: f64) -> f64 {
+    pub(crate) fn common_parameter(&self, stretch: usize, t: f64) -> f64 {
         let range = self.stretch(stretch).range;
         // Rounding of the offset must not move the point out of the range.
-        match self.at(stretch) {
-            At::Piece(piece) => range.clamp(t + piece.offset),
-            At::Joint(_) => range.clamp(t + range.from),
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => range.clamp(t + piece.offset),
+            PieceOrJoint::Joint(_) => range.clamp(t + range.from),
         }
     }
 
     /// The stretch's own parameter from the composite's.
-    fn own(&self, stretch: usize, t: f64) -> f64 {
-        match self.at(stretch) {
-            At::Piece(piece) => t - piece.offset,
-            At::Joint(joint) => t - joint.range().from,
+    fn own_parameter(&self, stretch: usize, t: f64) -> f64 {
+        match self.piece_or_joint(stretch) {
+            PieceOrJoint::Piece(piece) => t - piece.offset,
+            PieceOrJoint::Joint(joint) => t - joint.range().from,
         }
     }
 
@@ -574,25 +575,25 @@ impl Composite {
         let (common, all) = (self.stretch(stretch).range, self.own_range(stretch));
         // Where the range takes all of the stretch nothing is lost to the offset.
         let asked = Range {
-            from: if range.from <= common.from { all.from } else { self.own(stretch, range.from) },
-            to: if range.to >= common.to { all.to } else { self.own(stretch, range.to) },
+            from: if range.from <= common.from { all.from } else { self.own_parameter(stretch, range.from) },
+            to: if range.to >= common.to { all.to } else { self.own_parameter(stretch, range.to) },
         };
         let part = own.within(asked);
         if part.from > part.to || asked.from > own.to || asked.to < own.from {
             return None;
         }
         let closest = self.own_closest_in(stretch, part, x, y);
-        let mut closest = Closest { t: range.clamp(self.common(stretch, closest.t)), ..closest };
-        if !closest.interior && self.goes_on(stretch, part, own, range, closest.t)? {
+        let mut closest = Closest { t: range.clamp(self.common_parameter(stretch, closest.t)), ..closest };
+        if !closest.interior && self.continues_smoothly(stretch, part, own, range, closest.t)? {
             closest.interior = true;
         }
         Some(closest)
     }
 
     /// Whether the contour within `range` goes on smoothly beyond the end `t` of a part; none where a joint goes on.
-    fn goes_on(&self, stretch: usize, part: Range, own: Range, range: Range, t: f64) -> Option<bool> {
+    fn continues_smoothly(&self, stretch: usize, part: Range, own: Range, range: Range, t: f64) -> Option<bool> {
         let (common, all) = (self.stretch(stretch).range, self.own_range(stretch));
-        let at_start = t - self.common(stretch, part.from) < self.common(stretch, part.to) - t;
+        let at_start = t - self.common_parameter(stretch, part.from) < self.common_parameter(stretch, part.to) - t;
         let (end, own_end, all_end) =
             if at_start { (part.from, own.from, all.from) } else { (part.to, own.to, all.to) };
         if end != own_end {
@@ -606,7 +607,7 @@ impl Composite {
         let inside = if at_start { common.from > range.from } else { common.to < range.to };
         let seam = self.is_closed() && range.from <= whole.from && range.to >= whole.to;
         match self.neighbour(stretch, !at_start).filter(|_| inside || seam) {
-            Some(neighbour) if self.place(neighbour).1 && !self.place(stretch).1 => None,
+            Some(neighbour) if self.piece_of(neighbour).1 && !self.piece_of(stretch).1 => None,
             neighbour => Some(neighbour.is_some()),
         }
     }
@@ -626,7 +627,7 @@ pub struct RunClosest {
 }
 
 /// A piece or a joint.
-enum At<'a> {
+enum PieceOrJoint<'a> {
     Piece(&'a Piece),
     Joint(Joint),
 }
@@ -657,7 +658,7 @@ impl Contour for Composite {
         best.unwrap_or_else(|| {
             let t = range.window(1.0).from;
             let stretch = self.stretch_at(t);
-            let own = self.own_range(stretch).clamp(self.own(stretch, t));
+            let own = self.own_range(stretch).clamp(self.own_parameter(stretch, t));
             let closest = self.own_closest_in(stretch, Range { from: own, to: own }, x, y);
             Closest { t: range.clamp(t), ..closest }
         })
@@ -671,9 +672,11 @@ impl Contour for Composite {
         let (first, last) = (self.stretch_at(range.from), self.stretch_at(range.to));
         let mut bounds = Bounds::EMPTY;
         for stretch in first..=last {
-            bounds = match self.at(stretch) {
-                At::Piece(piece) => bounds.union(piece.bounds_in(piece.range.within(range.shifted(-piece.offset)))),
-                At::Joint(joint) => bounds.union(joint.bounds()),
+            bounds = match self.piece_or_joint(stretch) {
+                PieceOrJoint::Piece(piece) => {
+                    bounds.union(piece.bounds_in(piece.range.within(range.shifted(-piece.offset))))
+                }
+                PieceOrJoint::Joint(joint) => bounds.union(joint.bounds()),
             };
         }
         bounds
@@ -687,9 +690,11 @@ impl Contour for Composite {
     fn curvature_in(&self, range: Range) -> (f64, f64) {
         let (first, last) = (self.stretch_at(range.from), self.stretch_at(range.to));
         (first..=last).fold(limits::NO_CURVATURE, |bounds, stretch| {
-            let of_stretch = match self.at(stretch) {
-                At::Piece(piece) => piece.shape.curvature_in(piece.range.within(range.shifted(-piece.offset))),
-                At::Joint(joint) => joint.curvature(),
+            let of_stretch = match self.piece_or_joint(stretch) {
+                PieceOrJoint::Piece(piece) => {
+                    piece.shape.curvature_in(piece.range.within(range.shifted(-piece.offset)))
+                }
+                PieceOrJoint::Joint(joint) => joint.curvature(),
             };
             limits::curvature_union(bounds, of_stretch)
         })

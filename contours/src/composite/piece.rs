@@ -35,12 +35,12 @@ impl Piece {
         Self { shape, range, offset: 0.0, turns: 0, stretch: 0, pace: 1.0, turn: 0.0, end: [0.0; 3] }
     }
 
-    /// The same place for a shape that stands for this one.
+    /// The piece with another shape, which must be the same curve.
     pub fn with_shape(&self, shape: Box<dyn Contour>) -> Self {
         Self { shape, ..*self }
     }
 
-    /// Measures the pace, once the range is what it stays.
+    /// Measures the pace; the range must be final.
     pub fn set_pace(&mut self) {
         // of a piece that goes on for ever: where it begins, or at 0, as these are the same points in any unit of length
         let t = if self.range.is_finite() { self.range.at(0.5) } else { self.range.clamp(0.0) };
@@ -86,13 +86,13 @@ impl Piece {
 
     /// The frame at the shape's own parameter `u`.
     pub fn own_frame(&self, u: f64) -> Frame {
-        self.wound(self.shape.frame(u))
+        self.with_turns(self.shape.frame(u))
     }
 
     /// The closest point of the part in `range`, both by the shape's own parameter.
     pub fn own_closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let closest = self.shape.closest_in(range, x, y);
-        Closest { frame: self.wound(closest.frame), ..closest }
+        Closest { frame: self.with_turns(closest.frame), ..closest }
     }
 
     /// The first frame of the piece.
@@ -121,7 +121,7 @@ impl Piece {
             .fold(0.0, |scale: f64, frame| scale.max(frame.x.abs()).max(frame.y.abs()))
     }
 
-    fn wound(&self, frame: Frame) -> Frame {
+    fn with_turns(&self, frame: Frame) -> Frame {
         Frame { alpha: frame.alpha + TAU * f64::from(self.turns), ..frame }
     }
 }
@@ -143,8 +143,8 @@ impl Deref for Shared {
 
 behind_pointer!(impl Contour for Shared);
 
-/// The pieces for another contour: themselves where nobody else has them.
-pub(crate) fn owned(pieces: Arc<Vec<Piece>>) -> Vec<Piece> {
+/// The pieces for another contour: moved out where no clone shares them, else new pieces that refer to the shared shapes.
+pub(crate) fn unshared_pieces(pieces: Arc<Vec<Piece>>) -> Vec<Piece> {
     Arc::try_unwrap(pieces).unwrap_or_else(|pieces| {
         let shared =
             |(index, piece): (usize, &Piece)| piece.with_shape(Box::new(Shared { pieces: pieces.clone(), index }));

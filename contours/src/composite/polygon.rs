@@ -1,6 +1,6 @@
 //! Contours of straight edges.
 
-use crate::point::comes_back;
+use crate::point::is_closed;
 use crate::{Composite, Contour, ContourError, Line, Point, check};
 
 impl Composite {
@@ -21,7 +21,7 @@ impl Composite {
     /// ([`ContourError::PointNotFinite`]) or the same as the one before ([`ContourError::RepeatedPoint`]); edges that cross
     /// ([`ContourError::Crosses`]).
     pub fn polyline(points: &[Point]) -> Result<Self, ContourError> {
-        of_edges(edges(points, false)?)
+        composite_of_edges(edges(points, false)?)
     }
 
     /// The edges from point to point (lengths) and back to the first one, counterclockwise: the solid is inside.
@@ -42,8 +42,8 @@ impl Composite {
     /// Those of [`polyline`](Self::polyline), for fewer than three points; no area, as of points on one line
     /// ([`ContourError::NoArea`]); points that run clockwise ([`ContourError::Clockwise`]).
     pub fn polygon(points: &[Point]) -> Result<Self, ContourError> {
-        let polygon = of_edges(edges(points, true)?)?;
-        encloses(points)?;
+        let polygon = composite_of_edges(edges(points, true)?)?;
+        check_area(points)?;
         if polygon.is_cavity() { Err(ContourError::Clockwise) } else { Ok(polygon) }
     }
 
@@ -61,14 +61,14 @@ impl Composite {
     ///
     /// Those of [`polygon`](Self::polygon), with [`ContourError::Counterclockwise`] for the other direction.
     pub fn cavity(points: &[Point]) -> Result<Self, ContourError> {
-        let cavity = of_edges(edges(points, true)?)?;
-        encloses(points)?;
+        let cavity = composite_of_edges(edges(points, true)?)?;
+        check_area(points)?;
         if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
     }
 }
 
-/// Whether the edges of a closed polygon enclose an area larger than rounding.
-fn encloses(points: &[Point]) -> Result<(), ContourError> {
+/// Checks that the edges of a closed polygon enclose an area larger than rounding.
+fn check_area(points: &[Point]) -> Result<(), ContourError> {
     let [first, rest @ ..] = points else { return Ok(()) };
     let (mut area, mut terms) = (0.0, 0.0);
     for pair in rest.windows(2) {
@@ -84,7 +84,7 @@ fn encloses(points: &[Point]) -> Result<(), ContourError> {
 pub(crate) fn edges(points: &[Point], closed: bool) -> Result<Vec<Box<dyn Contour>>, ContourError> {
     check::points(points)?;
     let mut corners = points.to_vec();
-    if closed && comes_back(points) {
+    if closed && is_closed(points) {
         corners.pop();
     }
     let (what, needed) = if closed { ("a polygon", 3) } else { ("a polyline", 2) };
@@ -108,7 +108,7 @@ pub(crate) fn edges(points: &[Point], closed: bool) -> Result<Vec<Box<dyn Contou
 }
 
 /// A contour of edges that do not cross.
-fn of_edges(edges: Vec<Box<dyn Contour>>) -> Result<Composite, ContourError> {
+fn composite_of_edges(edges: Vec<Box<dyn Contour>>) -> Result<Composite, ContourError> {
     let named = |error| match error {
         ContourError::Crosses { first, second, x, y, .. } => {
             ContourError::Crosses { what: "edge", first, second, x, y }
@@ -116,7 +116,7 @@ fn of_edges(edges: Vec<Box<dyn Contour>>) -> Result<Composite, ContourError> {
         error => error,
     };
     let contour = Composite::new(edges).map_err(named)?;
-    contour.simple().map_err(named)
+    contour.without_self_crossing().map_err(named)
 }
 
 #[cfg(test)]

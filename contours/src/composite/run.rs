@@ -60,7 +60,7 @@ pub struct Run {
 
 /// A run as it is kept: there may be 1e5 of them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stored {
+pub(crate) struct StoredRun {
     /// Numbers of the first cell and of the one behind the last.
     pub cells: [u32; 2],
     pub bend: Bend,
@@ -77,8 +77,8 @@ pub(crate) struct Arc<'a> {
 }
 
 /// The runs of a contour, in its order. `turns` is 0 for an open contour.
-pub(crate) fn runs<'a>(arcs: impl Iterator<Item = Arc<'a>>, turns: i32) -> Vec<Stored> {
-    let mut runs: Vec<Stored> = Vec::new();
+pub(crate) fn group_into_runs<'a>(arcs: impl Iterator<Item = Arc<'a>>, turns: i32) -> Vec<StoredRun> {
+    let mut runs: Vec<StoredRun> = Vec::new();
     let mut ends_at_infinity = false;
     // turn of the last run, and of the joint after it
     let (mut turned, mut joint, mut whole) = (0.0, 0.0, 0.0);
@@ -102,7 +102,7 @@ pub(crate) fn runs<'a>(arcs: impl Iterator<Item = Arc<'a>>, turns: i32) -> Vec<S
                 turned += kink + turn;
             }
             None => {
-                runs.push(Stored { cells: [number, number + 1], bend, proven, closed: false });
+                runs.push(StoredRun { cells: [number, number + 1], bend, proven, closed: false });
                 turned = turn;
             }
         }
@@ -114,7 +114,7 @@ pub(crate) fn runs<'a>(arcs: impl Iterator<Item = Arc<'a>>, turns: i32) -> Vec<S
     if turns == 1 && whole >= -STRAIGHT && runs.iter().all(|run| run.bend == Bend::Outward) {
         let cells = [0, runs.last().map_or(0, |run| run.cells[1])];
         let proven = runs.iter().all(|run| run.proven);
-        return vec![Stored { cells, bend: Bend::Outward, proven, closed: true }];
+        return vec![StoredRun { cells, bend: Bend::Outward, proven, closed: true }];
     }
     runs
 }
@@ -141,8 +141,8 @@ fn bend(piece: &Piece, range: Range) -> (Bend, bool) {
 
 impl Run {
     /// A stored run, from the pieces and parts of the first and the last of its arcs and a box around all of them.
-    pub(crate) fn new(stored: &Stored, [first, last]: [(&Piece, Range); 2], bounds: Bounds) -> Self {
-        let Stored { bend, proven, closed, .. } = *stored;
+    pub(crate) fn new(stored: &StoredRun, [first, last]: [(&Piece, Range); 2], bounds: Bounds) -> Self {
+        let StoredRun { bend, proven, closed, .. } = *stored;
         let at = [(first.0, first.1.from, 1.0), (last.0, last.1.to, -1.0)];
         let open = |value: Option<_>| value.filter(|_| !closed);
         let ends = at.map(|(piece, t, sign)| open(t.is_finite().then(|| end(&piece.own_frame(t), sign))));

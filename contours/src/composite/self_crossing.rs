@@ -2,10 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::crossing::brought_together;
+use super::crossing::newton_crossing;
 use crate::point::{cross, minus};
-use crate::{Bounds, Composite, ContourError, Frame, Part, Range, StretchKind};
-use crate::{Index, Point};
+use crate::{Bounds, Composite, ContourError, Frame, Index, Part, Point, Range, StretchKind};
 
 /// Chords of a right angle: the arc leaves them by 1/200 of its radius at most.
 const CHORDS: f64 = 8.0;
@@ -169,15 +168,15 @@ impl Chord {
             return None;
         }
         let at = |chord: &Self, share: f64| chord.range.clamp(chord.range.from + share * chord.range.length());
-        self.refined(other, [at(self, shares[0]), at(other, shares[1])], contour)
+        self.refine(other, [at(self, shares[0]), at(other, shares[1])], contour)
     }
 
     /// The crossing near these places; none where Newton's iteration does not lead to one.
-    fn refined(&self, other: &Self, places: [f64; 2], contour: &Composite) -> Option<SelfCrossing> {
+    fn refine(&self, other: &Self, places: [f64; 2], contour: &Composite) -> Option<SelfCrossing> {
         let chords = [self, other];
         let frames = |places: [f64; 2]| [0, 1].map(|side| contour.own_frame(chords[side].stretch, places[side]));
         let ranges = chords.map(|chord| contour.own_range(chord.stretch));
-        let (distance, places) = brought_together(places, ranges, frames);
+        let (distance, places) = newton_crossing(places, ranges, frames);
         let [one, two] = frames(places);
         let scale = one.x.abs().max(one.y.abs()).max(self.range.length() * one.speed);
         let near = |side: usize| {
@@ -186,11 +185,16 @@ impl Chord {
             beyond.max(places[side] - range.to) <= range.length()
         };
         let crosses = (one.alpha - two.alpha).sin().abs() > PARALLEL;
-        if distance > TOGETHER * scale || !near(0) || !near(1) || !crosses || self.continues(other, places, contour) {
+        if distance > TOGETHER * scale
+            || !near(0)
+            || !near(1)
+            || !crosses
+            || self.is_continued_by(other, places, contour)
+        {
             return None;
         }
         Some(SelfCrossing {
-            places: [0, 1].map(|side| contour.common(chords[side].stretch, places[side])),
+            places: [0, 1].map(|side| contour.common_parameter(chords[side].stretch, places[side])),
             pieces: chords.map(|chord| match contour.kind(chord.stretch) {
                 StretchKind::Piece(piece) => piece,
                 StretchKind::Corner { before } | StretchKind::Notch { before } => before,
@@ -200,7 +204,7 @@ impl Chord {
     }
 
     /// Whether both places are one and the same place of the contour.
-    fn continues(&self, other: &Self, places: [f64; 2], contour: &Composite) -> bool {
+    fn is_continued_by(&self, other: &Self, places: [f64; 2], contour: &Composite) -> bool {
         let tiny = SLACK * self.range.length().max(other.range.length());
         if self.stretch == other.stretch && (places[1] - places[0]).abs() <= tiny {
             return true;

@@ -23,11 +23,11 @@ impl Composite {
     ///
     /// Those of [`Moved::new`].
     pub fn moved(self, motion: Motion) -> Result<Self, ContourError> {
-        let motion = motion.checked()?;
+        let motion = motion.check()?;
         if motion == Motion::IDENTITY {
             return Ok(self);
         }
-        let (pieces, turns) = self.taken_apart();
+        let (pieces, turns) = self.into_placed_pieces();
         let joints: Vec<f64> = pieces.iter().map(Piece::turn).collect();
         let moved = |piece: Piece| -> Result<Piece, ContourError> {
             let Piece { range, offset, turns, .. } = piece;
@@ -39,11 +39,11 @@ impl Composite {
         let mut pieces = pieces.into_iter().map(moved).collect::<Result<Vec<_>, _>>()?;
         if motion.mirror {
             pieces.reverse();
-            join(&mut pieces, &joints_backwards(joints));
+            set_joints(&mut pieces, &joints_backwards(joints));
         } else {
-            join(&mut pieces, &joints);
+            set_joints(&mut pieces, &joints);
         }
-        Ok(Self::laid_out(pieces, turns))
+        Ok(Self::from_placed_pieces(pieces, turns))
     }
 
     /// The contour travelled the other way, by `-t`: solid and outside are exchanged, corners become notches.
@@ -57,7 +57,7 @@ impl Composite {
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
     pub fn reversed(self) -> Self {
-        let (pieces, turns) = self.taken_apart();
+        let (pieces, turns) = self.into_placed_pieces();
         let joints = pieces.iter().map(|piece| -piece.turn()).collect();
         let reversed = |piece: Piece| {
             let mut reversed = Piece::new(Box::new(Reversed::new(piece.shape)), piece.range.backwards());
@@ -65,8 +65,8 @@ impl Composite {
             reversed
         };
         let mut pieces: Vec<Piece> = pieces.into_iter().rev().map(reversed).collect();
-        join(&mut pieces, &joints_backwards(joints));
-        Self::laid_out(pieces, -turns)
+        set_joints(&mut pieces, &joints_backwards(joints));
+        Self::from_placed_pieces(pieces, -turns)
     }
 
     /// The pieces in order, each trimmed to its part of the contour; [`new`](Self::new) puts them together again.
@@ -81,14 +81,14 @@ impl Composite {
     /// # Ok::<(), rod_contours::ContourError>(())
     /// ```
     pub fn into_pieces(self) -> Vec<Box<dyn Contour>> {
-        let (pieces, _) = self.taken_apart();
+        let (pieces, _) = self.into_placed_pieces();
         pieces
             .into_iter()
             .map(|piece| {
                 if piece.range == piece.shape.range() {
                     piece.shape
                 } else {
-                    Box::new(Trimmed::known(piece.shape, piece.range))
+                    Box::new(Trimmed::of_part(piece.shape, piece.range))
                 }
             })
             .collect()
@@ -102,7 +102,7 @@ fn joints_backwards(mut joints: Vec<f64>) -> Vec<f64> {
     joints
 }
 
-fn join(pieces: &mut [Piece], joints: &[f64]) {
+fn set_joints(pieces: &mut [Piece], joints: &[f64]) {
     for (piece, &turn) in pieces.iter_mut().zip(joints) {
         if turn != 0.0 {
             piece.set_turn(turn);

@@ -41,7 +41,7 @@ const HALVINGS: usize = 48;
 const PART: f64 = 0.02;
 
 /// A line of the contract that the shape breaks; none if it seems right.
-pub(crate) fn broken(shape: &dyn Contour) -> Option<Broken> {
+pub(crate) fn broken_line(shape: &dyn Contour) -> Option<Broken> {
     let range = shape.range();
     let window = range.window(WINDOW);
     let mut scale = 0.0_f64;
@@ -91,7 +91,7 @@ impl Probe<'_> {
         let width = to - from;
         let [v0, v1, v2] = [before, here, after].map(velocity);
         let error = (after.x - before.x - width * v1[0]).hypot(after.y - before.y - width * v1[1]);
-        let varies = off_even([v0[0], v1[0], v2[0]]).hypot(off_even([v0[1], v1[1], v2[1]]));
+        let varies = unevenness([v0[0], v1[0], v2[0]]).hypot(unevenness([v0[1], v1[1], v2[1]]));
         if error > width * (VARIES * varies + RATE * here.speed) + ROUNDING * self.scale {
             let speed = (after.x - before.x).hypot(after.y - before.y) / width;
             let direction = (after.y - before.y).atan2(after.x - before.x);
@@ -102,7 +102,7 @@ impl Probe<'_> {
             return Some(Broken::new(2, t, found));
         }
         let error = (after.alpha - before.alpha - width * here.turning).abs();
-        let varies = off_even([before.turning, here.turning, after.turning]);
+        let varies = unevenness([before.turning, here.turning, after.turning]);
         let accepted = width * (VARIES * varies + RATE * here.turning.abs()) + ROUNDING * here.alpha.abs() + CLOSE;
         (error > accepted).then(|| {
             let turning = (after.alpha - before.alpha) / width;
@@ -183,6 +183,6 @@ fn velocity(frame: Frame) -> Vector {
 }
 
 /// By how much the second of three values may miss their mean.
-fn off_even([before, here, after]: [f64; 3]) -> f64 {
+fn unevenness([before, here, after]: [f64; 3]) -> f64 {
     (before - 2.0 * here + after).abs() + EVEN * ((before - here).abs() + (after - here).abs())
 }

@@ -23,7 +23,7 @@ const SHORTEST: f64 = 1e-9;
 const STEPS: usize = 60;
 
 /// The cuts of a contour of which only the frame is known, see [`Contour::cuts`](crate::Contour::cuts).
-pub(crate) fn sampled(frame: impl Fn(f64) -> Frame, range: Range) -> Vec<f64> {
+pub(crate) fn from_samples(frame: impl Fn(f64) -> Frame, range: Range) -> Vec<f64> {
     if !range.is_finite() {
         return Vec::new();
     }
@@ -43,12 +43,12 @@ pub(crate) fn sampled(frame: impl Fn(f64) -> Frame, range: Range) -> Vec<f64> {
         }
         last = Some((t, turning > 0.0));
     }
-    by_turn(frame, range, &bends)
+    at_equal_turns(frame, range, &bends)
 }
 
 /// The cuts of a contour whose inflections inside `range` are `bends`, in order: those, and between two of them as many
 /// as it needs, at equal angles.
-pub(crate) fn by_turn(frame: impl Fn(f64) -> Frame, range: Range, bends: &[f64]) -> Vec<f64> {
+pub(crate) fn at_equal_turns(frame: impl Fn(f64) -> Frame, range: Range, bends: &[f64]) -> Vec<f64> {
     let mut cuts = Vec::new();
     let mut from = range.from;
     let shortest = SHORTEST * range.length();
@@ -57,7 +57,7 @@ pub(crate) fn by_turn(frame: impl Fn(f64) -> Frame, range: Range, bends: &[f64])
             continue;
         }
         let (first, last) = (frame(from).alpha, frame(to).alpha);
-        let count = arcs(last - first);
+        let count = arc_count(last - first);
         for arc in 1..count {
             let turned = (last - first).abs() * arc as f64 / count as f64;
             let cut = last_where(from, to, |t| (frame(t).alpha - first).abs() < turned);
@@ -72,14 +72,14 @@ pub(crate) fn by_turn(frame: impl Fn(f64) -> Frame, range: Range, bends: &[f64])
 }
 
 /// The cuts of a shape travelled the other way, by `-t`, whose cuts these are.
-pub(crate) fn backwards(mut cuts: Vec<f64>) -> Vec<f64> {
+pub(crate) fn reverse(mut cuts: Vec<f64>) -> Vec<f64> {
     cuts.reverse();
     cuts.iter_mut().for_each(|cut| *cut = -*cut);
     cuts
 }
 
 /// How many arcs of at most a right angle make up a turn (rad).
-pub(crate) fn arcs(turn: f64) -> usize {
+pub(crate) fn arc_count(turn: f64) -> usize {
     (turn.abs() / FRAC_PI_2 * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST) as usize
 }
 
@@ -143,7 +143,7 @@ mod tests {
             assert!((cut * cut - 1.5 * (k + 1) as f64).abs() < 1e-14);
         }
         // A straight contour with noise in its turning stays whole, a quarter turn too.
-        assert_eq!(arcs(FRAC_PI_2 * (1.0 + 1e-15)), 1);
-        assert_eq!((arcs(f64::NAN), arcs(1e300)), (0, 100_000));
+        assert_eq!(arc_count(FRAC_PI_2 * (1.0 + 1e-15)), 1);
+        assert_eq!((arc_count(f64::NAN), arc_count(1e300)), (0, 100_000));
     }
 }

@@ -159,7 +159,7 @@ impl Index {
             if (number + 1) * items <= nearest.among[0] || number * items >= nearest.among[1] {
                 continue;
             }
-            let square = one.square(nearest.x, nearest.y);
+            let square = one.square_distance(nearest.x, nearest.y);
             if square > nearest.limit {
                 continue;
             }

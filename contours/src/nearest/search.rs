@@ -1,4 +1,4 @@
-//! The defaults of the trait: closest point and bounds of a contour of which only the frame is known.
+//! The defaults of the trait: closest point and bounds of a contour from samples of its frame.
 
 use crate::point::dot;
 use crate::{Bounds, Closest, Frame, Range, Vector};
@@ -55,7 +55,7 @@ pub(crate) fn closest(frame: impl Fn(f64) -> Frame, whole: Range, range: Range, 
     closest_by(&frame, whole, range, x, y, |t| Probe::of_frame(t, frame(t), x, y))
 }
 
-/// The closest point of a shape that has a cheaper way to its probes.
+/// The closest point of a shape that computes its probes in a cheaper way than from the frame.
 pub(crate) fn closest_by(
     frame: impl Fn(f64) -> Frame,
     whole: Range,

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::limits::LimitsOf;
-use crate::nearest::cuts::{by_turn, last_where};
+use crate::nearest::cuts::{at_equal_turns, last_where};
 use crate::{Frame, Range};
 
 /// Angle (rad) that a part of undecided sense may turn and still count as straight: rounding. A curve leaves its tangent by
@@ -68,7 +68,7 @@ pub(crate) fn cuts(frame: impl Fn(f64) -> Frame, limits: &LimitsOf, range: Range
         }
         last = Some(bend);
     }
-    Some(by_turn(frame, range, &inflections))
+    Some(at_equal_turns(frame, range, &inflections))
 }
 
 /// Whether the part bends one way and turns by at most a half turn: then it lies on one side of each of its tangents.

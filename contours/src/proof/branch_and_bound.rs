@@ -70,7 +70,7 @@ pub(crate) fn closest_parameter(
     while let Some((left, right, halvings)) = open.pop() {
         looked += 1;
         let part = Range { from: left.t, to: right.t };
-        let known = Known::new(left, right, limits(part));
+        let known = PartBounds::new(left, right, limits(part));
         if halvings == 0 || looked > MOST || known.least >= best.distance - ROUNDING * (best.distance + size) {
             continue;
         }
@@ -98,14 +98,14 @@ pub(crate) fn closest_parameter(
 }
 
 /// What the limits say of a part between two places.
-struct Known {
+struct PartBounds {
     /// The least that the distance can be.
     least: f64,
     /// The least that `1 + kappa h` can be.
     turns: f64,
 }
 
-impl Known {
+impl PartBounds {
     fn new(left: Place, right: Place, limits: Limits) -> Self {
         let length = limits.speed * (right.t - left.t);
         let (low, high) = limits.curvature;

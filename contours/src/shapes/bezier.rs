@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::cubic::{Cubic, nearest, roots};
 use crate::contour::{Seal, Trust};
 use crate::nearest::cuts;
-use crate::point::{between, cross, dot, minus, nearest_turn, scaled};
+use crate::point::{cross, dot, lerp, minus, nearest_turn, scale};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Point, Range, Vector, check};
 
 /// Smallest speed accepted, relative to the largest: below it the curve turns round within 1e-6 of its length, and
@@ -98,9 +98,9 @@ impl Bezier {
     /// Point, first and second derivative; both ends come out exactly.
     fn derivatives(&self, t: f64) -> [Vector; 3] {
         let cubic = self.cubic();
-        let [u, v, w] = cubic.sides().map(|side| scaled(3.0, side));
-        let (uv, vw) = (between(u, v, t), between(v, w, t));
-        [cubic.blossom([t; 3]), between(uv, vw, t), scaled(2.0, minus(vw, uv))]
+        let [u, v, w] = cubic.sides().map(|side| scale(3.0, side));
+        let (uv, vw) = (lerp(u, v, t), lerp(v, w, t));
+        [cubic.blossom([t; 3]), lerp(uv, vw, t), scale(2.0, minus(vw, uv))]
     }
 
     fn speed(&self, t: f64) -> f64 {
@@ -178,7 +178,7 @@ impl Contour for Bezier {
     fn cuts(&self, range: Range) -> Vec<f64> {
         let range = Range::UNIT.within(range);
         let bends: Vec<f64> = self.cubic().velocity().inflections().filter(|&t| range.is_interior(t)).collect();
-        cuts::by_turn(|t| self.frame(t), range, &bends)
+        cuts::at_equal_turns(|t| self.frame(t), range, &bends)
     }
 
     /// What bends one way only and turns by at most a half turn, in which case it lies on one side of each tangent.

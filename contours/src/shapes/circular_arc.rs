@@ -132,7 +132,7 @@ impl Contour for CircularArc {
     /// Arcs of equal length.
     fn cuts(&self, range: Range) -> Vec<f64> {
         let range = self.range().within(range);
-        let count = cuts::arcs(range.length() / self.radius);
+        let count = cuts::arc_count(range.length() / self.radius);
         (1..count).map(|arc| range.at(arc as f64 / count as f64)).collect()
     }
 

@@ -3,8 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::function::{self, Function};
-use super::function::{Jet, variable};
+use super::function::{self, Function, Jet, variable};
 use crate::nearest::search::CELLS;
 use crate::point::{cross, dot, nearest_turn};
 use crate::proof::limits::LimitsOf;
@@ -108,12 +107,12 @@ impl Curve {
     /// [`ContourError::NotFinite`] for a range that goes on for ever; [`ContourError::BeyondLimit`] where one of 768 samples lies
     /// outside the limits of a part around it. What lies outside between the samples goes unseen.
     pub fn with_limits(self, limits: impl Fn(Range) -> Limits + Send + Sync + 'static) -> Result<Self, ContourError> {
-        let known = function::checked(&self, limits)?;
+        let known = function::check_limits(&self, limits)?;
         Ok(Self { limits: Some(known), ..self })
     }
 
     /// Alpha at `t` where the direction is `angle`, but for whole turns.
-    fn unwrapped(&self, t: f64, angle: f64) -> f64 {
+    fn unwrap_angle(&self, t: f64, angle: f64) -> f64 {
         // Between two entries the angle is within a right angle of either; the nearer one decides at the ends too.
         let after = self.angles.partition_point(|entry| entry[0] < t).clamp(1, self.angles.len() - 1);
         let ([t_before, before], [t_after, after]) = (self.angles[after - 1], self.angles[after]);
@@ -146,7 +145,7 @@ impl Contour for Curve {
         Frame {
             x,
             y,
-            alpha: self.unwrapped(t, velocity[1].atan2(velocity[0])),
+            alpha: self.unwrap_angle(t, velocity[1].atan2(velocity[0])),
             speed,
             turning: cross(velocity, acceleration) / speed / speed,
         }

@@ -40,8 +40,8 @@ pub(crate) trait Function: Contour + Sized {
     fn derivatives_at(&self, t: f64) -> [Vector; 3];
 }
 
-/// Limits given for a shape, checked against samples of it.
-pub(crate) fn checked(
+/// The limits that the author of a shape gives, after a check against samples of it.
+pub(crate) fn check_limits(
     shape: &impl Function,
     limits: impl Fn(Range) -> Limits + Send + Sync + 'static,
 ) -> Result<LimitsOf, ContourError> {
@@ -70,7 +70,7 @@ pub(crate) fn bounds_in(shape: &impl Function, range: Range) -> Bounds {
 
 pub(crate) fn cuts(shape: &impl Function, range: Range) -> Vec<f64> {
     let known = shape.limits().and_then(|known| bending::cuts(|t| shape.frame(t), known, shape.range().within(range)));
-    known.unwrap_or_else(|| cuts::sampled(|t| shape.frame(t), range))
+    known.unwrap_or_else(|| cuts::from_samples(|t| shape.frame(t), range))
 }
 
 pub(crate) fn is_convex(shape: &impl Function, range: Range) -> bool {

@@ -3,8 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::function::{self, Function};
-use super::function::{Jet, variable};
+use super::function::{self, Function, Jet, variable};
 use crate::contour::{Seal, Trust};
 use crate::nearest::search::CELLS;
 use crate::proof::limits::LimitsOf;
@@ -97,7 +96,7 @@ impl Graph {
     /// [`ContourError::NotFinite`] for a range that goes on for ever; [`ContourError::BeyondLimit`] where one of 768 samples lies
     /// outside the limits of a part around it. What lies outside between the samples goes unseen.
     pub fn with_limits(self, limits: impl Fn(Range) -> Limits + Send + Sync + 'static) -> Result<Self, ContourError> {
-        let known = function::checked(&self, limits)?;
+        let known = function::check_limits(&self, limits)?;
         Ok(Self { limits: Some(known), ..self })
     }
 }

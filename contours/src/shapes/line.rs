@@ -41,7 +41,7 @@ impl Line {
     /// [`ContourError::SamePoint`] for points that coincide or are less than 1e-153 apart.
     pub fn new(from: Point, to: Point) -> Result<Self, ContourError> {
         let line = Self { from, to };
-        let (length, _) = line.measured();
+        let (length, _) = line.length_and_direction();
         check::finite([
             ("x of the line's first point", from[0]),
             ("y of the line's first point", from[1]),
@@ -67,7 +67,7 @@ impl Line {
     }
 
     /// Length and direction.
-    fn measured(&self) -> (f64, Vector) {
+    fn length_and_direction(&self) -> (f64, Vector) {
         let (dx, dy) = (self.to[0] - self.from[0], self.to[1] - self.from[1]);
         let length = (dx * dx + dy * dy).sqrt();
         (length, [dx / length, dy / length])
@@ -82,16 +82,16 @@ impl Line {
 
 impl Contour for Line {
     fn frame(&self, t: f64) -> Frame {
-        let (length, direction) = self.measured();
+        let (length, direction) = self.length_and_direction();
         self.frame_along(t, length, direction)
     }
 
     fn range(&self) -> Range {
-        Range { from: 0.0, to: self.measured().0 }
+        Range { from: 0.0, to: self.length_and_direction().0 }
     }
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        let (length, [cos, sin]) = self.measured();
+        let (length, [cos, sin]) = self.length_and_direction();
         let (mut dx, mut dy) = (x - self.from[0], y - self.from[1]);
         let mut ahead = dx * cos + dy * sin;
         let mut foot = ahead;
@@ -131,7 +131,7 @@ impl Contour for Line {
     }
 
     fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
-        let (length, [cos, sin]) = self.measured();
+        let (length, [cos, sin]) = self.length_and_direction();
         // An end that moves across the line turns it about the other end; along the line it changes nothing at a fixed distance
         // from the first point, which moves with its end.
         let across = t / length;

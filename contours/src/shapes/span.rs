@@ -1,4 +1,4 @@
-//! The angle an arc travels, either way round, at most once.
+//! The angle that an arc covers, in either sense, a full turn at most.
 
 use std::f64::consts::TAU;
 

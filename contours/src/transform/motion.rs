@@ -85,8 +85,8 @@ impl Motion {
         [x, if self.mirror { -y } else { y }]
     }
 
-    /// Whether all numbers are finite and the scale positive.
-    pub(crate) fn checked(self) -> Result<Self, ContourError> {
+    /// The motion, if all its numbers are finite and its scale is positive.
+    pub(crate) fn check(self) -> Result<Self, ContourError> {
         check::finite([
             ("the motion's rotation", self.rotation),
             ("x of the motion's translation", self.translation[0]),

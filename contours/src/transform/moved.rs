@@ -44,7 +44,7 @@ impl<C: Contour> Moved<C> {
     /// [`ContourError::NotFinite`] for a number of the motion that is not finite, [`ContourError::NotPositive`] for a scale
     /// that is not positive.
     pub fn new(shape: C, motion: Motion) -> Result<Self, ContourError> {
-        let motion = motion.checked()?;
+        let motion = motion.check()?;
         let (sin, cos) = motion.rotation.sin_cos();
         Ok(Self { shape, motion, axis: [cos, sin] })
     }
@@ -60,7 +60,7 @@ impl<C: Contour> Moved<C> {
     }
 
     /// A range of the shape as one of the moved shape, and the other way round.
-    fn turned(&self, range: Range) -> Range {
+    fn mirror_range(&self, range: Range) -> Range {
         if self.motion.mirror { range.backwards() } else { range }
     }
 
@@ -102,7 +102,7 @@ impl<C: Contour> Contour for Moved<C> {
     }
 
     fn range(&self) -> Range {
-        self.turned(self.shape.range())
+        self.mirror_range(self.shape.range())
     }
 
     fn closest(&self, x: f64, y: f64) -> Closest {
@@ -112,7 +112,7 @@ impl<C: Contour> Contour for Moved<C> {
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
         let [x, y] = self.motion.undo_with(self.axis, [x, y]);
-        self.moved_closest(self.shape.closest_in(self.turned(range), x, y))
+        self.moved_closest(self.shape.closest_in(self.mirror_range(range), x, y))
     }
 
     fn gap(&self, x: f64, y: f64) -> f64 {
@@ -125,20 +125,20 @@ impl<C: Contour> Contour for Moved<C> {
     }
 
     fn bounds_in(&self, range: Range) -> Bounds {
-        self.moved_bounds(self.shape.bounds_in(self.turned(range)))
+        self.moved_bounds(self.shape.bounds_in(self.mirror_range(range)))
     }
 
     fn cuts(&self, range: Range) -> Vec<f64> {
-        let cuts = self.shape.cuts(self.turned(range));
-        if self.motion.mirror { cuts::backwards(cuts) } else { cuts }
+        let cuts = self.shape.cuts(self.mirror_range(range));
+        if self.motion.mirror { cuts::reverse(cuts) } else { cuts }
     }
 
     fn is_convex(&self, range: Range) -> bool {
-        self.shape.is_convex(self.turned(range))
+        self.shape.is_convex(self.mirror_range(range))
     }
 
     fn curvature_in(&self, range: Range) -> (f64, f64) {
-        let (least, largest) = self.shape.curvature_in(self.turned(range));
+        let (least, largest) = self.shape.curvature_in(self.mirror_range(range));
         (least / self.motion.scale, largest / self.motion.scale)
     }
 

@@ -33,7 +33,7 @@ impl<C: Contour> Reversed<C> {
     }
 
     /// The closest point seen from the other side.
-    fn turned(closest: Closest, x: f64, y: f64) -> Closest {
+    fn reverse_closest(closest: Closest, x: f64, y: f64) -> Closest {
         // What is straight ahead of an end is outside either way.
         let ahead = !closest.interior && closest.frame.local(x, y).1 == 0.0;
         let gap = if ahead { closest.gap.abs() } else { -closest.gap };
@@ -55,11 +55,11 @@ impl<C: Contour> Contour for Reversed<C> {
     }
 
     fn closest(&self, x: f64, y: f64) -> Closest {
-        Self::turned(self.shape.closest(x, y), x, y)
+        Self::reverse_closest(self.shape.closest(x, y), x, y)
     }
 
     fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        Self::turned(self.shape.closest_in(range.backwards(), x, y), x, y)
+        Self::reverse_closest(self.shape.closest_in(range.backwards(), x, y), x, y)
     }
 
     fn bounds(&self) -> Bounds {
@@ -71,7 +71,7 @@ impl<C: Contour> Contour for Reversed<C> {
     }
 
     fn cuts(&self, range: Range) -> Vec<f64> {
-        cuts::backwards(self.shape.cuts(range.backwards()))
+        cuts::reverse(self.shape.cuts(range.backwards()))
     }
 
     fn is_convex(&self, range: Range) -> bool {

@@ -38,7 +38,7 @@ impl<C: Contour> Trimmed<C> {
     }
 
     /// The part in a range that is known to be one of the shape's.
-    pub(crate) fn known(shape: C, range: Range) -> Self {
+    pub(crate) fn of_part(shape: C, range: Range) -> Self {
         Self { shape, range }
     }
 

@@ -6,7 +6,7 @@
 
 use super::{Cubic, Velocity};
 use crate::Vector;
-use crate::point::{cross, dot, plus, scaled};
+use crate::point::{cross, dot, plus, scale};
 use crate::proof::limits::{ANY_CURVATURE, curvature_union};
 
 /// Times a part is halved where the speed is not known to be positive. More would bound the curvature of sharper hairpins.
@@ -72,7 +72,7 @@ fn bounded(velocity: &Velocity, from: f64, to: f64, halvings: u32) -> (f64, f64)
     };
     let size = velocity.size();
     let [u, v, w] = [(from, from), (from, to), (to, to)].map(|(a, b)| {
-        let linear = scaled(0.5 * (a + b), velocity.linear);
+        let linear = scale(0.5 * (a + b), velocity.linear);
         plus(plus(velocity.start, 1.0, linear), a * b, velocity.square)
     });
     let squares = [dot(u, u), dot(u, v), (2.0 * dot(v, v) + dot(u, w)) / 3.0, dot(v, w), dot(w, w)];

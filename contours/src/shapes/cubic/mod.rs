@@ -4,7 +4,7 @@ mod curvature;
 mod nearest;
 mod velocity;
 
-use crate::point::{between, dot, minus, plus, scaled};
+use crate::point::{dot, lerp, minus, plus, scale};
 use crate::{Bounds, Point, Vector};
 pub(crate) use nearest::nearest;
 pub(crate) use velocity::{Velocity, roots};
@@ -47,8 +47,8 @@ impl Cubic {
     pub fn point(&self, s: f64) -> Point {
         let [first, bend, twist] = self.differences();
         // From the start outwards: each term is small beside the one before.
-        let inner = plus(scaled(3.0, bend), s, twist);
-        let outer = plus(scaled(3.0, first), s, inner);
+        let inner = plus(scale(3.0, bend), s, twist);
+        let outer = plus(scale(3.0, first), s, inner);
         plus(self.control[0], s, outer)
     }
 
@@ -56,16 +56,16 @@ impl Cubic {
     pub fn velocity(&self) -> Velocity {
         let [first, bend, twist] = self.differences();
         let per = 3.0 / self.width;
-        Velocity { start: scaled(per, first), linear: scaled(2.0 * per, bend), square: scaled(per, twist) }
+        Velocity { start: scale(per, first), linear: scale(2.0 * per, bend), square: scale(per, twist) }
     }
 
     /// The blossom: one of the three numbers in each round of de Casteljau's scheme. With three times `s` that is the
     /// point, and both ends come out exactly.
     pub fn blossom(&self, [r, s, t]: [f64; 3]) -> Point {
         let [a, b, c, d] = self.control;
-        let [a, b, c] = [between(a, b, r), between(b, c, r), between(c, d, r)];
-        let [a, b] = [between(a, b, s), between(b, c, s)];
-        between(a, b, t)
+        let [a, b, c] = [lerp(a, b, r), lerp(b, c, r), lerp(c, d, r)];
+        let [a, b] = [lerp(a, b, s), lerp(b, c, s)];
+        lerp(a, b, t)
     }
 
     /// The control points of the part between two fractions.
@@ -79,9 +79,9 @@ impl Cubic {
     /// Both halves, by de Casteljau's scheme.
     pub fn halves(&self) -> [Self; 2] {
         let [a, b, c, d] = self.control;
-        let [ab, bc, cd] = [between(a, b, 0.5), between(b, c, 0.5), between(c, d, 0.5)];
-        let [left, right] = [between(ab, bc, 0.5), between(bc, cd, 0.5)];
-        let middle = between(left, right, 0.5);
+        let [ab, bc, cd] = [lerp(a, b, 0.5), lerp(b, c, 0.5), lerp(c, d, 0.5)];
+        let [left, right] = [lerp(ab, bc, 0.5), lerp(bc, cd, 0.5)];
+        let middle = lerp(left, right, 0.5);
         let width = 0.5 * self.width;
         [
             Self { control: [a, ab, left, middle], from: self.from, width },
@@ -112,8 +112,8 @@ fn standstill(control: [Point; 3], from: f64, to: f64, halvings: u32) -> Option<
     if halvings == 0 {
         return Some(at);
     }
-    let (left, right) = (between(a, b, 0.5), between(b, c, 0.5));
-    let half = between(left, right, 0.5);
+    let (left, right) = (lerp(a, b, 0.5), lerp(b, c, 0.5));
+    let half = lerp(left, right, 0.5);
     standstill([a, left, half], from, at, halvings - 1).or_else(|| standstill([half, right, c], at, to, halvings - 1))
 }
 

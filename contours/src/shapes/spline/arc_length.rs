@@ -37,18 +37,19 @@ pub(super) fn lengths(cubics: impl Iterator<Item = Cubic>) -> Vec<f64> {
 /// The length of a cubic from its start to the fraction `s`.
 pub(super) fn length_to(cubic: &Cubic, s: f64) -> f64 {
     let velocity = cubic.velocity();
-    cubic.width * halved(&velocity, 0.0, s, gauss(&velocity, 0.0, s), HALVINGS)
+    cubic.width * integrate_speed(&velocity, 0.0, s, gauss(&velocity, 0.0, s), HALVINGS)
 }
 
 /// The integral of the speed, of which the rule gives `whole`.
-fn halved(velocity: &Velocity, from: f64, to: f64, whole: f64, halvings: u32) -> f64 {
+fn integrate_speed(velocity: &Velocity, from: f64, to: f64, whole: f64, halvings: u32) -> f64 {
     let middle = 0.5 * (from + to);
     let (left, right) = (gauss(velocity, from, middle), gauss(velocity, middle, to));
     let sum = left + right;
     if (sum - whole).abs() <= ACCURACY * sum.abs() || halvings == 0 || !sum.is_finite() {
         return sum;
     }
-    halved(velocity, from, middle, left, halvings - 1) + halved(velocity, middle, to, right, halvings - 1)
+    integrate_speed(velocity, from, middle, left, halvings - 1)
+        + integrate_speed(velocity, middle, to, right, halvings - 1)
 }
 
 fn gauss(velocity: &Velocity, from: f64, to: f64) -> f64 {

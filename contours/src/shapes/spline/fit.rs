@@ -3,7 +3,7 @@
 use super::end::direction;
 use super::keys::Keys;
 use super::{Spline, SplineEnd};
-use crate::point::{comes_back, distance, minus, plus};
+use crate::point::{distance, is_closed, minus, plus};
 use crate::{ContourError, Point, Vector, check};
 
 impl Spline {
@@ -48,7 +48,7 @@ impl Spline {
 
 /// Makes the last point the first one: in its place where it is the same to rounding, else after it.
 fn close(points: &mut Vec<Point>) {
-    if comes_back(points) {
+    if is_closed(points) {
         points.pop();
     }
     points.extend(points.first().copied());
