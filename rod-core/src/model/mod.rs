@@ -3,23 +3,20 @@
 //! Above this seam (boundary-value problem, its linearisation, shapes) nothing knows whether a rod is uniform, tapered or bent at
 //! rest. Which model it is, is a type parameter, so that the uniform rod costs what it costs without a seam.
 
-mod bounds;
-mod chain;
 mod constant;
-mod pieces;
+mod interval;
 mod profile;
 mod propagator;
 mod sections;
-mod sensitivities;
 mod smooth;
 pub(crate) mod uniform;
 
+pub use interval::CutSensitivities;
 pub use profile::{Bent, Cone, Profile};
 pub(crate) use propagator::check;
 pub use propagator::{Cut, Propagator};
 pub(crate) use sections::check_sections;
 pub use sections::{RodSection, Sections};
-pub use sensitivities::CutSensitivities;
 pub use smooth::Smooth;
 pub(crate) use smooth::gauss::{AT, WEIGHT};
 pub use uniform::Uniform;

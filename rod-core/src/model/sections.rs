@@ -1,10 +1,8 @@
 //! Rods made of sections, each of constant stiffness and natural curvature: the closed form, section by section.
 
 use crate::error::RodError;
-use crate::model::bounds::{largest_curvature, moment_range, product, union};
-use crate::model::chain::Chain;
 use crate::model::constant::Constant;
-use crate::model::pieces::{piece_at, pieces};
+use crate::model::interval::{Chain, largest_curvature, moment_range, piece_at, pieces, product, union};
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::Segment;
 

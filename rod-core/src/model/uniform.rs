@@ -1,6 +1,6 @@
 //! The uniform straight rod, in closed form.
 
-use crate::model::bounds::moment_range;
+use crate::model::interval::moment_range;
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::{
     Section, Segment, Sensitivities, Station, advance, advance_with_sensitivities, agm, axial, stations,

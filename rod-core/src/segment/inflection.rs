@@ -1,6 +1,6 @@
 //! Where a bent segment is straight: the first section without moment, in closed form.
 
-use super::agm::agm;
+use super::basis::agm;
 use super::kernel::{Section, axial, in_frame};
 use super::scalar::{Scalar, is_finite, tolerance};
 

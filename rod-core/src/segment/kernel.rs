@@ -3,8 +3,7 @@
 //! Between contacts kappa' = A cos phi + B sin phi with A and B constant (Merker et al. 2020, eq. 10), a pendulum arc.
 //! It is evaluated by the addition theorem of its flow, without any case distinction.
 
-use super::agm::agm;
-use super::basis::{Basis, basis};
+use super::basis::{Basis, agm, basis};
 use super::dual::Dual;
 use super::scalar::Scalar;
 

@@ -1,6 +1,5 @@
 //! One segment between two contacts in closed form, in any number type: the part of the crate that needs no heap.
 
-mod agm;
 mod basis;
 mod circular;
 mod dual;
@@ -10,7 +9,7 @@ mod scalar;
 mod walk;
 
 #[cfg(feature = "std")]
-pub(crate) use agm::agm;
+pub(crate) use basis::agm;
 pub use dual::Dual;
 pub use inflection::inflection;
 #[cfg(feature = "std")]

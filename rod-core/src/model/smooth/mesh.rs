@@ -2,7 +2,7 @@
 
 use super::gauss::{AT, HIGHEST, NODES, WEIGHT};
 use crate::error::RodError;
-use crate::model::pieces::piece_at;
+use crate::model::interval::piece_at;
 use crate::model::profile::Profile;
 
 /// Largest part of the two highest Legendre coefficients of the compliance in it (of the natural curvature: in 1 / L at least) where

@@ -6,10 +6,8 @@ mod maximum;
 mod mesh;
 
 use crate::error::RodError;
-use crate::model::bounds::{Range, curvature_range, union};
-use crate::model::chain::Chain;
 use crate::model::constant::Constant;
-use crate::model::pieces::{piece_at, pieces};
+use crate::model::interval::{Chain, Range, curvature_range, piece_at, pieces, union};
 use crate::model::profile::Profile;
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::Segment;
