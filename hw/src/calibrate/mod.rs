@@ -10,19 +10,17 @@ mod rated_load;
 mod scale;
 mod sensor_check;
 mod tare;
-mod temperature;
 mod wrench_units;
 
 pub use accuracy::Accuracy;
 #[cfg(feature = "cal")]
 pub use ati::{AtiCalibration, AtiFile, AtiFileError};
 pub use error::CalibrationDataError;
-pub use gauge_matrix::GaugeMatrix;
+pub use gauge_matrix::{Compensation, GaugeMatrix};
 pub use rated_load::RatedLoad;
 pub use scale::Scale;
 pub use sensor_check::{SensorCheck, SensorFinding};
 pub use tare::{Tare, TareError, TareLimits, TareWindow, Zero};
-pub use temperature::Compensation;
 pub use wrench_units::WrenchUnits;
 
 use crate::sample::{Component, Number, RawSample, Wrench, WrenchSample};

@@ -2,8 +2,8 @@
 
 mod clock;
 mod counters;
-mod engine;
 mod protocol;
+mod protocol_link;
 #[cfg(feature = "serial")]
 mod read_write;
 mod sequence;
@@ -12,8 +12,6 @@ mod serial_port;
 #[cfg(feature = "std")]
 mod spawn;
 mod transport;
-#[cfg(feature = "std")]
-mod transport_error;
 #[cfg(feature = "rdt")]
 mod udp;
 
@@ -21,8 +19,8 @@ pub use clock::Clock;
 #[cfg(feature = "std")]
 pub use clock::HostClock;
 pub use counters::LinkCounters;
-pub use engine::{Link, LinkError, LinkSettings, Reconnect};
 pub use protocol::{FrameFault, Protocol, Request};
+pub use protocol_link::{Link, LinkError, LinkSettings, Reconnect};
 pub use sequence::{Sequence, SequenceStep};
 #[cfg(feature = "serial")]
 pub use serial_port::SerialPort;
@@ -30,6 +28,6 @@ pub use serial_port::SerialPort;
 pub use spawn::{Spawned, spawn};
 pub use transport::Transport;
 #[cfg(feature = "std")]
-pub use transport_error::TransportError;
+pub use transport::TransportError;
 #[cfg(feature = "rdt")]
 pub use udp::Udp;

@@ -2,8 +2,8 @@
 
 use super::clock::Clock;
 use super::counters::LinkCounters;
-use super::engine::{Link, LinkError};
 use super::protocol::Protocol;
+use super::protocol_link::{Link, LinkError};
 use super::transport::Transport;
 use crate::sample::{Quality, RawSample};
 use std::io::Error;

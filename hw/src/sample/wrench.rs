@@ -1,9 +1,10 @@
 //! Force and torque.
 
-use super::number::Number;
 use core::array::from_fn;
 use core::ops::{Add, Mul, Neg, Sub};
-use nalgebra::Vector3;
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, Vector3};
+use num_traits::{One, Zero};
+use rod_core::Scalar;
 
 /// Force and torque about the origin of its axes.
 ///
@@ -88,3 +89,8 @@ impl<T: Number> Mul<T> for Wrench<T> {
         self.map(|a| a * factor)
     }
 }
+
+/// A number of the kernel that vectors and matrices of nalgebra can have: `f32`, `f64`.
+pub trait Number: Scalar + nalgebra::Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign {}
+
+impl<T: Scalar + nalgebra::Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign> Number for T {}

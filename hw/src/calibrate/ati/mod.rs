@@ -6,7 +6,7 @@ mod matrix;
 
 pub use error::AtiFileError;
 
-use super::temperature::Compensation;
+use super::gauge_matrix::Compensation;
 use super::{CalibrationDataError, GaugeMatrix, RatedLoad, WrenchUnits};
 use crate::sample::{Channels, Component, Dimension, Number};
 use core::array::from_fn;

@@ -2,13 +2,11 @@
 
 mod batches;
 mod error;
-mod limits;
 mod window;
 mod zero;
 
 pub use error::TareError;
-pub use limits::TareLimits;
-pub use window::TareWindow;
+pub use window::{TareLimits, TareWindow};
 pub use zero::Zero;
 
 use crate::sample::{Number, Quality, WrenchSample};

@@ -1,6 +1,6 @@
 //! Sensors on a serial line whose bytes are frames: sync, length, check.
 //!
-//! One engine, [`Framed`], for any [`Profile`]:
+//! One protocol, [`Framed`], for any [`Profile`]:
 //!
 //! | profile | devices | check | number, time | channels |
 //! |---|---|---|---|---|
@@ -16,18 +16,18 @@
 //! it works, too, and allocates nothing.
 
 mod bota;
-mod engine;
 mod gsv;
 mod optoforce;
 mod profile;
+mod protocol;
 mod robotiq;
 mod scanner;
 
 pub use bota::Bota;
-pub use engine::Framed;
 pub use gsv::Gsv;
 pub use optoforce::OptoForce;
 pub use profile::{Await, Content, Framing, Head, Profile, Reading, SetupStep};
+pub use protocol::Framed;
 pub use robotiq::Robotiq;
 pub use scanner::{LONGEST_FRAME, Scanner};
 

@@ -1,8 +1,7 @@
 //! The stream of a sensor.
 
+use super::packets::{RdtRecord, RdtRequest};
 use super::profile::RdtProfile;
-use super::record::RdtRecord;
-use super::request::RdtRequest;
 use crate::link::{FrameFault, LinkCounters, Protocol, Request, Sequence};
 use crate::sample::{Channels, Quality, RawSample};
 use core::mem::take;

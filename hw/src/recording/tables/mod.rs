@@ -4,7 +4,7 @@
 //! - [`ColumnMap`]: which column means what ([`Role`]). [`Table::samples`]: raw samples, wrenches or reactions, in SI units.
 //! - [`Recorder`]: writes reactions as they come, with the raw values.
 //!
-//! `split` cuts text into lines and cells, `layout` finds out how a table is written, `text` and `lvm` read one.
+//! `split` cuts text into lines and cells, `layout` finds out how a table is written, `read` and `lvm` read one.
 
 mod column_map;
 mod columns;
@@ -22,7 +22,6 @@ mod role;
 mod samples;
 mod split;
 mod table;
-mod text;
 
 pub use column_map::ColumnMap;
 pub use columns::Columns;

@@ -1,6 +1,5 @@
 //! Devices by their bytes.
 
-mod engine;
 mod gsv;
 mod profile;
 mod protocol;
@@ -8,3 +7,4 @@ mod record;
 mod request;
 #[cfg(feature = "rdt")]
 mod scaling;
+mod silence;

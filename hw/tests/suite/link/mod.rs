@@ -1,6 +1,6 @@
 //! Links, transports, counters.
 
-mod engine;
+mod deadlines;
 mod sequence;
 mod spawn;
 #[cfg(feature = "rdt")]

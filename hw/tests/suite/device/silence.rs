@@ -1,4 +1,4 @@
-//! What a silent device means to the engine of framed sensors.
+//! Framed sensors that are silent: what the protocol sends, and how it marks the first sample after that.
 
 use rod_hw::device::framed::*;
 use rod_hw::*;

@@ -1,4 +1,4 @@
-//! The engine of all framed sensors.
+//! The protocol of all framed sensors.
 
 use super::profile::{Await, Content, Profile, Reading, SetupStep};
 use super::scanner::Scanner;
