@@ -202,6 +202,10 @@ pub struct Reconstruct {
     /// [default: none is moved]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
     pub align: Option<f64>,
+    /// Fit one contour, and the errors that all samples share, to each whole recording: whether a rod past one contour gives these reactions,
+    /// and where it does not (status 2). Takes seconds
+    #[arg(long)]
+    pub fit: bool,
     #[command(flatten)]
     pub moved: Moved,
     #[command(flatten)]

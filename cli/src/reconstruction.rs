@@ -9,13 +9,13 @@ use rod_files::{
 };
 use std::path::Path;
 use std::process::ExitCode;
-use vibrissa::reconstruct::{Budget, Known};
+use vibrissa::reconstruct::{Budget, Finding, Known};
 use vibrissa::rod::AnyRod;
 use vibrissa::{Rod, Settings};
 use vibrissa_cli::{Merged, write_reconstruction};
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
-    let Reconstruct { recordings, rod, truth, out, align, moved, trust, written } = arguments;
+    let Reconstruct { recordings, rod, truth, out, align, fit, moved, trust, written } = arguments;
     signals::end();
     let given = read_calibrated_rod(&rod)?;
     let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
@@ -36,7 +36,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let mut found = Vec::with_capacity(recordings.len());
     let mut left_out = Vec::new();
     for file in &recordings {
-        match one(file, &scan, &given.rod, &settings, truth.as_deref()) {
+        match one(file, &scan, &given.rod, &settings, truth.as_deref(), fit) {
             Ok(one) => found.push(one),
             Err(error) => left_out.push(error),
         }
@@ -98,6 +98,7 @@ fn one(
     rod: &AnyRod,
     settings: &Settings,
     truth: Option<&Path>,
+    fit: bool,
 ) -> Result<Reconstructed, Error> {
     let name = file.display();
     stage(&format!("{name}: reading"));
@@ -107,6 +108,10 @@ fn one(
     if !found.check.fits() {
         stage(&format!("{name}: looking for what explains it"));
         found.explain(settings);
+    }
+    if fit {
+        stage(&format!("{name}: fitting one contour to the whole recording"));
+        found.fit();
     }
     if let Some(scene) = truth {
         stage(&format!("{name}: comparing with the scene"));
@@ -127,8 +132,18 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for found in found {
         let file = found.recording.file.display();
-        for finding in found.check.findings.iter().filter(|finding| finding.is_misfit() || finding.is_warning()) {
+        let is_explained = found.fit.as_ref().is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.explains));
+        // kinks within a run are those of contacts that the fit knows
+        let is_told = |finding: &&Finding| {
+            finding.is_misfit()
+                || finding.is_warning() && !(is_explained && matches!(finding, Finding::KinksWithin { .. }))
+        };
+        for finding in found.check.findings.iter().filter(is_told) {
             warn(&format!("warning: {file}: {finding}\n"));
+        }
+        if let Some(why) = found.contradiction() {
+            warn(&format!("warning: {file}: {why}\n"));
+            code = ExitCode::from(UNFINISHED);
         }
         if found.check.fits() {
             continue;

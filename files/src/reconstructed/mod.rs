@@ -5,6 +5,7 @@
 
 mod comparison;
 mod files;
+mod fit;
 mod naive;
 mod points;
 mod report;

@@ -1,6 +1,7 @@
 //! report.json: the reconstruction as a whole, in SI units. Rows are counted from 0, as the lines of points.jsonl.
 
 use super::comparison::{Comparison, Transition};
+use super::fit::FitRecord;
 use super::result::Reconstructed;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -28,6 +29,8 @@ pub(super) struct ReportRecord {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     friction: Vec<FrictionRecord>,
     physics: PhysicsRecord,
+    /// Whether one contour explains the whole recording; null where that was not looked at.
+    fit: Option<FitRecord>,
     truth: Option<TruthRecord>,
 }
 
@@ -409,6 +412,7 @@ impl ReportRecord {
             calibration: result.calibration().cloned(),
             friction: result.passes.iter().filter_map(friction).collect(),
             physics: PhysicsRecord::of(found),
+            fit: found.fit.as_ref().map(|fit| FitRecord::of(fit, rows)),
             truth: found.comparison.as_ref().map(Into::into),
         }
     }

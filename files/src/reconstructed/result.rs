@@ -6,8 +6,9 @@ use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
-    Assembly, Budget, ContourEstimate, Explanation, Finding, Plausibility, ReconstructError, Reconstruction, Travel,
-    explanations, plausibility_with_friction, reconstruct_general, reconstruct_passes,
+    Assembly, Budget, ContourEstimate, ContourFit, Explanation, Finding, FitError, Plausibility, ReconstructError,
+    Reconstruction, Travel, explanations, fit_contour, plausibility_with_friction, reconstruct_general,
+    reconstruct_passes,
 };
 use vibrissa::rod::{AnyRod, PhysicalRod};
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
@@ -48,6 +49,8 @@ pub struct Reconstructed {
     pub check: Plausibility,
     /// What explains a recording that does not fit, the most likely first, with likelihoods that add up to 1.
     pub explanations: Vec<(Explanation, f64)>,
+    /// The contour that explains the whole recording best, or why there is none; none where it was not looked for.
+    pub fit: Option<Result<ContourFit, FitError>>,
     /// The comparison with the truth, where that is known.
     pub comparison: Option<Comparison>,
 }
@@ -82,8 +85,17 @@ impl Reconstructed {
             contour,
             check,
             explanations: Vec::new(),
+            fit: None,
             comparison: None,
         })
+    }
+
+    /// Fits a contour to the whole recording, from the result on: whether a rod past one contour gives these reactions.
+    pub fn fit(&mut self) {
+        self.fit = Some(match self.rod.uniform() {
+            Some(rod) => fit_contour(rod, &self.samples, &self.found),
+            None => fit_contour(&self.rod, &self.samples, &self.found),
+        });
     }
 
     /// What is not there because the rod is not uniform or not straight at rest, in words; none for one that is.

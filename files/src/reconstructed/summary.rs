@@ -42,6 +42,7 @@ impl Reconstructed {
             }
         }
         self.tell_physics(text)?;
+        self.tell_fit(text)?;
         text.push_str(&self.run_table().to_string());
         match &self.comparison {
             Some(comparison) => comparison.tell(text),
