@@ -452,3 +452,33 @@ fn help_names_files_units_and_exit_statuses() {
         "{all}"
     );
 }
+
+#[test]
+fn one_contour_explains_a_recording_or_the_place_is_named_where_none_does() {
+    let directory = recorded(&["--noise", "noise.toml", "--rate", "20", "--speed", "1e-3"]);
+    let output = reconstruct(directory.path(), &["--as-is", "--fit"]);
+    let fit = &report(directory.path())["fit"];
+    assert!(output.status.success(), "{}: {fit}", complaint(&output));
+    assert_eq!(fit["explains"], true);
+    let labels: Vec<&str> = fit["runs"].as_array().unwrap().iter().filter_map(|run| run["label"].as_str()).collect();
+    assert_eq!((labels.first(), labels.last()), (Some(&"free"), Some(&"free")), "{labels:?}");
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(printed.contains("fit: one contour explains the recording, chi squared"), "{printed}");
+
+    // somebody leans on the rod for a while
+    edit(directory.path(), |k, mut row| {
+        if (1500..1900).contains(&k) {
+            row[5] += 0.04 * (std::f64::consts::PI * (k as f64 - 1500.0) / 400.0).sin();
+        }
+        joined(&row)
+    });
+    let output = reconstruct(directory.path(), &["--as-is", "--fit"]);
+    assert_eq!(output.status.code(), Some(2));
+    let complaint = complaint(&output);
+    assert!(
+        complaint.contains("no contour was found that explains the whole recording; it fails worst in"),
+        "{complaint}"
+    );
+    let rows = &report(directory.path())["fit"]["worst"]["rows"];
+    assert!(rows[0].as_u64().unwrap() > 1300 && rows[1].as_u64().unwrap() < 2100, "{rows}");
+}
