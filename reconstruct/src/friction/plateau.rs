@@ -2,7 +2,7 @@
 
 use crate::least_squares::{Loss, Normal, Problem, Whole, iterate};
 use crate::numeric::{median, robust_sigma};
-use crate::phase::{Evidence, Node, likelihood};
+use crate::phase::{Evidence, Place, label_log_likelihood};
 use crate::point::{Clamp, Inverse};
 use crate::scan::{Estimate, Noise, Track};
 use crate::systematic::Correction;
@@ -63,10 +63,10 @@ fn ratio<I: Inverse>(rod: &I, estimate: &Estimate, clamp: &Clamp) -> Option<(f64
 }
 
 /// The estimate at a place after a correction, if there is one, and its clamp: that of the sample itself where samples are clean.
-fn place(track: &Track, noise: &Noise, node: &Node, tare: Option<&Correction>) -> (Estimate, Clamp) {
-    let tau = track.tau[node.index];
-    let measured = node.fit.at(tau);
-    let sample = if noise.is_clean() { track.clamps[node.index] } else { measured.clamp };
+fn estimate_at(track: &Track, noise: &Noise, place: &Place, tare: Option<&Correction>) -> (Estimate, Clamp) {
+    let tau = track.tau[place.index];
+    let measured = place.fit.at(tau);
+    let sample = if noise.is_clean() { track.clamps[place.index] } else { measured.clamp };
     let Some(tare) = tare else { return (measured, sample) };
     let (clamp, rate) = tare.apply(tau, &measured.clamp, &measured.rate);
     (measured.moved(clamp, rate), tare.apply(tau, &sample, &measured.rate).0)
@@ -92,10 +92,10 @@ impl Side {
         rod: &I,
         (track, noise): (&Track, &Noise),
         tare: Option<&Correction>,
-        node: &Node,
+        place: &Place,
         way: f64,
     ) -> Option<Self> {
-        let (estimate, clamp) = place(track, noise, node, tare);
+        let (estimate, clamp) = estimate_at(track, noise, place, tare);
         let (value, sigma) = ratio(rod, &estimate, &clamp).filter(|(_, sigma)| *sigma < VAGUE)?;
         let found = rod.first(&estimate.clamp).ok()?;
         let none = Vector3::zeros();
@@ -110,18 +110,24 @@ impl Side {
         let (across, of_across) = along(-sin, cos);
         let slides = along(cos, sin);
         let is_one = before_tip > RATE && across.abs() < SIGMAS * of_across + RATE * (1.0 + slides.0.abs());
-        is_one.then_some(Self { value, sigma: sigma.max(FINEST), weight: node.weight, way, slides })
+        is_one.then_some(Self { value, sigma: sigma.max(FINEST), weight: place.weight, way, slides })
     }
 
     /// Of the places of a scan after a correction, if there is one, at most [`PLACES`] of them.
-    fn all<I: Inverse>(rod: &I, track: &Track, noise: &Noise, nodes: &[Node], tare: Option<&Correction>) -> Vec<Self> {
-        let stride = nodes.len().div_ceil(PLACES).max(1);
-        let of = |part: &[Node]| {
+    fn all<I: Inverse>(
+        rod: &I,
+        track: &Track,
+        noise: &Noise,
+        places: &[Place],
+        tare: Option<&Correction>,
+    ) -> Vec<Self> {
+        let stride = places.len().div_ceil(PLACES).max(1);
+        let of = |part: &[Place]| {
             let (first, last) = (part.first()?, part.last()?);
             let way = track.tau[last.index] - track.tau[first.index.saturating_sub(1)];
             Self::of(rod, (track, noise), tare, first, way)
         };
-        nodes.chunks(stride).filter_map(of).collect()
+        places.chunks(stride).filter_map(of).collect()
     }
 }
 
@@ -155,10 +161,10 @@ pub(crate) fn rubs<I: Inverse>(
     rod: &I,
     track: &Track,
     noise: &Noise,
-    nodes: &[Node],
+    places: &[Place],
     tare: Option<&Correction>,
 ) -> bool {
-    peaks(&density(&Side::all(rod, track, noise, nodes, tare))).iter().any(|peak| peak.abs() > NOTHING)
+    peaks(&density(&Side::all(rod, track, noise, places, tare))).iter().any(|peak| peak.abs() > NOTHING)
 }
 
 /// How far places, after a correction, are from the plateau of a coefficient, in standard deviations of their noise (1 at least), and in terms of the coefficient.
@@ -166,11 +172,11 @@ pub(crate) fn flatness<I: Inverse>(
     rod: &I,
     track: &Track,
     noise: &Noise,
-    nodes: &[Node],
+    places: &[Place],
     correction: &Correction,
     mu: f64,
 ) -> (f64, f64) {
-    off_plateau(&Side::all(rod, track, noise, nodes, Some(correction)), mu)
+    off_plateau(&Side::all(rod, track, noise, places, Some(correction)), mu)
 }
 
 fn off_plateau(sides: &[Side], mu: f64) -> (f64, f64) {
@@ -209,22 +215,22 @@ pub(crate) fn start<I: Inverse>(
     rod: &I,
     track: &Track,
     noise: &Noise,
-    nodes: Vec<Node>,
+    places: Vec<Place>,
     mu: Option<f64>,
-) -> (Start, Vec<Node>) {
-    let sides = Side::all(rod, track, noise, &nodes, None);
+) -> (Start, Vec<Place>) {
+    let sides = Side::all(rod, track, noise, &places, None);
     let tried: Vec<f64> = match mu {
         Some(mu) => signs(&sides).iter().map(|sign| sign * mu).collect(),
         None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
     };
-    let without = likelihood(&nodes);
+    let without = label_log_likelihood(&places);
     let judged = tried.into_iter().map(|mu| {
-        let mut judged = nodes.clone();
+        let mut judged = places.clone();
         rub(rod, track, &mut judged, mu);
-        (mu, likelihood(&judged), judged)
+        (mu, label_log_likelihood(&judged), judged)
     });
     let best = judged.max_by(|a, b| a.1.total_cmp(&b.1));
-    let (found, likelihood, judged) = best.unwrap_or((0.0, without, nodes));
+    let (found, likelihood, judged) = best.unwrap_or((0.0, without, places));
     let sine = found / found.hypot(1.0);
     let information = level(&sides, sine).1;
     let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
@@ -278,11 +284,11 @@ fn tangent(sine: f64) -> f64 {
 }
 
 /// Gives places the evidence that they have with this friction.
-fn rub<I: Inverse>(rod: &I, track: &Track, nodes: &mut [Node], friction: f64) {
-    for node in nodes {
-        node.fit.rub(friction);
-        let evidence = Evidence::of(rod, &node.fit.at(track.tau[node.index]));
-        node.judged(evidence);
+fn rub<I: Inverse>(rod: &I, track: &Track, places: &mut [Place], friction: f64) {
+    for place in places {
+        place.fit.rub(friction);
+        let evidence = Evidence::of(rod, &place.fit.at(track.tau[place.index]));
+        place.set_evidence(evidence);
     }
 }
 

@@ -43,7 +43,7 @@ fn neighbours(from: Label, to: Label) -> bool {
 }
 
 /// Log-odds of the transition from one label to another between two places, with a break between them or none.
-pub(crate) fn passage(from: Label, to: Label, between: Option<Break>) -> f64 {
+pub(crate) fn transition_log_odds(from: Label, to: Label, between: Option<Break>) -> f64 {
     use Label::{A, B};
     let sure = between.map_or(0.0, |here| ((here.score - DOUBTFUL) / SCALE).clamp(-SUREST, SUREST));
     if from == to {

@@ -33,9 +33,11 @@ pub use evidence::Evidence;
 #[cfg(feature = "std")]
 pub(crate) use evidence::{CRITERIA, Criterion};
 #[cfg(feature = "std")]
-pub(crate) use identify::{Identified, Node, identify, labels, likelihood, parts, places};
+pub(crate) use identify::{
+    Place, PlaceNumber, ScanPhases, evaluate_places, identify_phases, label_log_likelihood, most_likely_labels, parts,
+};
 pub use label::Label;
 #[cfg(feature = "std")]
 pub use quantity::Quantity;
 #[cfg(feature = "std")]
-pub(crate) use trellis::{Trellis, forward, greatest, passed};
+pub(crate) use trellis::{Trellis, forward_probabilities, most_likely, viterbi_step};

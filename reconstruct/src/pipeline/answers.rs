@@ -1,12 +1,12 @@
 //! The answers to the samples of a scan whose phases are known.
 
-use super::nearest::Nearest;
+use super::nearest::NearestPlace;
 use super::reading::{Reading, Reason, sure};
 use super::settings::Settings;
 use crate::kink::Kink;
-use crate::phase::{Break, Identified, Label, contact};
+use crate::phase::{Break, Label, ScanPhases, contact};
 use crate::point::{Inverse, Touch};
-use crate::scan::{Noise, Track};
+use crate::scan::{Noise, Track, TrackIndex};
 use crate::systematic::Shared;
 use nalgebra::Matrix2;
 use rod_core::Units;
@@ -20,7 +20,7 @@ pub(super) struct Answers<'a, I> {
     pub track: &'a Track,
     pub kinks: &'a [Kink],
     pub noise: &'a Noise,
-    pub identified: &'a Identified,
+    pub phases: &'a ScanPhases,
     pub units: Units,
     pub settings: &'a Settings,
     /// The errors that all samples share, if there are any.
@@ -30,10 +30,10 @@ pub(super) struct Answers<'a, I> {
 }
 
 impl<I: Inverse> Answers<'_, I> {
-    /// The answers to all usable samples.
+    /// The readings of all usable samples, by track index.
     pub fn all(&self, breaks: &[Break]) -> Vec<Reading> {
         let mut readings = Vec::with_capacity(self.track.len());
-        let runs = &self.identified.runs;
+        let runs = &self.phases.runs;
         let mut next = 0;
         while next < runs.len() {
             if runs[next].1.several() {
@@ -42,8 +42,8 @@ impl<I: Inverse> Answers<'_, I> {
                 next += many;
             } else {
                 let (range, label) = runs[next].clone();
-                let mut nodes = Nearest::new(self.identified, label, range.start);
-                readings.extend(range.map(|index| self.single(&mut nodes, index, label)));
+                let mut nearest = NearestPlace::new(self.phases, label, range.start);
+                readings.extend(range.map(|index| self.single(&mut nearest, TrackIndex(index), label)));
                 next += 1;
             }
         }
@@ -53,13 +53,13 @@ impl<I: Inverse> Answers<'_, I> {
     /// The reading of a sample, with the probability of the nearest place of its label.
     pub(super) fn reading(
         &self,
-        nodes: &mut Nearest<'_>,
-        index: usize,
+        nearest: &mut NearestPlace<'_>,
+        index: TrackIndex,
         label: Label,
         touch: Result<Touch, Reason>,
     ) -> Reading {
-        let place = nodes.of(index);
-        let probability = match self.identified.labels[place] {
+        let place = nearest.of(index);
+        let probability = match self.phases.labels[place.0] {
             (found, probability) if found == label => probability,
             _ => 0.0,
         };
@@ -67,24 +67,24 @@ impl<I: Inverse> Answers<'_, I> {
     }
 
     /// The answer to a sample with one contact or none.
-    fn single(&self, nodes: &mut Nearest<'_>, index: usize, label: Label) -> Reading {
-        let place = nodes.of(index);
-        let node = &self.identified.nodes[place];
-        if let Some((criterion, z)) = node.evidence.against(label).filter(|(_, z)| *z > CONTRADICTED) {
-            return self.reading(nodes, index, label, Err(Reason::Contradicted { criterion, z }));
+    fn single(&self, nearest: &mut NearestPlace<'_>, index: TrackIndex, label: Label) -> Reading {
+        let number = nearest.of(index);
+        let place = &self.phases.places[number.0];
+        if let Some((criterion, z)) = place.evidence.against(label).filter(|(_, z)| *z > CONTRADICTED) {
+            return self.reading(nearest, index, label, Err(Reason::Contradicted { criterion, z }));
         }
         if label == Label::Free {
-            return self.reading(nodes, index, label, Err(Reason::Free));
+            return self.reading(nearest, index, label, Err(Reason::Free));
         }
-        let fit = &node.fit;
-        let touch = contact(self.rod, &self.track.clamps[index], self.track.tau[index], fit, self.noise, label);
-        let systematic = match self.systematic.get(place) {
-            Some(None) => return self.reading(nodes, index, label, Err(Reason::Unshared)),
+        let (fit, TrackIndex(at)) = (&place.fit, index);
+        let touch = contact(self.rod, &self.track.clamps[at], self.track.tau[at], fit, self.noise, label);
+        let systematic = match self.systematic.get(number.0) {
+            Some(None) => return self.reading(nearest, index, label, Err(Reason::Unshared)),
             Some(Some(found)) => *found,
             None => Matrix2::zeros(),
         };
         let touch = touch.map_err(Reason::NoContact).and_then(|touch| self.sure(touch.with_systematic(systematic)));
-        self.reading(nodes, index, label, touch)
+        self.reading(nearest, index, label, touch)
     }
 
     /// The point in SI units, if it is known well enough.

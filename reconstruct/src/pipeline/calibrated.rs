@@ -3,10 +3,10 @@
 use super::settings::{ReconstructError, Settings, positive, possible};
 use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rubs, start};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
-use crate::phase::{Break, Node, places};
+use crate::phase::{Break, Place, evaluate_places};
 use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
-use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, dimensionless, quantum};
+use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, TrackIndex, dimensionless, quantum};
 use crate::systematic::{
     Budget, Calibration, Correction, Errors, Known, Scan, Shared, Source, SourceEstimate, calibrate, log_likelihood,
 };
@@ -19,8 +19,8 @@ const COARSE: f64 = 0.02;
 #[derive(Clone)]
 pub(super) struct Calibrated {
     pub track: Track,
-    /// For each sample its number in the track, or why it is not there.
-    pub numbered: Vec<Result<usize, Fault>>,
+    /// For each sample, by its number, its track index or the reason why the track leaves it out.
+    pub indices: Vec<Result<TrackIndex, Fault>>,
     /// The noise of each channel, in EI/L^2 and EI/L.
     pub found: [ChannelNoise; 3],
     pub kinks: Vec<Kink>,
@@ -28,7 +28,7 @@ pub(super) struct Calibrated {
     /// Steps of each channel that hide transitions, in EI/L^2 and EI/L.
     pub steps: [Option<f64>; 3],
     pub breaks: Vec<Break>,
-    pub nodes: Vec<Node>,
+    pub places: Vec<Place>,
     /// The units of the rod, as it was found.
     pub units: Units,
     pub calibration: Option<(Shared, Calibration)>,
@@ -50,7 +50,7 @@ impl Calibrated {
             return Ok(rough);
         }
         let smooth = scan.clone().smooth(rod, settings)?;
-        let rubs = |tare: Option<&Correction>| rubs(&Uniform, &scan.track, &scan.noise, &scan.nodes, tare);
+        let rubs = |tare: Option<&Correction>| rubs(&Uniform, &scan.track, &scan.noise, &scan.places, tare);
         // a bias blurs the plateau
         if !rubs(None) && !smooth.tare(rod).is_some_and(|tare| rubs(Some(&tare))) {
             return Ok(smooth);
@@ -79,18 +79,18 @@ impl Calibrated {
     /// The scan with friction that is known or as its plateau tells it.
     pub fn rubbed<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
-        let (Start { mu, sigma, scatter, spread, against, likelihood, without }, nodes) =
-            start(rod, &self.track, &self.noise, self.nodes, mu);
+        let (Start { mu, sigma, scatter, spread, against, likelihood, without }, places) =
+            start(rod, &self.track, &self.noise, self.places, mu);
         let track = self.track.with_friction(mu);
         let gain = likelihood - without;
         let found = FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against, alone: None };
-        Self { track, nodes, friction: Some(found), ..self }
+        Self { track, places, friction: Some(found), ..self }
     }
 
     /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
     pub fn with_plateau<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         match settings.friction {
-            Friction::None if !rubs(rod, &self.track, &self.noise, &self.nodes, None) => self,
+            Friction::None if !rubs(rod, &self.track, &self.noise, &self.places, None) => self,
             Friction::None => {
                 let friction = self.clone().rubbed(rod, settings).friction;
                 Self { friction, ..self }
@@ -119,13 +119,13 @@ impl Calibrated {
     }
 
     fn scan<'a>(&'a self, rod: &'a Rod) -> Scan<'a> {
-        Scan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, nodes: &self.nodes }
+        Scan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, places: &self.places }
     }
 
     /// Without the errors that all samples share.
     fn settled(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
         let found = calibrate(&self.scan(rod), budget, known);
-        let Self { track, noise, breaks, nodes, units, calibration, friction, .. } = &mut self;
+        let Self { track, noise, breaks, places, units, calibration, friction, .. } = &mut self;
         let plateau = track.friction;
         if let Some((correction, shared, mut told)) = found {
             if let Some(correction) = correction {
@@ -133,18 +133,18 @@ impl Calibrated {
                 let explained = !told.sources.iter().any(SourceEstimate::is_beyond);
                 let mu = plateau + told.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
                 if let Some(found) = friction.as_mut().filter(|_| explained) {
-                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, nodes, &correction, mu);
+                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, places, &correction, mu);
                 }
                 *track = correction.track(track);
                 if told.is_applied() {
-                    *nodes = places(&Uniform, track, noise, breaks);
+                    *places = evaluate_places(&Uniform, track, noise, breaks);
                 } else {
-                    nodes.iter_mut().for_each(|node| node.fit.rub(track.friction));
+                    places.iter_mut().for_each(|place| place.fit.rub(track.friction));
                 }
                 *units = told.rod(rod).units();
             }
-            shared.doubt(nodes);
-            shared.judge(&Errors::zeros(), track, nodes);
+            shared.doubt(places);
+            shared.judge(&Errors::zeros(), track, places);
             told.shift(Source::Friction, plateau);
             if let Some((found, own)) = friction.as_mut().zip(told.source(Source::Friction).copied()) {
                 told.direction = found.mu.signum() * (0.5 - found.against).signum();
@@ -166,7 +166,7 @@ impl Calibrated {
             return Err(ReconstructError::Friction { value });
         }
         positive([("false_alarms", settings.false_alarms), ("largest_sigma", settings.largest_sigma)])?;
-        let (track, numbered) = Track::new(units, samples);
+        let (track, indices) = Track::new(units, samples);
         let units = units.units();
         if track.len() < FEWEST_SAMPLES {
             return Err(ReconstructError::TooFew {
@@ -190,13 +190,13 @@ impl Calibrated {
             .iter()
             .map(|kink| Break { index: kink.next, jump: kink.kind == KinkKind::Jump, score: kink.score })
             .collect();
-        let nodes = places(rod, &track, &noise, &breaks);
+        let places = evaluate_places(rod, &track, &noise, &breaks);
         // numbers so large that their squares overflow leave none
-        if nodes.is_empty() {
+        if places.is_empty() {
             return Err(ReconstructError::TooFew { usable: 0, samples: samples.len(), fewest: FEWEST_SAMPLES });
         }
         let (calibration, friction) = (None, None);
-        Ok(Self { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration, friction })
+        Ok(Self { track, indices, found, kinks, noise, steps, breaks, places, units, calibration, friction })
     }
 }
 

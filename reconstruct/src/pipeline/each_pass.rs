@@ -4,7 +4,7 @@ use super::reading::{Reading, Reason};
 use super::reconstruct::reconstruct;
 use super::reconstruction::{Pass, Reconstruction};
 use super::settings::{ReconstructError, Settings};
-use crate::phase::Label;
+use crate::phase::{Label, PlaceNumber};
 use crate::scan::{Fault, passes};
 use rod_core::{Rod, Sample};
 use std::ops::Range;
@@ -62,8 +62,9 @@ pub(super) fn each_pass(
 impl Reconstruction {
     /// Adds the next pass.
     fn join(&mut self, samples: Range<usize>, part: Self) {
+        // samples and places are numbered within the pass
         let (first, places) = (samples.start, self.evidence.len());
-        let place = |place: usize| place.saturating_add(places);
+        let place = |PlaceNumber(number): PlaceNumber| PlaceNumber(number.saturating_add(places));
         self.readings
             .extend(part.readings.into_iter().map(|reading| Reading { place: place(reading.place), ..reading }));
         self.runs.extend(part.runs.into_iter().map(|(start, label)| (start + first, label)));

@@ -1,7 +1,7 @@
 //! The places of a live scan so far, and what they tell of the errors that all samples share.
 
 use super::learned::Learned;
-use crate::phase::{Label, Node, Trellis, greatest, passed};
+use crate::phase::{Label, Place, Trellis, forward_probabilities, most_likely};
 use crate::scan::Track;
 use crate::systematic::{Budget, Calibration, Errors, Known, Shared, calibrate_labelled, known_before};
 use rod_core::{Rod, Units};
@@ -23,8 +23,8 @@ pub(super) struct History {
     rod: Rod,
     budget: Budget,
     known: Known,
-    /// Each place is numbered by its sample in `track`, which has one for each.
-    nodes: Vec<Node>,
+    /// The track index of each place is that in `track`, which has one sample for each.
+    places: Vec<Place>,
     track: Track,
     /// Numbers of the samples of the places in the scan.
     samples: Vec<usize>,
@@ -44,7 +44,7 @@ impl History {
             rod: *rod,
             budget: *budget,
             known: *known,
-            nodes: Vec::with_capacity(MOST),
+            places: Vec::with_capacity(MOST),
             track: Track::default(),
             samples: Vec::with_capacity(MOST),
             stride: 1,
@@ -61,35 +61,35 @@ impl History {
     }
 
     /// Takes the next place, whose samples are as they were measured.
-    pub fn push(&mut self, tau: f64, node: &Node) {
+    pub fn push(&mut self, tau: f64, place: &Place) {
         self.seen += 1;
-        if !self.seen.is_multiple_of(self.stride) && node.place.between.is_none() {
+        if !self.seen.is_multiple_of(self.stride) && place.observation.between.is_none() {
             return;
         }
-        if self.nodes.len() == MOST {
+        if self.places.len() == MOST {
             self.thin();
         }
-        let weight = (node.weight * self.stride as f64).min(1.0);
-        self.add(tau, node.index, Node { weight, ..node.clone() });
+        let weight = (place.weight * self.stride as f64).min(1.0);
+        self.add(tau, place.index, Place { weight, ..place.clone() });
     }
 
-    fn add(&mut self, tau: f64, sample: usize, node: Node) {
+    fn add(&mut self, tau: f64, sample: usize, place: Place) {
         self.track.tau.push(tau);
-        self.track.clamps.push(node.fit.at(tau).clamp);
+        self.track.clamps.push(place.fit.at(tau).clamp);
         self.samples.push(sample);
-        self.nodes.push(Node { index: self.nodes.len(), ..node });
+        self.places.push(Place { index: self.places.len(), ..place });
     }
 
     /// Drops every second place, but none after a break as long as these are few.
     fn thin(&mut self) {
         self.stride *= 2;
-        let nodes = std::mem::take(&mut self.nodes);
+        let places = std::mem::take(&mut self.places);
         let (track, samples) = (std::mem::take(&mut self.track), std::mem::take(&mut self.samples));
-        let breaks = nodes.iter().filter(|node| node.place.between.is_some()).count();
-        for (k, node) in nodes.into_iter().enumerate() {
-            if k % 2 == 0 || node.place.between.is_some() && breaks < MOST / 4 {
-                let weight = (2.0 * node.weight).min(1.0);
-                self.add(track.tau[k], samples[k], Node { weight, ..node });
+        let breaks = places.iter().filter(|place| place.observation.between.is_some()).count();
+        for (k, place) in places.into_iter().enumerate() {
+            if k % 2 == 0 || place.observation.between.is_some() && breaks < MOST / 4 {
+                let weight = (2.0 * place.weight).min(1.0);
+                self.add(track.tau[k], samples[k], Place { weight, ..place });
             }
         }
     }
@@ -113,9 +113,9 @@ impl History {
         let mut judged = self.judged(&learned);
         let free = self.free();
         let mut trellis = Trellis::default();
-        let chances = trellis.chances(&[0.0; 5], judged.iter().map(|node| node.place));
+        let chances = trellis.label_probabilities(&[0.0; 5], judged.iter().map(|place| place.observation));
         let label = |(k, chances): (usize, &[f64; 5])| {
-            let best = if k < free { Label::Free as usize } else { greatest(chances) };
+            let best = if k < free { Label::Free as usize } else { most_likely(chances) };
             (Label::ALL[best], chances[best])
         };
         let labels: Vec<(Label, f64)> = chances.iter().enumerate().map(label).collect();
@@ -124,16 +124,17 @@ impl History {
             judged = self.judged(&learned);
         }
         let before = self.samples.partition_point(|other| *other < sample);
-        let passed = judged[..before].iter().fold([0.0; 5], |before, node| passed(&before, &node.place));
+        let passed =
+            judged[..before].iter().fold([0.0; 5], |before, place| forward_probabilities(&before, &place.observation));
         self.learned = Some(learned.clone());
         Some((learned, passed))
     }
 
     /// The places with the evidence of what was learned.
-    fn judged(&self, learned: &Learned) -> Vec<Node> {
-        let mut judged = self.nodes.clone();
-        for (tau, node) in self.track.tau.iter().zip(&mut judged) {
-            learned.judge(*tau, node);
+    fn judged(&self, learned: &Learned) -> Vec<Place> {
+        let mut judged = self.places.clone();
+        for (tau, place) in self.track.tau.iter().zip(&mut judged) {
+            learned.judge(*tau, place);
         }
         judged
     }
@@ -141,10 +142,10 @@ impl History {
     /// The errors by the first places, those of them whose labels are sure.
     fn estimated(&mut self, labels: &[(Label, f64)]) -> Option<(Errors, Shared)> {
         let sure = |k: &usize| labels[*k].1 > SURE;
-        let (nodes, labels): (Vec<Node>, Vec<(Label, f64)>) =
-            (0..labels.len()).filter(sure).map(|k| (self.nodes[k].clone(), labels[k])).unzip();
+        let (places, labels): (Vec<Place>, Vec<(Label, f64)>) =
+            (0..labels.len()).filter(sure).map(|k| (self.places[k].clone(), labels[k])).unzip();
         let (taken, shared, found) =
-            calibrate_labelled(&self.rod, &self.track, &nodes, &labels, &self.budget, &self.known)?;
+            calibrate_labelled(&self.rod, &self.track, &places, &labels, &self.budget, &self.known)?;
         self.found = Some(found);
         Some((taken, shared))
     }
@@ -157,15 +158,16 @@ impl History {
     /// The number of places at the begin of the scan in which the rod is free: up to the first break, and as long as the reactions stay
     /// what they were but for drift.
     fn free(&self) -> usize {
-        let Some(first) = self.nodes.first() else { return 0 };
-        let before_break = self.nodes.iter().skip(1).take_while(|node| node.place.between.is_none()).count() + 1;
+        let Some(first) = self.places.first() else { return 0 };
+        let before_break =
+            self.places.iter().skip(1).take_while(|place| place.observation.between.is_none()).count() + 1;
         let units = self.rod.units();
         let drift =
             [units.force, units.force, units.moment].into_iter().zip(self.budget.drift).map(|(unit, by)| by / unit);
         let drift: Vec<f64> = drift.collect();
         let start = first.fit.at(self.track.tau[0]);
         let stays = |k: &usize| {
-            let (way, here) = (self.track.tau[*k] - self.track.tau[0], self.nodes[*k].fit.at(self.track.tau[*k]));
+            let (way, here) = (self.track.tau[*k] - self.track.tau[0], self.places[*k].fit.at(self.track.tau[*k]));
             let variance = start.covariance() + here.covariance();
             (0..3).all(|c| {
                 let off = here.clamp.reactions[c] - start.clamp.reactions[c];

@@ -1,7 +1,7 @@
 //! What a live scan has learned of the errors that all samples share.
 
 use super::reading::Reason;
-use crate::phase::{Label, Node, constrained};
+use crate::phase::{Label, Place, constrained};
 use crate::point::{Clamp, Touch};
 use crate::scan::Noise;
 use crate::systematic::{Around, Errors, Shared, of_point};
@@ -36,9 +36,9 @@ impl Learned {
     }
 
     /// Gives a place the evidence of corrected samples, with the errors that are left in its standard deviations.
-    pub fn judge(&self, tau: f64, node: &mut Node) {
-        let evidence = self.shared.evidence(&self.taken, tau, node, &mut None, PLACES);
-        node.judged(evidence.weak());
+    pub fn judge(&self, tau: f64, place: &mut Place) {
+        let evidence = self.shared.evidence(&self.taken, tau, place, &mut None, PLACES);
+        place.set_evidence(evidence.weak());
     }
 
     /// The contact at a sample of phase A or B, dimensionless in the units of the rod as it was found.
@@ -46,11 +46,11 @@ impl Learned {
         &mut self,
         sample: &Clamp,
         tau: f64,
-        node: &Node,
+        place: &Place,
         noise: &Noise,
         label: Label,
     ) -> Result<Touch, Reason> {
-        let measured = node.fit.at(tau);
+        let measured = place.fit.at(tau);
         let (clamp, covariance) = if noise.is_clean() {
             (*sample, Matrix3::from_diagonal(&noise.variance))
         } else {
@@ -59,13 +59,13 @@ impl Learned {
         let here = self.taken.here().apply(tau, &clamp, &measured.rate);
         let touch = constrained(&Uniform, &here.0, &covariance, label)?;
         let systematic = match self.point {
-            Some((index, of, found)) if index == node.index && of == label => found,
+            Some((index, of, found)) if index == place.index && of == label => found,
             _ => {
-                let place = measured.moved(here.0, here.1);
-                let found = of_point(&self.left, tau, &place, &covariance, label, &self.shared.factor, 0.0);
+                let corrected = measured.moved(here.0, here.1);
+                let found = of_point(&self.left, tau, &corrected, &covariance, label, &self.shared.factor, 0.0);
                 let earlier = self.point.filter(|point| point.1 == label).map(|point| point.2);
                 let found = found.or(earlier).ok_or(Reason::Unshared)?;
-                self.point = Some((node.index, label, found));
+                self.point = Some((place.index, label, found));
                 found
             }
         };

@@ -5,8 +5,8 @@ use super::live_settings::LiveSettings;
 use super::reading::{Reading, Reason, sure};
 use super::settings::{ReconstructError, positive};
 use crate::kink::{Kink, KinkFilter, KinkKind, KinkOptions};
-use crate::phase::{Break, Label, Node, Trellis, contact, forward, greatest, passed};
-use crate::scan::{Fault, Intake, Noise, Track, dimensionless};
+use crate::phase::{Break, Label, Place, Trellis, contact, forward_probabilities, most_likely, viterbi_step};
+use crate::scan::{Fault, Noise, SampleScaling, Track, dimensionless};
 use rod_core::{Rod, Sample, Uniform, Units};
 use std::collections::VecDeque;
 
@@ -53,7 +53,7 @@ pub struct Live {
     units: Units,
     noise: Noise,
     largest_sigma: f64,
-    intake: Intake,
+    scaling: SampleScaling,
     kinks: KinkFilter,
     /// Samples in memory, and the number of samples before them.
     track: Track,
@@ -61,7 +61,7 @@ pub struct Live {
     breaks: VecDeque<Break>,
     window: Window,
     /// Places whose label is not decided, the oldest first, and the scores of the sequences up to them.
-    open: VecDeque<Node>,
+    open: VecDeque<Place>,
     before: [f64; 5],
     /// Log of the probability of each label at the last decided place, given the places up to it.
     passed: [f64; 5],
@@ -81,7 +81,7 @@ pub struct Live {
 /// A place with its label.
 #[derive(Clone, Debug)]
 struct Decided {
-    node: Node,
+    place: Place,
     label: Label,
     /// The probability of each label by itself, and that of the label among its neighbours.
     chances: [f64; 5],
@@ -132,7 +132,7 @@ impl Live {
             units,
             noise: Noise::new(&noise),
             largest_sigma: settings.largest_sigma,
-            intake: Intake::new(rod),
+            scaling: SampleScaling::new(rod),
             kinks,
             track,
             dropped: 0,
@@ -158,7 +158,7 @@ impl Live {
 
     /// Takes a sample and returns the answer that is due. Each sample is answered in its turn; one that cannot be used with its fault.
     pub fn push(&mut self, sample: &Sample) -> Option<Reading> {
-        match self.intake.take(sample) {
+        match self.scaling.scale(sample) {
             Ok((tau, clamp)) => {
                 if self.track.len() == self.window.capacity {
                     let drop = self.window.capacity - self.window.kept;
@@ -205,15 +205,15 @@ impl Live {
     }
 
     /// The places that are not decided yet, with their path parameters, the oldest first.
-    pub(super) fn open(&self) -> impl DoubleEndedIterator<Item = (f64, &Node)> {
-        self.open.iter().map(|node| (self.track.tau[node.index - self.dropped], node))
+    pub(super) fn open(&self) -> impl DoubleEndedIterator<Item = (f64, &Place)> {
+        self.open.iter().map(|place| (self.track.tau[place.index - self.dropped], place))
     }
 
     /// From now on takes off the samples what was learned, and has the rest in its answers. `passed` is the log of the probability of each
     /// label at the last decided place, given the places up to it.
     pub(super) fn learn(&mut self, learned: Learned, passed: [f64; 5]) {
-        for node in &mut self.open {
-            learned.judge(self.track.tau[node.index - self.dropped], node);
+        for place in &mut self.open {
+            learned.judge(self.track.tau[place.index - self.dropped], place);
         }
         (self.learned, self.passed) = (Some(learned), passed);
     }
@@ -242,49 +242,52 @@ impl Live {
         let lower = earlier.checked_sub(1).map_or(0, |last| self.breaks[last].index).max(self.dropped);
         let upper = self.breaks.get(earlier).map_or(usize::MAX, |here| here.index).min(self.count());
         let part = lower - self.dropped..upper - self.dropped;
-        let since =
-            self.open.back().or_else(|| self.decided.back().map(|place| &place.node)).map_or(0, |node| node.index + 1);
+        let since = self
+            .open
+            .back()
+            .or_else(|| self.decided.back().map(|decided| &decided.place))
+            .map_or(0, |place| place.index + 1);
         let between = self.breaks.range(..earlier).filter(|here| here.index >= since);
         let between = between.copied().max_by(|u, v| u.score.total_cmp(&v.score));
-        if let Some(node) = Node::about(&Uniform, &self.track, index - self.dropped, part, &self.noise, half) {
-            let mut node = Node { index, ..node.placed(stride, between) };
+        if let Some(place) = Place::about(&Uniform, &self.track, index - self.dropped, part, &self.noise, half) {
+            let mut place = Place { index, ..place.in_sequence(stride, between) };
             if let Some(learned) = &self.learned {
-                learned.judge(self.track.tau[index - self.dropped], &mut node);
+                learned.judge(self.track.tau[index - self.dropped], &mut place);
             }
-            self.open.push_back(node);
+            self.open.push_back(place);
         }
     }
 
     /// Decides the label of the oldest open place: that of the most likely sequence; with errors that all samples share, the most likely
     /// one by itself.
     fn decide(&mut self) {
-        let places = || self.open.iter().map(|node| node.place);
+        let observations = || self.open.iter().map(|place| place.observation);
         let sequence = match self.learned {
             Some(_) => None,
-            None => self.trellis.run(&self.before, places()).first().copied(),
+            None => self.trellis.run(&self.before, observations()).first().copied(),
         };
-        let chances = self.trellis.chances(&self.passed, places());
+        let chances = self.trellis.label_probabilities(&self.passed, observations());
         let Some(own) = chances.first().copied() else { return };
-        let best = greatest(&own);
+        let best = most_likely(&own);
         let label = sequence.map_or(Label::ALL[best], |found| found.0);
         // the windows of neighbouring places overlap: where their labels differ, the border is as uncertain as the windows are wide
         let (mut sum, mut count) = (own[label as usize], 1.0);
         let after = self.open.iter().skip(1).zip(&chances[1..]);
-        for (_, chances) in after.take(SMEARED).take_while(|(node, _)| node.place.between.is_none()) {
+        for (_, chances) in after.take(SMEARED).take_while(|(place, _)| place.observation.between.is_none()) {
             (sum, count) = (sum + chances[label as usize], count + 1.0);
         }
-        let starts = self.open.front().is_some_and(|node| node.place.between.is_some());
-        for place in self.decided.iter().rev().take(if starts { 0 } else { SMEARED }) {
-            (sum, count) = (sum + place.chances[label as usize], count + 1.0);
-            if place.node.place.between.is_some() {
+        let starts = self.open.front().is_some_and(|place| place.observation.between.is_some());
+        for decided in self.decided.iter().rev().take(if starts { 0 } else { SMEARED }) {
+            (sum, count) = (sum + decided.chances[label as usize], count + 1.0);
+            if decided.place.observation.between.is_some() {
                 break;
             }
         }
-        let Some(node) = self.open.pop_front() else { return };
-        self.before = forward(&self.before, &node.place).0;
-        self.passed = passed(&self.passed, &node.place);
+        let Some(place) = self.open.pop_front() else { return };
+        self.before = viterbi_step(&self.before, &place.observation).0;
+        self.passed = forward_probabilities(&self.passed, &place.observation);
         let probability = sequence.map_or((1.0 - MISTAKEN) * sum / count + MISTAKEN / 5.0, |found| found.1);
-        self.decided.push_back(Decided { node, label, chances: own, probability });
+        self.decided.push_back(Decided { place, label, chances: own, probability });
     }
 
     /// The answer to the sample that has waited longest.
@@ -293,16 +296,16 @@ impl Live {
             Ok(index) => index,
             Err(fault) => return Some(Reading::without(self.last, Reason::Fault(fault))),
         };
-        while self.decided.get(1).is_some_and(|place| place.node.index <= index) {
+        while self.decided.get(1).is_some_and(|decided| decided.place.index <= index) {
             self.decided.pop_front();
         }
         // between two places of different labels the border is at the break, or else in the middle
         let beyond = self.decided.get(1).filter(|after| {
-            let from = self.decided.front().map_or(0, |place| place.node.index);
-            let border = after.node.place.between.map_or((from + after.node.index) / 2, |here| here.index);
+            let from = self.decided.front().map_or(0, |decided| decided.place.index);
+            let border = after.place.observation.between.map_or((from + after.place.index) / 2, |here| here.index);
             index >= border
         });
-        let Some(Decided { node, label, probability, .. }) = beyond.or_else(|| self.decided.front()) else {
+        let Some(Decided { place, label, probability, .. }) = beyond.or_else(|| self.decided.front()) else {
             return Some(Reading::without(self.last, Reason::Fault(Fault::TooFew)));
         };
         self.last = *label;
@@ -311,11 +314,11 @@ impl Live {
         let touch = match (label, &mut self.learned) {
             (Label::Free, _) => Err(Reason::Free),
             (Label::BA | Label::BB, _) => Err(Reason::Live),
-            (Label::A | Label::B, None) => contact(&Uniform, clamp, tau, &node.fit, &self.noise, *label)
+            (Label::A | Label::B, None) => contact(&Uniform, clamp, tau, &place.fit, &self.noise, *label)
                 .map_err(Reason::NoContact)
                 .and_then(|touch| sure(touch, self.units, self.largest_sigma, false)),
             (Label::A | Label::B, Some(learned)) => learned
-                .contact(clamp, tau, node, &self.noise, *label)
+                .contact(clamp, tau, place, &self.noise, *label)
                 .and_then(|touch| sure(touch, learned.units(), self.largest_sigma, self.noise.is_clean())),
         };
         Some(Reading { probability: *probability, touch, ..Reading::without(*label, Reason::Free) })

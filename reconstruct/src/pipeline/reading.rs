@@ -1,6 +1,6 @@
 //! The answer to one sample.
 
-use crate::phase::{Basis, Label};
+use crate::phase::{Basis, Label, PlaceNumber};
 use crate::point::{NoContact, Touch};
 use crate::scan::Fault;
 use crate::two_contacts::Unresolved;
@@ -55,14 +55,14 @@ pub struct Reading {
     pub touch: Result<Touch, Reason>,
     /// The second of several; none where the label is of a single contact or none.
     pub second: Option<Result<Touch, Reason>>,
-    /// Index of the place whose evidence decided.
-    pub(super) place: usize,
+    /// The place whose evidence decided.
+    pub(super) place: PlaceNumber,
 }
 
 impl Reading {
     /// A sample of this label that has no contact point.
     pub(super) fn without(label: Label, reason: Reason) -> Self {
-        Self { label, probability: 0.0, touch: Err(reason), second: None, place: usize::MAX }
+        Self { label, probability: 0.0, touch: Err(reason), second: None, place: PlaceNumber::NONE }
     }
 }
 

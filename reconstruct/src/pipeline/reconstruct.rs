@@ -6,8 +6,9 @@ use super::reading::{Reading, Reason};
 use super::reconstruction::{Pass, Reconstruction};
 use super::settings::{ReconstructError, Settings};
 use crate::kink::{Kink, KinkKind};
-use crate::phase::{Label, identify};
+use crate::phase::{Label, identify_phases};
 use crate::point::Inverse;
+use crate::scan::SampleNumber;
 use crate::scan::noise_estimate::ChannelNoise;
 use rod_core::{Rod, Sample, Uniform, Units};
 
@@ -38,17 +39,17 @@ pub(super) fn answered<I: Inverse>(
     scan: Calibrated,
     settings: &Settings,
 ) -> Reconstruction {
-    let Calibrated { track, numbered, found, kinks, noise, steps, breaks, nodes, units, calibration, friction } = scan;
-    let identified = identify(rod, &track, &noise, nodes);
+    let Calibrated { track, indices, found, kinks, noise, steps, breaks, places, units, calibration, friction } = scan;
+    let phases = identify_phases(rod, &track, &noise, places);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
     let systematic =
-        shared.map_or_else(Vec::new, |shared| shared.points(&track, &noise, &identified.nodes, &identified.labels));
+        shared.map_or_else(Vec::new, |shared| shared.points(&track, &noise, &phases.places, &phases.labels));
     let answers = Answers {
         rod,
         track: &track,
         kinks: &kinks,
         noise: &noise,
-        identified: &identified,
+        phases: &phases,
         units,
         settings,
         shared,
@@ -56,16 +57,17 @@ pub(super) fn answered<I: Inverse>(
     };
     let usable = answers.all(&breaks);
 
-    let mut numbers = Vec::with_capacity(track.len());
+    // by track index, the first of the samples with this index
+    let mut numbers: Vec<SampleNumber> = Vec::with_capacity(track.len());
     let mut readings = Vec::with_capacity(samples.len());
-    for (number, place) in numbered.iter().enumerate() {
-        match place {
+    for (number, index) in indices.iter().enumerate() {
+        match index {
             Ok(index) => {
-                // the samples of a stop share a place
-                if numbers.len() == *index {
-                    numbers.push(number);
+                // the samples of a clamp that stands still share an index
+                if numbers.len() == index.0 {
+                    numbers.push(SampleNumber(number));
                 }
-                readings.push(usable[*index]);
+                readings.push(usable[index.0]);
             }
             Err(fault) => {
                 let label = readings.last().map_or(Label::Free, |before: &Reading| before.label);
@@ -76,7 +78,7 @@ pub(super) fn answered<I: Inverse>(
     let mut runs: Vec<(usize, Label)> = Vec::new();
     for (reading, number) in usable.iter().zip(&numbers) {
         if runs.last().is_none_or(|run| run.1 != reading.label) {
-            runs.push((*number, reading.label));
+            runs.push((number.0, reading.label));
         }
     }
     let size = [given.force, given.force, given.moment];
@@ -84,7 +86,8 @@ pub(super) fn answered<I: Inverse>(
     let in_units = |kink: &Kink| Kink {
         tau: kink.tau * units.length,
         sigma_tau: kink.sigma_tau * units.length,
-        next: numbers[kink.next.min(numbers.len() - 1)],
+        // from a track index to the number of a sample
+        next: numbers[kink.next.min(numbers.len() - 1)].0,
         change: std::array::from_fn(|c| kink.change[c] * slope(kink, c)),
         sigma: std::array::from_fn(|c| kink.sigma[c] * slope(kink, c)),
         ..*kink
@@ -95,8 +98,8 @@ pub(super) fn answered<I: Inverse>(
         runs,
         kinks: kinks.iter().map(in_units).collect(),
         noise: std::array::from_fn(|c| ChannelNoise { sigma: found[c].sigma * size[c], ..found[c] }),
-        windows: identified.nodes.iter().map(|node| if clean { 1 } else { node.fit.window.len() }).collect(),
-        evidence: identified.nodes.into_iter().map(|node| node.evidence).collect(),
+        windows: phases.places.iter().map(|place| if clean { 1 } else { place.fit.window.len() }).collect(),
+        evidence: phases.places.into_iter().map(|place| place.evidence).collect(),
         steps: std::array::from_fn(|c| steps[c].map(|step| step * size[c])),
         passes: vec![Pass {
             samples: 0..samples.len(),

@@ -45,6 +45,7 @@ pub struct Reconstruction {
     pub steps: [Option<f64>; 3],
     /// The passes, one unless the clamp turns back.
     pub passes: Vec<Pass>,
+    /// The evidence of each place.
     pub(super) evidence: Vec<Evidence>,
     /// Samples of each place's window; 1 where samples are used as they are.
     pub(super) windows: Vec<usize>,
@@ -105,7 +106,7 @@ impl Reconstruction {
                 }
                 let window = match reading.second {
                     Some(_) => run.map_or(1, |(_, length)| length / SERIES),
-                    None => self.windows.get(reading.place).copied().unwrap_or(1),
+                    None => self.windows.get(reading.place.0).copied().unwrap_or(1),
                 };
                 // the second contact is used with the first one only
                 let second = reading.second.filter(|_| reading.touch.is_ok());
@@ -149,6 +150,6 @@ impl Reconstruction {
 
     /// The criteria at the place nearest to a sample, dimensionless; none for a sample that cannot be used.
     pub fn evidence(&self, sample: usize) -> Option<&Evidence> {
-        self.readings.get(sample).and_then(|reading| self.evidence.get(reading.place))
+        self.readings.get(sample).and_then(|reading| self.evidence.get(reading.place.0))
     }
 }

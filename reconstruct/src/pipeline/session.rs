@@ -96,14 +96,14 @@ impl<S> LiveSession<S> {
     /// Adds new places to those before, and gives what they tell to the answers that follow.
     fn learn(&mut self) {
         let Some(history) = &mut self.history else { return };
-        if self.live.open().next_back().is_none_or(|(_, node)| node.index < self.next) {
+        if self.live.open().next_back().is_none_or(|(_, place)| place.index < self.next) {
             return;
         }
-        for (tau, node) in self.live.open().filter(|(_, node)| node.index >= self.next) {
-            history.push(tau, node);
+        for (tau, place) in self.live.open().filter(|(_, place)| place.index >= self.next) {
+            history.push(tau, place);
         }
-        let first = self.live.open().next().map(|(_, node)| node.index);
-        self.next = self.live.open().next_back().map_or(self.next, |(_, node)| node.index + 1);
+        let first = self.live.open().next().map(|(_, place)| place.index);
+        self.next = self.live.open().next_back().map_or(self.next, |(_, place)| place.index + 1);
         if let Some((learned, passed)) = first.and_then(|first| history.learn(first)) {
             self.live.learn(learned, passed);
         }

@@ -1,11 +1,12 @@
 //! The answers to samples with several contacts.
 
 use super::answers::Answers;
-use super::nearest::Nearest;
+use super::nearest::NearestPlace;
 use super::reading::{Reading, Reason};
 use super::torn::torn;
-use crate::phase::{Break, Identified, Label};
+use crate::phase::{Break, Label, ScanPhases};
 use crate::point::{Inverse, Touch};
+use crate::scan::TrackIndex;
 use crate::two_contacts::{Around, Limits, Neighbour, Passed, Piece, Resolution, Unresolved, resolve};
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ impl<I: Inverse> Answers<'_, I> {
     /// The answers to consecutive runs with several contacts. They are resolved in parts between jumps, and between kinks within a phase,
     /// after which other contacts may be the first and the last.
     pub(super) fn several(&self, consecutive: Range<usize>, breaks: &[Break], readings: &mut Vec<Reading>) {
-        let runs = &self.identified.runs;
+        let runs = &self.phases.runs;
         let single = |label: Label| label != Label::Free && !label.several();
         let neighbour = |index: Option<usize>| {
             let (range, label) = runs.get(index?).filter(|run| single(run.1))?;
@@ -111,18 +112,18 @@ impl<I: Inverse> Answers<'_, I> {
     /// The shapes of the rod on both sides of these pieces, up to where they are not known or jump.
     fn passed(&self, pieces: &[Piece], breaks: &[Break]) -> Passed {
         let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return Passed::default() };
-        let Identified { nodes, labels, .. } = self.identified;
+        let ScanPhases { places, labels, .. } = self.phases;
         let (start, end) = (first.range.start, last.range.end);
-        let to = nodes.partition_point(|node| node.index < start);
-        let from = nodes.partition_point(|node| node.index < end);
+        let to = places.partition_point(|place| place.index < start);
+        let from = places.partition_point(|place| place.index < end);
         // the jumps next to the pieces are none of those beyond them
         let jumps = || breaks.iter().filter(|here| here.jump).map(|here| here.index);
         let least = jumps().rfind(|index| *index < start).unwrap_or(0);
         let most = jumps().find(|index| *index > end).unwrap_or(self.track.len());
-        let known = |k: &usize| !labels[*k].0.several() && (least..most).contains(&nodes[*k].index);
-        let clamp = |k: usize| (nodes[k].fit.at(self.track.tau[nodes[k].index]).clamp, labels[k].0);
+        let known = |k: &usize| !labels[*k].0.several() && (least..most).contains(&places[*k].index);
+        let clamp = |k: usize| (places[k].fit.at(self.track.tau[places[k].index]).clamp, labels[k].0);
         let before = (0..to).rev().take_while(known).map(clamp).collect();
-        let after = (from..nodes.len()).take_while(known).map(clamp).collect();
+        let after = (from..places.len()).take_while(known).map(clamp).collect();
         Passed::new(self.rod, [before, after])
     }
 
@@ -139,7 +140,7 @@ impl<I: Inverse> Answers<'_, I> {
         let displacements = match (self.shared, pieces.first(), pieces.last()) {
             (Some(shared), Some(first), Some(last)) => {
                 let stretch = first.range.start..last.range.end;
-                shared.displacements(self.track, &self.identified.nodes, &stretch)
+                shared.displacements(self.track, &self.phases.places, &stretch)
             }
             _ => Vec::new(),
         };
@@ -158,10 +159,10 @@ impl<I: Inverse> Answers<'_, I> {
         let mut pairs = found.pairs.into_iter();
         for Piece { range, label } in pieces {
             // that of the phases, by which the places are found
-            let given = self.identified.runs.iter().find(|run| run.0.contains(&range.start)).map_or(label, |run| run.1);
-            let mut nodes = Nearest::new(self.identified, given, range.start);
+            let given = self.phases.runs.iter().find(|run| run.0.contains(&range.start)).map_or(label, |run| run.1);
+            let mut nearest = NearestPlace::new(self.phases, given, range.start);
             for (index, pair) in range.zip(pairs.by_ref()) {
-                let reading = self.reading(&mut nodes, index, given, sure(pair.first));
+                let reading = self.reading(&mut nearest, TrackIndex(index), given, sure(pair.first));
                 readings.push(Reading { label, second: Some(sure(pair.second)), ..reading });
             }
         }

@@ -23,7 +23,7 @@ pub(crate) use noise::{Noise, dimensionless};
 pub use passes::passes;
 pub(crate) use quantum::quantum;
 pub use track::Fault;
-pub(crate) use track::{Intake, Track};
+pub(crate) use track::{SampleNumber, SampleScaling, Track, TrackIndex};
 pub use travel::{Halt, Travel};
 
 /// Fewest usable samples of a scan, or of a pass of it. Fewer do not determine the noise, nor the rates of the reactions.

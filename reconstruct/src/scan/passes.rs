@@ -35,13 +35,13 @@ const KEPT: f64 = 0.5;
 /// # Ok::<(), rod_core::RodError>(())
 /// ```
 pub fn passes(rod: &Rod, samples: &[Sample]) -> Vec<Range<usize>> {
-    let places: Vec<(usize, [f64; 3])> = samples
+    let poses: Vec<(usize, [f64; 3])> = samples
         .iter()
         .enumerate()
         .map(|(k, sample)| (k, [sample.pose.x, sample.pose.y, rod.length() * sample.pose.phi]))
-        .filter(|(_, place)| place.iter().all(|v| v.is_finite()))
+        .filter(|(_, pose)| pose.iter().all(|v| v.is_finite()))
         .collect();
-    let borders = turns(&places, rod.length());
+    let borders = turns(&poses, rod.length());
     let mut found: Vec<Range<usize>> = Vec::new();
     let mut start = 0;
     for end in borders.into_iter().chain([samples.len()]) {
@@ -55,16 +55,16 @@ pub fn passes(rod: &Rod, samples: &[Sample]) -> Vec<Range<usize>> {
     found
 }
 
-/// The first samples after each turn.
-fn turns(places: &[(usize, [f64; 3])], length: f64) -> Vec<usize> {
-    let chord = chord(places, length);
+/// The first samples after each turn. `poses` are those of the finite samples, (x, y, L phi), m, with the numbers of the samples.
+fn turns(poses: &[(usize, [f64; 3])], length: f64) -> Vec<usize> {
+    let chord = chord(poses, length);
     let mut borders = Vec::new();
-    let Some(first) = places.first() else { return borders };
-    // positions in `places` of the last vertex, of the one before and of the last turn
+    let Some(first) = poses.first() else { return borders };
+    // positions in `poses` of the last vertex, of the one before and of the last turn
     let (mut last, mut before, mut turned) = (0, 0, 0);
     let (mut vertex, mut direction) = (first.1, [0.0; 3]);
-    for k in 1..places.len() {
-        let step = minus(&places[k].1, &vertex);
+    for k in 1..poses.len() {
+        let step = minus(&poses[k].1, &vertex);
         let norm = dot(&step, &step).sqrt();
         if norm < chord || norm == 0.0 {
             continue;
@@ -74,31 +74,31 @@ fn turns(places: &[(usize, [f64; 3])], length: f64) -> Vec<usize> {
         if size > 0.0 && dot(&unit, &direction) < CORNER * size {
             // the sample that is farthest in the old direction, and least in the new one
             let bend: [f64; 3] = std::array::from_fn(|i| direction[i] / size - unit[i]);
-            let far = |j: &usize| dot(&places[*j].1, &bend);
+            let far = |j: &usize| dot(&poses[*j].1, &bend);
             let since = before.max(turned + 1).min(last)..k;
             turned = since.max_by(|i, j| far(i).total_cmp(&far(j))).unwrap_or(last);
-            borders.push(places[turned].0);
+            borders.push(poses[turned].0);
             direction = unit;
         } else {
             direction = std::array::from_fn(|i| KEPT * direction[i] + unit[i]);
         }
-        (before, last, vertex) = (last, k, places[k].1);
+        (before, last, vertex) = (last, k, poses[k].1);
     }
     borders
 }
 
 /// The length of chords, m.
-fn chord(places: &[(usize, [f64; 3])], length: f64) -> f64 {
-    let low: [f64; 3] = std::array::from_fn(|i| places.iter().fold(f64::INFINITY, |m, p| m.min(p.1[i])));
-    let high: [f64; 3] = std::array::from_fn(|i| places.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.1[i])));
+fn chord(poses: &[(usize, [f64; 3])], length: f64) -> f64 {
+    let low: [f64; 3] = std::array::from_fn(|i| poses.iter().fold(f64::INFINITY, |m, p| m.min(p.1[i])));
+    let high: [f64; 3] = std::array::from_fn(|i| poses.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.1[i])));
     let size = minus(&high, &low);
     let all = dot(&size, &size).sqrt();
-    (CHORD * length).min(SHARE * all).max(SIGMAS * trembling(places))
+    (CHORD * length).min(SHARE * all).max(SIGMAS * trembling(poses))
 }
 
 /// Standard deviation of the noise of a pose, m: the median of the second differences, which is 0 for a smooth movement.
-pub(super) fn trembling(places: &[(usize, [f64; 3])]) -> f64 {
-    let mut bends: Vec<f64> = places
+pub(super) fn trembling(poses: &[(usize, [f64; 3])]) -> f64 {
+    let mut bends: Vec<f64> = poses
         .windows(3)
         .map(|w| {
             let bend: [f64; 3] = std::array::from_fn(|i| w[0].1[i] - 2.0 * w[1].1[i] + w[2].1[i]);

@@ -1,4 +1,4 @@
-//! The samples of a scan in order along the path of the clamp.
+//! The usable samples of a scan, in order along the path of the clamp, and the numbers by which samples are counted.
 
 use super::FEWEST_SAMPLES;
 use super::frozen::frozen;
@@ -32,7 +32,15 @@ pub enum Fault {
     Halt(#[from] Halt),
 }
 
-/// A scan, dimensionless: path parameter (strictly increasing), clamp poses and reactions.
+/// The number of a sample in the slice that a reconstruction is given, from 0, usable or not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct SampleNumber(pub(crate) usize);
+
+/// The number of a usable sample in a [`Track`], from 0. The samples of a clamp that stands still have one index together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct TrackIndex(pub(crate) usize);
+
+/// The usable samples of a scan, dimensionless: path parameter (strictly increasing), clamp poses and reactions. Counted by [`TrackIndex`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Track {
     /// Path length of the clamp in the norm of (x, y, phi), rod lengths and radians.
@@ -44,20 +52,20 @@ pub(crate) struct Track {
     pub friction: f64,
 }
 
-/// Makes samples dimensionless, one by one, and gives each its path parameter.
+/// Scales samples to dimensionless ones, one by one, and computes the path parameter of each.
 #[derive(Clone, Debug)]
-pub(crate) struct Intake {
+pub(crate) struct SampleScaling {
     units: Units,
     travel: Travel,
 }
 
-impl Intake {
+impl SampleScaling {
     pub fn new(rod: &Rod) -> Self {
         Self { units: rod.units(), travel: Travel::new(rod) }
     }
 
     /// The path parameter of the next sample, and the sample itself, dimensionless.
-    pub fn take(&mut self, sample: &Sample) -> Result<(f64, Clamp), Fault> {
+    pub fn scale(&mut self, sample: &Sample) -> Result<(f64, Clamp), Fault> {
         let clamp = Clamp::new(self.units, sample.pose, sample.reactions);
         let known = sample.sigma.is_none_or(|sigma| [sigma.f0x, sigma.f0y, sigma.m0z].iter().all(|v| v.is_finite()));
         if !clamp.is_finite() || !known {
@@ -72,31 +80,31 @@ impl Intake {
 const HALTS: f64 = 0.01;
 
 impl Track {
-    /// The usable samples, and for each sample its index among them or why it is left out.
+    /// The usable samples, and for each sample its track index or the reason why the track leaves it out.
     ///
     /// Where poses are exact they are used as they are. Noisy ones are smoothed, and samples of a clamp that stands still are
     /// averaged: then several samples have the same index. A recording of several passes is not smoothed.
-    pub fn new(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
-        let (track, places) = Self::exact(rod, samples);
-        let halts = places.iter().filter(|place| matches!(place, Err(Fault::Halt(_)))).count();
+    pub fn new(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<TrackIndex, Fault>>) {
+        let (track, indices) = Self::exact(rod, samples);
+        let halts = indices.iter().filter(|index| matches!(index, Err(Fault::Halt(_)))).count();
         if samples.len() < FEWEST_SAMPLES || halts as f64 <= HALTS * samples.len() as f64 {
-            return (track, places);
+            return (track, indices);
         }
         if passes(rod, samples).len() > 1 {
-            return (track, places);
+            return (track, indices);
         }
-        Self::smoothed(rod, samples, &places).unwrap_or((track, places))
+        Self::with_smooth_poses(rod, samples, &indices).unwrap_or((track, indices))
     }
 
     /// The samples whose poses go on in one direction.
-    fn exact(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<usize, Fault>>) {
-        let mut intake = Intake::new(rod);
+    fn exact(rod: &Rod, samples: &[Sample]) -> (Self, Vec<Result<TrackIndex, Fault>>) {
+        let mut scaling = SampleScaling::new(rod);
         let mut track = Self {
             tau: Vec::with_capacity(samples.len()),
             clamps: Vec::with_capacity(samples.len()),
             ..Self::default()
         };
-        let places = samples
+        let indices = samples
             .iter()
             .zip(frozen(samples).into_iter().zip(spikes(samples)))
             .map(|(sample, (frozen, spike))| {
@@ -106,28 +114,28 @@ impl Track {
                 if spike {
                     return Err(Fault::Spike);
                 }
-                let (tau, clamp) = intake.take(sample)?;
+                let (tau, clamp) = scaling.scale(sample)?;
                 track.tau.push(tau);
                 track.clamps.push(clamp);
-                Ok(track.tau.len() - 1)
+                Ok(TrackIndex(track.tau.len() - 1))
             })
             .collect();
-        (track, places)
+        (track, indices)
     }
 
     /// All finite samples, with smoothed poses; none where no smoothing lets the clamp go on in one direction.
-    fn smoothed(
+    fn with_smooth_poses(
         rod: &Rod,
         samples: &[Sample],
-        places: &[Result<usize, Fault>],
-    ) -> Option<(Self, Vec<Result<usize, Fault>>)> {
+        indices: &[Result<TrackIndex, Fault>],
+    ) -> Option<(Self, Vec<Result<TrackIndex, Fault>>)> {
         let units = rod.units();
         let usable =
-            |place: &Result<usize, Fault>| !matches!(place, Err(Fault::NotFinite | Fault::Spike | Fault::Frozen));
+            |index: &Result<TrackIndex, Fault>| !matches!(index, Err(Fault::NotFinite | Fault::Spike | Fault::Frozen));
         let clamps: Vec<Clamp> = samples
             .iter()
-            .zip(places)
-            .filter(|(_, place)| usable(place))
+            .zip(indices)
+            .filter(|(_, index)| usable(index))
             .map(|(sample, _)| Clamp::new(units, sample.pose, sample.reactions))
             .collect();
         let poses: Vec<(usize, [f64; 3])> = clamps.iter().map(|clamp| (0, clamp.pose.into())).collect();
@@ -141,12 +149,13 @@ impl Track {
         let poses = if along(&own).is_some() { own } else { smooth_path(&own, |poses| along(poses).is_some())? };
         let tau = along(&poses)?;
         let clamps = stops.iter().zip(&poses).map(|(stop, pose)| Clamp { pose: *pose, ..stop.clamp }).collect();
-        let mut indices = stops.iter().enumerate().flat_map(|(index, stop)| std::iter::repeat_n(index, stop.count));
-        let places = places
+        let mut of_stops =
+            stops.iter().enumerate().flat_map(|(k, stop)| std::iter::repeat_n(TrackIndex(k), stop.count));
+        let indices = indices
             .iter()
-            .map(|place| if usable(place) { indices.next().ok_or(Fault::TooFew) } else { *place })
+            .map(|index| if usable(index) { of_stops.next().ok_or(Fault::TooFew) } else { *index })
             .collect();
-        Some((Self { tau, clamps, ..Self::default() }, places))
+        Some((Self { tau, clamps, ..Self::default() }, indices))
     }
 
     /// The same with friction whose angle has this tangent.
@@ -171,10 +180,10 @@ mod tests {
         let rod = Rod::new(0.1, 1e-3).unwrap();
         let at = |x: f64| Sample::new(Pose { x, y: 0.0, phi: 1.0 }, Reactions::default());
         let samples = [at(0.0), at(-1e-3), at(f64::NAN), at(-1e-3), at(-0.5e-3), at(-2e-3)];
-        let (track, places) = Track::new(&rod, &samples);
+        let (track, indices) = Track::new(&rod, &samples);
         let [repeated, back] = [Halt::Repeated, Halt::TurnsBack].map(|halt| Err(Fault::Halt(halt)));
-        let faults = [Ok(0), Ok(1), Err(Fault::NotFinite), repeated, back, Ok(2)];
-        assert_eq!(places, faults);
+        let faults = [Ok(0), Ok(1), Err(Fault::NotFinite), repeated, back, Ok(2)].map(|index| index.map(TrackIndex));
+        assert_eq!(indices, faults);
         assert!((track.tau[2] - 0.02).abs() < 1e-15 && track.len() == 3);
     }
 }

@@ -4,7 +4,7 @@ use super::correction::{Frame, motion, still};
 use super::influence::{Around, point_by_errors};
 use super::source::{Errors, SOURCES, Source};
 use crate::phase::{Label, constrained};
-use crate::scan::{Estimate, Track};
+use crate::scan::{Estimate, Track, TrackIndex};
 use nalgebra::{Matrix3, Vector3};
 use rod_core::{Rod, Sample, Uniform};
 
@@ -34,7 +34,7 @@ pub fn influences(
     friction: f64,
     stride: usize,
 ) -> Vec<(usize, Influence)> {
-    let (track, places) = Track::new(rod, samples);
+    let (track, indices) = Track::new(rod, samples);
     let track = track.with_friction(friction);
     let units = rod.units();
     let around = Frame::of(&track).and_then(|frame| Around::new(frame, &Errors::zeros(), |_| true));
@@ -43,16 +43,16 @@ pub fn influences(
     // without noise there are no ratios
     let least = noise.amax().max(f64::MIN_POSITIVE) * 1e-6;
     let noise = Matrix3::from_diagonal(&noise.map(|sigma| sigma.max(least).powi(2)));
-    let one = |number: usize, label: Label, index: usize| {
+    let one = |number: usize, label: Label, TrackIndex(index): TrackIndex| {
         let clamp = track.clamps[index];
-        let place = Estimate::exact(clamp, still(motion(&track, index)));
-        let (by, _) = point_by_errors(&around, track.tau[index], &place, &noise, label)?;
+        let estimate = Estimate::exact(clamp, still(motion(&track, index)));
+        let (by, _) = point_by_errors(&around, track.tau[index], &estimate, &noise, label)?;
         let alpha = constrained(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];
         let by = std::array::from_fn(|k| across(k) * units.length / Source::ALL[k].unit(rod));
         by.iter().all(|v| v.is_finite()).then_some((number, Influence { by }))
     };
-    let all = places.iter().zip(labels).enumerate().step_by(stride.max(1));
+    let all = indices.iter().zip(labels).enumerate().step_by(stride.max(1));
     let single = all.filter(|(_, (_, label))| matches!(label, Label::A | Label::B));
-    single.filter_map(|(number, (place, label))| one(number, *label, *place.as_ref().ok()?)).collect()
+    single.filter_map(|(number, (index, label))| one(number, *label, *index.as_ref().ok()?)).collect()
 }

@@ -9,7 +9,7 @@ use super::influence::{Around, of_criteria, of_point, variances};
 use super::known::Known;
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
 use super::turns::{Found, RAISED, Turns, raise};
-use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Node};
+use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Place};
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SymmetricEigen, Vector3};
 use rod_core::{Rod, Uniform};
@@ -44,17 +44,17 @@ pub(crate) struct Shared {
 
 impl Shared {
     /// Gives each place the evidence after a correction, with these errors in its standard deviations.
-    pub fn judge(&self, errors: &Errors, track: &Track, nodes: &mut [Node]) {
+    pub fn judge(&self, errors: &Errors, track: &Track, places: &mut [Place]) {
         let Some(around) = self.around(errors) else { return };
-        let stride = nodes.len().div_ceil(PLACES).max(1);
+        let stride = places.len().div_ceil(PLACES).max(1);
         let mut shared = None;
-        for (k, node) in nodes.iter_mut().enumerate() {
+        for (k, place) in places.iter_mut().enumerate() {
             // the influence of the errors changes little from place to place
-            if k % stride == 0 || node.place.between.is_some() {
+            if k % stride == 0 || place.observation.between.is_some() {
                 shared = None;
             }
-            let evidence = self.evidence(&around, track.tau[node.index], node, &mut shared, 1.0);
-            node.judged(evidence);
+            let evidence = self.evidence(&around, track.tau[place.index], place, &mut shared, 1.0);
+            place.set_evidence(evidence);
         }
     }
 
@@ -64,11 +64,11 @@ impl Shared {
         &self,
         around: &Around,
         tau: f64,
-        node: &Node,
+        place: &Place,
         shared: &mut Option<[f64; CRITERIA]>,
-        places: f64,
+        sharing: f64,
     ) -> Evidence {
-        let measured = node.fit.at(tau);
+        let measured = place.fit.at(tau);
         let here = around.here().apply(tau, &measured.clamp, &measured.rate);
         let mut evidence = Evidence::of(&Uniform, &measured.moved(here.0, here.1));
         let of_errors = || {
@@ -84,7 +84,7 @@ impl Shared {
             let both = shared[c] + misfit;
             if both.is_finite() { both } else { 0.0 }
         });
-        evidence.widen(&variances, places);
+        evidence.widen(&variances, sharing);
         evidence
     }
 
@@ -94,8 +94,8 @@ impl Shared {
     }
 
     /// Makes kinks as doubtful as the rates of the reactions are.
-    pub fn doubt(&self, nodes: &mut [Node]) {
-        for between in nodes.iter_mut().filter_map(|node| node.place.between.as_mut()) {
+    pub fn doubt(&self, places: &mut [Place]) {
+        for between in places.iter_mut().filter_map(|place| place.observation.between.as_mut()) {
             between.score /= self.rates * self.rates;
         }
     }
@@ -106,27 +106,27 @@ impl Shared {
         &self,
         track: &Track,
         noise: &Noise,
-        nodes: &[Node],
+        places: &[Place],
         labels: &[(Label, f64)],
     ) -> Vec<Option<Matrix2<f64>>> {
-        let Some(around) = self.around(&Errors::zeros()) else { return vec![None; nodes.len()] };
-        let stride = nodes.len().div_ceil(PLACES).max(1);
-        let of = |node: &Node, label: Label| {
-            let tau = track.tau[node.index];
-            let measured = node.fit.at(tau);
+        let Some(around) = self.around(&Errors::zeros()) else { return vec![None; places.len()] };
+        let stride = places.len().div_ceil(PLACES).max(1);
+        let of = |place: &Place, label: Label| {
+            let tau = track.tau[place.index];
+            let measured = place.fit.at(tau);
             let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
             let criterion = if label == Label::A { Criterion::Length } else { Criterion::K };
             let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
             of_point(&around, tau, &measured, &covariance, label, &self.factor, misfit)
         };
         // a force that has hardly begun has no derivatives: such a place takes those of the nearest place of its label
-        let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(nodes.len());
-        for (k, (node, &(label, _))) in nodes.iter().zip(labels).enumerate() {
+        let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(places.len());
+        for (k, (place, &(label, _))) in places.iter().zip(labels).enumerate() {
             let before = k.checked_sub(1).filter(|before| labels[*before].0 == label).and_then(|before| found[before]);
             let own = before.is_none() || k % stride == 0;
-            found.push(if matches!(label, Label::A | Label::B) && own { of(node, label).or(before) } else { before });
+            found.push(if matches!(label, Label::A | Label::B) && own { of(place, label).or(before) } else { before });
         }
-        for k in (1..nodes.len()).rev() {
+        for k in (1..places.len()).rev() {
             if found[k - 1].is_none() && labels[k - 1].0 == labels[k].0 {
                 found[k - 1] = found[k];
             }
@@ -141,7 +141,7 @@ pub(crate) struct Scan<'a> {
     pub track: &'a Track,
     pub noise: &'a Noise,
     pub breaks: &'a [Break],
-    pub nodes: &'a [Node],
+    pub places: &'a [Place],
 }
 
 /// The correction of a scan, if it needs one; what is left; and what to tell. None without a budget where nothing is known.
@@ -155,12 +155,12 @@ pub(crate) fn calibrate(
     }
     let frame = Frame::of(scan.track)?;
     let (prior, free) = scan.before(frame, budget, known);
-    let nodes = thinned(scan.nodes, PLACES);
-    let (turns, tared) = scan.tared(frame, &prior, &free, &nodes);
+    let places = thinned(scan.places, PLACES);
+    let (turns, tared) = scan.tared(frame, &prior, &free, &places);
     let Found { adjusted: found, prior, raised, labels, likelihood } = turns.found(&prior, &tared);
     let last = turns.labelled(&labels);
     let taken = fewest(frame, &prior, &found, &last, &turns.least);
-    let free = free.into_iter().filter(|range| are_free(range, &nodes, &labels)).collect();
+    let free = free.into_iter().filter(|range| are_free(range, &places, &labels)).collect();
     let calibration =
         Calibration { log_likelihood: likelihood, ..told(scan.rod, &prior, &raised, &found, &taken, free) };
     let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates() };
@@ -176,9 +176,9 @@ pub(crate) fn log_likelihood(scan: &Scan<'_>, budget: &Budget, known: &Known) ->
     }
     let frame = Frame::of(scan.track)?;
     let (prior, free) = scan.before(frame, budget, known);
-    let [few, all] = [FEW_PLACES, PLACES].map(|most| thinned(scan.nodes, most));
-    let quick = |nodes| {
-        let (turns, tared) = scan.tared(frame, &prior, &free, nodes);
+    let [few, all] = [FEW_PLACES, PLACES].map(|most| thinned(scan.places, most));
+    let quick = |places| {
+        let (turns, tared) = scan.tared(frame, &prior, &free, places);
         (Turns { steps: FEW_STEPS, ..turns }, tared)
     };
     let (turns, tared) = quick(&few);
@@ -204,12 +204,12 @@ impl Scan<'_> {
         frame: Frame,
         prior: &Prior,
         free: &[Range<usize>],
-        nodes: &'a [Node],
+        places: &'a [Place],
     ) -> (Turns<'a>, Adjusted) {
-        let in_free = |node: &Node| free.iter().any(|range| range.contains(&node.index));
-        let inside: Vec<Node> = nodes.iter().filter(|node| in_free(node)).cloned().collect();
-        let mut turns = Turns { frame, track: self.track, nodes, least: [1.0; CRITERIA], steps: STEPS };
-        let tare = Turns { nodes: &inside, ..turns }.labelled(&vec![(Label::Free, 1.0); inside.len()]);
+        let in_free = |place: &Place| free.iter().any(|range| range.contains(&place.index));
+        let inside: Vec<Place> = places.iter().filter(|place| in_free(place)).cloned().collect();
+        let mut turns = Turns { frame, track: self.track, places, least: [1.0; CRITERIA], steps: STEPS };
+        let tare = Turns { places: &inside, ..turns }.labelled(&vec![(Label::Free, 1.0); inside.len()]);
         let mut tared = adjust(frame, prior, &prior.means, &tare, &turns.least, STEPS);
         if tared.scatter[..3].iter().any(|times| *times > UNLIKE) {
             tared = adjust(frame, prior, &prior.means, &[], &turns.least, STEPS);
@@ -233,7 +233,7 @@ pub(crate) fn known_before(rod: &Rod, track: &Track, budget: &Budget, known: &Kn
 pub(crate) fn calibrate_labelled(
     rod: &Rod,
     track: &Track,
-    nodes: &[Node],
+    places: &[Place],
     labels: &[(Label, f64)],
     budget: &Budget,
     known: &Known,
@@ -241,15 +241,15 @@ pub(crate) fn calibrate_labelled(
     let frame = Frame::of(track)?.on_way(WAY);
     let means = known.means(rod);
     let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
-    let mut turns = Turns { frame, track, nodes, least: [1.0; CRITERIA], steps: STEPS };
-    let places = turns.labelled(labels);
-    let mut found = adjust(frame, &prior, &means, &places, &turns.least, STEPS);
+    let mut turns = Turns { frame, track, places, least: [1.0; CRITERIA], steps: STEPS };
+    let labelled = turns.labelled(labels);
+    let mut found = adjust(frame, &prior, &means, &labelled, &turns.least, STEPS);
     let free: Vec<Labelled> = turns.labelled(labels).into_iter().filter(|place| place.label == Label::Free).collect();
     turns.least = least(frame, &found, &free);
     let mut raised = [false; SOURCES];
-    found = adjust(frame, &prior, &found.errors, &places, &turns.least, STEPS);
+    found = adjust(frame, &prior, &found.errors, &labelled, &turns.least, STEPS);
     if raise(&mut prior, &found.errors, &mut raised) {
-        found = adjust(frame, &prior, &found.errors, &places, &turns.least, STEPS);
+        found = adjust(frame, &prior, &found.errors, &labelled, &turns.least, STEPS);
     }
     let calibration = told(rod, &prior, &raised, &found, &found.errors, Vec::new());
     let shared = Shared { frame, factor: found.factor, scatter: found.scatter, rates: turns.rates() };
@@ -279,16 +279,16 @@ fn least(frame: Frame, found: &Adjusted, free: &[Labelled]) -> [f64; CRITERIA] {
 }
 
 /// Whether all places in a stretch are labelled so.
-fn are_free(stretch: &Range<usize>, nodes: &[Node], labels: &[(Label, f64)]) -> bool {
-    let mut inside = nodes.iter().zip(labels).filter(|(node, _)| stretch.contains(&node.index));
+fn are_free(stretch: &Range<usize>, places: &[Place], labels: &[(Label, f64)]) -> bool {
+    let mut inside = places.iter().zip(labels).filter(|(place, _)| stretch.contains(&place.index));
     inside.all(|(_, label)| label.0 == Label::Free)
 }
 
 /// Every so many of the places, so that at most so many are left, and the first one after each break.
-fn thinned(nodes: &[Node], most: usize) -> Vec<Node> {
-    let stride = nodes.len().div_ceil(most).max(1);
-    let kept = nodes.iter().enumerate().filter(|(k, node)| k % stride == 0 || node.place.between.is_some());
-    kept.map(|(_, node)| Node { weight: (node.weight * stride as f64).min(1.0), ..node.clone() }).collect()
+fn thinned(places: &[Place], most: usize) -> Vec<Place> {
+    let stride = places.len().div_ceil(most).max(1);
+    let kept = places.iter().enumerate().filter(|(k, place)| k % stride == 0 || place.observation.between.is_some());
+    kept.map(|(_, place)| Place { weight: (place.weight * stride as f64).min(1.0), ..place.clone() }).collect()
 }
 
 /// The fewest corrections that the places need: what is known before alone, or tare and drift and then one source after the other, each

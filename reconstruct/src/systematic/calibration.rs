@@ -2,7 +2,7 @@
 
 use super::correction::{Correction, Frame};
 use super::source::{Errors, Source};
-use crate::scan::{Fault, Track};
+use crate::scan::{Fault, Track, TrackIndex};
 use nalgebra::DMatrix;
 use rod_core::{Rod, Sample};
 use std::ops::Range;
@@ -96,16 +96,16 @@ impl Calibration {
             let source = Source::ALL[k];
             self.source(source).map_or(0.0, |estimate| estimate.taken / source.unit(given))
         });
-        let (track, places) = Track::new(given, samples);
+        let (track, indices) = Track::new(given, samples);
         let correction =
             Frame::of(&track).filter(|_| self.is_applied()).and_then(|frame| Correction::new(frame, &taken));
         let Some(correction) = correction else { return samples.to_vec() };
         let (corrected, units) = (correction.track(&track), self.rod(given).units());
-        let of = |(sample, place): (&Sample, Result<usize, Fault>)| match place {
-            Ok(index) => corrected.clamps[index].sample(units, sample),
+        let of = |(sample, index): (&Sample, Result<TrackIndex, Fault>)| match index {
+            Ok(index) => corrected.clamps[index.0].sample(units, sample),
             Err(_) => *sample,
         };
-        samples.iter().zip(places).map(of).collect()
+        samples.iter().zip(indices).map(of).collect()
     }
 
     /// What was taken off for bias and drift, dimensionless.

@@ -4,7 +4,7 @@ use super::calibrate::Shared;
 use super::correction::Correction;
 use super::influence::OF_POINT;
 use super::source::{Errors, Joint};
-use crate::phase::Node;
+use crate::phase::Place;
 use crate::scan::Track;
 use nalgebra::SymmetricEigen;
 use std::ops::Range;
@@ -20,18 +20,18 @@ const PLACES: usize = 16;
 
 impl Shared {
     /// Displacements of the samples of a stretch, by [`DISPLACED`] standard deviations of each combination of errors that matters there.
-    pub fn displacements(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Correction> {
+    pub fn displacements(&self, track: &Track, places: &[Place], stretch: &Range<usize>) -> Vec<Correction> {
         let moved = |errors: &Errors| Correction::new(self.frame, &(errors * DISPLACED));
-        self.combinations(track, nodes, stretch).iter().filter_map(moved).collect()
+        self.combinations(track, places, stretch).iter().filter_map(moved).collect()
     }
 
-    fn combinations(&self, track: &Track, nodes: &[Node], stretch: &Range<usize>) -> Vec<Errors> {
-        let inside: Vec<&Node> = nodes.iter().filter(|node| stretch.contains(&node.index)).collect();
+    fn combinations(&self, track: &Track, places: &[Place], stretch: &Range<usize>) -> Vec<Errors> {
+        let inside: Vec<&Place> = places.iter().filter(|place| stretch.contains(&place.index)).collect();
         let mut squares = Joint::zeros();
         let Some(around) = self.around(&Errors::zeros()) else { return Vec::new() };
-        for node in inside.iter().step_by(inside.len().div_ceil(PLACES).max(1)) {
-            let tau = track.tau[node.index];
-            let spread = around.of_inputs(tau, &node.fit.at(tau)).fixed_rows::<OF_POINT>(0) * self.factor;
+        for place in inside.iter().step_by(inside.len().div_ceil(PLACES).max(1)) {
+            let tau = track.tau[place.index];
+            let spread = around.of_inputs(tau, &place.fit.at(tau)).fixed_rows::<OF_POINT>(0) * self.factor;
             squares += spread.transpose() * spread;
         }
         let eigen = SymmetricEigen::new(squares);

@@ -24,13 +24,13 @@ pub fn disturb(rod: &Rod, samples: &[Sample], error: impl Fn(Source) -> f64) -> 
         yielding(rod, sample, &error);
     }
     moved(rod, &mut disturbed, &error);
-    // the channels show what the place in the scan, as it is recorded, adds
-    let (track, places) = Track::new(&given, &disturbed);
+    // drift depends on the position in the scan as it is recorded
+    let (track, indices) = Track::new(&given, &disturbed);
     let ends = (track.tau.first().copied().unwrap_or(0.0), track.tau.last().copied().unwrap_or(0.0));
     let mut part = 0.0;
-    for (sample, place) in disturbed.iter_mut().zip(places) {
-        if let Ok(index) = place {
-            part = (track.tau[index] - ends.0) / (ends.1 - ends.0).max(f64::MIN_POSITIVE);
+    for (sample, index) in disturbed.iter_mut().zip(indices) {
+        if let Ok(index) = index {
+            part = (track.tau[index.0] - ends.0) / (ends.1 - ends.0).max(f64::MIN_POSITIVE);
         }
         shown(&given, sample, part, &error);
     }
@@ -50,16 +50,16 @@ fn yielding(rod: &Rod, sample: &mut Sample, error: &impl Fn(Source) -> f64) {
 
 /// The poses that a stage with a wrong scale records too late.
 fn moved(rod: &Rod, samples: &mut [Sample], error: &impl Fn(Source) -> f64) {
-    let (track, places) = Track::new(rod, samples);
+    let (track, indices) = Track::new(rod, samples);
     let Some(first) = samples.first().map(|sample| sample.pose) else { return };
     let (lag, scale) = (error(Source::Lag), 1.0 + error(Source::StageScale));
     let rate = |index: usize| motion(&track, index);
     let start = if track.len() > 1 { rate(0) * lag } else { Default::default() };
     let (x, y) = (first.x - start.x * scale, first.y - start.y * scale);
     let mut last = start;
-    for (sample, place) in samples.iter_mut().zip(places) {
-        if let Ok(index) = place {
-            last = rate(index) * lag;
+    for (sample, index) in samples.iter_mut().zip(indices) {
+        if let Ok(index) = index {
+            last = rate(index.0) * lag;
         }
         sample.pose.x = x + (sample.pose.x - x) / scale - last.x;
         sample.pose.y = y + (sample.pose.y - y) / scale - last.y;
@@ -123,8 +123,8 @@ mod tests {
             };
             let samples = scan(0.0);
             let (given, recorded) = disturb(&rod, &samples, error).unwrap();
-            let (track, places) = Track::new(&given, &recorded);
-            assert!(places.iter().all(Result::is_ok), "{only:?}");
+            let (track, indices) = Track::new(&given, &recorded);
+            assert!(indices.iter().all(Result::is_ok), "{only:?}");
             let correction = Correction::new(Frame::of(&track).unwrap(), &errors(&given, error)).unwrap();
             let corrected = correction.track(&track);
             let (truth, _) = Track::new(&rod, &samples);

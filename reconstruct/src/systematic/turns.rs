@@ -5,7 +5,7 @@ use super::calibrate::Shared;
 use super::calibration::BEYOND;
 use super::correction::Frame;
 use super::source::{Errors, Joint, SOURCES};
-use crate::phase::{CRITERIA, Criterion, Label, Node, labels, likelihood};
+use crate::phase::{CRITERIA, Criterion, Label, Place, label_log_likelihood, most_likely_labels};
 use crate::scan::Track;
 
 /// Most turns of labelling and estimating.
@@ -18,7 +18,7 @@ pub(super) const RAISED: f64 = 3.0;
 pub(super) struct Turns<'a> {
     pub frame: Frame,
     pub track: &'a Track,
-    pub nodes: &'a [Node],
+    pub places: &'a [Place],
     /// The smallest residuals of each criterion to be expected, in standard deviations of the noise.
     pub least: [f64; CRITERIA],
     /// Most Gauss-Newton steps of a turn.
@@ -60,12 +60,12 @@ impl Turns<'_> {
 
     fn lead(&self, given: &Prior, start: &Adjusted) -> Found {
         let (mut adjusted, mut prior, mut raised) = (start.clone(), *given, [false; SOURCES]);
-        let mut judged = self.nodes.to_vec();
+        let mut judged = self.places.to_vec();
         self.left(&adjusted).doubt(&mut judged);
         let mut before: Vec<(Label, f64)> = Vec::new();
         for _ in 0..TURNS {
             self.left(&adjusted).judge(&adjusted.errors, self.track, &mut judged);
-            let now = labels(&judged, false);
+            let now = most_likely_labels(&judged, false);
             adjusted = adjust(self.frame, &prior, &adjusted.errors, &self.labelled(&now), &self.least, self.steps);
             let again = raise(&mut prior, &adjusted.errors, &mut raised);
             let same = now.iter().zip(&before).all(|(now, before)| now.0 == before.0) && now.len() == before.len();
@@ -74,19 +74,19 @@ impl Turns<'_> {
                 break;
             }
         }
-        let likelihood = self.likelihood(&adjusted, given, judged);
+        let likelihood = self.log_likelihood(&adjusted, given, judged);
         Found { adjusted, prior, raised, labels: before, likelihood }
     }
 
     /// The likelihood after one more turn, on these places, from what was found on others. `given` is what was known before.
     pub fn last(&self, given: &Prior, found: &Found) -> f64 {
-        let mut judged = self.nodes.to_vec();
+        let mut judged = self.places.to_vec();
         let left = self.left(&found.adjusted);
         left.doubt(&mut judged);
         left.judge(&found.adjusted.errors, self.track, &mut judged);
-        let places = self.labelled(&labels(&judged, false));
+        let places = self.labelled(&most_likely_labels(&judged, false));
         let adjusted = adjust(self.frame, &found.prior, &found.adjusted.errors, &places, &self.least, self.steps);
-        self.likelihood(&adjusted, given, judged)
+        self.log_likelihood(&adjusted, given, judged)
     }
 
     /// Rates of the free rod's reactions in standard deviations of the noise, which the tangent criterion is of, too.
@@ -99,22 +99,22 @@ impl Turns<'_> {
     }
 
     /// The likelihood with exactly these errors: no others widen the evidence.
-    fn likelihood(&self, adjusted: &Adjusted, given: &Prior, mut judged: Vec<Node>) -> f64 {
+    fn log_likelihood(&self, adjusted: &Adjusted, given: &Prior, mut judged: Vec<Place>) -> f64 {
         let exact = Shared { factor: Joint::zeros(), scatter: self.least, ..self.left(adjusted) };
         exact.judge(&adjusted.errors, self.track, &mut judged);
         let square = |k: usize| {
             let sigma = given.sigmas[k];
             if sigma > 0.0 { ((adjusted.errors[k] - given.means[k]) / sigma).powi(2) } else { 0.0 }
         };
-        likelihood(&judged) - 0.5 * (0..SOURCES).map(square).sum::<f64>()
+        label_log_likelihood(&judged) - 0.5 * (0..SOURCES).map(square).sum::<f64>()
     }
 
     /// The places with their labels, as measured.
     pub fn labelled(&self, found: &[(Label, f64)]) -> Vec<Labelled> {
-        let of = |(node, found): (&Node, &(Label, f64))| {
-            let tau = self.track.tau[node.index];
-            Labelled { tau, measured: node.fit.at(tau), weight: node.weight, label: found.0 }
+        let of = |(place, found): (&Place, &(Label, f64))| {
+            let tau = self.track.tau[place.index];
+            Labelled { tau, measured: place.fit.at(tau), weight: place.weight, label: found.0 }
         };
-        self.nodes.iter().zip(found).map(of).collect()
+        self.places.iter().zip(found).map(of).collect()
     }
 }
