@@ -4,9 +4,9 @@ use super::bins::bins;
 use super::estimate::ContourEstimate;
 use super::gap::{Gap, GapReason};
 use super::leaps::leaps;
-use super::line::Line;
+use super::line::BinLine;
 use super::measured::Measured;
-use super::point::Point;
+use super::point::ContactPoint;
 use super::runs::Runs;
 use super::scatter;
 use super::smooth::smooth;
@@ -79,7 +79,7 @@ impl Assembly {
     pub fn assemble<'a>(&self, samples: impl IntoIterator<Item = Measured<'a>>) -> ContourEstimate {
         let mut runs = Runs::default();
         for (sample, measured) in samples.into_iter().enumerate() {
-            runs.add(sample, measured.says(sample), self.bridge);
+            runs.add(sample, measured.contour_points(sample), self.bridge);
         }
         runs.end_gap();
         let mut contour = ContourEstimate::default();
@@ -100,14 +100,14 @@ impl Assembly {
     }
 
     /// Adds the traces of a run, and returns the samples at which it leaps.
-    fn add(&self, kind: TraceKind, mut run: Vec<Point>, traces: &mut Vec<Trace>) -> Vec<usize> {
+    fn add(&self, kind: TraceKind, mut run: Vec<ContactPoint>, traces: &mut Vec<Trace>) -> Vec<usize> {
         scatter::complete(&mut run);
         let leaps = leaps(&run);
         let mut from = 0;
         for &to in leaps.iter().chain([&run.len()]) {
             let bins = bins(&run[from..to]);
             let estimates = smooth(&bins, self.tangents);
-            let parts = Line::new(&bins, &estimates, self.tangents).parts(self.tolerance);
+            let parts = BinLine::new(&bins, &estimates, self.tangents).parts(self.tolerance);
             traces.extend(parts.into_iter().map(|(samples, reversed, points)| Trace {
                 kind,
                 samples,

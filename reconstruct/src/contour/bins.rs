@@ -3,7 +3,7 @@
 //! The bins are cut by the index of the sample, never by the position of the noisy points: a mean over points that are selected by
 //! their own noise would be biased.
 
-use super::point::Point;
+use super::point::ContactPoint;
 use super::scatter;
 use nalgebra::{Matrix2, Vector2};
 
@@ -31,11 +31,11 @@ pub(super) struct Bin {
 }
 
 /// The bins of a run whose points have covariances.
-pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
+pub(super) fn bins(run: &[ContactPoint]) -> Vec<Bin> {
     let parts = parts(run);
     // where no force is known, all tangents have the same weight
     let forceless = run.iter().all(|point| point.force.norm() == 0.0);
-    let force = |point: &Point| if forceless { point.tangent } else { point.force };
+    let force = |point: &ContactPoint| if forceless { point.tangent } else { point.force };
     let force_noise = scatter::variance(run.iter().map(force), |_| Matrix2::identity()).unwrap_or(0.0);
     let mut forces = Vec::with_capacity(parts.len());
     let mut bins: Vec<Bin> = parts
@@ -72,32 +72,32 @@ pub(super) fn bins(run: &[Point]) -> Vec<Bin> {
 
 /// The points of each bin: as many bins of equal size as their mean distance allows. Bins in which the contact moves much faster are
 /// halved.
-fn parts(run: &[Point]) -> Vec<&[Point]> {
+fn parts(run: &[ContactPoint]) -> Vec<&[ContactPoint]> {
     let count = count(run);
     let mut parts = Vec::with_capacity(count);
     for k in 0..count {
-        halved(&run[k * run.len() / count..(k + 1) * run.len() / count], &mut parts);
+        halve(&run[k * run.len() / count..(k + 1) * run.len() / count], &mut parts);
     }
     parts
 }
 
 /// Halves a part as long as its halves are far enough apart.
-fn halved<'a>(part: &'a [Point], parts: &mut Vec<&'a [Point]>) {
+fn halve<'a>(part: &'a [ContactPoint], parts: &mut Vec<&'a [ContactPoint]>) {
     let (first, second) = part.split_at(part.len() / 2);
     let apart = !first.is_empty() && {
         let ((a, noise_a), (b, noise_b)) = (mean(first), mean(second));
         2.0 * (b - a).norm_squared() / (noise_a + noise_b) >= 2.0 * APART * APART
     };
     if apart {
-        halved(first, parts);
-        halved(second, parts);
+        halve(first, parts);
+        halve(second, parts);
     } else {
         parts.push(part);
     }
 }
 
 /// The mean of some points, one at least, and the trace of its covariance.
-fn mean(part: &[Point]) -> (Vector2<f64>, f64) {
+fn mean(part: &[ContactPoint]) -> (Vector2<f64>, f64) {
     let many = part.len() as f64;
     // relative to the first point, against rounding
     let sum: Vector2<f64> = part.iter().map(|point| point.at - part[0].at).sum();
@@ -106,7 +106,7 @@ fn mean(part: &[Point]) -> (Vector2<f64>, f64) {
 }
 
 /// The number of bins of equal size.
-fn count(run: &[Point]) -> usize {
+fn count(run: &[ContactPoint]) -> usize {
     let mut size = 1;
     while run.len() / (2 * size) >= FEWEST {
         let means = run.chunks_exact(size).map(mean);
@@ -135,11 +135,11 @@ mod tests {
     fn bins_are_farther_apart_than_they_are_uncertain() {
         let (sigma, force_noise) = (5e-4, 2.5e-3);
         let mut random = Random::new(1);
-        let mut run: Vec<Point> = (0..20_000)
+        let mut run: Vec<ContactPoint> = (0..20_000)
             .map(|sample| {
                 let at = Vector2::new(sample as f64 * 2e-6 + sigma * random.normal(), sigma * random.normal());
                 let force = Vector2::new(0.2 + force_noise * random.normal(), force_noise * random.normal());
-                Point {
+                ContactPoint {
                     sample,
                     at,
                     force,
@@ -163,10 +163,10 @@ mod tests {
 
     #[test]
     fn clean_points_are_left_alone() {
-        let mut run: Vec<Point> = (0..100)
+        let mut run: Vec<ContactPoint> = (0..100)
             .map(|sample| {
                 let at = Vector2::new(sample as f64 * 1e-4, 0.0);
-                Point {
+                ContactPoint {
                     sample,
                     at,
                     force: Vector2::zeros(),

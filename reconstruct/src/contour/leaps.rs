@@ -1,6 +1,6 @@
 //! Leaps in a run of contact points: a snap or a slip to another place of the contour within one contact phase.
 
-use super::point::Point;
+use super::point::ContactPoint;
 use super::scatter;
 use crate::numeric::squared_distance;
 use nalgebra::Vector2;
@@ -17,7 +17,7 @@ const SIGNIFICANCE: f64 = 6.0;
 const SUDDEN: (f64, f64) = (0.6, 3.0);
 
 /// The indices in a run at which the point has leapt since the point before, in order.
-pub(super) fn leaps(run: &[Point]) -> Vec<usize> {
+pub(super) fn leaps(run: &[ContactPoint]) -> Vec<usize> {
     let means = Means::new(run);
     let mut found: Vec<usize> = Vec::new();
     for (k, &scale) in SCALES.iter().enumerate().take_while(|&(_, scale)| run.len() >= 3 * scale) {
@@ -47,7 +47,7 @@ pub(super) fn leaps(run: &[Point]) -> Vec<usize> {
 
 /// Means over any part of a run.
 struct Means<'a> {
-    run: &'a [Point],
+    run: &'a [ContactPoint],
     /// Sums of the positions, relative to the first, up to each point.
     sums: Vec<Vector2<f64>>,
     /// Standard deviation of a difference of two means at each scale, relative to that of one point.
@@ -55,7 +55,7 @@ struct Means<'a> {
 }
 
 impl<'a> Means<'a> {
-    fn new(run: &'a [Point]) -> Self {
+    fn new(run: &'a [ContactPoint]) -> Self {
         let origin = run.first().map_or(Vector2::zeros(), |point| point.at);
         let mut sums = vec![Vector2::zeros()];
         let mut sum = Vector2::zeros();
@@ -132,13 +132,21 @@ mod tests {
     const NONE: [usize; 0] = [];
 
     /// A run along x at 2 um a sample that leaps after `at` samples.
-    fn run(count: usize, at: usize, leap: f64, sigma: f64, seed: u64) -> Vec<Point> {
+    fn run(count: usize, at: usize, leap: f64, sigma: f64, seed: u64) -> Vec<ContactPoint> {
         let mut random = Random::new(seed);
         let point = |sample| {
             let x = sample as f64 * 2e-6 + if sample < at { 0.0 } else { leap };
             let at = Vector2::new(x + sigma * random.normal(), sigma * random.normal());
             let covariance = Matrix2::identity() * (sigma * sigma).max(1e-30);
-            Point { sample, at, force: Vector2::x(), tangent: Vector2::x(), s: f64::INFINITY, covariance, shared: 1.0 }
+            ContactPoint {
+                sample,
+                at,
+                force: Vector2::x(),
+                tangent: Vector2::x(),
+                s: f64::INFINITY,
+                covariance,
+                shared: 1.0,
+            }
         };
         (0..count).map(point).collect()
     }

@@ -1,10 +1,10 @@
 //! From bins to the points of a trace: in order along the contour, and no more of them than its shape needs.
 
 use super::bins::Bin;
-use super::simplify::simplified;
+use super::simplify::simplify;
 use super::smooth::Estimate;
 use super::trace::TracePoint;
-use crate::numeric::wrapped;
+use crate::numeric::wrap_angle;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -22,7 +22,7 @@ const BESIDE: usize = 4;
 const LEFT_OUT: f64 = 0.5;
 
 /// Bins with their estimates, and how far each is along the contour.
-pub(super) struct Line {
+pub(super) struct BinLine {
     points: Vec<TracePoint>,
     /// Path length along the tangents, growing in the direction of the contour.
     way: Vec<f64>,
@@ -33,7 +33,7 @@ pub(super) struct Line {
     tangents: bool,
 }
 
-impl Line {
+impl BinLine {
     pub fn new(bins: &[Bin], estimates: &[Estimate], tangents: bool) -> Self {
         let mut line = Self { points: Vec::new(), way: Vec::new(), along: Vec::new(), samples: Vec::new(), tangents };
         let mut before: Option<(Vector2<f64>, Vector2<f64>)> = None;
@@ -120,7 +120,7 @@ impl Line {
             self.to_the_ends(&kept, &mut points);
         }
         points.dedup_by(|a, b| a.x == b.x && a.y == b.y);
-        Some((samples, reversed, simplified(&points, LEFT_OUT, tolerance)))
+        Some((samples, reversed, simplify(&points, LEFT_OUT, tolerance)))
     }
 
     /// The bins of a part that are ahead of the one kept before, and the last one in any case. A bin that is much better known
@@ -165,12 +165,12 @@ impl Line {
                 .abs_diff(self.samples[beside].start + self.samples[beside].end);
             let half = 0.5 * (self.samples[k].len() - 1) as f64;
             let beyond = (self.way[k] - self.way[beside]).abs() * half / (0.5 * samples as f64);
-            let turned = wrapped(self.points[k].alpha - self.points[beside].alpha);
+            let turned = wrap_angle(self.points[k].alpha - self.points[beside].alpha);
             let turned = turned * beyond / (self.way[k] - self.way[beside]).abs().max(f64::MIN_POSITIVE);
             let alpha = points[end].alpha + 0.5 * turned;
             points[end].x += sign * beyond * alpha.cos();
             points[end].y += sign * beyond * alpha.sin();
-            points[end].alpha = wrapped(points[end].alpha + turned);
+            points[end].alpha = wrap_angle(points[end].alpha + turned);
         }
     }
 }
@@ -209,11 +209,11 @@ mod tests {
     }
 
     /// A contact that goes to and fro along a line, in steps of 1 mm.
-    fn line(ways: &[i32], sigma: f64) -> Line {
+    fn line(ways: &[i32], sigma: f64) -> BinLine {
         uneven(ways, &vec![sigma; ways.len()])
     }
 
-    fn uneven(ways: &[i32], sigmas: &[f64]) -> Line {
+    fn uneven(ways: &[i32], sigmas: &[f64]) -> BinLine {
         let bin = |(k, (&way, &sigma)): (usize, (&i32, &f64))| {
             let at = Vector2::new(1e-3 * f64::from(way), 0.0);
             let covariance = nalgebra::Matrix2::identity() * sigma * sigma;
@@ -223,7 +223,7 @@ mod tests {
             )
         };
         let (bins, estimates): (Vec<_>, Vec<_>) = ways.iter().zip(sigmas).enumerate().map(bin).unzip();
-        Line::new(&bins, &estimates, true)
+        BinLine::new(&bins, &estimates, true)
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A sample as contours are assembled from it.
 
-use super::point::Point;
+use super::point::ContactPoint;
 use crate::phase::Label;
 use crate::point::Touch;
 
@@ -39,24 +39,27 @@ impl<'a> Measured<'a> {
     }
 
     /// The sample as points of the contour.
-    pub(super) fn says(&self, sample: usize) -> Says {
-        let point = |index: usize| self.touches.get(index).and_then(|touch| Point::of(sample, touch, self.shared));
+    pub(super) fn contour_points(&self, sample: usize) -> SamplePoints {
+        let point =
+            |index: usize| self.touches.get(index).and_then(|touch| ContactPoint::of(sample, touch, self.shared));
         match self.label {
-            Label::Free => Says::Free,
-            label if label.several() => Says::Several(point(0), point(1)),
+            Label::Free => SamplePoints::Free,
+            label if label.several() => SamplePoints::Several(point(0), point(1)),
             _ => match point(0) {
-                Some(point) => Says::Single(point),
-                None if self.touches.is_empty() => Says::Nothing(self.reason.unwrap_or("no contact point").to_owned()),
-                None => Says::Nothing("the contact point is not finite".to_owned()),
+                Some(point) => SamplePoints::Single(point),
+                None if self.touches.is_empty() => {
+                    SamplePoints::Nothing(self.reason.unwrap_or("no contact point").to_owned())
+                }
+                None => SamplePoints::Nothing("the contact point is not finite".to_owned()),
             },
         }
     }
 }
 
 /// A sample as points of the contour.
-pub(super) enum Says {
-    Single(Point),
-    Several(Option<Point>, Option<Point>),
+pub(super) enum SamplePoints {
+    Single(ContactPoint),
+    Several(Option<ContactPoint>, Option<ContactPoint>),
     Free,
     Nothing(String),
 }

@@ -24,5 +24,5 @@ pub use assembly::Assembly;
 pub use estimate::{ContourEstimate, TraceRow};
 pub use gap::{Gap, GapReason};
 pub use measured::Measured;
-pub(crate) use simplify::simplified;
+pub(crate) use simplify::simplify;
 pub use trace::{Trace, TraceCurve, TraceKind, TracePoint};

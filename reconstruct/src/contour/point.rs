@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 
 /// One contact of one sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
+pub(super) struct ContactPoint {
     pub sample: usize,
     pub at: Vector2<f64>,
     /// Tangent of the contour times the contact force, N. Its error is that of the reactions, the same in every sample; the error of
@@ -21,7 +21,7 @@ pub(super) struct Point {
     pub shared: f64,
 }
 
-impl Point {
+impl ContactPoint {
     /// None where position or angle are not finite.
     pub fn of(sample: usize, touch: &Touch, shared: usize) -> Option<Self> {
         let shared = shared.max(1) as f64;

@@ -1,25 +1,25 @@
 //! The samples of a scan, taken apart into consecutive ones of a kind.
 
 use super::gap::GapReason;
-use super::measured::Says;
-use super::point::Point;
+use super::measured::SamplePoints;
+use super::point::ContactPoint;
 use std::ops::Range;
 
 /// Runs of consecutive points of a kind, and the gaps between them.
 #[derive(Default)]
 pub(super) struct Runs {
-    pub single: Vec<Vec<Point>>,
-    pub first: Vec<Vec<Point>>,
-    pub second: Vec<Vec<Point>>,
+    pub single: Vec<Vec<ContactPoint>>,
+    pub first: Vec<Vec<ContactPoint>>,
+    pub second: Vec<Vec<ContactPoint>>,
     pub gaps: Vec<(Range<usize>, GapReason)>,
     open: Option<(Range<usize>, GapReason)>,
 }
 
 impl Runs {
     /// Adds the points of a sample; `bridge` is that of the assembly.
-    pub fn add(&mut self, sample: usize, says: Says, bridge: usize) {
-        match says {
-            Says::Single(point) => {
+    pub fn add(&mut self, sample: usize, points: SamplePoints, bridge: usize) {
+        match points {
+            SamplePoints::Single(point) => {
                 let short = |(gap, reason): &(Range<usize>, GapReason)| {
                     matches!(reason, GapReason::NoAnswer(_)) && gap.len() <= bridge
                 };
@@ -34,13 +34,13 @@ impl Runs {
                 }
                 self.end_gap();
             }
-            Says::Several(first, second) => {
+            SamplePoints::Several(first, second) => {
                 append(&mut self.first, first);
                 append(&mut self.second, second);
                 self.miss(sample, GapReason::Several);
             }
-            Says::Free => self.miss(sample, GapReason::Free),
-            Says::Nothing(reason) => self.miss(sample, GapReason::NoAnswer(reason)),
+            SamplePoints::Free => self.miss(sample, GapReason::Free),
+            SamplePoints::Nothing(reason) => self.miss(sample, GapReason::NoAnswer(reason)),
         }
     }
 
@@ -64,7 +64,7 @@ impl Runs {
 }
 
 /// Continues the last run, or begins one.
-fn append(runs: &mut Vec<Vec<Point>>, point: Option<Point>) {
+fn append(runs: &mut Vec<Vec<ContactPoint>>, point: Option<ContactPoint>) {
     let Some(point) = point else { return };
     match runs.last_mut() {
         Some(run) if run.last().is_some_and(|last| last.sample + 1 == point.sample) => run.push(point),

@@ -3,7 +3,7 @@
 //! Fourth differences of neighbours remove what changes smoothly and have 70 times the variance of white noise. Their median is not
 //! affected by the few that span a vertex or a leap.
 
-use super::point::Point;
+use super::point::ContactPoint;
 use crate::numeric::squared_distance;
 use nalgebra::{Matrix2, Vector2};
 
@@ -44,11 +44,11 @@ pub(super) fn variance(
 
 /// Gives each point of a run a covariance that can be inverted and is at least the scatter of the points. Where none is known it is
 /// the scatter itself.
-pub(super) fn complete(run: &mut [Point]) {
+pub(super) fn complete(run: &mut [ContactPoint]) {
     let Some(first) = run.first() else { return };
     let extent = run.iter().map(|point| (point.at - first.at).norm()).fold(0.0, f64::max);
     let floor = ROUNDING.0 + ROUNDING.1 * (extent + first.at.norm());
-    let unknown = |point: &Point| point.covariance.trace() <= 0.0;
+    let unknown = |point: &ContactPoint| point.covariance.trace() <= 0.0;
     if run.iter().any(unknown) {
         let scatter = variance(run.iter().map(|point| point.at), |_| Matrix2::identity()).unwrap_or(0.0);
         for point in run.iter_mut().filter(|point| unknown(point)) {
@@ -69,12 +69,12 @@ mod tests {
     use super::*;
     use crate::numeric::seeded::Random;
 
-    fn parabola(count: usize, sigma: f64, stated: f64) -> Vec<Point> {
+    fn parabola(count: usize, sigma: f64, stated: f64) -> Vec<ContactPoint> {
         let mut random = Random::new(3);
         let point = |sample| {
             let x = sample as f64 * 2e-6;
             let at = Vector2::new(x + sigma * random.normal(), 50.0 * x * x + sigma * random.normal());
-            Point {
+            ContactPoint {
                 sample,
                 at,
                 force: Vector2::x(),

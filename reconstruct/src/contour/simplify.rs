@@ -7,7 +7,7 @@ const SMALLEST: f64 = 1e-100;
 
 /// The points without those that depart from the chords between the others by no more than a share of their standard deviation, or
 /// the tolerance (m) where that is larger.
-pub(crate) fn simplified(points: &[TracePoint], share: f64, tolerance: f64) -> Vec<TracePoint> {
+pub(crate) fn simplify(points: &[TracePoint], share: f64, tolerance: f64) -> Vec<TracePoint> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let mut keep = vec![false; points.len()];
     keep[0] = true;
@@ -47,7 +47,7 @@ mod tests {
             TracePoint { x, y: 50.0 * x * x, alpha: (100.0 * x).atan(), sigma: 0.0, systematic: 0.0 }
         };
         let points: Vec<_> = (-1000..=1000).map(point).collect();
-        let few = simplified(&points, 0.5, 1e-6);
+        let few = simplify(&points, 0.5, 1e-6);
         assert!(few.len() < 120 && few[0] == points[0] && few.last() == points.last(), "{}", few.len());
         for p in &points {
             let k = few.iter().position(|q| q.x >= p.x).unwrap().max(1);
@@ -55,8 +55,8 @@ mod tests {
             let y = a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x);
             assert!((y - p.y) / (1.0 + (100.0 * p.x).powi(2)).sqrt() < 1.2e-6);
         }
-        assert!(simplified(&points, 0.5, 1e-3).len() < 10);
-        assert_eq!(simplified(&points[..1], 0.5, 1e-6).len(), 1);
-        assert_eq!(simplified(&[], 0.5, 1e-6), []);
+        assert!(simplify(&points, 0.5, 1e-3).len() < 10);
+        assert_eq!(simplify(&points[..1], 0.5, 1e-6).len(), 1);
+        assert_eq!(simplify(&[], 0.5, 1e-6), []);
     }
 }

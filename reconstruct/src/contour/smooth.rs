@@ -25,7 +25,7 @@ pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
     let origin = first.at;
     let own: Vec<_> = bins.iter().map(|bin| (bin.at - origin, inverse(&bin.covariance))).collect();
     let turns: Vec<f64> = bins.windows(2).map(|pair| angle(&pair[0].tangent, &pair[1].tangent)).collect();
-    let step = |k| if tangents { Step::before(bins, &turns, k) } else { None };
+    let step = |k| if tangents { Step::to_bin(bins, &turns, k) } else { None };
     let steps: Vec<_> = (1..bins.len()).map(step).collect();
     let count = bins.len();
     // what each bin gets from the bins before it and from those after it: information vector and matrix
@@ -36,10 +36,10 @@ pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
         (weight * at + from_neighbour.0, weight + from_neighbour.1)
     };
     for k in 1..count {
-        ahead[k] = Step::tell(&steps[k - 1], with(k - 1, &ahead[k - 1]));
+        ahead[k] = Step::information(&steps[k - 1], with(k - 1, &ahead[k - 1]));
     }
     for k in (1..count).rev() {
-        behind[k - 1] = Step::tell(&steps[k - 1], with(k, &behind[k]));
+        behind[k - 1] = Step::information(&steps[k - 1], with(k, &behind[k]));
     }
     let mut estimates: Vec<Estimate> = (0..count)
         .map(|k| {
@@ -76,7 +76,7 @@ struct Step {
 impl Step {
     /// The step from the bin before to bin `k`, given the angle by which the tangent turns in each step; none where no
     /// tangent is known.
-    fn before(bins: &[Bin], turns: &[f64], k: usize) -> Option<Self> {
+    fn to_bin(bins: &[Bin], turns: &[f64], k: usize) -> Option<Self> {
         let (a, b) = (&bins[k - 1], &bins[k]);
         let tangent = (a.tangent + b.tangent).try_normalize(1e-6)?;
         let uncertain = a.sigma_tangent * a.sigma_tangent + b.sigma_tangent * b.sigma_tangent;
@@ -94,7 +94,7 @@ impl Step {
     }
 
     /// The information that the bin at one end of a step gives the one at the other end.
-    fn tell(step: &Option<Self>, (right, weight): (Vector2<f64>, Matrix2<f64>)) -> (Vector2<f64>, Matrix2<f64>) {
+    fn information(step: &Option<Self>, (right, weight): (Vector2<f64>, Matrix2<f64>)) -> (Vector2<f64>, Matrix2<f64>) {
         let Some(Self { normal, variance }) = step else { return (Vector2::zeros(), Matrix2::zeros()) };
         let covariance = inverse(&weight);
         let along = covariance * normal;

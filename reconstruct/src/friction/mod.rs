@@ -15,5 +15,5 @@ pub(crate) use estimate::SPREAD;
 pub use estimate::{FrictionAlone, FrictionEstimate};
 pub(crate) use known::ANY;
 pub use known::Friction;
-pub(crate) use plateau::{Start, flatness, rubs, start};
+pub(crate) use plateau::{PlateauFriction, flatness, plateau_friction, shows_friction};
 pub use there_and_back::{Pair, without_friction};

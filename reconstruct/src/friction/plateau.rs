@@ -75,7 +75,7 @@ fn estimate_at(track: &Track, noise: &Noise, place: &Place, tare: Option<&Correc
 /// A place that kinematics alone tell to be of one contact along the rod's side, whatever its friction: the moment vanishes before the tip,
 /// and the rod does not move across itself there.
 #[derive(Clone, Copy, Debug)]
-struct Side {
+struct TangentialPlace {
     /// K / (2 |F|), and its standard deviation.
     value: f64,
     sigma: f64,
@@ -87,7 +87,7 @@ struct Side {
     slides: (f64, f64),
 }
 
-impl Side {
+impl TangentialPlace {
     fn of<I: Inverse>(
         rod: &I,
         (track, noise): (&Track, &Noise),
@@ -132,7 +132,7 @@ impl Side {
 }
 
 /// How densely places lie about each value of K / (2 |F|), by the way of the clamp.
-fn density(sides: &[Side]) -> Vec<(f64, f64)> {
+fn density(sides: &[TangentialPlace]) -> Vec<(f64, f64)> {
     let most = (LARGEST / SPACING) as i32;
     let mut density: Vec<(f64, f64)> = (-most..=most).map(|k| (SPACING * f64::from(k), 0.0)).collect();
     for side in sides {
@@ -157,14 +157,14 @@ fn peaks(density: &[(f64, f64)]) -> Vec<f64> {
 
 /// Whether places, after a correction if there is one, are dense about a value of K / (2 |F|) that an ordinary laboratory does not explain
 /// without friction.
-pub(crate) fn rubs<I: Inverse>(
+pub(crate) fn shows_friction<I: Inverse>(
     rod: &I,
     track: &Track,
     noise: &Noise,
     places: &[Place],
     tare: Option<&Correction>,
 ) -> bool {
-    peaks(&density(&Side::all(rod, track, noise, places, tare))).iter().any(|peak| peak.abs() > NOTHING)
+    peaks(&density(&TangentialPlace::all(rod, track, noise, places, tare))).iter().any(|peak| peak.abs() > NOTHING)
 }
 
 /// How far places, after a correction, are from the plateau of a coefficient, in standard deviations of their noise (1 at least), and in terms of the coefficient.
@@ -176,16 +176,16 @@ pub(crate) fn flatness<I: Inverse>(
     correction: &Correction,
     mu: f64,
 ) -> (f64, f64) {
-    off_plateau(&Side::all(rod, track, noise, places, Some(correction)), mu)
+    off_plateau(&TangentialPlace::all(rod, track, noise, places, Some(correction)), mu)
 }
 
-fn off_plateau(sides: &[Side], mu: f64) -> (f64, f64) {
+fn off_plateau(sides: &[TangentialPlace], mu: f64) -> (f64, f64) {
     let sine = mu / mu.hypot(1.0);
-    let off = |side: &Side| side.value - sine;
-    let scatter = outer(sides.iter().map(|side| off(side) / side.sigma)).max(1.0);
-    let (size, own) = (outer(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
+    let off = |side: &TangentialPlace| side.value - sine;
+    let scatter = inner_sigma(sides.iter().map(|side| off(side) / side.sigma)).max(1.0);
+    let (size, own) = (inner_sigma(sides.iter().map(off)), median(sides.iter().map(|side| side.sigma).collect()));
     let spread = (size.powi(2) - own.unwrap_or(0.0).powi(2)).max(0.0).sqrt() * (1.0 - sine * sine).powf(-1.5);
-    match another(sides, sine) {
+    match another_plateau(sides, sine) {
         Some((value, sigma)) => (scatter.max((value - sine).abs() / sigma), spread.max((tangent(value) - mu).abs())),
         None => (scatter, spread),
     }
@@ -193,7 +193,7 @@ fn off_plateau(sides: &[Side], mu: f64) -> (f64, f64) {
 
 /// Friction as the plateau tells it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Start {
+pub(crate) struct PlateauFriction {
     /// The coefficient, with the sign of [`FrictionEstimate::mu`](super::FrictionEstimate::mu).
     pub mu: f64,
     /// Its standard deviation by the noise.
@@ -211,44 +211,45 @@ pub(crate) struct Start {
 
 /// The likeliest friction of places that are judged without, and these places judged with it. Its size is `mu`, if that is known; its sign is the
 /// one that the direction of the rod asks for, or the likelier one where no place tells the direction.
-pub(crate) fn start<I: Inverse>(
+pub(crate) fn plateau_friction<I: Inverse>(
     rod: &I,
     track: &Track,
     noise: &Noise,
     places: Vec<Place>,
     mu: Option<f64>,
-) -> (Start, Vec<Place>) {
-    let sides = Side::all(rod, track, noise, &places, None);
+) -> (PlateauFriction, Vec<Place>) {
+    let sides = TangentialPlace::all(rod, track, noise, &places, None);
     let tried: Vec<f64> = match mu {
         Some(mu) => signs(&sides).iter().map(|sign| sign * mu).collect(),
-        None => peaks(&density(&sides)).into_iter().map(|peak| tangent(level(&sides, peak).0)).collect(),
+        None => peaks(&density(&sides)).into_iter().map(|peak| tangent(plateau_value(&sides, peak).0)).collect(),
     };
     let without = label_log_likelihood(&places);
-    let judged = tried.into_iter().map(|mu| {
-        let mut judged = places.clone();
-        rub(rod, track, &mut judged, mu);
-        (mu, label_log_likelihood(&judged), judged)
+    let with_evidence = tried.into_iter().map(|mu| {
+        let mut with_evidence = places.clone();
+        set_friction(rod, track, &mut with_evidence, mu);
+        (mu, label_log_likelihood(&with_evidence), with_evidence)
     });
-    let best = judged.max_by(|a, b| a.1.total_cmp(&b.1));
-    let (found, likelihood, judged) = best.unwrap_or((0.0, without, places));
+    let best = with_evidence.max_by(|a, b| a.1.total_cmp(&b.1));
+    let (found, likelihood, with_evidence) = best.unwrap_or((0.0, without, places));
     let sine = found / found.hypot(1.0);
-    let information = level(&sides, sine).1;
+    let information = plateau_value(&sides, sine).1;
     let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
     let (scatter, spread) = off_plateau(&sides, found);
-    let backwards = |side: &&Side| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
-    let all = way(sides.iter());
-    let against = if all > 0.0 && found != 0.0 { way(sides.iter().filter(backwards)) / all } else { 0.0 };
+    let backwards = |side: &&TangentialPlace| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
+    let all = path_length(sides.iter());
+    let against = if all > 0.0 && found != 0.0 { path_length(sides.iter().filter(backwards)) / all } else { 0.0 };
     let sigma = tangent_by_sine / information.sqrt();
-    (Start { mu: found, sigma, scatter, spread, against, likelihood, without }, judged)
+    (PlateauFriction { mu: found, sigma, scatter, spread, against, likelihood, without }, with_evidence)
 }
 
-fn way<'a>(sides: impl Iterator<Item = &'a Side>) -> f64 {
+fn path_length<'a>(sides: impl Iterator<Item = &'a TangentialPlace>) -> f64 {
     sides.map(|side| side.way).sum()
 }
 
 /// The signs that friction may have: against the way in which the rod slides along most of the path.
-fn signs(sides: &[Side]) -> &'static [f64] {
-    let slides = |sign: f64| way(sides.iter().filter(|side| sign * side.slides.0 > SIGMAS * side.slides.1 + RATE));
+fn signs(sides: &[TangentialPlace]) -> &'static [f64] {
+    let slides =
+        |sign: f64| path_length(sides.iter().filter(|side| sign * side.slides.0 > SIGMAS * side.slides.1 + RATE));
     let (on, back) = (slides(1.0), slides(-1.0));
     if on == back {
         &[1.0, -1.0]
@@ -260,20 +261,20 @@ fn signs(sides: &[Side]) -> &'static [f64] {
 }
 
 /// The value of another plateau than that at `sine`, and the standard deviation of one of its places, if a part of the path has one.
-fn another(sides: &[Side], sine: f64) -> Option<(f64, f64)> {
-    let exact: Vec<Side> = sides.iter().copied().filter(|side| side.sigma < NARROWEST).collect();
-    let is_off = |side: &Side| (side.value - sine).abs() > APART.hypot(SIGMAS * side.sigma);
-    let off: Vec<Side> = exact.iter().copied().filter(is_off).collect();
+fn another_plateau(sides: &[TangentialPlace], sine: f64) -> Option<(f64, f64)> {
+    let exact: Vec<TangentialPlace> = sides.iter().copied().filter(|side| side.sigma < NARROWEST).collect();
+    let is_off = |side: &TangentialPlace| (side.value - sine).abs() > APART.hypot(SIGMAS * side.sigma);
+    let off: Vec<TangentialPlace> = exact.iter().copied().filter(is_off).collect();
     let peak = *peaks(&density(&off)).first()?;
-    let near = |side: &&Side| (side.value - peak).abs() < NARROWEST.hypot(SIGMAS * side.sigma);
+    let near = |side: &&TangentialPlace| (side.value - peak).abs() < NARROWEST.hypot(SIGMAS * side.sigma);
     let values = off.iter().filter(near).map(|side| side.value).collect();
     let sigmas = off.iter().filter(near).map(|side| side.sigma).collect();
     let found = median(values).zip(median(sigmas));
-    found.filter(|_| way(off.iter().filter(near)) > ANOTHER * way(exact.iter()))
+    found.filter(|_| path_length(off.iter().filter(near)) > ANOTHER * path_length(exact.iter()))
 }
 
 /// The standard deviation of normal variables about 0 of which [`INNER`] are no larger than those; 0 without values.
-fn outer(values: impl Iterator<Item = f64>) -> f64 {
+fn inner_sigma(values: impl Iterator<Item = f64>) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).collect();
     sizes.sort_unstable_by(f64::total_cmp);
     sizes.get((INNER * sizes.len() as f64) as usize).map_or(0.0, |size| size / OF_INNER)
@@ -284,19 +285,19 @@ fn tangent(sine: f64) -> f64 {
 }
 
 /// Gives places the evidence that they have with this friction.
-fn rub<I: Inverse>(rod: &I, track: &Track, places: &mut [Place], friction: f64) {
+fn set_friction<I: Inverse>(rod: &I, track: &Track, places: &mut [Place], friction: f64) {
     for place in places {
-        place.fit.rub(friction);
+        place.fit.set_friction(friction);
         let evidence = Evidence::of(rod, &place.fit.at(track.tau[place.index]));
         place.set_evidence(evidence);
     }
 }
 
 /// The value of a plateau about a peak, by medians of what is ever nearer and then by least squares, and how much is known of it.
-fn level(sides: &[Side], peak: f64) -> (f64, f64) {
+fn plateau_value(sides: &[TangentialPlace], peak: f64) -> (f64, f64) {
     let (mut sine, mut near) = (peak, NEAR);
     for _ in 0..TURNS {
-        let about: Vec<&Side> =
+        let about: Vec<&TangentialPlace> =
             sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(SIGMAS * side.sigma)).collect();
         let Some(middle) = median(about.iter().map(|side| side.value).collect()) else { break };
         sine = middle;
@@ -309,7 +310,7 @@ fn level(sides: &[Side], peak: f64) -> (f64, f64) {
 
 /// The value of a plateau as a least-squares problem; the scale of its loss is that of the residuals one step before.
 struct Plateau<'a> {
-    sides: &'a [Side],
+    sides: &'a [TangentialPlace],
     scatter: f64,
 }
 

@@ -117,7 +117,7 @@ impl KinkFilter {
         self.detector.run(&self.tau, [a, b, c], self.nominal);
         // a transition that an earlier search placed just beyond its end may now be placed just before it
         let from = self.decided.saturating_sub(self.margin / 8);
-        for kink in self.detector.found() {
+        for kink in self.detector.transitions() {
             let kink = Kink { next: kink.next + self.passed, ..kink };
             let near = |last: Kink| {
                 let samples = kink.next.abs_diff(last.next) <= APART as usize;

@@ -20,7 +20,7 @@ pub fn find_kinks(tau: &[f64], channels: [&[f64]; 3], noise: &[ChannelNoise; 3],
     }
     let spacing = (tau[count - 1] - tau[0]) / (count - 1) as f64;
     let options = KinkOptions { widest: options.widest.min(tau[count - 1] - tau[0]), ..options };
-    let mut detector = Detector::new(count, spacing, *noise, options).coloured(tau, channels);
+    let mut detector = Detector::new(count, spacing, *noise, options).with_coloured_noise(tau, channels);
     detector.run(tau, channels, count);
-    detector.found().collect()
+    detector.transitions().collect()
 }

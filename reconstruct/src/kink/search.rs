@@ -95,7 +95,7 @@ impl Detector {
     }
 
     /// Reckons with noise whose power at long times exceeds that of white noise.
-    pub fn coloured(mut self, tau: &[f64], channels: [&[f64]; 3]) -> Self {
+    pub fn with_coloured_noise(mut self, tau: &[f64], channels: [&[f64]; 3]) -> Self {
         let sigma = equivalents(&self.noise, channels);
         for (c, channel) in channels.iter().enumerate() {
             let known = sigma[c] * sigma[c];
@@ -138,7 +138,7 @@ impl Detector {
     }
 
     /// The transitions of the last run, in order.
-    pub fn found(&self) -> impl Iterator<Item = Kink> + '_ {
+    pub fn transitions(&self) -> impl Iterator<Item = Kink> + '_ {
         self.taken.iter().map(|taken| Kink::from(*taken))
     }
 
@@ -254,7 +254,7 @@ impl Detector {
     fn place(&self, level: usize, (from, to): (usize, usize), near: (usize, usize), guess: f64) -> Option<Placed> {
         let (part, size) = self.part(level);
         let (first, last) = (from / size, to / size);
-        let kink = part.kink(first, last, guess).map(|(kink, bent)| (self.counted(kink), bent));
+        let kink = part.kink(first, last, guess).map(|(kink, bent)| (self.with_sample_index(kink), bent));
         let jump = part.jump(first, last, (near.0 / size, near.1.div_ceil(size)));
         let freedom = (3 * (last - first).saturating_sub(5)).max(1) as f64;
         match (kink, jump) {
@@ -277,7 +277,7 @@ impl Detector {
     }
 
     /// A kink that was placed by bins, with the index of the sample after it.
-    fn counted(&self, kink: Placed) -> Placed {
+    fn with_sample_index(&self, kink: Placed) -> Placed {
         Placed { next: self.levels[0].tau.partition_point(|t| *t <= kink.tau), ..kink }
     }
 
@@ -364,7 +364,7 @@ impl Detector {
                 (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
                 continue;
             }
-            let placed = self.counted(placed);
+            let placed = self.with_sample_index(placed);
             if placed.next.abs_diff(old.placed.next) > 3 * bins.size {
                 continue;
             }

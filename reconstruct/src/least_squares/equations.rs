@@ -85,7 +85,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// The rows J and right-hand side -r, both weighted.
-    pub fn decomposed(rows: DMatrix<f64>, mut right: DVector<f64>) -> Self {
+    pub fn from_rows(rows: DMatrix<f64>, mut right: DVector<f64>) -> Self {
         let unknowns = rows.ncols();
         let decomposed = rows.qr();
         decomposed.q_tr_mul(&mut right);
@@ -111,7 +111,7 @@ mod tests {
         for k in 0..4 {
             normal.add(&[(0, 0.5 * rows[(k, 0)]), (1, 0.5 * rows[(k, 1)])], -0.5 * right[k], 0.5);
         }
-        let (a, b) = (normal.step().unwrap(), Rows::decomposed(rows.clone(), right).step().unwrap());
+        let (a, b) = (normal.step().unwrap(), Rows::from_rows(rows.clone(), right).step().unwrap());
         assert!((a - b).amax() < 1e-14);
         let inverse = (rows.transpose() * rows).try_inverse().unwrap();
         assert!((normal.covariance().unwrap() - inverse).amax() < 1e-14);

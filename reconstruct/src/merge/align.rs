@@ -1,6 +1,6 @@
 //! The offsets of the contours of several scans.
 
-use super::nearest::{nearest, sampled};
+use super::nearest::{nearest, resample};
 use crate::contour::{ContourEstimate, TraceKind};
 use crate::least_squares::{Loss, Normal, Problem, Status, Whole, iterate};
 use crate::numeric::median;
@@ -71,7 +71,7 @@ pub fn align(scans: &[ContourEstimate], direction: f64) -> Vec<Offset> {
             .map(|(scan, &value)| Offset { value, group: 0 }.applied(scan, direction))
             .collect();
         let pairs = pairs(&moved, direction);
-        groups = grouped(count, &pairs);
+        groups = connected_groups(count, &pairs);
         let Some(change) = change(count, &pairs, &groups) else { break };
         offsets.iter_mut().zip(&change).for_each(|(offset, change)| *offset += change);
         if change.iter().all(|change| change.abs() < 1e-12) {
@@ -101,7 +101,7 @@ fn pairs(scans: &[ContourEstimate], direction: f64) -> Vec<Pair> {
     for a in 0..scans.len() {
         for b in (0..scans.len()).filter(|&b| b != a) {
             for trace in single(a) {
-                for place in sampled(&trace.points, trace.length() / PLACES) {
+                for place in resample(&trace.points, trace.length() / PLACES) {
                     let near = single(b).filter_map(|other| nearest(&other.points, place.x, place.y));
                     let near = near.min_by(|p, q| p.distance.total_cmp(&q.distance)).filter(|near| near.interior);
                     let Some(near) = near else { continue };
@@ -122,7 +122,7 @@ fn pairs(scans: &[ContourEstimate], direction: f64) -> Vec<Pair> {
 }
 
 /// For each scan the least number of those it overlaps with, directly or through others, renumbered from 0.
-fn grouped(count: usize, pairs: &[Pair]) -> Vec<usize> {
+fn connected_groups(count: usize, pairs: &[Pair]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..count).collect();
     for pair in pairs {
         let (a, b) = (group[pair.scans.0], group[pair.scans.1]);

@@ -1,6 +1,6 @@
 //! Intervals in which the contours of several scans disagree.
 
-use super::nearest::{nearest, sampled};
+use super::nearest::{nearest, resample};
 use crate::contour::{ContourEstimate, Trace};
 
 /// Fewest places of a trace that are compared.
@@ -74,14 +74,14 @@ impl Comparison {
                 }
             }
         }
-        united(found)
+        unite_overlapping(found)
     }
 
     /// Adds the intervals in which a trace disagrees with a contour.
     fn along(&self, trace: &Trace, other: &ContourEstimate, found: &mut Vec<Disagreement>) {
         let (sin, cos) = self.direction.sin_cos();
         let mut open: Option<Disagreement> = None;
-        for place in sampled(&trace.points, trace.length() / PLACES) {
+        for place in resample(&trace.points, trace.length() / PLACES) {
             let of_trace = |trace: &Trace| nearest(&trace.points, place.x, place.y);
             // where the end of a trace is the nearest place of all, the other scan was not here
             let near = other.traces.iter().filter_map(of_trace).min_by(|a, b| a.distance.total_cmp(&b.distance));
@@ -97,21 +97,21 @@ impl Comparison {
             let along = |x: f64, y: f64| x * cos + y * sin;
             let (a, b) = (along(place.x, place.y), along(near.point.x, near.point.y));
             let here = Disagreement { from: a.min(b), to: a.max(b), gap: near.distance, sigma };
-            open = Some(open.map_or(here, |open| joined(&open, &here)));
+            open = Some(open.map_or(here, |open| union(&open, &here)));
         }
         found.extend(open);
     }
 }
 
 /// Both intervals in one.
-fn joined(a: &Disagreement, b: &Disagreement) -> Disagreement {
+fn union(a: &Disagreement, b: &Disagreement) -> Disagreement {
     let ordered = a.significance().total_cmp(&b.significance()).then(a.gap.total_cmp(&b.gap));
     let worst = if ordered.is_ge() { a } else { b };
     Disagreement { from: a.from.min(b.from), to: a.to.max(b.to), ..*worst }
 }
 
 /// Overlapping intervals made one, in order.
-fn united(mut found: Vec<Disagreement>) -> Vec<Disagreement> {
+fn unite_overlapping(mut found: Vec<Disagreement>) -> Vec<Disagreement> {
     found.sort_by(|a, b| {
         let by = |f: fn(&Disagreement) -> f64| f(a).total_cmp(&f(b));
         by(|d| d.from).then(by(|d| d.to)).then(by(|d| d.gap)).then(by(|d| d.sigma))
@@ -119,7 +119,7 @@ fn united(mut found: Vec<Disagreement>) -> Vec<Disagreement> {
     let mut united: Vec<Disagreement> = Vec::new();
     for next in found {
         match united.last_mut() {
-            Some(last) if next.from <= last.to => *last = joined(last, &next),
+            Some(last) if next.from <= last.to => *last = union(last, &next),
             _ => united.push(next),
         }
     }

@@ -1,8 +1,8 @@
 //! Two traces of the same stretch of a contour made one.
 
 use super::nearest::{Nearest, nearest};
-use crate::contour::{Trace, TracePoint, simplified};
-use crate::numeric::wrapped;
+use crate::contour::{Trace, TracePoint, simplify};
+use crate::numeric::wrap_angle;
 
 /// Traces agree at a place where their distance is within this many of its standard deviations.
 const AGREE: f64 = 5.0;
@@ -21,7 +21,7 @@ pub(super) fn overlap(a: &Trace, b: &Trace) -> bool {
     let (mut agree, mut all) = (0, 0);
     for (one, other) in [(a, b), (b, a)] {
         for place in &one.points {
-            if let Some(near) = beside(place, other, far) {
+            if let Some(near) = nearest_beside(place, other, far) {
                 all += 1;
                 agree += usize::from(agrees(place, &near));
             }
@@ -36,7 +36,7 @@ fn far(a: &Trace, b: &Trace) -> f64 {
 }
 
 /// The place of another trace beside a point, along the same stretch.
-fn beside(place: &TracePoint, other: &Trace, far: f64) -> Option<Nearest> {
+fn nearest_beside(place: &TracePoint, other: &Trace, far: f64) -> Option<Nearest> {
     let near = nearest(&other.points, place.x, place.y)?;
     let along = (near.point.alpha - place.alpha).cos();
     let same = (agrees(place, &near) && along > 0.0) || (near.distance <= far && along > PARALLEL);
@@ -49,7 +49,7 @@ fn agrees(place: &TracePoint, near: &Nearest) -> bool {
 
 /// One trace through the places of both. Where both passed, it is their mean weighted by the inverse variances if they agree, and the
 /// more certain one if they do not; elsewhere it is the only one.
-pub(super) fn fused(a: &Trace, b: &Trace) -> Trace {
+pub(super) fn fuse_traces(a: &Trace, b: &Trace) -> Trace {
     let far = far(a, b);
     let along = lengths(&a.points);
     let mut places: Vec<(f64, TracePoint)> = Vec::new();
@@ -67,7 +67,7 @@ pub(super) fn fused(a: &Trace, b: &Trace) -> Trace {
         (next.x - before.x) * cos + (next.y - before.y) * sin <= 1e-9 && (next.alpha - before.alpha).cos() > 0.999
     });
     let (samples, reversed) = (a.samples.clone(), a.reversed);
-    Trace { kind: a.kind, samples, reversed, points: simplified(&points, 0.0, TOLERANCE) }
+    Trace { kind: a.kind, samples, reversed, points: simplify(&points, 0.0, TOLERANCE) }
 }
 
 /// The path length along `other` (whose path lengths are given) at each point of `one`. Beyond the common stretch it continues with
@@ -78,7 +78,7 @@ fn keys(one: &Trace, other: &Trace, along: &[f64], far: f64) -> Vec<f64> {
         .points
         .iter()
         .map(|place| {
-            let near = beside(place, other, far)?;
+            let near = nearest_beside(place, other, far)?;
             Some(along[near.edge] + near.share * (along[near.edge + 1] - along[near.edge]))
         })
         .collect();
@@ -111,7 +111,7 @@ fn keys(one: &Trace, other: &Trace, along: &[f64], far: f64) -> Vec<f64> {
 
 /// The mean of a point and another trace; none where the other one is more certain and they disagree.
 fn mean(place: &TracePoint, other: &Trace, far: f64) -> Option<TracePoint> {
-    let Some(near) = beside(place, other, far) else { return Some(*place) };
+    let Some(near) = nearest_beside(place, other, far) else { return Some(*place) };
     if !agrees(place, &near) {
         return (place.sigma <= near.point.sigma).then_some(*place);
     }
@@ -123,7 +123,7 @@ fn mean(place: &TracePoint, other: &Trace, far: f64) -> Option<TracePoint> {
     // what all samples share may be the same in both scans
     let systematic = between(place.systematic, near.point.systematic);
     let sigma = (if sum > 0.0 { own * of_other / sum } else { 0.0 } + systematic * systematic).sqrt();
-    let alpha = wrapped(place.alpha + share * wrapped(near.point.alpha - place.alpha));
+    let alpha = wrap_angle(place.alpha + share * wrap_angle(near.point.alpha - place.alpha));
     Some(TracePoint { x: between(place.x, near.point.x), y: between(place.y, near.point.y), alpha, sigma, systematic })
 }
 

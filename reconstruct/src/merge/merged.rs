@@ -1,6 +1,6 @@
 //! One contour from several scans.
 
-use super::fuse::{fused, overlap};
+use super::fuse::{fuse_traces, overlap};
 use super::nearest::nearest;
 use crate::contour::{ContourEstimate, Gap, Trace, TraceKind, TracePoint};
 use std::cmp::Ordering;
@@ -37,7 +37,7 @@ pub fn merge(scans: &[ContourEstimate]) -> ContourEstimate {
         for trace in traces.into_iter().filter(|trace| !trace.points.is_empty()) {
             let mut trace = trace.clone();
             while let Some(k) = merged.iter().position(|other| overlap(other, &trace)) {
-                trace = fused(&merged.remove(k), &trace);
+                trace = fuse_traces(&merged.remove(k), &trace);
             }
             merged.push(trace);
         }
@@ -62,7 +62,7 @@ fn left_open(scans: &[ContourEstimate], single: &[&Trace]) -> Vec<Gap> {
     let (mut known, mut open): (Vec<(usize, usize)>, Vec<Gap>) = (Vec::new(), Vec::new());
     for gap in gaps {
         let (Some(from), Some(to)) = (gap.from, gap.to) else { continue };
-        let (Some(a), Some(b)) = (of_which(single, from), of_which(single, to)) else { continue };
+        let (Some(a), Some(b)) = (trace_of_end(single, from), trace_of_end(single, to)) else { continue };
         let pair = (a.min(b), a.max(b));
         if a == b || known.contains(&pair) {
             continue;
@@ -91,7 +91,7 @@ fn lexical(a: &[f64], b: &[f64]) -> Ordering {
 }
 
 /// The trace to which an end of a gap belongs: the nearest.
-fn of_which(traces: &[&Trace], [x, y]: [f64; 2]) -> Option<usize> {
+fn trace_of_end(traces: &[&Trace], [x, y]: [f64; 2]) -> Option<usize> {
     let distance = |trace: &Trace| nearest(&trace.points, x, y).map_or(f64::INFINITY, |near| near.distance);
     let distances = traces.iter().map(|trace| distance(trace)).enumerate();
     distances.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(k, _)| k)

@@ -1,7 +1,7 @@
 //! The nearest place of a trace.
 
 use crate::contour::TracePoint;
-use crate::numeric::wrapped;
+use crate::numeric::wrap_angle;
 
 /// A place on the polygon through a trace's points.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ const UNEQUAL: f64 = 0.5;
 fn between(a: &TracePoint, b: &TracePoint, share: f64) -> TracePoint {
     let (dx, dy) = (b.x - a.x, b.y - a.y);
     let chord = dy.atan2(dx);
-    let (start, end) = (wrapped(a.alpha - chord), wrapped(b.alpha - chord));
+    let (start, end) = (wrap_angle(a.alpha - chord), wrap_angle(b.alpha - chord));
     let most = start.abs().max(end.abs());
     let arc = most <= STEEPEST && (start + end).abs() <= UNEQUAL * most;
     let left = share * (1.0 - share) * ((1.0 - share) * start.tan() - share * end.tan());
@@ -33,7 +33,7 @@ fn between(a: &TracePoint, b: &TracePoint, share: f64) -> TracePoint {
     TracePoint {
         x: a.x + share * dx - left * dy,
         y: a.y + share * dy + left * dx,
-        alpha: wrapped(a.alpha + share * wrapped(b.alpha - a.alpha)),
+        alpha: wrap_angle(a.alpha + share * wrap_angle(b.alpha - a.alpha)),
         sigma: a.sigma + share * (b.sigma - a.sigma),
         systematic: a.systematic + share * (b.systematic - a.systematic),
     }
@@ -65,7 +65,7 @@ pub(super) fn nearest(points: &[TracePoint], x: f64, y: f64) -> Option<Nearest> 
 }
 
 /// Places of the polygon through these points, the points among them, no farther apart than `step`.
-pub(super) fn sampled(points: &[TracePoint], step: f64) -> impl Iterator<Item = TracePoint> {
+pub(super) fn resample(points: &[TracePoint], step: f64) -> impl Iterator<Item = TracePoint> {
     let last = points.last().copied();
     let edge = move |pair: &[TracePoint]| {
         let (a, b) = (pair[0], pair[1]);

@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, SVector, Vector2};
 use nalgebra::{Matrix3, SMatrix};
 
 /// Covariance J C J^T of numbers with the Jacobian J by three measured ones of covariance C.
-pub(crate) fn propagated<T: Number, const N: usize>(
+pub(crate) fn propagate_covariance<T: Number, const N: usize>(
     jacobian: &SMatrix<T, N, 3>,
     covariance: &Matrix3<T>,
 ) -> SMatrix<T, N, N> {

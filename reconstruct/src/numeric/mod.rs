@@ -18,8 +18,8 @@ mod robust;
 pub(crate) mod seeded;
 
 #[cfg(feature = "std")]
-pub(crate) use angle::wrapped;
-pub(crate) use covariance::propagated;
+pub(crate) use angle::wrap_angle;
+pub(crate) use covariance::propagate_covariance;
 #[cfg(feature = "std")]
 pub(crate) use covariance::{inverse, squared_distance, variance};
 #[cfg(feature = "std")]

@@ -18,17 +18,17 @@ pub(crate) fn contact<I: Inverse>(
     label: Label,
 ) -> Result<Touch, NoContact> {
     if noise.is_clean() {
-        return constrained(rod, sample, &Matrix3::from_diagonal(&noise.variance), label);
+        return constrained_contact(rod, sample, &Matrix3::from_diagonal(&noise.variance), label);
     }
     let estimate = fit.at(tau);
-    constrained(rod, &estimate.clamp, &estimate.covariance(), label)
+    constrained_contact(rod, &estimate.clamp, &estimate.covariance(), label)
 }
 
 /// The contact of reactions with this covariance (dimensionless) in phase A or B.
 ///
 /// A requires that the moment vanishes at the tip, B that the criterion K does. The reactions are projected onto the condition by
 /// least squares, which removes a third of their noise. Reactions without noise stay as they are.
-pub(crate) fn constrained<I: Inverse>(
+pub(crate) fn constrained_contact<I: Inverse>(
     rod: &I,
     clamp: &Clamp,
     covariance: &Matrix3<f64>,
@@ -84,7 +84,7 @@ mod tests {
         let covariance = Matrix3::from_diagonal(&Vector3::new(1e-4, 1e-4, 1e-5));
         clamp.reactions += Vector3::new(1e-3, -5e-4, 2e-3);
         let free = Uniform.first(&clamp).unwrap().touch(&covariance);
-        let tip = constrained(&Uniform, &clamp, &covariance, Label::A).unwrap();
+        let tip = constrained_contact(&Uniform, &clamp, &covariance, Label::A).unwrap();
         assert!((tip.s - 1.0).abs() < 1e-6 && (free.s - 1.0).abs() > 1e-4, "{} {}", tip.s, free.s);
         assert!(tip.covariance.trace() < free.covariance.trace());
         let truth = bent.at(1.0);

@@ -25,7 +25,7 @@ mod trellis;
 #[cfg(feature = "std")]
 pub use basis::Basis;
 #[cfg(feature = "std")]
-pub(crate) use contact::{constrained, contact};
+pub(crate) use contact::{constrained_contact, contact};
 #[cfg(feature = "std")]
 pub(crate) use diagram::Break;
 #[cfg(feature = "std")]

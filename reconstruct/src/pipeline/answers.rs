@@ -7,7 +7,7 @@ use crate::kink::Kink;
 use crate::phase::{Break, Label, ScanPhases, contact};
 use crate::point::{Inverse, Touch};
 use crate::scan::{Noise, Track, TrackIndex};
-use crate::systematic::Shared;
+use crate::systematic::RemainingErrors;
 use nalgebra::Matrix2;
 use rod_core::Units;
 
@@ -24,7 +24,7 @@ pub(super) struct Answers<'a, I> {
     pub units: Units,
     pub settings: &'a Settings,
     /// The errors that all samples share, if there are any.
-    pub shared: Option<&'a Shared>,
+    pub shared: Option<&'a RemainingErrors>,
     /// For each place the covariance that they cause of a single contact point there, dimensionless, if it is known; empty without them.
     pub systematic: &'a [Option<Matrix2<f64>>],
 }

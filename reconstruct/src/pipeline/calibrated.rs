@@ -1,21 +1,24 @@
 //! A scan up to the errors that its samples share: track, kinks, places and what is known of the errors.
 
 use super::settings::{ReconstructError, Settings, positive, possible};
-use crate::friction::{ANY, Friction, FrictionAlone, FrictionEstimate, Start, flatness, rubs, start};
+use crate::friction::{
+    ANY, Friction, FrictionAlone, FrictionEstimate, PlateauFriction, flatness, plateau_friction, shows_friction,
+};
 use crate::kink::{Kink, KinkKind, KinkOptions, find_kinks};
 use crate::phase::{Break, Place, evaluate_places};
 use crate::point::Inverse;
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::{FEWEST_SAMPLES, Fault, Noise, Track, TrackIndex, dimensionless, quantum};
 use crate::systematic::{
-    Budget, Calibration, Correction, Errors, Known, Scan, Shared, Source, SourceEstimate, calibrate, log_likelihood,
+    Budget, Calibration, CalibrationScan, Correction, Errors, Known, RemainingErrors, Source, SourceEstimate,
+    calibrate, log_likelihood,
 };
 use rod_core::{Rod, Sample, Uniform, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
 const COARSE: f64 = 0.02;
 
-/// A scan with the errors that its samples share taken off.
+/// A scan without the errors that its samples share.
 #[derive(Clone)]
 pub(super) struct Calibrated {
     pub track: Track,
@@ -31,7 +34,7 @@ pub(super) struct Calibrated {
     pub places: Vec<Place>,
     /// The units of the rod, as it was found.
     pub units: Units,
-    pub calibration: Option<(Shared, Calibration)>,
+    pub calibration: Option<(RemainingErrors, Calibration)>,
     /// What the scan tells of friction, where that was asked for or seems to be there.
     pub friction: Option<FrictionEstimate>,
 }
@@ -50,37 +53,38 @@ impl Calibrated {
             return Ok(rough);
         }
         let smooth = scan.clone().smooth(rod, settings)?;
-        let rubs = |tare: Option<&Correction>| rubs(&Uniform, &scan.track, &scan.noise, &scan.places, tare);
+        let shows_friction =
+            |tare: Option<&Correction>| shows_friction(&Uniform, &scan.track, &scan.noise, &scan.places, tare);
         // a bias blurs the plateau
-        if !rubs(None) && !smooth.tare(rod).is_some_and(|tare| rubs(Some(&tare))) {
+        if !shows_friction(None) && !smooth.tare(rod).is_some_and(|tare| shows_friction(Some(&tare))) {
             return Ok(smooth);
         }
-        let without = smooth.calibration.as_ref().map(|told| told.1.log_likelihood);
+        let without = smooth.calibration.as_ref().map(|found| found.1.log_likelihood);
         Ok(Self { friction: scan.rough(rod, settings)?.compared_with(without), ..smooth })
     }
 
-    /// What takes bias and drift off the samples, and nothing else; none where nothing was taken off.
+    /// The correction of bias and drift alone; none where nothing was subtracted.
     fn tare(&self, rod: &Rod) -> Option<Correction> {
-        let (shared, told) = self.calibration.as_ref().filter(|told| told.1.is_applied())?;
-        Correction::new(shared.frame, &told.tare(rod))
+        let (shared, report) = self.calibration.as_ref().filter(|found| found.1.is_applied())?;
+        Correction::new(shared.frame, &report.tare(rod))
     }
 
     /// Without friction, and without the errors that all samples share.
     pub fn smooth(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
-        Ok(self.settled(rod, &allowed(rod, settings)?, &settings.known))
+        Ok(self.subtract_shared_errors(rod, &allowed(rod, settings)?, &settings.known))
     }
 
     /// With friction that is known or estimated, and without the errors that all samples share.
     pub fn rough(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
         let budget = with_friction(allowed(rod, settings)?, settings);
-        Ok(self.rubbed(&Uniform, settings).settled(rod, &budget, &settings.known))
+        Ok(self.with_plateau_friction(&Uniform, settings).subtract_shared_errors(rod, &budget, &settings.known))
     }
 
-    /// The scan with friction that is known or as its plateau tells it.
-    pub fn rubbed<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
+    /// The scan with friction that is known or estimated from its plateau.
+    pub fn with_plateau_friction<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
-        let (Start { mu, sigma, scatter, spread, against, likelihood, without }, places) =
-            start(rod, &self.track, &self.noise, self.places, mu);
+        let (PlateauFriction { mu, sigma, scatter, spread, against, likelihood, without }, places) =
+            plateau_friction(rod, &self.track, &self.noise, self.places, mu);
         let track = self.track.with_friction(mu);
         let gain = likelihood - without;
         let found = FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against, alone: None };
@@ -90,16 +94,16 @@ impl Calibrated {
     /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
     pub fn with_plateau<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         match settings.friction {
-            Friction::None if !rubs(rod, &self.track, &self.noise, &self.places, None) => self,
+            Friction::None if !shows_friction(rod, &self.track, &self.noise, &self.places, None) => self,
             Friction::None => {
-                let friction = self.clone().rubbed(rod, settings).friction;
+                let friction = self.clone().with_plateau_friction(rod, settings).friction;
                 Self { friction, ..self }
             }
             Friction::Known { mu, sigma } => {
-                let free = self.clone().rubbed(rod, &alone(settings)).friction;
-                self.rubbed(rod, settings).against_alone(free, mu, sigma)
+                let free = self.clone().with_plateau_friction(rod, &alone(settings)).friction;
+                self.with_plateau_friction(rod, settings).against_alone(free, mu, sigma)
             }
-            Friction::Estimate => self.rubbed(rod, settings),
+            Friction::Estimate => self.with_plateau_friction(rod, settings),
         }
     }
 
@@ -113,44 +117,44 @@ impl Calibrated {
 
     /// What this scan with friction tells of it, where this is the logarithm of the likelihood without, if shared errors are estimated.
     fn compared_with(&self, without: Option<f64>) -> Option<FrictionEstimate> {
-        let with = self.calibration.as_ref().map(|told| told.1.log_likelihood);
+        let with = self.calibration.as_ref().map(|found| found.1.log_likelihood);
         let gain = with.zip(without).map(|(with, without)| with - without);
         self.friction.map(|found| FrictionEstimate { gain: gain.unwrap_or(found.gain), ..found })
     }
 
-    fn scan<'a>(&'a self, rod: &'a Rod) -> Scan<'a> {
-        Scan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, places: &self.places }
+    fn scan<'a>(&'a self, rod: &'a Rod) -> CalibrationScan<'a> {
+        CalibrationScan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, places: &self.places }
     }
 
-    /// Without the errors that all samples share.
-    fn settled(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
+    /// Estimates the errors that all samples share, and subtracts those that the scan needs.
+    fn subtract_shared_errors(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
         let found = calibrate(&self.scan(rod), budget, known);
         let Self { track, noise, breaks, places, units, calibration, friction, .. } = &mut self;
         let plateau = track.friction;
-        if let Some((correction, shared, mut told)) = found {
+        if let Some((correction, shared, mut report)) = found {
             if let Some(correction) = correction {
                 // errors beyond their budgets explain nothing: then friction changes as on the samples as they are
-                let explained = !told.sources.iter().any(SourceEstimate::is_beyond);
-                let mu = plateau + told.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
+                let explained = !report.sources.iter().any(SourceEstimate::is_beyond);
+                let mu = plateau + report.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
                 if let Some(found) = friction.as_mut().filter(|_| explained) {
                     (found.scatter, found.spread) = flatness(&Uniform, track, noise, places, &correction, mu);
                 }
                 *track = correction.track(track);
-                if told.is_applied() {
+                if report.is_applied() {
                     *places = evaluate_places(&Uniform, track, noise, breaks);
                 } else {
-                    places.iter_mut().for_each(|place| place.fit.rub(track.friction));
+                    places.iter_mut().for_each(|place| place.fit.set_friction(track.friction));
                 }
-                *units = told.rod(rod).units();
+                *units = report.rod(rod).units();
             }
-            shared.doubt(places);
-            shared.judge(&Errors::zeros(), track, places);
-            told.shift(Source::Friction, plateau);
-            if let Some((found, own)) = friction.as_mut().zip(told.source(Source::Friction).copied()) {
-                told.direction = found.mu.signum() * (0.5 - found.against).signum();
+            shared.weaken_breaks(places);
+            shared.update_evidence(&Errors::zeros(), track, places);
+            report.shift(Source::Friction, plateau);
+            if let Some((found, own)) = friction.as_mut().zip(report.source(Source::Friction).copied()) {
+                report.direction = found.mu.signum() * (0.5 - found.against).signum();
                 (found.mu, found.sigma) = (track.friction, own.sigma);
             }
-            *calibration = Some((shared, told));
+            *calibration = Some((shared, report));
         }
         self
     }
@@ -221,14 +225,14 @@ fn with_friction(budget: Budget, settings: &Settings) -> Budget {
 /// The noise of the samples: the standard deviations of the samples, if they have some, otherwise those of the scan; with the correlation
 /// that the scan shows.
 fn noise_of(track: &Track, channels: &[Vec<f64>; 3], samples: &[Sample], size: [f64; 3]) -> [ChannelNoise; 3] {
-    let told: Option<Vec<_>> = samples.iter().map(|sample| sample.sigma).collect();
+    let stated: Option<Vec<_>> = samples.iter().map(|sample| sample.sigma).collect();
     std::array::from_fn(|c| {
         let found = estimate(&track.tau, &channels[c]);
-        let told = told.as_ref().filter(|told| !told.is_empty()).map(|told| {
+        let stated = stated.as_ref().filter(|stated| !stated.is_empty()).map(|stated| {
             let squares =
-                told.iter().map(|sigma| [sigma.f0x, sigma.f0y, sigma.m0z][c].powi(2)).filter(|v| v.is_finite());
-            (squares.sum::<f64>() / told.len() as f64).sqrt() / size[c]
+                stated.iter().map(|sigma| [sigma.f0x, sigma.f0y, sigma.m0z][c].powi(2)).filter(|v| v.is_finite());
+            (squares.sum::<f64>() / stated.len() as f64).sqrt() / size[c]
         });
-        ChannelNoise { sigma: told.unwrap_or(found.sigma), ..found }
+        ChannelNoise { sigma: stated.unwrap_or(found.sigma), ..found }
     })
 }

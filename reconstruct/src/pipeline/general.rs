@@ -2,7 +2,7 @@
 
 use super::calibrated::Calibrated;
 use super::each_pass::each_pass;
-use super::reconstruct::answered;
+use super::reconstruct::reconstruct_calibrated;
 use super::reconstruction::Reconstruction;
 use super::settings::{ReconstructError, Settings};
 use crate::point::Any;
@@ -53,6 +53,6 @@ pub fn reconstruct_general<R: PhysicalRod>(
     let inverse = Any(rod);
     each_pass(&uniform, samples, |pass| {
         let scan = Calibrated::measured(&inverse, &uniform, pass, settings)?.with_plateau(&inverse, settings);
-        Ok(answered(&inverse, units, pass, scan, settings))
+        Ok(reconstruct_calibrated(&inverse, units, pass, scan, settings))
     })
 }

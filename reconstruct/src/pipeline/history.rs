@@ -3,7 +3,7 @@
 use super::learned::Learned;
 use crate::phase::{Label, Place, Trellis, forward_probabilities, most_likely};
 use crate::scan::Track;
-use crate::systematic::{Budget, Calibration, Errors, Known, Shared, calibrate_labelled, known_before};
+use crate::systematic::{Budget, Calibration, Errors, Known, RemainingErrors, calibrate_labelled, errors_before_scan};
 use rod_core::{Rod, Units};
 
 /// Most places that are kept. More: more time and memory.
@@ -104,7 +104,7 @@ impl History {
             Some(learned) => learned,
             // only the free rod at the begin is known
             None => {
-                let (taken, shared) = known_before(&self.rod, &self.track, &self.budget, &self.known)?;
+                let (taken, shared) = errors_before_scan(&self.rod, &self.track, &self.budget, &self.known)?;
                 let free = vec![(Label::Free, 1.0); self.free()];
                 let (taken, shared) = self.estimated(&free).unwrap_or((taken, shared));
                 Learned::new(taken, shared, self.units())?
@@ -140,7 +140,7 @@ impl History {
     }
 
     /// The errors by the first places, those of them whose labels are sure.
-    fn estimated(&mut self, labels: &[(Label, f64)]) -> Option<(Errors, Shared)> {
+    fn estimated(&mut self, labels: &[(Label, f64)]) -> Option<(Errors, RemainingErrors)> {
         let sure = |k: &usize| labels[*k].1 > SURE;
         let (places, labels): (Vec<Place>, Vec<(Label, f64)>) =
             (0..labels.len()).filter(sure).map(|k| (self.places[k].clone(), labels[k])).unzip();

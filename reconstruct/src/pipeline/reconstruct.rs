@@ -28,11 +28,11 @@ use rod_core::{Rod, Sample, Uniform, Units};
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    Ok(answered(&Uniform, rod.units(), samples, Calibrated::of(rod, samples, settings)?, settings))
+    Ok(reconstruct_calibrated(&Uniform, rod.units(), samples, Calibrated::of(rod, samples, settings)?, settings))
 }
 
 /// The labels and contact points of a scan; `given` are the units of the rod as it was given.
-pub(super) fn answered<I: Inverse>(
+pub(super) fn reconstruct_calibrated<I: Inverse>(
     rod: &I,
     given: Units,
     samples: &[Sample],
@@ -43,7 +43,7 @@ pub(super) fn answered<I: Inverse>(
     let phases = identify_phases(rod, &track, &noise, places);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
     let systematic =
-        shared.map_or_else(Vec::new, |shared| shared.points(&track, &noise, &phases.places, &phases.labels));
+        shared.map_or_else(Vec::new, |shared| shared.point_covariances(&track, &noise, &phases.places, &phases.labels));
     let answers = Answers {
         rod,
         track: &track,

@@ -60,7 +60,7 @@ impl<I: Inverse> Answers<'_, I> {
             let resolved = if self.rod.tells_last() {
                 self.as_labelled(pieces, beside, breaks)
             } else {
-                self.told(pieces, beside, breaks)
+                self.tell_apart(pieces, beside, breaks)
             };
             for together in resolved {
                 if readings.len() > from {

@@ -40,7 +40,12 @@ impl<I: Inverse> Answers<'_, I> {
     /// Pieces without jumps in between, resolved with the labels that explain most samples best. Between pieces with one label are kinks
     /// that divide them. Those that nothing explains keep the labels of the phases. Where the other labels explain the reactions as well by
     /// contacts elsewhere, both are ambiguous.
-    pub(super) fn told(&self, pieces: &[Piece], beside: [Option<&Neighbour>; 2], breaks: &[Break]) -> Vec<Together> {
+    pub(super) fn tell_apart(
+        &self,
+        pieces: &[Piece],
+        beside: [Option<&Neighbour>; 2],
+        breaks: &[Break],
+    ) -> Vec<Together> {
         let mut all: Vec<Together> = Vec::new();
         // up to each piece, which is BA or BB
         let mut best: Vec<[Way; 2]> = Vec::with_capacity(pieces.len());
@@ -72,12 +77,12 @@ impl<I: Inverse> Answers<'_, I> {
             best.push(ways);
         }
         let chosen = Way::best(best.pop().into_iter().flatten());
-        chosen.together.into_iter().map(|k| judged(&all, &all[k], pieces)).collect()
+        chosen.together.into_iter().map(|k| unless_ambiguous(&all, &all[k], pieces)).collect()
     }
 }
 
 /// What is resolved together, unless something else is as good.
-fn judged(all: &[Together], chosen: &Together, given: &[Piece]) -> Together {
+fn unless_ambiguous(all: &[Together], chosen: &Together, given: &[Piece]) -> Together {
     let mut answer = chosen.clone();
     if chosen.found.unexplained > 0 {
         let phases = given.iter().skip_while(|piece| piece.range != chosen.pieces[0].range);

@@ -56,11 +56,11 @@ impl Carried for f64 {
 impl<const N: usize> Carried for Dual<f64, N> {
     fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &Interval<Self>) -> CrossSection<Self> {
         let (end, by) = sensitive(model, &start.map(|v| v.value), &along.map(|v| v.value));
-        derived(end, &by, start, along)
+        with_derivatives(end, &by, start, along)
     }
 }
 
-fn derived<const N: usize>(
+fn with_derivatives<const N: usize>(
     end: CrossSection,
     by: &CutSensitivities,
     start: &CrossSection<Dual<f64, N>>,
@@ -68,7 +68,7 @@ fn derived<const N: usize>(
 ) -> CrossSection<Dual<f64, N>> {
     let mut end = end.map(Dual::constant);
     for i in 0..N {
-        let [x, y, phi, bend] = changed(by, &start.map(|v| v.derivatives[i]), &along.map(|v| v.derivatives[i]));
+        let [x, y, phi, bend] = end_change(by, &start.map(|v| v.derivatives[i]), &along.map(|v| v.derivatives[i]));
         (end.x.derivatives[i], end.y.derivatives[i]) = (x, y);
         (end.phi.derivatives[i], end.bend.derivatives[i]) = (phi, bend);
     }
@@ -83,7 +83,7 @@ impl<const N: usize> Carried for Dual<Dual<f64, N>, 1> {
         let (at, on) = (start.map(|v| v.value.value), along.map(|v| v.value.value));
         let rate = (start.map(|v| v.derivatives[0].value), along.map(|v| v.derivatives[0].value));
         let (end, here) = sensitive(model, &at, &on);
-        let value = derived(end, &here, &start.map(|v| v.value), &along.map(|v| v.value));
+        let value = with_derivatives(end, &here, &start.map(|v| v.value), &along.map(|v| v.value));
         let size =
             [rate.0.x, rate.0.y, rate.0.phi, rate.0.bend, rate.1.from, rate.1.to, rate.1.force[0], rate.1.force[1]];
         let h = STEP / size.into_iter().fold(1.0, |most: f64, rate| most.max(rate.abs()));
@@ -95,15 +95,15 @@ impl<const N: usize> Carried for Dual<Dual<f64, N>, 1> {
             let along = Interval { from: moved(on.from, rate.1.from), to: moved(on.to, rate.1.to), force };
             sensitive(model, &start, &along).1
         });
-        let mut rates = changed(&here, &rate.0, &rate.1).map(Dual::<f64, N>::constant);
+        let mut rates = end_change(&here, &rate.0, &rate.1).map(Dual::<f64, N>::constant);
         for i in 0..N {
-            let own = changed(
+            let own = end_change(
                 &here,
                 &start.map(|v| v.derivatives[0].derivatives[i]),
                 &along.map(|v| v.derivatives[0].derivatives[i]),
             );
             let (start, along) = (start.map(|v| v.value.derivatives[i]), along.map(|v| v.value.derivatives[i]));
-            let [ahead, behind] = beside.map(|by| changed(&by, &start, &along));
+            let [ahead, behind] = beside.map(|by| end_change(&by, &start, &along));
             for (k, rate) in rates.iter_mut().enumerate() {
                 rate.derivatives[i] = own[k] + (ahead[k] - behind[k]) / (2.0 * h);
             }
@@ -132,7 +132,7 @@ fn sensitive<M: RodModel>(model: &M, start: &CrossSection, along: &Interval<f64>
 }
 
 /// How the end changes where the start and the interval change so.
-fn changed(by: &CutSensitivities, start: &CrossSection, along: &Interval<f64>) -> [f64; 4] {
+fn end_change(by: &CutSensitivities, start: &CrossSection, along: &Interval<f64>) -> [f64; 4] {
     let [a, b] = along.force;
     let shift = [start.x, start.y, 0.0, 0.0];
     std::array::from_fn(|k| {

@@ -100,12 +100,12 @@ impl Inverse for Uniform {
 
     fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T> {
         let [a, b] = along.force;
-        followed(advance(&section(start), a, b, along.to - along.from))
+        cross_section(advance(&section(start), a, b, along.to - along.from))
     }
 
     fn tip(&self, start: &CrossSection, s: f64, [a, b]: [f64; 2]) -> (CrossSection, [f64; 2]) {
         let (end, by) = advance_with_sensitivities(&section(start), a, b, 1.0 - s);
-        (followed(end), [by.by_a[3], by.by_b[3]])
+        (cross_section(end), [by.by_a[3], by.by_b[3]])
     }
 
     fn moment<T: Scalar>(&self, at: &CrossSection<T>, natural: T) -> T {
@@ -133,7 +133,7 @@ where
     Section { x: *x, y: *y, phi: *phi, kappa: *bend }
 }
 
-fn followed<T>(Section { x, y, phi, kappa }: Section<T>) -> CrossSection<T> {
+fn cross_section<T>(Section { x, y, phi, kappa }: Section<T>) -> CrossSection<T> {
     CrossSection { x, y, phi, bend: kappa }
 }
 

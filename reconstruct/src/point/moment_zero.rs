@@ -3,7 +3,7 @@
 use super::clamp::Clamp;
 use super::no_contact::NoContact;
 use super::touch::Touch;
-use crate::numeric::{Number, propagated};
+use crate::numeric::{Number, propagate_covariance};
 use core::cmp::Ordering::Equal;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector3};
 use rod_core::{Section, inflection, walk};
@@ -166,7 +166,7 @@ impl<T: Number> MomentZero<T> {
     pub fn touch(&self, covariance: &Matrix3<T>) -> Touch<T> {
         let jacobian: Matrix2x3<T> = self.by_reactions.fixed_rows::<2>(0).into_owned();
         let Section { x, y, .. } = self.section;
-        let covariance: Matrix2<T> = propagated(&jacobian, covariance);
+        let covariance: Matrix2<T> = propagate_covariance(&jacobian, covariance);
         let systematic = Matrix2::zeros();
         Touch { s: self.s, x, y, alpha: self.alpha, force: self.force, covariance, systematic }
     }

@@ -90,7 +90,7 @@ pub fn one_sample<R: PhysicalRod>(
     if is_free(&clamp, &covariance) {
         return Ok(OneSample::Free);
     }
-    told(&Bent::new(rod, &clamp), clamp.reactions.norm(), &covariance, units)
+    contacts_of_readings(&Bent::new(rod, &clamp), clamp.reactions.norm(), &covariance, units)
 }
 
 /// A rod whose shape up to its first contact follows from N readings, dimensionless.
@@ -125,7 +125,7 @@ impl<M: RodModel> Felt<3> for Bent<'_, M> {
 }
 
 /// What readings of this `size` tell of the contacts of a rod that is not free.
-pub(super) fn told<const N: usize>(
+pub(super) fn contacts_of_readings<const N: usize>(
     felt: &impl Felt<N>,
     size: f64,
     covariance: &SMatrix<f64, N, N>,

@@ -5,7 +5,7 @@ use super::clamp::Clamp;
 use super::moment_zero::{MomentZero, NOISE_SIGMAS};
 use super::no_contact::NoContact;
 use super::touch::Touch;
-use crate::numeric::{Number, propagated};
+use crate::numeric::{Number, propagate_covariance};
 use nalgebra::{Matrix3, Vector3};
 use rod_core::{Pose, Reactions, Rod, Units};
 
@@ -88,7 +88,7 @@ pub fn single_with_friction<T: Number>(
     let noisy = covariance.iter().any(|v| *v != T::zero());
     let first = MomentZero::first(&clamp, &covariance, noisy)?;
     let noise = |gradient: &Vector3<T>| {
-        if noisy { sigmas * propagated(&gradient.transpose(), &covariance).x.sqrt() } else { T::zero() }
+        if noisy { sigmas * propagate_covariance(&gradient.transpose(), &covariance).x.sqrt() } else { T::zero() }
     };
     let beyond = |found: &MomentZero<T>| noise(&found.s_by_reactions) + slack;
     let (k, gradient) = clamp.criterion();

@@ -5,7 +5,7 @@ use super::moment_zero::{NOISE_SIGMAS, is_free};
 use super::no_contact::NoContact;
 use super::single::dimensionless;
 use super::touch::Touch;
-use crate::numeric::propagated;
+use crate::numeric::propagate_covariance;
 use nalgebra::{Matrix2x3, Matrix3, Vector3};
 use rod_core::{Cut, Pose, Propagator, Reactions, RodError, Units, find_root};
 
@@ -163,9 +163,10 @@ impl Candidate {
                 by_angle[c] = by(|cut| cut.phi) + bend * slide - turn[c];
             }
         }
-        let noise =
-            |gradient: &Vector3<f64>| NOISE_SIGMAS * propagated(&gradient.transpose(), covariance).x.sqrt() + SLACK;
-        let covariance = propagated(&position, covariance);
+        let noise = |gradient: &Vector3<f64>| {
+            NOISE_SIGMAS * propagate_covariance(&gradient.transpose(), covariance).x.sqrt() + SLACK
+        };
+        let covariance = propagate_covariance(&position, covariance);
         let touch = Touch { s, x: at.x, y: at.y, alpha, force, covariance, systematic: nalgebra::Matrix2::zeros() };
         let (pressing, tilt) = (at.phi - alpha).sin_cos();
         Ok(Self { touch, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) })

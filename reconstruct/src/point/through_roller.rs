@@ -7,7 +7,7 @@
 use super::bent::zeros;
 use super::moment_zero::NOISE_SIGMAS;
 use super::no_contact::NoContact;
-use super::one_sample::{Felt, OneSample, told};
+use super::one_sample::{Felt, OneSample, contacts_of_readings};
 use crate::numeric::variance;
 use nalgebra::{Matrix4, Vector4};
 use rod_core::{Cut, Guided, PhysicalRod, Pose, Reactions, RodModel, Roller, Sample, Units};
@@ -103,7 +103,7 @@ pub fn through_roller<R: PhysicalRod<Clamp = Pose>>(
     if !covariance.iter().chain(&readings).all(|v| v.is_finite()) {
         return Err(NoContact::NotFinite);
     }
-    let first = held.walked(readings).ok_or(NoContact::NotFinite)?;
+    let first = held.follow_to_roller(readings).ok_or(NoContact::NotFinite)?;
     let deviation = |walked: &Walked<'_, R::Model>| variance(&walked.miss_rates, &covariance).sqrt();
     let miss = Estimate { value: first.miss * units.length, sigma: deviation(&first) * units.length };
     let scaled = |estimate: Estimate, by: f64| Estimate { value: estimate.value * by, sigma: estimate.sigma * by };
@@ -121,14 +121,14 @@ pub fn through_roller<R: PhysicalRod<Clamp = Pose>>(
             break;
         }
         readings -= covariance * best.miss_rates * (best.miss / spread);
-        best = held.walked(readings).ok_or(NoContact::NotFinite)?;
+        best = held.follow_to_roller(readings).ok_or(NoContact::NotFinite)?;
     }
     let spread = variance(&best.miss_rates, &covariance);
     if spread > 0.0 {
         let told = covariance * best.miss_rates;
         covariance -= told * told.transpose() / spread;
     }
-    let contact = told(&best, readings.norm(), &covariance, units)?;
+    let contact = contacts_of_readings(&best, readings.norm(), &covariance, units)?;
     Ok(ThroughRoller { contact, s: best.s * units.length, miss, bending_stiffness, moment_gain })
 }
 
@@ -150,7 +150,7 @@ pub fn beyond_roller<R: PhysicalRod<Clamp = Pose>>(
     if !readings.iter().all(|v| v.is_finite()) {
         return Err(NoContact::NotFinite);
     }
-    let walked = Held::new(rod, sample.pose).walked(readings).ok_or(NoContact::NotFinite)?;
+    let walked = Held::new(rod, sample.pose).follow_to_roller(readings).ok_or(NoContact::NotFinite)?;
     let [a, b] = walked.force;
     let Cut { x, y, phi, moment } = walked.model.carry(walked.s, &walked.at, a, b, -walked.s);
     let pose = Pose { x: x * units.length, y: y * units.length, phi };
@@ -198,7 +198,7 @@ impl<'a, M: RodModel> Held<'a, M> {
     }
 
     /// None where the rod is wound up before the roller.
-    fn walked(&self, readings: Vector4<f64>) -> Option<Walked<'a, M>> {
+    fn follow_to_roller(&self, readings: Vector4<f64>) -> Option<Walked<'a, M>> {
         let [f0x, f0y, m0z, r] = readings.into();
         let (Pose { x, y, phi }, [px, py]) = (self.pose, self.roller.point(self.pose));
         let base = Cut { x, y, phi, moment: -m0z };
@@ -244,7 +244,7 @@ impl<'a, M: RodModel> Held<'a, M> {
         for _ in 0..MOST_STEPS {
             let factors = powers.map(|power| (power * log).exp());
             let scaled = readings.component_mul(&factors);
-            let walked = self.walked(scaled)?;
+            let walked = self.follow_to_roller(scaled)?;
             let by_log = walked.miss_rates.dot(&scaled.component_mul(&powers)) - whole.min(0.0) * walked.miss;
             let step = -walked.miss / by_log;
             if !step.is_finite() {

@@ -6,7 +6,7 @@
 //! share grows with the 13th power of the window's length; that of noise grows more slowly (a random walk: with the square).
 
 use super::polynomials::Bases;
-use super::quantum::{hold, quantum};
+use super::quantum::{hold_length, quantum};
 use crate::numeric::dot;
 
 /// Blocks of a window. Larger: the power is that of longer times, so that more of the signal is left in it.
@@ -64,7 +64,7 @@ impl Bands {
     pub fn of(tau: &[f64], channel: &[f64], known: f64) -> Self {
         let bands = Self::smooth(tau, channel, known);
         match quantum(channel) {
-            Some(step) => bands.with_steps(step, hold(channel)),
+            Some(step) => bands.with_steps(step, hold_length(channel)),
             None => bands,
         }
     }

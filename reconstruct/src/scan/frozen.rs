@@ -1,7 +1,7 @@
 //! Samples of a sensor that repeats itself: it has lost its connection, or has reached the end of its range.
 
 use super::noise_estimate::estimate;
-use super::quantum::hold;
+use super::quantum::hold_length;
 use rod_core::{Reactions, Sample};
 
 /// Fewest equal values in a row that cannot be chance. Where less than a third of all neighbours are equal, chance makes so many in one
@@ -20,7 +20,7 @@ pub(super) fn frozen(samples: &[Sample]) -> Vec<bool> {
     let channels: [fn(&Reactions) -> f64; 3] = [|r| r.f0x, |r| r.f0y, |r| r.m0z];
     for channel in channels {
         let values: Vec<f64> = samples.iter().map(|sample| channel(&sample.reactions)).collect();
-        let least = FEWEST.max(HELD * hold(&values));
+        let least = FEWEST.max(HELD * hold_length(&values));
         let mut start = 0;
         let mut rows = Vec::new();
         for run in values.chunk_by(|a, b| a == b) {

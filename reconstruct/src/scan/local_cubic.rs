@@ -161,7 +161,7 @@ impl LocalCubic {
     }
 
     /// Gives the contacts friction whose angle has this tangent.
-    pub fn rub(&mut self, friction: f64) {
+    pub fn set_friction(&mut self, friction: f64) {
         self.friction = friction;
     }
 

@@ -19,7 +19,7 @@ pub(crate) fn quantum(channel: &[f64]) -> Option<f64> {
 }
 
 /// Number of samples for which a value is held: half of the samples belong to longer runs of equal values.
-pub(super) fn hold(channel: &[f64]) -> usize {
+pub(super) fn hold_length(channel: &[f64]) -> usize {
     let mut runs: Vec<usize> = channel.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
     runs.sort_unstable();
     let mut passed = 0;

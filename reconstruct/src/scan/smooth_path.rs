@@ -21,9 +21,9 @@ pub(super) fn smooth_path(
     let widest = (SHARE * poses.len() as f64) as usize;
     let mut half = NARROWEST;
     while half <= widest {
-        if moves_on(&smoothed(poses, half)) {
-            let wider = smoothed(poses, ((WIDER * half as f64) as usize).min(widest));
-            return Some(if moves_on(&wider) { wider } else { smoothed(poses, half) });
+        if moves_on(&smooth_twice(poses, half)) {
+            let wider = smooth_twice(poses, ((WIDER * half as f64) as usize).min(widest));
+            return Some(if moves_on(&wider) { wider } else { smooth_twice(poses, half) });
         }
         half = (half as f64 * GROWTH).ceil() as usize;
     }
@@ -32,7 +32,7 @@ pub(super) fn smooth_path(
 
 /// Means over windows of `half` samples on either side, twice. Beyond the ends the path goes on by its reflection in the end, the
 /// place of which is that of a line through the nearest samples.
-fn smoothed(poses: &[Vector3<f64>], half: usize) -> Vec<Vector3<f64>> {
+fn smooth_twice(poses: &[Vector3<f64>], half: usize) -> Vec<Vector3<f64>> {
     let count = poses.len();
     let half = half.min(count.saturating_sub(1) / 2);
     let reach = 2 * half;

@@ -32,10 +32,10 @@ pub(super) fn stops(clamps: &[Clamp], trembling: f64) -> Vec<Stop> {
         |groups: &[usize], least: usize| groups.iter().filter(|count| **count >= least).sum::<usize>() as f64;
     let enough = SHARE * clamps.len() as f64;
     if standing(&resting, 2) > enough {
-        return if moves(clamps, &resting) { alone() } else { joined(clamps, &resting, 2) };
+        return if moves(clamps, &resting) { alone() } else { average_groups(clamps, &resting, 2) };
     }
     let resting = groups(clamps, (SIGMAS * trembling).max(SAME));
-    if standing(&resting, LONG) > enough { joined(clamps, &resting, LONG) } else { alone() }
+    if standing(&resting, LONG) > enough { average_groups(clamps, &resting, LONG) } else { alone() }
 }
 
 /// Lengths of the groups of consecutive poses within `distance` of their first ones' mean.
@@ -57,7 +57,7 @@ fn groups(clamps: &[Clamp], distance: f64) -> Vec<usize> {
     groups
 }
 
-fn joined(clamps: &[Clamp], groups: &[usize], least: usize) -> Vec<Stop> {
+fn average_groups(clamps: &[Clamp], groups: &[usize], least: usize) -> Vec<Stop> {
     let mut rest = clamps;
     let mut stops = Vec::with_capacity(groups.len());
     for &count in groups {

@@ -1,9 +1,9 @@
 //! How far errors that all samples share displace single contact points across the contour.
 
 use super::correction::{Frame, motion, still};
-use super::influence::{Around, point_by_errors};
+use super::influence::{CorrectionDifferences, point_derivatives};
 use super::source::{Errors, SOURCES, Source};
-use crate::phase::{Label, constrained};
+use crate::phase::{Label, constrained_contact};
 use crate::scan::{Estimate, Track, TrackIndex};
 use nalgebra::{Matrix3, Vector3};
 use rod_core::{Rod, Sample, Uniform};
@@ -37,7 +37,7 @@ pub fn influences(
     let (track, indices) = Track::new(rod, samples);
     let track = track.with_friction(friction);
     let units = rod.units();
-    let around = Frame::of(&track).and_then(|frame| Around::new(frame, &Errors::zeros(), |_| true));
+    let around = Frame::of(&track).and_then(|frame| CorrectionDifferences::new(frame, &Errors::zeros(), |_| true));
     let Some(around) = around else { return Vec::new() };
     let noise = Vector3::from(sigma).component_div(&Vector3::new(units.force, units.force, units.moment));
     // without noise there are no ratios
@@ -46,8 +46,8 @@ pub fn influences(
     let one = |number: usize, label: Label, TrackIndex(index): TrackIndex| {
         let clamp = track.clamps[index];
         let estimate = Estimate::exact(clamp, still(motion(&track, index)));
-        let (by, _) = point_by_errors(&around, track.tau[index], &estimate, &noise, label)?;
-        let alpha = constrained(&Uniform, &clamp, &noise, label).ok()?.alpha;
+        let (by, _) = point_derivatives(&around, track.tau[index], &estimate, &noise, label)?;
+        let alpha = constrained_contact(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];
         let by = std::array::from_fn(|k| across(k) * units.length / Source::ALL[k].unit(rod));
         by.iter().all(|v| v.is_finite()).then_some((number, Influence { by }))

@@ -1,14 +1,16 @@
-//! Labels and shared errors in turns.
+//! Labels and shared errors of a scan by alternating estimation, and the report of the errors.
 
-use super::adjust::{Adjusted, Labelled, Prior, STEPS, adjust, misfit, root_mean_square};
+use super::alternation::{Alternation, LabelsAndErrors, RAISED, raise};
 use super::budget::Budget;
 use super::calibration::{Calibration, SourceEstimate, ties};
 use super::correction::{Correction, Frame};
-use super::free::stretches;
-use super::influence::{Around, of_criteria, of_point, variances};
+use super::estimate_errors::{
+    ErrorEstimate, LabelledPlace, Prior, STEPS, estimate_errors, misfit_of, root_mean_square,
+};
+use super::free::free_stretches;
+use super::influence::{CorrectionDifferences, criteria_derivatives, point_covariance, variances};
 use super::known::Known;
 use super::source::{Errors, Joint, SOURCES, Source, deviations};
-use super::turns::{Found, RAISED, Turns, raise};
 use crate::phase::{Break, CRITERIA, Criterion, Evidence, Label, Place};
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SymmetricEigen, Vector3};
@@ -30,9 +32,9 @@ const SIGNIFICANT: f64 = 60.0;
 /// sensor that drifts at random leaves.
 const UNLIKE: f64 = 100.0;
 
-/// What is left of the shared errors after the correction.
+/// The shared errors that remain after the correction.
 #[derive(Clone, Debug)]
-pub(crate) struct Shared {
+pub(crate) struct RemainingErrors {
     pub frame: Frame,
     /// Factor of the covariance of the errors.
     pub factor: Joint,
@@ -42,10 +44,10 @@ pub(crate) struct Shared {
     pub rates: f64,
 }
 
-impl Shared {
-    /// Gives each place the evidence after a correction, with these errors in its standard deviations.
-    pub fn judge(&self, errors: &Errors, track: &Track, places: &mut [Place]) {
-        let Some(around) = self.around(errors) else { return };
+impl RemainingErrors {
+    /// Replaces the evidence of each place by that after a correction, with these errors in its standard deviations.
+    pub fn update_evidence(&self, errors: &Errors, track: &Track, places: &mut [Place]) {
+        let Some(around) = self.differences(errors) else { return };
         let stride = places.len().div_ceil(PLACES).max(1);
         let mut shared = None;
         for (k, place) in places.iter_mut().enumerate() {
@@ -62,7 +64,7 @@ impl Shared {
     /// `places` have the same errors.
     pub fn evidence(
         &self,
-        around: &Around,
+        around: &CorrectionDifferences,
         tau: f64,
         place: &Place,
         shared: &mut Option<[f64; CRITERIA]>,
@@ -75,7 +77,7 @@ impl Shared {
             if around.is_exact() {
                 return [0.0; CRITERIA];
             }
-            variances(&of_criteria(&here, &around.of_inputs(tau, &measured), true), &self.factor)
+            variances(&criteria_derivatives(&here, &around.input_derivatives(tau, &measured), true), &self.factor)
         };
         let shared = shared.get_or_insert_with(of_errors);
         let quantities = evidence.quantities();
@@ -89,12 +91,12 @@ impl Shared {
     }
 
     /// The correction by these errors, and by these with a step of each of which anything is not known.
-    pub fn around(&self, errors: &Errors) -> Option<Around> {
-        Around::new(self.frame, errors, |k| self.factor.row(k).iter().any(|by| *by != 0.0))
+    pub fn differences(&self, errors: &Errors) -> Option<CorrectionDifferences> {
+        CorrectionDifferences::new(self.frame, errors, |k| self.factor.row(k).iter().any(|by| *by != 0.0))
     }
 
-    /// Makes kinks as doubtful as the rates of the reactions are.
-    pub fn doubt(&self, places: &mut [Place]) {
+    /// Divides the scores of breaks by the excess variance of the rates of the reactions.
+    pub fn weaken_breaks(&self, places: &mut [Place]) {
         for between in places.iter_mut().filter_map(|place| place.observation.between.as_mut()) {
             between.score /= self.rates * self.rates;
         }
@@ -102,14 +104,14 @@ impl Shared {
 
     /// For each place of phase A or B the covariance of its contact point that the errors cause, dimensionless; the places are corrected.
     /// None where no place of a run has one.
-    pub fn points(
+    pub fn point_covariances(
         &self,
         track: &Track,
         noise: &Noise,
         places: &[Place],
         labels: &[(Label, f64)],
     ) -> Vec<Option<Matrix2<f64>>> {
-        let Some(around) = self.around(&Errors::zeros()) else { return vec![None; places.len()] };
+        let Some(around) = self.differences(&Errors::zeros()) else { return vec![None; places.len()] };
         let stride = places.len().div_ceil(PLACES).max(1);
         let of = |place: &Place, label: Label| {
             let tau = track.tau[place.index];
@@ -117,7 +119,7 @@ impl Shared {
             let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
             let criterion = if label == Label::A { Criterion::Length } else { Criterion::K };
             let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
-            of_point(&around, tau, &measured, &covariance, label, &self.factor, misfit)
+            point_covariance(&around, tau, &measured, &covariance, label, &self.factor, misfit)
         };
         // a force that has hardly begun has no derivatives: such a place takes those of the nearest place of its label
         let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(places.len());
@@ -136,7 +138,7 @@ impl Shared {
 }
 
 /// A scan whose labels and shared errors are to be found.
-pub(crate) struct Scan<'a> {
+pub(crate) struct CalibrationScan<'a> {
     pub rod: &'a Rod,
     pub track: &'a Track,
     pub noise: &'a Noise,
@@ -144,88 +146,102 @@ pub(crate) struct Scan<'a> {
     pub places: &'a [Place],
 }
 
-/// The correction of a scan, if it needs one; what is left; and what to tell. None without a budget where nothing is known.
+/// The correction of a scan, if it needs one; the remaining errors; and the report. None without a budget where nothing is known.
 pub(crate) fn calibrate(
-    scan: &Scan<'_>,
+    scan: &CalibrationScan<'_>,
     budget: &Budget,
     known: &Known,
-) -> Option<(Option<Correction>, Shared, Calibration)> {
+) -> Option<(Option<Correction>, RemainingErrors, Calibration)> {
     if budget.is_none() && known.is_nothing() {
         return None;
     }
     let frame = Frame::of(scan.track)?;
-    let (prior, free) = scan.before(frame, budget, known);
-    let places = thinned(scan.places, PLACES);
-    let (turns, tared) = scan.tared(frame, &prior, &free, &places);
-    let Found { adjusted: found, prior, raised, labels, likelihood } = turns.found(&prior, &tared);
-    let last = turns.labelled(&labels);
-    let taken = fewest(frame, &prior, &found, &last, &turns.least);
+    let (prior, free) = scan.prior_and_free_stretches(frame, budget, known);
+    let places = thin_places(scan.places, PLACES);
+    let (alternation, tare_estimate) = scan.start_with_tare(frame, &prior, &free, &places);
+    let LabelsAndErrors { estimate: found, prior, raised, labels, likelihood } =
+        alternation.run(&prior, &tare_estimate);
+    let last = alternation.labelled_places(&labels);
+    let taken = sparsest_correction(frame, &prior, &found, &last, &alternation.least);
     let free = free.into_iter().filter(|range| are_free(range, &places, &labels)).collect();
-    let calibration =
-        Calibration { log_likelihood: likelihood, ..told(scan.rod, &prior, &raised, &found, &taken, free) };
-    let shared = Shared { frame, factor: about(&found, &taken), scatter: found.scatter, rates: turns.rates() };
+    let calibration = Calibration {
+        log_likelihood: likelihood,
+        ..calibration_report(scan.rod, &prior, &raised, &found, &taken, free)
+    };
+    let shared = RemainingErrors {
+        frame,
+        factor: remaining_factor(&found, &taken),
+        scatter: found.scatter,
+        rates: alternation.rates(),
+    };
     let correction = if taken == Errors::zeros() { None } else { Correction::new(frame, &taken) };
     Some((correction, shared, calibration))
 }
 
 /// The logarithm of the likelihood alone, from few places up to the last turn. On O1 at q = 0.4 in noise it differs from that of
 /// [`calibrate`] by 0.04 without friction, by 1.4 with mu = 0.1 (a gain of 48), and by 121 with mu = 0.3 (a gain of 1,414).
-pub(crate) fn log_likelihood(scan: &Scan<'_>, budget: &Budget, known: &Known) -> Option<f64> {
+pub(crate) fn log_likelihood(scan: &CalibrationScan<'_>, budget: &Budget, known: &Known) -> Option<f64> {
     if budget.is_none() && known.is_nothing() {
         return None;
     }
     let frame = Frame::of(scan.track)?;
-    let (prior, free) = scan.before(frame, budget, known);
-    let [few, all] = [FEW_PLACES, PLACES].map(|most| thinned(scan.places, most));
+    let (prior, free) = scan.prior_and_free_stretches(frame, budget, known);
+    let [few, all] = [FEW_PLACES, PLACES].map(|most| thin_places(scan.places, most));
     let quick = |places| {
-        let (turns, tared) = scan.tared(frame, &prior, &free, places);
-        (Turns { steps: FEW_STEPS, ..turns }, tared)
+        let (alternation, tare_estimate) = scan.start_with_tare(frame, &prior, &free, places);
+        (Alternation { steps: FEW_STEPS, ..alternation }, tare_estimate)
     };
-    let (turns, tared) = quick(&few);
-    Some(quick(&all).0.last(&prior, &turns.found(&prior, &tared)))
+    let (alternation, tare_estimate) = quick(&few);
+    Some(quick(&all).0.log_likelihood_after_turn(&prior, &alternation.run(&prior, &tare_estimate)))
 }
 
-impl Scan<'_> {
-    /// What is known before, and the stretches in which the rod is free.
-    fn before(&self, frame: Frame, budget: &Budget, known: &Known) -> (Prior, Vec<Range<usize>>) {
+impl CalibrationScan<'_> {
+    /// The prior of the errors, and the stretches in which the rod is free.
+    fn prior_and_free_stretches(&self, frame: Frame, budget: &Budget, known: &Known) -> (Prior, Vec<Range<usize>>) {
         let Self { rod, track, noise, breaks, .. } = *self;
         let means = known.means(rod);
         let prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
         let free = match Correction::new(frame, &means).filter(|_| means != Errors::zeros()) {
-            Some(correction) => stretches(&correction.track(track), noise, breaks, &prior.sigmas),
-            None => stretches(track, noise, breaks, &prior.sigmas),
+            Some(correction) => free_stretches(&correction.track(track), noise, breaks, &prior.sigmas),
+            None => free_stretches(track, noise, breaks, &prior.sigmas),
         };
         (prior, free)
     }
 
-    /// The turns from these places, and where they start from: with the errors that the free stretches tell.
-    fn tared<'a>(
+    /// The alternating estimation on these places, and its start: the errors by the free stretches.
+    fn start_with_tare<'a>(
         &'a self,
         frame: Frame,
         prior: &Prior,
         free: &[Range<usize>],
         places: &'a [Place],
-    ) -> (Turns<'a>, Adjusted) {
+    ) -> (Alternation<'a>, ErrorEstimate) {
         let in_free = |place: &Place| free.iter().any(|range| range.contains(&place.index));
         let inside: Vec<Place> = places.iter().filter(|place| in_free(place)).cloned().collect();
-        let mut turns = Turns { frame, track: self.track, places, least: [1.0; CRITERIA], steps: STEPS };
-        let tare = Turns { places: &inside, ..turns }.labelled(&vec![(Label::Free, 1.0); inside.len()]);
-        let mut tared = adjust(frame, prior, &prior.means, &tare, &turns.least, STEPS);
-        if tared.scatter[..3].iter().any(|times| *times > UNLIKE) {
-            tared = adjust(frame, prior, &prior.means, &[], &turns.least, STEPS);
+        let mut alternation = Alternation { frame, track: self.track, places, least: [1.0; CRITERIA], steps: STEPS };
+        let tare =
+            Alternation { places: &inside, ..alternation }.labelled_places(&vec![(Label::Free, 1.0); inside.len()]);
+        let mut tare_estimate = estimate_errors(frame, prior, &prior.means, &tare, &alternation.least, STEPS);
+        if tare_estimate.scatter[..3].iter().any(|times| *times > UNLIKE) {
+            tare_estimate = estimate_errors(frame, prior, &prior.means, &[], &alternation.least, STEPS);
         } else {
-            turns.least = least(frame, &tared, &tare);
+            alternation.least = smallest_scatter(frame, &tare_estimate, &tare);
         }
-        (turns, tared)
+        (alternation, tare_estimate)
     }
 }
 
-/// What is known of the errors before the first sample of a scan that goes on, whose places are in `track`.
-pub(crate) fn known_before(rod: &Rod, track: &Track, budget: &Budget, known: &Known) -> Option<(Errors, Shared)> {
+/// The errors that are known before the first sample of a live scan, whose places are in `track`, and their uncertainty.
+pub(crate) fn errors_before_scan(
+    rod: &Rod,
+    track: &Track,
+    budget: &Budget,
+    known: &Known,
+) -> Option<(Errors, RemainingErrors)> {
     // the drift of the budget is that of a whole scan
     let frame = Frame::of(track)?.on_way(WAY);
     let factor = Joint::from_diagonal(&known.deviations(&deviations(budget, rod), rod));
-    Some((known.means(rod), Shared { frame, factor, scatter: [1.0; CRITERIA], rates: 1.0 }))
+    Some((known.means(rod), RemainingErrors { frame, factor, scatter: [1.0; CRITERIA], rates: 1.0 }))
 }
 
 /// The same after places whose labels are known; `track` has a sample for each place, and nothing else. The first value is what is to be
@@ -237,34 +253,35 @@ pub(crate) fn calibrate_labelled(
     labels: &[(Label, f64)],
     budget: &Budget,
     known: &Known,
-) -> Option<(Errors, Shared, Calibration)> {
+) -> Option<(Errors, RemainingErrors, Calibration)> {
     let frame = Frame::of(track)?.on_way(WAY);
     let means = known.means(rod);
     let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
-    let mut turns = Turns { frame, track, places, least: [1.0; CRITERIA], steps: STEPS };
-    let labelled = turns.labelled(labels);
-    let mut found = adjust(frame, &prior, &means, &labelled, &turns.least, STEPS);
-    let free: Vec<Labelled> = turns.labelled(labels).into_iter().filter(|place| place.label == Label::Free).collect();
-    turns.least = least(frame, &found, &free);
+    let mut alternation = Alternation { frame, track, places, least: [1.0; CRITERIA], steps: STEPS };
+    let labelled = alternation.labelled_places(labels);
+    let mut found = estimate_errors(frame, &prior, &means, &labelled, &alternation.least, STEPS);
+    let free: Vec<LabelledPlace> =
+        alternation.labelled_places(labels).into_iter().filter(|place| place.label == Label::Free).collect();
+    alternation.least = smallest_scatter(frame, &found, &free);
     let mut raised = [false; SOURCES];
-    found = adjust(frame, &prior, &found.errors, &labelled, &turns.least, STEPS);
+    found = estimate_errors(frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
     if raise(&mut prior, &found.errors, &mut raised) {
-        found = adjust(frame, &prior, &found.errors, &labelled, &turns.least, STEPS);
+        found = estimate_errors(frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
     }
-    let calibration = told(rod, &prior, &raised, &found, &found.errors, Vec::new());
-    let shared = Shared { frame, factor: found.factor, scatter: found.scatter, rates: turns.rates() };
+    let calibration = calibration_report(rod, &prior, &raised, &found, &found.errors, Vec::new());
+    let shared = RemainingErrors { frame, factor: found.factor, scatter: found.scatter, rates: alternation.rates() };
     Some((found.errors, shared, calibration))
 }
 
 /// The smallest residuals of each criterion to be expected, in standard deviations of the noise: those of the reactions and of their
 /// rates where the rod is free. They are more than 1 where the sensor drifts at random.
-fn least(frame: Frame, found: &Adjusted, free: &[Labelled]) -> [f64; CRITERIA] {
+fn smallest_scatter(frame: Frame, found: &ErrorEstimate, free: &[LabelledPlace]) -> [f64; CRITERIA] {
     let mut least = [1.0; CRITERIA];
     let Some(correction) = Correction::new(frame, &found.errors) else { return least };
     let of_values = found.scatter[..3].iter().fold(1.0, |a: f64, b| a.max(*b));
     let of_rates = (0..3).map(|c| {
         let unit = Vector3::from_fn(|i, _| f64::from(u8::from(i == c)));
-        let z = |place: &Labelled| {
+        let z = |place: &LabelledPlace| {
             let rate = correction.apply(place.tau, &place.measured.clamp, &place.measured.rate).1;
             rate.reactions[c] / place.measured.variance(&Vector3::zeros(), &unit).sqrt()
         };
@@ -285,17 +302,23 @@ fn are_free(stretch: &Range<usize>, places: &[Place], labels: &[(Label, f64)]) -
 }
 
 /// Every so many of the places, so that at most so many are left, and the first one after each break.
-fn thinned(places: &[Place], most: usize) -> Vec<Place> {
+fn thin_places(places: &[Place], most: usize) -> Vec<Place> {
     let stride = places.len().div_ceil(most).max(1);
     let kept = places.iter().enumerate().filter(|(k, place)| k % stride == 0 || place.observation.between.is_some());
     kept.map(|(_, place)| Place { weight: (place.weight * stride as f64).min(1.0), ..place.clone() }).collect()
 }
 
-/// The fewest corrections that the places need: what is known before alone, or tare and drift and then one source after the other, each
-/// the one that explains most of what is left.
-fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], least: &[f64; CRITERIA]) -> Errors {
+/// The sparsest correction that explains the places: the prior means alone, or tare and drift and then one source after the other, each
+/// the one that explains most of the residual.
+fn sparsest_correction(
+    frame: Frame,
+    prior: &Prior,
+    found: &ErrorEstimate,
+    places: &[LabelledPlace],
+    least: &[f64; CRITERIA],
+) -> Errors {
     let Prior { means, sigmas } = prior;
-    let with = |errors: &Errors| misfit(frame, sigmas, errors, found, places);
+    let with = |errors: &Errors| misfit_of(frame, sigmas, errors, found, places);
     let least_misfit = with(&found.errors);
     let is_enough = |errors: &Errors| with(errors) - least_misfit < SIGNIFICANT;
     if is_enough(means) {
@@ -311,7 +334,8 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
     loop {
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
         let only = Prior { sigmas: only, ..*prior };
-        let taken = adjust(frame, &only, &restricted(found, prior, &free), places, least, STEPS).errors;
+        let taken =
+            estimate_errors(frame, &only, &restricted_estimate(found, prior, &free), places, least, STEPS).errors;
         if is_enough(&taken) {
             return taken;
         }
@@ -322,14 +346,14 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
         }
         let others = (0..SOURCES).filter(|k| !free[*k] && sigmas[*k] > 0.0);
         let best = others.min_by(|i, j| {
-            let left_by = |k: usize| {
+            let residual_by = |k: usize| {
                 let mut free = free;
                 free[k] = true;
-                let left = (found.errors - restricted(found, prior, &free))
+                let left = (found.errors - restricted_estimate(found, prior, &free))
                     .component_div(&sigmas.map(|s| s.max(f64::MIN_POSITIVE)));
                 (left.transpose() * found.normal * left).x
             };
-            left_by(*i).total_cmp(&left_by(*j))
+            residual_by(*i).total_cmp(&residual_by(*j))
         });
         match best {
             Some(best) => free[best] = true,
@@ -338,8 +362,8 @@ fn fewest(frame: Frame, prior: &Prior, found: &Adjusted, places: &[Labelled], le
     }
 }
 
-/// The estimate where only some of the errors differ from what is known before, to first order.
-fn restricted(found: &Adjusted, prior: &Prior, free: &[bool; SOURCES]) -> Errors {
+/// The estimate where only the free errors differ from the prior means, to first order.
+fn restricted_estimate(found: &ErrorEstimate, prior: &Prior, free: &[bool; SOURCES]) -> Errors {
     let Prior { means, sigmas } = prior;
     let known = sigmas.map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
     let right = found.normal * (found.errors - means).component_mul(&known);
@@ -350,30 +374,31 @@ fn restricted(found: &Adjusted, prior: &Prior, free: &[bool; SOURCES]) -> Errors
     means + solved.component_mul(sigmas)
 }
 
-/// A factor of the second moments of the errors about those that are taken off.
-fn about(found: &Adjusted, taken: &Errors) -> Joint {
-    let left = found.errors - taken;
-    if left == Errors::zeros() {
+/// A factor of the second moments of the errors about those that are subtracted.
+fn remaining_factor(found: &ErrorEstimate, taken: &Errors) -> Joint {
+    let remaining = found.errors - taken;
+    if remaining == Errors::zeros() {
         return found.factor;
     }
-    let covariance = found.factor * found.factor.transpose() + left * left.transpose();
+    let covariance = found.factor * found.factor.transpose() + remaining * remaining.transpose();
     let eigen = SymmetricEigen::new(covariance);
     eigen.eigenvectors * Joint::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0).sqrt()))
 }
 
-fn told(
+/// The report of an estimate, in the units of the sources; `taken` are the subtracted errors.
+fn calibration_report(
     rod: &Rod,
     prior: &Prior,
     raised: &[bool; SOURCES],
-    found: &Adjusted,
+    found: &ErrorEstimate,
     taken: &Errors,
     free: Vec<Range<usize>>,
 ) -> Calibration {
     let covariance = found.factor * found.factor.transpose();
     let sigma = |k: usize| covariance[(k, k)].max(0.0).sqrt();
     let Prior { means, sigmas } = prior;
-    let told = |k: &usize| sigmas[*k] > 0.0 || means[*k] != 0.0;
-    let numbers: Vec<usize> = (0..SOURCES).filter(told).collect();
+    let reported = |k: &usize| sigmas[*k] > 0.0 || means[*k] != 0.0;
+    let numbers: Vec<usize> = (0..SOURCES).filter(reported).collect();
     let units: Vec<f64> = numbers.iter().map(|&k| Source::ALL[k].unit(rod)).collect();
     let sources: Vec<SourceEstimate> = numbers
         .iter()

@@ -140,7 +140,7 @@ impl Calibration {
     pub fn confused(&self, source: Source) -> Vec<(Source, f64)> {
         let of = self.sources.iter().position(|estimate| estimate.source == source);
         of.filter(|of| *of < self.covariance.nrows())
-            .map_or_else(Vec::new, |of| confused(&self.sources, &self.covariance, of))
+            .map_or_else(Vec::new, |of| confused_sources(&self.sources, &self.covariance, of))
     }
 
     /// The estimate of one source.
@@ -151,7 +151,7 @@ impl Calibration {
 
 /// The sources from which one, by its number, is hardly told: by what part its variance would be smaller if they were known exactly, one by
 /// one, a tenth at least; the largest first.
-pub(super) fn confused(sources: &[SourceEstimate], covariance: &DMatrix<f64>, of: usize) -> Vec<(Source, f64)> {
+pub(super) fn confused_sources(sources: &[SourceEstimate], covariance: &DMatrix<f64>, of: usize) -> Vec<(Source, f64)> {
     let part = |k: usize| covariance[(of, k)].powi(2) / (covariance[(of, of)] * covariance[(k, k)]);
     let others = (0..covariance.nrows()).filter(|k| *k != of).map(|k| (sources[k].source, part(k)));
     let mut found: Vec<(Source, f64)> = others.filter(|other| other.1 > CONFUSED).collect();

@@ -1,6 +1,6 @@
 //! What several scans say of the errors that stay the same from scan to scan.
 
-use super::calibration::{Calibration, SourceEstimate, confused, ties};
+use super::calibration::{Calibration, SourceEstimate, confused_sources, ties};
 use super::known::Known;
 use super::source::Source;
 use crate::numeric::chi_squared::wilson_hilferty;
@@ -106,8 +106,8 @@ impl Combined {
             let from = DVector::from_fn(count, |k, _| {
                 estimate(k).map_or(0.0, |(one, sign)| (sign * one.known - known[k]) / unit(k))
             });
-            let whole = mapped(covariance, |variance| 1.0 / variance.max(FINEST));
-            let told = mapped(&whole - DMatrix::from_diagonal(&prior), |information| information.max(0.0));
+            let whole = map_eigenvalues(covariance, |variance| 1.0 / variance.max(FINEST));
+            let told = map_eigenvalues(&whole - DMatrix::from_diagonal(&prior), |information| information.max(0.0));
             let right = &whole * off + &told * from;
             // what the scan says, in combinations of which nothing is known but a standard deviation of 1
             let eigen = SymmetricEigen::new(factor.transpose() * &told * &factor);
@@ -129,7 +129,7 @@ impl Combined {
         let active: Vec<usize> = (0..count).filter(|k| budgets[*k] > 0.0).collect();
         let is_friction = |k: &usize| matches!(unknowns[active[*k]], Unknown::Friction(..));
         let frictions: Vec<usize> = (0..active.len()).filter(is_friction).collect();
-        let taken = fewest(&found, &(&factor * factor.transpose()), &active, frictions);
+        let taken = sparsest_estimate(&found, &(&factor * factor.transpose()), &active, frictions);
         let sources: Option<Vec<SourceEstimate>> = (0..count)
             .map(|k| {
                 let (first, _) = of(unknowns[k]).next()?;
@@ -151,7 +151,7 @@ impl Combined {
 
     /// The sources from which the scans hardly tell one of [`Self::sources`], by its number, as [`Calibration::confused`] of one scan.
     pub fn confused(&self, of: usize) -> Vec<(Source, f64)> {
-        if of < self.sources.len() { confused(&self.sources, &self.covariance, of) } else { Vec::new() }
+        if of < self.sources.len() { confused_sources(&self.sources, &self.covariance, of) } else { Vec::new() }
     }
 
     /// The estimate of one source.
@@ -185,10 +185,15 @@ impl Combined {
 
 /// The sparsest estimate that agrees with `found` and its covariance: those `kept` of the active sources, and one source after the other, each
 /// the one that explains most of what is left.
-fn fewest(found: &DVector<f64>, covariance: &DMatrix<f64>, active: &[usize], mut kept: Vec<usize>) -> DVector<f64> {
+fn sparsest_estimate(
+    found: &DVector<f64>,
+    covariance: &DMatrix<f64>,
+    active: &[usize],
+    mut kept: Vec<usize>,
+) -> DVector<f64> {
     let count = active.len();
     let part = DMatrix::from_fn(count, count, |i, j| covariance[(active[i], active[j])]);
-    let information = mapped(part, |variance| 1.0 / variance.max(FINEST));
+    let information = map_eigenvalues(part, |variance| 1.0 / variance.max(FINEST));
     let off = DVector::from_fn(count, |k, _| found[active[k]]);
     let allowed = wilson_hilferty(count, QUANTILE);
     // the estimate with these sources alone, and by how much its sum of squares is larger
@@ -215,7 +220,7 @@ fn fewest(found: &DVector<f64>, covariance: &DMatrix<f64>, active: &[usize], mut
 }
 
 /// A symmetric matrix with other eigenvalues.
-fn mapped(matrix: DMatrix<f64>, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
+fn map_eigenvalues(matrix: DMatrix<f64>, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(matrix);
     let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(of));
     &eigen.eigenvectors * values * eigen.eigenvectors.transpose()

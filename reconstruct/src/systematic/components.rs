@@ -1,8 +1,8 @@
 //! The few combinations of shared errors that matter along a stretch.
 
-use super::calibrate::Shared;
+use super::calibrate::RemainingErrors;
 use super::correction::Correction;
-use super::influence::OF_POINT;
+use super::influence::POINT_INPUTS;
 use super::source::{Errors, Joint};
 use crate::phase::Place;
 use crate::scan::Track;
@@ -18,7 +18,7 @@ pub(crate) const DISPLACED: f64 = 0.03;
 /// Places of a stretch from which the combinations are found.
 const PLACES: usize = 16;
 
-impl Shared {
+impl RemainingErrors {
     /// Displacements of the samples of a stretch, by [`DISPLACED`] standard deviations of each combination of errors that matters there.
     pub fn displacements(&self, track: &Track, places: &[Place], stretch: &Range<usize>) -> Vec<Correction> {
         let moved = |errors: &Errors| Correction::new(self.frame, &(errors * DISPLACED));
@@ -28,10 +28,10 @@ impl Shared {
     fn combinations(&self, track: &Track, places: &[Place], stretch: &Range<usize>) -> Vec<Errors> {
         let inside: Vec<&Place> = places.iter().filter(|place| stretch.contains(&place.index)).collect();
         let mut squares = Joint::zeros();
-        let Some(around) = self.around(&Errors::zeros()) else { return Vec::new() };
+        let Some(around) = self.differences(&Errors::zeros()) else { return Vec::new() };
         for place in inside.iter().step_by(inside.len().div_ceil(PLACES).max(1)) {
             let tau = track.tau[place.index];
-            let spread = around.of_inputs(tau, &place.fit.at(tau)).fixed_rows::<OF_POINT>(0) * self.factor;
+            let spread = around.input_derivatives(tau, &place.fit.at(tau)).fixed_rows::<POINT_INPUTS>(0) * self.factor;
             squares += spread.transpose() * spread;
         }
         let eigen = SymmetricEigen::new(squares);

@@ -21,9 +21,9 @@ pub fn disturb(rod: &Rod, samples: &[Sample], error: impl Fn(Source) -> f64) -> 
     )?;
     let mut disturbed = samples.to_vec();
     for sample in &mut disturbed {
-        yielding(rod, sample, &error);
+        add_clamp_errors(rod, sample, &error);
     }
-    moved(rod, &mut disturbed, &error);
+    add_stage_errors(rod, &mut disturbed, &error);
     // drift depends on the position in the scan as it is recorded
     let (track, indices) = Track::new(&given, &disturbed);
     let ends = (track.tau.first().copied().unwrap_or(0.0), track.tau.last().copied().unwrap_or(0.0));
@@ -32,13 +32,13 @@ pub fn disturb(rod: &Rod, samples: &[Sample], error: impl Fn(Source) -> f64) -> 
         if let Ok(index) = index {
             part = (track.tau[index.0] - ends.0) / (ends.1 - ends.0).max(f64::MIN_POSITIVE);
         }
-        shown(&given, sample, part, &error);
+        add_channel_errors(&given, sample, part, &error);
     }
     Ok((given, disturbed))
 }
 
 /// The recorded angle of a clamp that yields, and the moment about a point beside it.
-fn yielding(rod: &Rod, sample: &mut Sample, error: &impl Fn(Source) -> f64) {
+fn add_clamp_errors(rod: &Rod, sample: &mut Sample, error: &impl Fn(Source) -> f64) {
     let moment = sample.reactions.m0z / rod.units().moment;
     sample.pose.phi += error(Source::ClampCompliance) * moment;
     let (sin, cos) = sample.pose.phi.sin_cos();
@@ -49,7 +49,7 @@ fn yielding(rod: &Rod, sample: &mut Sample, error: &impl Fn(Source) -> f64) {
 }
 
 /// The poses that a stage with a wrong scale records too late.
-fn moved(rod: &Rod, samples: &mut [Sample], error: &impl Fn(Source) -> f64) {
+fn add_stage_errors(rod: &Rod, samples: &mut [Sample], error: &impl Fn(Source) -> f64) {
     let (track, indices) = Track::new(rod, samples);
     let Some(first) = samples.first().map(|sample| sample.pose) else { return };
     let (lag, scale) = (error(Source::Lag), 1.0 + error(Source::StageScale));
@@ -68,7 +68,7 @@ fn moved(rod: &Rod, samples: &mut [Sample], error: &impl Fn(Source) -> f64) {
 }
 
 /// What the channels show.
-fn shown(given: &Rod, sample: &mut Sample, part: f64, error: &impl Fn(Source) -> f64) {
+fn add_channel_errors(given: &Rod, sample: &mut Sample, part: f64, error: &impl Fn(Source) -> f64) {
     let length = given.length();
     let Reactions { f0x, f0y, m0z } = sample.reactions;
     let shift = |bias, drift, bow| error(bias) + error(drift) * (part - 0.5) + error(bow) * (PI * part).sin();

@@ -17,7 +17,7 @@ const SIGMAS: f64 = 4.0;
 const HALVINGS: usize = 6;
 
 /// The free stretches in order. `sigmas` are the standard deviations of the errors before anything is known.
-pub(super) fn stretches(track: &Track, noise: &Noise, breaks: &[Break], sigmas: &Errors) -> Vec<Range<usize>> {
+pub(super) fn free_stretches(track: &Track, noise: &Noise, breaks: &[Break], sigmas: &Errors) -> Vec<Range<usize>> {
     let parts = parts(track.len(), breaks);
     let last = parts.len() - 1;
     let mut found: Vec<Range<usize>> = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::correction::{Correction, Frame};
 use super::source::{Errors, Joint, SOURCES, Source};
-use crate::phase::{CRITERIA, Criterion, Label, constrained};
+use crate::phase::{CRITERIA, Criterion, Label, constrained_contact};
 use crate::point::{Clamp, Inverse, MomentZero};
 use crate::scan::Estimate;
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
@@ -11,7 +11,7 @@ use rod_core::Uniform;
 /// Pose, reactions, natural curvature, friction, and rates of pose and reactions.
 const INPUTS: usize = 14;
 /// The first eight of them determine the contact point.
-pub(super) const OF_POINT: usize = 8;
+pub(super) const POINT_INPUTS: usize = 8;
 /// The first of the angle of the clamp, of the reactions, of the natural curvature, of friction, of the rates of the pose and of those of the
 /// reactions.
 const ANGLE: usize = 2;
@@ -31,7 +31,7 @@ fn inputs((clamp, rate): &(Clamp, Clamp)) -> Inputs {
     Inputs::from([p.x, p.y, p.z, r.x, r.y, r.z, n, f, v.x, v.y, v.z, w.x, w.y, w.z])
 }
 
-fn of_inputs(x: &Inputs) -> (Clamp, Clamp) {
+fn clamp_and_rate(x: &Inputs) -> (Clamp, Clamp) {
     let three = |k: usize| x.fixed_rows::<3>(k).into_owned();
     (
         Clamp { pose: three(0), reactions: three(REACTIONS), natural: x[NATURAL], friction: x[FRICTION] },
@@ -41,13 +41,13 @@ fn of_inputs(x: &Inputs) -> (Clamp, Clamp) {
 
 /// The corrections by given errors, and by these with one of them a step larger.
 #[derive(Clone, Debug)]
-pub(crate) struct Around {
+pub(crate) struct CorrectionDifferences {
     here: Correction,
     /// By the number of the error.
     stepped: Vec<(usize, Correction)>,
 }
 
-impl Around {
+impl CorrectionDifferences {
     /// With a step of each error that `counts`; none where gains and cross-talk leave fewer than three channels.
     pub fn new(frame: Frame, errors: &Errors, counts: impl Fn(usize) -> bool) -> Option<Self> {
         let stepped = |k: usize| {
@@ -71,7 +71,7 @@ impl Around {
 
     /// Derivatives of the corrected sample by the errors that count, 0 by others. The place of the clamp is measured in metres: its
     /// derivatives by the length are in lengths of the rod before the error, so that they do not depend on where the frame is.
-    pub fn of_inputs(&self, tau: f64, measured: &Estimate) -> SMatrix<f64, INPUTS, SOURCES> {
+    pub fn input_derivatives(&self, tau: f64, measured: &Estimate) -> SMatrix<f64, INPUTS, SOURCES> {
         let at = |correction: &Correction| {
             let mut x = inputs(&correction.apply(tau, &measured.clamp, &measured.rate));
             x[0] *= correction.length();
@@ -89,7 +89,7 @@ impl Around {
 
 /// Derivatives of the criteria of a corrected place by the errors; 0 where a criterion is not known, and for those of the zero of the moment
 /// where these do not count (`zeros`).
-pub(super) fn of_criteria(
+pub(super) fn criteria_derivatives(
     place: &(Clamp, Clamp),
     by_errors: &SMatrix<f64, INPUTS, SOURCES>,
     zeros: bool,
@@ -106,11 +106,11 @@ pub(super) fn of_criteria(
     by_inputs[(k, FRICTION)] = -2.0 * r.x.hypot(r.y) * (1.0 + clamp.friction * clamp.friction).powf(-1.5);
     if let Some(first) = Uniform.first(clamp).ok().filter(|_| zeros) {
         let of = |clamp: &Clamp| Uniform.first(clamp).ok();
-        let by = of_zero(clamp, rate, &first, is_bent, of);
+        let by = moment_zero_derivatives(clamp, rate, &first, is_bent, of);
         by_inputs.fixed_rows_mut::<3>(Criterion::Length as usize).copy_from(&by);
         if let Some(later) = Uniform.by_tip(&first, clamp) {
             let of = |clamp: &Clamp| Uniform.by_tip(&Uniform.first(clamp).ok()?, clamp);
-            let by = of_zero(clamp, rate, &later, is_bent, of);
+            let by = moment_zero_derivatives(clamp, rate, &later, is_bent, of);
             by_inputs.fixed_rows_mut::<3>(Criterion::LengthByTip as usize).copy_from(&by);
         }
     }
@@ -126,7 +126,7 @@ pub(super) fn of_criteria(
 
 /// Derivatives by the inputs, but for the angle of the clamp, of the arc length of a zero of the moment, and of its speed across the contour
 /// and along it; 0 where it vanishes with a step. `of` is the zero of another clamp; by the natural curvature only where that counts.
-fn of_zero(
+fn moment_zero_derivatives(
     clamp: &Clamp,
     rate: &Clamp,
     found: &MomentZero,
@@ -173,8 +173,8 @@ pub(super) fn variances(by_errors: &SMatrix<f64, CRITERIA, SOURCES>, factor: &Jo
 
 /// The covariance of the contact point at a place of phase A or B that errors with this factor of their covariance cause,
 /// dimensionless, with `misfit` times that of the noise. The place is corrected. None where there is no contact point.
-pub(crate) fn of_point(
-    around: &Around,
+pub(crate) fn point_covariance(
+    around: &CorrectionDifferences,
     tau: f64,
     measured: &Estimate,
     noise: &Matrix3<f64>,
@@ -182,7 +182,7 @@ pub(crate) fn of_point(
     factor: &Joint,
     misfit: f64,
 ) -> Option<Matrix2<f64>> {
-    let (by_errors, by_reactions) = point_by_errors(around, tau, measured, noise, label)?;
+    let (by_errors, by_reactions) = point_derivatives(around, tau, measured, noise, label)?;
     let spread = by_errors * factor;
     let covariance = spread * spread.transpose() + by_reactions * noise * by_reactions.transpose() * misfit;
     covariance.iter().all(|v| v.is_finite()).then_some(covariance)
@@ -190,29 +190,29 @@ pub(crate) fn of_point(
 
 /// Derivatives of the contact point at a place of phase A or B by the errors, and by the reactions, in lengths of the rod before the errors.
 /// They are those of errors around 0.
-pub(super) fn point_by_errors(
-    around: &Around,
+pub(super) fn point_derivatives(
+    around: &CorrectionDifferences,
     tau: f64,
     measured: &Estimate,
     noise: &Matrix3<f64>,
     label: Label,
 ) -> Option<(SMatrix<f64, 2, SOURCES>, SMatrix<f64, 2, 3>)> {
-    let by_errors = around.of_inputs(tau, measured);
+    let by_errors = around.input_derivatives(tau, measured);
     let here = inputs(&around.here().apply(tau, &measured.clamp, &measured.rate));
     let point = |x: &Inputs| {
-        let touch = constrained(&Uniform, &of_inputs(x).0, noise, label).ok()?;
+        let touch = constrained_contact(&Uniform, &clamp_and_rate(x).0, noise, label).ok()?;
         Some(Vector2::new(touch.x, touch.y))
     };
     let found = point(&here)?;
     // the point moves with the clamp
-    let mut by_inputs = SMatrix::<f64, 2, OF_POINT>::identity();
+    let mut by_inputs = SMatrix::<f64, 2, POINT_INPUTS>::identity();
     let is_reaction = |k: usize| (REACTIONS..REACTIONS + 3).contains(&k);
-    for k in (ANGLE..OF_POINT).filter(|k| is_reaction(*k) || by_errors.row(*k).iter().any(|by| *by != 0.0)) {
+    for k in (ANGLE..POINT_INPUTS).filter(|k| is_reaction(*k) || by_errors.row(*k).iter().any(|by| *by != 0.0)) {
         let mut x = here;
         x[k] += STEP;
         by_inputs.set_column(k, &((point(&x)? - found) / STEP));
     }
-    let mut by = by_inputs * by_errors.fixed_rows::<OF_POINT>(0);
+    let mut by = by_inputs * by_errors.fixed_rows::<POINT_INPUTS>(0);
     // a longer rod reaches farther
     by[(0, Source::Length as usize)] += found.x - here[0];
     by[(1, Source::Length as usize)] += found.y - here[1];
@@ -239,7 +239,7 @@ mod tests {
             for (natural, friction) in [(0.0, 0.0), (0.02, 0.2), (-0.01, -0.3)] {
                 let place = place(reactions, natural, friction);
                 // one input after the other in place of errors
-                let by = of_criteria(&place, &SMatrix::<f64, INPUTS, SOURCES>::identity(), true);
+                let by = criteria_derivatives(&place, &SMatrix::<f64, INPUTS, SOURCES>::identity(), true);
                 let here = inputs(&place);
                 let again = Evidence::of(&Uniform, &Estimate::exact(place.0, place.1)).again();
                 assert_eq!(again, later, "{reactions:?}");
@@ -247,7 +247,7 @@ mod tests {
                     let at = |step: f64| {
                         let mut x = here;
                         x[k] += step;
-                        let (clamp, rate) = of_inputs(&x);
+                        let (clamp, rate) = clamp_and_rate(&x);
                         let quantities = Evidence::of(&Uniform, &Estimate::exact(clamp, rate)).quantities();
                         SVector::<f64, CRITERIA>::from(quantities.map(|quantity| quantity.value))
                     };

@@ -2,12 +2,12 @@
 //! stiffness, length and natural curvature of the rod, the compliance of the clamp, the stage.
 //!
 //! They do not average out. `Budget` says how large each may be. `Correction` takes them off a sample, `influence` says how the
-//! criteria of a place depend on them, `free` finds the stretches of the free rod, `adjust` estimates them from labelled places, and
+//! criteria of a place depend on them, `free` finds the stretches of the free rod, `estimate_errors` estimates them from labelled places, and
 //! `calibrate` estimates labels and errors in turns. `known` is what a calibration tells of later scans, `combined` what several scans
 //! tell together, `candidates` which single source explains a scan. For simulations `disturb` puts errors on true samples, and `across` says how far they displace contact points.
 
 mod across;
-mod adjust;
+mod alternation;
 mod budget;
 mod calibrate;
 mod calibration;
@@ -16,15 +16,17 @@ mod combined;
 mod components;
 mod correction;
 mod disturb;
+mod estimate_errors;
 mod free;
 mod influence;
 mod known;
 mod source;
-mod turns;
 
 pub use across::{Influence, influences};
 pub use budget::Budget;
-pub(crate) use calibrate::{Scan, Shared, calibrate, calibrate_labelled, known_before, log_likelihood};
+pub(crate) use calibrate::{
+    CalibrationScan, RemainingErrors, calibrate, calibrate_labelled, errors_before_scan, log_likelihood,
+};
 pub use calibration::{Calibration, SourceEstimate};
 pub(crate) use candidates::{Candidate, candidates};
 pub use combined::Combined;
@@ -33,7 +35,7 @@ pub(crate) use correction::Correction;
 #[cfg(feature = "contact")]
 pub(crate) use correction::{Frame, motion, still};
 pub use disturb::disturb;
-pub(crate) use influence::{Around, of_point};
+pub(crate) use influence::{CorrectionDifferences, point_covariance};
 pub use known::Known;
 pub(crate) use source::Errors;
 pub use source::Source;

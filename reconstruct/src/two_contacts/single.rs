@@ -3,7 +3,7 @@
 use super::bend::UNSURE;
 use super::ends::{Beside, End};
 use super::series::Series;
-use crate::numeric::propagated;
+use crate::numeric::propagate_covariance;
 use crate::point::{Clamp, Inverse, is_free};
 use crate::scan::{Noise, Track};
 use crate::systematic::Correction;
@@ -55,8 +55,8 @@ impl Single {
         let found = zero(&clamp)?;
         let normal = found.normal();
         let by: Matrix2x3<f64> = found.by_reactions.fixed_rows::<2>(0).into_owned();
-        let sigma = propagated(&(normal.transpose() * by), &covariance).x.sqrt();
-        let sigma_s = propagated(&found.s_by_reactions.transpose(), &covariance).x.sqrt();
+        let sigma = propagate_covariance(&(normal.transpose() * by), &covariance).x.sqrt();
+        let sigma_s = propagate_covariance(&found.s_by_reactions.transpose(), &covariance).x.sqrt();
         let place = Vector2::new(found.section.x, found.section.y);
         // the other end of the neighbour's samples
         let far = zero(&series.clamps(-t)[0]);

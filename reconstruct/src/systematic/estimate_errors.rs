@@ -1,7 +1,7 @@
 //! The errors that all samples share, from places whose phases are known: least squares with the budget as what is known before.
 
 use super::correction::Frame;
-use super::influence::{Around, of_criteria};
+use super::influence::{CorrectionDifferences, criteria_derivatives};
 use super::source::{Errors, Joint, SOURCES, Source};
 use crate::least_squares::{Iterate, Loss, Problem, Rows, Whole, iterate};
 use crate::numeric::{median, robust_sigma};
@@ -19,7 +19,7 @@ const OUTLYING: f64 = 3.0;
 const LOSS: Loss = Loss::Cauchy(OUTLYING);
 
 /// A place with its phase, as measured.
-pub(super) struct Labelled {
+pub(super) struct LabelledPlace {
     pub tau: f64,
     pub measured: Estimate,
     pub weight: f64,
@@ -28,7 +28,7 @@ pub(super) struct Labelled {
 
 /// What was estimated.
 #[derive(Clone, Debug)]
-pub(super) struct Adjusted {
+pub(super) struct ErrorEstimate {
     pub errors: Errors,
     /// Factor of their covariance.
     pub factor: Joint,
@@ -70,11 +70,11 @@ struct Residual {
 }
 
 /// The residuals of the places after a correction by `errors`. Derivatives are by errors in units of `sigmas`.
-fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]) -> Vec<Residual> {
+fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[LabelledPlace]) -> Vec<Residual> {
     // the reactions of a free rod are what the sensor shows without load, whatever gains, stiffness and the others are
     let without_load = errors.map_with_location(|k, _, error| if k < WITHOUT_LOAD { error } else { 0.0 });
-    let all = Around::new(frame, errors, |k| sigmas[k] > 0.0);
-    let free = Around::new(frame, &without_load, |k| k < WITHOUT_LOAD && sigmas[k] > 0.0);
+    let all = CorrectionDifferences::new(frame, errors, |k| sigmas[k] > 0.0);
+    let free = CorrectionDifferences::new(frame, &without_load, |k| k < WITHOUT_LOAD && sigmas[k] > 0.0);
     let Some((all, free)) = all.zip(free) else { return Vec::new() };
     let mut residuals = Vec::with_capacity(2 * places.len());
     for place in places {
@@ -93,7 +93,7 @@ fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[Labelled]
             Evidence::of_sample(&Uniform, &estimate.clamp, &estimate.covariance().diagonal())
         };
         let quantities = evidence.quantities();
-        let by = of_criteria(&here, &around.of_inputs(place.tau, &place.measured), zeros);
+        let by = criteria_derivatives(&here, &around.input_derivatives(place.tau, &place.measured), zeros);
         for &criterion in conditions(place.label, evidence.again()) {
             let (c, quantity) = (criterion as usize, quantities[criterion as usize]);
             if !(quantity.sigma.is_finite() && quantity.value.is_finite()) {
@@ -140,14 +140,14 @@ const BEYOND_CHANCE: f64 = 3.0;
 const SPREAD_OF_MEDIAN: f64 = 1.17;
 
 /// The largest root mean square of each criterion's residuals that chance leaves. The weights count places that are independent.
-fn by_chance(residuals: &[Residual]) -> [f64; CRITERIA] {
+fn largest_by_chance(residuals: &[Residual]) -> [f64; CRITERIA] {
     let mut count = [0.0; CRITERIA];
     residuals.iter().for_each(|residual| count[residual.criterion] += residual.weight);
     count.map(|count| 1.0 + BEYOND_CHANCE * SPREAD_OF_MEDIAN / count.sqrt())
 }
 
 /// The robust sum of squares.
-fn objective(residuals: &[Residual], scatter: &[f64; CRITERIA]) -> f64 {
+fn robust_sum_of_squares(residuals: &[Residual], scatter: &[f64; CRITERIA]) -> f64 {
     let square = |r: &Residual| {
         let z = r.z / (OUTLYING * scatter[r.criterion]);
         r.weight * OUTLYING * OUTLYING * (z * z).ln_1p()
@@ -164,12 +164,12 @@ pub(super) struct Prior {
 }
 
 /// The errors as a least-squares problem: their prior, and the residuals of the places with Cauchy's loss, whose scale is estimated with them.
-struct Adjustment<'a> {
+struct ErrorProblem<'a> {
     frame: Frame,
     prior: &'a Prior,
     /// The sources that are not known exactly; the unknowns are these errors, in prior standard deviations off their means.
     free: &'a [usize],
-    places: &'a [Labelled],
+    places: &'a [LabelledPlace],
     /// Smallest scatter of each criterion to be expected, in standard deviations of the noise.
     least: &'a [f64; CRITERIA],
     /// Of the residuals where the equations were last asked for.
@@ -177,20 +177,20 @@ struct Adjustment<'a> {
     scatter: [f64; CRITERIA],
 }
 
-impl Adjustment<'_> {
+impl ErrorProblem<'_> {
     /// The errors in prior standard deviations.
-    fn scaled(&self, x: &DVector<f64>) -> Errors {
+    fn prior_deviations(&self, x: &DVector<f64>) -> Errors {
         let mut z = Errors::zeros();
         self.free.iter().zip(x.iter()).for_each(|(k, x)| z[*k] = *x);
         z
     }
 
     fn errors(&self, x: &DVector<f64>) -> Errors {
-        self.prior.means + self.scaled(x).component_mul(&self.prior.sigmas)
+        self.prior.means + self.prior_deviations(x).component_mul(&self.prior.sigmas)
     }
 }
 
-impl Problem for Adjustment<'_> {
+impl Problem for ErrorProblem<'_> {
     type Equations = Rows;
 
     fn equations(&mut self, x: &DVector<f64>) -> Rows {
@@ -210,7 +210,7 @@ impl Problem for Adjustment<'_> {
             of.for_each(|(i, k)| rows[(count + row, i)] = residual.by_errors[*k] * (weight * by));
             right[count + row] = -weight * off;
         }
-        Rows::decomposed(rows, right)
+        Rows::from_rows(rows, right)
     }
 }
 
@@ -218,19 +218,19 @@ impl Problem for Adjustment<'_> {
 ///
 /// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise, and `steps` the most
 /// Gauss-Newton steps.
-pub(super) fn adjust(
+pub(super) fn estimate_errors(
     frame: Frame,
     prior: &Prior,
     start: &Errors,
-    places: &[Labelled],
+    places: &[LabelledPlace],
     least: &[f64; CRITERIA],
     steps: usize,
-) -> Adjusted {
+) -> ErrorEstimate {
     let Prior { means, sigmas } = prior;
     let free: Vec<usize> = (0..SOURCES).filter(|k| sigmas[*k] > 0.0).collect();
     let x = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - means[*k]) * (1.0 / sigmas[*k])));
     let mut problem =
-        Adjustment { frame, prior, free: &free, places, least, residuals: Vec::new(), scatter: [1.0; CRITERIA] };
+        ErrorProblem { frame, prior, free: &free, places, least, residuals: Vec::new(), scatter: [1.0; CRITERIA] };
     let (Iterate { x, equations }, _) = iterate(&mut problem, x, Whole::until(SMALL), steps);
     // R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
@@ -242,15 +242,21 @@ pub(super) fn adjust(
     let factor = Joint::from_diagonal(sigmas) * inverse;
     let normal = upper.transpose() * upper;
     let here = &problem.residuals;
-    let (own, allowed, chance) = (scatters(here), allowances(here), by_chance(here));
+    let (own, allowed, chance) = (scatters(here), allowances(here), largest_by_chance(here));
     let misfit = std::array::from_fn(|c| {
         let excess = (own[c] * own[c] - 1.0).sqrt();
         if own[c] > chance[c] && allowed[c] > 0.0 { excess / allowed[c] } else { 0.0 }
     });
-    Adjusted { errors: problem.errors(&x), factor, normal, scatter: problem.scatter, misfit }
+    ErrorEstimate { errors: problem.errors(&x), factor, normal, scatter: problem.scatter, misfit }
 }
 
 /// The robust sum of squares with these errors; residuals are expected to be as large as those that were found leave.
-pub(super) fn misfit(frame: Frame, sigmas: &Errors, errors: &Errors, found: &Adjusted, places: &[Labelled]) -> f64 {
-    objective(&residuals(frame, errors, sigmas, places), &found.scatter)
+pub(super) fn misfit_of(
+    frame: Frame,
+    sigmas: &Errors,
+    errors: &Errors,
+    found: &ErrorEstimate,
+    places: &[LabelledPlace],
+) -> f64 {
+    robust_sum_of_squares(&residuals(frame, errors, sigmas, places), &found.scatter)
 }
