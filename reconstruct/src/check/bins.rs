@@ -13,7 +13,7 @@ const NOTHING: f64 = 1e-6;
 
 /// The mean of consecutive samples, SI units if theirs are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bin {
+pub(super) struct ReactionBin {
     pub pose: Pose,
     pub reactions: Reactions,
     /// 2 (f0y sin phi0 + f0x cos phi0), and 2 |F| sin rho with friction
@@ -30,7 +30,7 @@ pub(super) struct Bin {
 }
 
 /// The bins in which the rod is in contact. `friction` is the coefficient of each sample.
-pub(super) fn bins(samples: &[Sample], friction: impl Fn(usize) -> f64) -> Vec<Bin> {
+pub(super) fn bins(samples: &[Sample], friction: impl Fn(usize) -> f64) -> Vec<ReactionBin> {
     let usable: Vec<(usize, &Sample)> = samples.iter().enumerate().filter(|(_, sample)| is_finite(sample)).collect();
     let count: Vec<f64> = (0..usable.len()).map(|k| k as f64).collect();
     let channel = |of: fn(&Reactions) -> f64| -> Vec<f64> { usable.iter().map(|(_, s)| of(&s.reactions)).collect() };
@@ -59,7 +59,7 @@ pub(super) fn bins(samples: &[Sample], friction: impl Fn(usize) -> f64) -> Vec<B
         let friction = part.first().map_or(0.0, |(number, _)| friction(*number));
         let rubbing = 2.0 * reactions.f0x.hypot(reactions.f0y) * friction / friction.hypot(1.0);
         let pose = Pose { x: mean(&|s| s.pose.x), y: mean(&|s| s.pose.y), phi: mean(&|s| s.pose.phi) };
-        bins.push(Bin {
+        bins.push(ReactionBin {
             pose,
             reactions,
             load: mean(&|s| load(s)) + rubbing,

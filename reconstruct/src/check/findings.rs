@@ -1,6 +1,6 @@
 //! The conclusions of the check by the physics.
 
-use super::bins::Bin;
+use super::bins::ReactionBin;
 use super::finding::{Finding, UNITS};
 use super::line::Consensus;
 use super::shares::{Shares, contact};
@@ -38,7 +38,7 @@ const FEWEST_TIPS: usize = 5;
 pub(super) fn findings(
     rod: &Rod,
     samples: &[Sample],
-    bins: &[Bin],
+    bins: &[ReactionBin],
     found: Option<&Consensus>,
     mut shares: Shares,
 ) -> Vec<Finding> {
@@ -75,7 +75,7 @@ pub(super) fn findings(
 }
 
 /// Adds the conclusions from slope and intercept, and returns the stiffness of the line in the units of the recording.
-fn of_line(rod: &Rod, bins: &[Bin], found: &Consensus, findings: &mut Vec<Finding>) -> f64 {
+fn of_line(rod: &Rod, bins: &[ReactionBin], found: &Consensus, findings: &mut Vec<Finding>) -> f64 {
     let (line, given) = (&found.line, rod.bending_stiffness());
     let mut ratio = line.slope / given;
     if ratio < 0.0 && line.slope.abs() > SIGMAS * line.slope_sigma {
@@ -110,9 +110,9 @@ fn of_line(rod: &Rod, bins: &[Bin], found: &Consensus, findings: &mut Vec<Findin
 }
 
 /// Whether tangential contacts are on the rod only with the opposite sign of the moment.
-fn moment_sign(rod: &Rod, bins: &[Bin], found: &Consensus) -> bool {
+fn moment_sign(rod: &Rod, bins: &[ReactionBin], found: &Consensus) -> bool {
     let on = || bins.iter().zip(&found.on).filter(|(_, on)| **on).map(|(bin, _)| bin);
-    let turned = |bin: &Bin| Reactions { m0z: -bin.reactions.m0z, ..bin.reactions };
+    let turned = |bin: &ReactionBin| Reactions { m0z: -bin.reactions.m0z, ..bin.reactions };
     let (mut as_is, mut other, mut nearer) = (0, 0, 0);
     for bin in on() {
         let [here, there] = [bin.reactions, turned(bin)].map(|reactions| contact(rod, bin, reactions));
@@ -127,9 +127,9 @@ fn moment_sign(rod: &Rod, bins: &[Bin], found: &Consensus) -> bool {
 }
 
 /// Another length, if half of the contacts of the tip (with a negative phase criterion) are at one arc length.
-fn length(rod: &Rod, bins: &[Bin]) -> Option<Finding> {
+fn length(rod: &Rod, bins: &[ReactionBin]) -> Option<Finding> {
     let stiffness = rod.bending_stiffness();
-    let tip = |bin: &&Bin| {
+    let tip = |bin: &&ReactionBin| {
         let noise = bin.sigma_square.hypot(stiffness * bin.sigma_load);
         let criterion = bin.square - stiffness * bin.load;
         criterion < -SIGMAS * noise && criterion < -TANGENTIAL * bin.square.abs()

@@ -1,6 +1,6 @@
 //! The line on which tangential contacts lie, found among all samples.
 
-use super::bins::Bin;
+use super::bins::ReactionBin;
 use super::fit::{Columns, Fit, sigma, straight, with_offset};
 use crate::numeric::robust_sigma;
 
@@ -64,7 +64,7 @@ pub(super) struct Consensus {
 }
 
 /// The line that most bins are on.
-pub(super) fn line_of(bins: &[Bin]) -> Option<Consensus> {
+pub(super) fn line_of(bins: &[ReactionBin]) -> Option<Consensus> {
     let largest = bins.iter().map(|bin| bin.square.abs()).fold(0.0, f64::max);
     let rounding = f64::EPSILON * 8.0 * largest;
     let plain = consensus(bins, largest)
@@ -97,10 +97,13 @@ fn line<const N: usize>(fit: &Fit<N>, on: &[bool]) -> TangentialLine {
 
 /// The line with an offset of the moment, which bends the line without it. The fit starts from that of a range of offsets which leaves
 /// most bins on a line.
-fn with_offset_of_moment(bins: &[Bin], largest: f64, rounding: f64) -> Option<(Fit<3>, Vec<bool>)> {
+fn with_offset_of_moment(bins: &[ReactionBin], largest: f64, rounding: f64) -> Option<(Fit<3>, Vec<bool>)> {
     let tried = (-OFFSETS..=OFFSETS).filter_map(|k| {
         let offset = LARGEST_OFFSET * largest.sqrt() * f64::from(k) / f64::from(OFFSETS);
-        let shifted = |bin: &Bin| Bin { square: bin.square + offset * (offset - 2.0 * bin.reactions.m0z), ..*bin };
+        let shifted = |bin: &ReactionBin| ReactionBin {
+            square: bin.square + offset * (offset - 2.0 * bin.reactions.m0z),
+            ..*bin
+        };
         consensus(&bins.iter().map(shifted).collect::<Vec<_>>(), largest)
     });
     let (on, slope) = tried.max_by_key(|(on, _)| count(on))?;
@@ -113,14 +116,14 @@ fn count(on: &[bool]) -> usize {
 }
 
 /// The bins on the line, through windows of neighbours, that most are on; and its slope.
-fn consensus(bins: &[Bin], largest: f64) -> Option<(Vec<bool>, f64)> {
+fn consensus(bins: &[ReactionBin], largest: f64) -> Option<(Vec<bool>, f64)> {
     let wide = WIDE * largest;
     let mut best: Option<(usize, Vec<bool>, f64)> = None;
     for length in WINDOWS {
         for window in bins.windows(length).step_by((length / 4).max(1)) {
             let Some((slope, intercept)) = through(window) else { continue };
-            let off = |bin: &Bin| (bin.square - intercept - slope * bin.load).abs();
-            let on = |bin: &Bin| off(bin) <= wide.max(SIGMAS * sigma(bin, slope));
+            let off = |bin: &ReactionBin| (bin.square - intercept - slope * bin.load).abs();
+            let on = |bin: &ReactionBin| off(bin) <= wide.max(SIGMAS * sigma(bin, slope));
             // a window that is not straight itself has no tangential contacts
             if !window.iter().all(on) {
                 continue;
@@ -136,9 +139,9 @@ fn consensus(bins: &[Bin], largest: f64) -> Option<(Vec<bool>, f64)> {
 }
 
 /// Slope and intercept by least squares.
-fn through(window: &[Bin]) -> Option<(f64, f64)> {
+fn through(window: &[ReactionBin]) -> Option<(f64, f64)> {
     let n = window.len() as f64;
-    let mean = |of: fn(&Bin) -> f64| window.iter().map(of).sum::<f64>() / n;
+    let mean = |of: fn(&ReactionBin) -> f64| window.iter().map(of).sum::<f64>() / n;
     let (x, y) = (mean(|bin| bin.load), mean(|bin| bin.square));
     let sums = window
         .iter()
@@ -148,7 +151,7 @@ fn through(window: &[Bin]) -> Option<(f64, f64)> {
 }
 
 /// Whether enough bins are on a line, over enough of the range of loads.
-fn spans(bins: &[Bin], on: &[bool]) -> bool {
+fn spans(bins: &[ReactionBin], on: &[bool]) -> bool {
     let range = |loads: &mut dyn Iterator<Item = f64>| {
         let (least, most) = loads.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         most - least
@@ -162,7 +165,7 @@ fn spans(bins: &[Bin], on: &[bool]) -> bool {
 /// Fits, and chooses the bins on the fit by their noise or their scatter, until the choice stays the same. The mean of a bin and its
 /// neighbours must be on the fit, too: contacts of the tip come near the line, and then all depart to the same side.
 fn refine<const N: usize>(
-    bins: &[Bin],
+    bins: &[ReactionBin],
     (mut on, mut slope): (Vec<bool>, f64),
     columns: Columns<'_, N>,
     rounding: f64,
@@ -197,11 +200,11 @@ fn scatter(z: &[f64], on: &[bool]) -> f64 {
 }
 
 /// Whether a parabola fits significantly better than the line, and departs from it.
-fn is_bent(bins: &[Bin], on: &[bool], slope: f64, rounding: f64) -> bool {
+fn is_bent(bins: &[ReactionBin], on: &[bool], slope: f64, rounding: f64) -> bool {
     let loads = || bins.iter().zip(on).filter(|(_, on)| **on).map(|(bin, _)| bin.load);
     let (least, most) = loads().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let middle = 0.5 * (least + most);
-    let quadratic = move |bin: &Bin| [bin.load, 1.0, (bin.load - middle).powi(2)];
+    let quadratic = move |bin: &ReactionBin| [bin.load, 1.0, (bin.load - middle).powi(2)];
     let Some(fit) = Fit::of(bins, on, &quadratic, slope, rounding) else { return false };
     let half = 0.5 * (most - least);
     let bent = fit.at[2].abs() * half * half;

@@ -1,6 +1,6 @@
 //! The samples that a single contact explains.
 
-use super::bins::Bin;
+use super::bins::ReactionBin;
 use crate::point::{NoContact, Touch, single_with_friction};
 use rod_core::{Reactions, Rod};
 
@@ -23,7 +23,7 @@ pub struct Shares {
 }
 
 impl Shares {
-    pub(super) fn of(rod: &Rod, bins: &[Bin]) -> Self {
+    pub(super) fn of(rod: &Rod, bins: &[ReactionBin]) -> Self {
         let one = 1.0 / bins.len() as f64;
         let mut shares = Self::default();
         for bin in bins {
@@ -39,7 +39,7 @@ impl Shares {
 }
 
 /// The single contact of a bin with these reactions, if a rod of about this length and stiffness has one.
-pub(super) fn contact(rod: &Rod, bin: &Bin, reactions: Reactions) -> Result<Touch, NoContact> {
+pub(super) fn contact(rod: &Rod, bin: &ReactionBin, reactions: Reactions) -> Result<Touch, NoContact> {
     match single_with_friction(rod, bin.pose, reactions, &bin.covariance, bin.friction) {
         Err(NoContact::BeyondTip(touch)) if touch.s <= (1.0 + SLACK) * rod.length() => Ok(touch),
         Err(NoContact::Pulling(touch)) => {

@@ -14,7 +14,7 @@ const FEWEST: usize = 8;
 
 /// The mean of some consecutive points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bin {
+pub(super) struct PointBin {
     /// Its first sample and the one after its last.
     pub from: usize,
     pub to: usize,
@@ -31,14 +31,14 @@ pub(super) struct Bin {
 }
 
 /// The bins of a run whose points have covariances.
-pub(super) fn bins(run: &[ContactPoint]) -> Vec<Bin> {
+pub(super) fn bins(run: &[ContactPoint]) -> Vec<PointBin> {
     let parts = parts(run);
     // where no force is known, all tangents have the same weight
     let forceless = run.iter().all(|point| point.force.norm() == 0.0);
     let force = |point: &ContactPoint| if forceless { point.tangent } else { point.force };
     let force_noise = scatter::variance(run.iter().map(force), |_| Matrix2::identity()).unwrap_or(0.0);
     let mut forces = Vec::with_capacity(parts.len());
-    let mut bins: Vec<Bin> = parts
+    let mut bins: Vec<PointBin> = parts
         .into_iter()
         .filter_map(|part| {
             let (first, last, many) = (part.first()?, part.last()?, part.len() as f64);
@@ -49,7 +49,7 @@ pub(super) fn bins(run: &[ContactPoint]) -> Vec<Bin> {
                 part.iter().map(|point| 0.5 * point.covariance.trace() / (point.shared * point.s)).sum::<f64>() / many;
             forces.push((force, force_noise / many));
             let (from, to) = (first.sample, last.sample + 1);
-            Some(Bin { from, to, at: mean(part).0, covariance, bias, tangent: force, sigma_tangent: 0.0 })
+            Some(PointBin { from, to, at: mean(part).0, covariance, bias, tangent: force, sigma_tangent: 0.0 })
         })
         .collect();
     if run.len() > bins.len() {

@@ -1,8 +1,8 @@
 //! From bins to the points of a trace: in order along the contour, and no more of them than its shape needs.
 
-use super::bins::Bin;
+use super::bins::PointBin;
 use super::simplify::simplify;
-use super::smooth::Estimate;
+use super::smooth::BinEstimate;
 use super::trace::TracePoint;
 use crate::numeric::wrap_angle;
 use nalgebra::Vector2;
@@ -34,7 +34,7 @@ pub(super) struct BinLine {
 }
 
 impl BinLine {
-    pub fn new(bins: &[Bin], estimates: &[Estimate], tangents: bool) -> Self {
+    pub fn new(bins: &[PointBin], estimates: &[BinEstimate], tangents: bool) -> Self {
         let mut line = Self { points: Vec::new(), way: Vec::new(), along: Vec::new(), samples: Vec::new(), tangents };
         let mut before: Option<(Vector2<f64>, Vector2<f64>)> = None;
         let mut way = 0.0;
@@ -176,7 +176,7 @@ impl BinLine {
 }
 
 /// The direction of the points about one of them; none where they are all in one place.
-fn chord(estimates: &[Estimate], k: usize) -> Option<Vector2<f64>> {
+fn chord(estimates: &[BinEstimate], k: usize) -> Option<Vector2<f64>> {
     let (from, to) = (k.saturating_sub(BESIDE), (k + BESIDE).min(estimates.len() - 1));
     (estimates[to].0 - estimates[from].0).try_normalize(0.0)
 }
@@ -218,7 +218,7 @@ mod tests {
             let at = Vector2::new(1e-3 * f64::from(way), 0.0);
             let covariance = nalgebra::Matrix2::identity() * sigma * sigma;
             (
-                Bin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent: Vector2::x(), sigma_tangent: 0.0 },
+                PointBin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent: Vector2::x(), sigma_tangent: 0.0 },
                 (at, covariance),
             )
         };

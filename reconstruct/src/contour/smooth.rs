@@ -5,7 +5,7 @@
 //! and exact on a circle. Together with the positions these are linear equations in a chain, solved by one pass forwards and one
 //! backwards (as a Kalman smoother): each bin gets from its neighbour an estimate of its normal coordinate and its variance.
 
-use super::bins::Bin;
+use super::bins::PointBin;
 use crate::numeric::{inverse, squared_distance};
 use nalgebra::{Matrix2, Vector2};
 
@@ -17,10 +17,10 @@ const BEND: f64 = 0.25;
 const SLACK: f64 = 1e-6;
 
 /// A bin's position and its covariance.
-pub(super) type Estimate = (Vector2<f64>, Matrix2<f64>);
+pub(super) type BinEstimate = (Vector2<f64>, Matrix2<f64>);
 
 /// The positions of the bins, with their own points alone or with the tangents.
-pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
+pub(super) fn smooth(bins: &[PointBin], tangents: bool) -> Vec<BinEstimate> {
     let Some(first) = bins.first() else { return Vec::new() };
     let origin = first.at;
     let own: Vec<_> = bins.iter().map(|bin| (bin.at - origin, inverse(&bin.covariance))).collect();
@@ -41,7 +41,7 @@ pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
     for k in (1..count).rev() {
         behind[k - 1] = Step::information(&steps[k - 1], with(k, &behind[k]));
     }
-    let mut estimates: Vec<Estimate> = (0..count)
+    let mut estimates: Vec<BinEstimate> = (0..count)
         .map(|k| {
             let (right, weight) = with(k, &(ahead[k].0 + behind[k].0, ahead[k].1 + behind[k].1));
             let covariance = inverse(&weight);
@@ -56,7 +56,7 @@ pub(super) fn smooth(bins: &[Bin], tangents: bool) -> Vec<Estimate> {
 }
 
 /// The sum of squares of all residuals over its expected value.
-fn excess(bins: &[Bin], steps: &[Option<Step>], estimates: &[Estimate]) -> f64 {
+fn excess(bins: &[PointBin], steps: &[Option<Step>], estimates: &[BinEstimate]) -> f64 {
     let freedom = steps.iter().flatten().count();
     let of_points = bins.iter().zip(estimates).map(|(bin, (at, _))| squared_distance(&(at - bin.at), &bin.covariance));
     let of_steps = steps.iter().zip(estimates.windows(2)).filter_map(|(step, pair)| {
@@ -76,7 +76,7 @@ struct Step {
 impl Step {
     /// The step from the bin before to bin `k`, given the angle by which the tangent turns in each step; none where no
     /// tangent is known.
-    fn to_bin(bins: &[Bin], turns: &[f64], k: usize) -> Option<Self> {
+    fn to_bin(bins: &[PointBin], turns: &[f64], k: usize) -> Option<Self> {
         let (a, b) = (&bins[k - 1], &bins[k]);
         let tangent = (a.tangent + b.tangent).try_normalize(1e-6)?;
         let uncertain = a.sigma_tangent * a.sigma_tangent + b.sigma_tangent * b.sigma_tangent;
@@ -115,7 +115,7 @@ mod tests {
     use crate::numeric::seeded::Random;
 
     /// Bins along a circle of radius 10 mm, 0.2 mm apart.
-    fn circle(count: usize, sigma: f64, sigma_tangent: f64, seed: u64) -> Vec<Bin> {
+    fn circle(count: usize, sigma: f64, sigma_tangent: f64, seed: u64) -> Vec<PointBin> {
         let mut random = Random::new(seed);
         let bin = |k: usize| {
             let angle = 0.02 * k as f64;
@@ -123,7 +123,7 @@ mod tests {
             let at = Vector2::new(angle.sin(), 1.0 - angle.cos()) * 1e-2 + noise;
             let alpha = angle + sigma_tangent * random.normal();
             let (covariance, tangent) = (Matrix2::identity() * sigma * sigma, Vector2::new(alpha.cos(), alpha.sin()));
-            Bin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent, sigma_tangent }
+            PointBin { from: k, to: k + 1, at, covariance, bias: 0.0, tangent, sigma_tangent }
         };
         (0..count).map(bin).collect()
     }
@@ -166,14 +166,14 @@ mod tests {
         // Stands still while the tangent turns by a right angle, between two edges.
         let mut random = Random::new(5);
         let sigma = 5e-5;
-        let bins: Vec<Bin> = (0..300)
+        let bins: Vec<PointBin> = (0..300)
             .map(|k| {
                 let turned = (f64::from(k - 100) / 100.0).clamp(0.0, 1.0) * std::f64::consts::FRAC_PI_2;
                 let true_at = Vector2::new(f64::from(k.min(100) - 100), f64::from((k - 200).max(0))) * 2e-4;
                 let at = true_at + Vector2::new(random.normal(), random.normal()) * sigma;
                 let tangent = Vector2::new(turned.cos(), turned.sin());
                 let (from, to) = (k as usize, k as usize + 1);
-                Bin {
+                PointBin {
                     from,
                     to,
                     at,

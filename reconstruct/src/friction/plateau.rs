@@ -1,10 +1,10 @@
 //! The value of K / (2 |F|) along tangential contacts: sin rho.
 
-use crate::least_squares::{Loss, Normal, Problem, Whole, iterate};
+use crate::least_squares::{Loss, NormalMatrix, Problem, WholeSteps, iterate};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{Evidence, Place, label_log_likelihood};
 use crate::point::{Clamp, Inverse};
-use crate::scan::{Estimate, Noise, Track};
+use crate::scan::{LocalEstimate, Noise, Track};
 use crate::systematic::Correction;
 use nalgebra::{DVector, Vector3};
 
@@ -48,7 +48,7 @@ const SIGMAS: f64 = 4.0;
 const RATE: f64 = 1e-6;
 
 /// K / (2 |F|) of a place without regard to friction, with its standard deviation; none where the force is too weak.
-fn ratio<I: Inverse>(rod: &I, estimate: &Estimate, clamp: &Clamp) -> Option<(f64, f64)> {
+fn ratio<I: Inverse>(rod: &I, estimate: &LocalEstimate, clamp: &Clamp) -> Option<(f64, f64)> {
     let frictionless = Clamp { friction: 0.0, ..*clamp };
     let first = if I::UNIFORM { None } else { Some(rod.first(&frictionless).ok()?) };
     let (k, by) = rod.criterion(&frictionless, first.as_ref())?;
@@ -63,7 +63,7 @@ fn ratio<I: Inverse>(rod: &I, estimate: &Estimate, clamp: &Clamp) -> Option<(f64
 }
 
 /// The estimate at a place after a correction, if there is one, and its clamp: that of the sample itself where samples are clean.
-fn estimate_at(track: &Track, noise: &Noise, place: &Place, tare: Option<&Correction>) -> (Estimate, Clamp) {
+fn estimate_at(track: &Track, noise: &Noise, place: &Place, tare: Option<&Correction>) -> (LocalEstimate, Clamp) {
     let tau = track.tau[place.index];
     let measured = place.fit.at(tau);
     let sample = if noise.is_clean() { track.clamps[place.index] } else { measured.clamp };
@@ -304,7 +304,7 @@ fn plateau_value(sides: &[TangentialPlace], peak: f64) -> (f64, f64) {
         near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
     }
     let mut plateau = Plateau { sides, scatter: 1.0 };
-    let (at, _) = iterate(&mut plateau, DVector::repeat(1, sine), Whole::until(0.0), TURNS);
+    let (at, _) = iterate(&mut plateau, DVector::repeat(1, sine), WholeSteps::until(0.0), TURNS);
     (at.x[0].clamp(-LARGEST, LARGEST), at.equations.matrix[(0, 0)])
 }
 
@@ -315,11 +315,11 @@ struct Plateau<'a> {
 }
 
 impl Problem for Plateau<'_> {
-    type Equations = Normal;
+    type Equations = NormalMatrix;
 
-    fn equations(&mut self, x: &DVector<f64>) -> Normal {
+    fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
         let loss = Loss::Cauchy(OUTLYING * self.scatter);
-        let mut normal = Normal::empty(1);
+        let mut normal = NormalMatrix::empty(1);
         for side in self.sides {
             let residual = x[0] - side.value;
             let weight = loss.weight(side.weight, residual / side.sigma) / (side.sigma * self.scatter).powi(2);

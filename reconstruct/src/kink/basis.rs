@@ -15,7 +15,7 @@ pub(crate) type Row = [f64; ROWS];
 /// Orthonormal functions over a window with a node at 0: a quadratic; a hinge and a step at the node, without their quadratic part;
 /// and in their place a cubic and a quartic, without theirs.
 #[derive(Clone, Debug)]
-pub(crate) struct Basis {
+pub(crate) struct WindowBasis {
     pub quadratic: [Row; 3],
     pub hinge: Row,
     pub step: Row,
@@ -26,7 +26,7 @@ pub(crate) struct Basis {
     shared: f64,
 }
 
-impl Basis {
+impl WindowBasis {
     /// From the positions of the bins, `left` of them before the node at 0, in widths of a bin.
     pub fn new(positions: &[f64], left: usize) -> Self {
         let mut columns = [[0.0; ROWS]; 7];
@@ -78,8 +78,8 @@ impl Basis {
 }
 
 /// The channels over a window, and how the models fit them.
-pub(crate) struct Window<'a> {
-    pub basis: &'a Basis,
+pub(crate) struct BinWindow<'a> {
+    pub basis: &'a WindowBasis,
     pub bins: usize,
     pub y: [Row; 3],
 }
@@ -102,7 +102,7 @@ pub(crate) struct Verdict {
 /// Share of the sum of squares below which a difference of squares is computed from the residuals instead, because it cancels.
 const CANCELLED: f64 = 1e-6;
 
-impl Window<'_> {
+impl BinWindow<'_> {
     /// Squares of hinge and of both over the noise variances: upper bounds of the verdict's.
     pub fn glance(&self, variance: &[f64; 3]) -> (f64, f64) {
         let mut sums = (0.0, 0.0);

@@ -5,26 +5,26 @@ use std::collections::BinaryHeap;
 
 /// A node and its score over threshold.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
+struct ScoredNode {
     ratio: f64,
     node: usize,
 }
 
-impl PartialEq for Candidate {
+impl PartialEq for ScoredNode {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Candidate {}
+impl Eq for ScoredNode {}
 
-impl PartialOrd for Candidate {
+impl PartialOrd for ScoredNode {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Candidate {
+impl Ord for ScoredNode {
     fn cmp(&self, other: &Self) -> Ordering {
         self.ratio.total_cmp(&other.ratio).then(self.node.cmp(&other.node))
     }
@@ -34,9 +34,9 @@ impl Ord for Candidate {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidates {
     /// In order of nodes; the ratio is NaN where it is done with.
-    all: Vec<Candidate>,
+    all: Vec<ScoredNode>,
     /// The best first. Entries whose ratio has changed are passed over.
-    queue: BinaryHeap<Candidate>,
+    queue: BinaryHeap<ScoredNode>,
 }
 
 impl Candidates {
@@ -53,8 +53,8 @@ impl Candidates {
 
     /// Takes a node that follows all others.
     pub fn push(&mut self, ratio: f64, node: usize) {
-        self.all.push(Candidate { ratio, node });
-        self.queue.push(Candidate { ratio, node });
+        self.all.push(ScoredNode { ratio, node });
+        self.queue.push(ScoredNode { ratio, node });
     }
 
     /// Takes off the node with the largest ratio.
@@ -75,7 +75,7 @@ impl Candidates {
         let to = self.all.partition_point(|candidate| candidate.node <= high);
         for at in from..to {
             let old = self.all[at];
-            let new = Candidate { ratio: ratio(old.node).unwrap_or(f64::NAN), ..old };
+            let new = ScoredNode { ratio: ratio(old.node).unwrap_or(f64::NAN), ..old };
             if old.ratio.is_nan() || new == old {
                 continue;
             }

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 /// A transition placed between samples.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct FittedTransition {
     pub kind: KinkKind,
     pub tau: f64,
     pub sigma_tau: f64,
@@ -19,7 +19,7 @@ pub(crate) struct Placed {
 
 /// Samples, or bins of them, and their white-equivalent noise.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Part<'a> {
+pub(crate) struct KnotData<'a> {
     pub tau: &'a [f64],
     pub channels: [&'a [f64]; 3],
     pub sigma: [f64; 3],
@@ -50,15 +50,15 @@ struct HingeFit {
     step_norm: f64,
 }
 
-impl Part<'_> {
+impl KnotData<'_> {
     /// The kink of bins `from..to`, at first guess at `guess`, and the residuals' sum of squares over the variance.
-    pub fn kink(&self, from: usize, to: usize, guess: f64) -> Option<(Placed, f64)> {
+    pub fn kink(&self, from: usize, to: usize, guess: f64) -> Option<(FittedTransition, f64)> {
         if to < from + 6 {
             return None;
         }
         let (first, last) = (self.tau[from + 1], self.tau[to - 2]);
         let mut tau = guess.clamp(first, last);
-        let mut best: Option<(Placed, f64)> = None;
+        let mut best: Option<(FittedTransition, f64)> = None;
         for _ in 0..MOVES {
             let next = self.tau[from..to].partition_point(|t| *t <= tau) + from;
             let Some(fit) = self.fit(from, to, tau, next) else { break };
@@ -70,7 +70,7 @@ impl Part<'_> {
             let steep: f64 = (0..3).map(|c| weight(c) * fit.slope[c].powi(2)).sum();
             if best.as_ref().is_none_or(|b| total < b.1) {
                 let misfit = (total / (3 * (to - from - 5)) as f64).max(1.0).sqrt();
-                let placed = Placed {
+                let placed = FittedTransition {
                     kind: KinkKind::Kink,
                     tau,
                     sigma_tau: misfit / (steep.sqrt() * fit.step_norm),
@@ -94,7 +94,7 @@ impl Part<'_> {
     }
 
     /// The jump of bins `from..to` between bins `low` and `high`, and the sum of squares.
-    pub fn jump(&self, from: usize, to: usize, (low, high): (usize, usize)) -> Option<(Placed, f64)> {
+    pub fn jump(&self, from: usize, to: usize, (low, high): (usize, usize)) -> Option<(FittedTransition, f64)> {
         let (low, high) = (low.max(from + 2), high.min(to.saturating_sub(2)));
         if low > high || to < from + 6 {
             return None;
@@ -122,7 +122,7 @@ impl Part<'_> {
         let next = best.1;
         let fit = self.fit(from, to, middle(next), next)?;
         let misfit = (best.0 / (3 * (to - from - 5)) as f64).max(1.0).sqrt();
-        let placed = Placed {
+        let placed = FittedTransition {
             kind: KinkKind::Jump,
             tau: middle(next),
             sigma_tau: (self.tau[next] - self.tau[next - 1]) / 12.0_f64.sqrt(),

@@ -10,7 +10,7 @@ const LEVELS: usize = 24;
 
 /// One window length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scale {
+pub(crate) struct WindowLength {
     /// Bins hold 2^level samples.
     pub level: usize,
     /// Bins on either side.
@@ -21,12 +21,12 @@ pub(crate) struct Scale {
 }
 
 /// Window lengths from the finest to the widest; their thresholds are not set yet.
-pub(crate) fn scales(spacing: f64, options: KinkOptions) -> impl Iterator<Item = Scale> {
+pub(crate) fn scales(spacing: f64, options: KinkOptions) -> impl Iterator<Item = WindowLength> {
     let reach = options.widest / spacing;
     let reach = if reach.is_finite() { reach.max(FINEST[0] as f64) } else { FINEST[0] as f64 };
     (0..LEVELS).flat_map(move |level| {
         let halves = if level == 0 { &FINEST[..] } else { &OTHERS[..] };
-        let scale = move |half: &usize| Scale { level, half: *half, three: 0.0, six: 0.0 };
+        let scale = move |half: &usize| WindowLength { level, half: *half, three: 0.0, six: 0.0 };
         halves.iter().map(scale).filter(move |scale| (scale.half << level) as f64 <= reach)
     })
 }

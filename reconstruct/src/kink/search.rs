@@ -1,11 +1,11 @@
 //! The search for transitions, from the finest scale to the coarsest.
 
-use super::basis::{Basis, FEWEST_BINS, MOST_BINS, ROWS, Verdict, Window};
+use super::basis::{BinWindow, FEWEST_BINS, MOST_BINS, ROWS, Verdict, WindowBasis};
 use super::candidate::Candidates;
-use super::free_knot::{Part, Placed};
+use super::free_knot::{FittedTransition, KnotData};
 use super::level::Level;
 use super::options::KinkOptions;
-use super::scale::{Scale, scales};
+use super::scale::{WindowLength, scales};
 use super::transition::{Kink, KinkKind};
 use crate::numeric::chi_squared::{exceeded_by_six, exceeded_by_three, wilson_hilferty};
 use crate::scan::bands::Bands;
@@ -39,8 +39,8 @@ const USUAL: f64 = 1.6449;
 
 /// A transition that was taken.
 #[derive(Clone, Copy, Debug)]
-struct Taken {
-    placed: Placed,
+struct AcceptedTransition {
+    placed: FittedTransition,
     /// Scale that found it.
     scale: usize,
     /// Score over threshold.
@@ -59,9 +59,9 @@ pub(crate) struct Detector {
     /// Variance of the noise in the bins of each level over that of white noise.
     excess: Vec<[f64; 3]>,
     levels: Vec<Level>,
-    scales: Vec<Scale>,
-    bases: Vec<Basis>,
-    taken: Vec<Taken>,
+    scales: Vec<WindowLength>,
+    bases: Vec<WindowBasis>,
+    taken: Vec<AcceptedTransition>,
     candidates: Candidates,
     /// Scale and sample of the transitions that were taken and dropped again.
     dropped: Vec<(usize, usize)>,
@@ -73,13 +73,13 @@ const SIDES: usize = MOST_BINS - FEWEST_BINS + 1;
 impl Detector {
     /// For recordings of up to `capacity` samples at distances of about `spacing`.
     pub fn new(capacity: usize, spacing: f64, noise: [ChannelNoise; 3], options: KinkOptions) -> Self {
-        let scales: Vec<Scale> = scales(spacing, options)
+        let scales: Vec<WindowLength> = scales(spacing, options)
             .filter(|scale| (2 * FEWEST_BINS) << scale.level <= capacity || scale.level == 0)
             .collect();
         let finest = scales.iter().map(|scale| scale.level).max().unwrap_or(0);
         let levels = (0..=finest).map(|level| Level::with_capacity(capacity >> level)).collect();
         let bases = (0..2 * SIDES * SIDES)
-            .map(|i| Basis::even(FEWEST_BINS + i / SIDES % SIDES, FEWEST_BINS + i % SIDES, i / (SIDES * SIDES)))
+            .map(|i| WindowBasis::even(FEWEST_BINS + i / SIDES % SIDES, FEWEST_BINS + i % SIDES, i / (SIDES * SIDES)))
             .collect();
         let (taken, candidates, dropped) = (Vec::new(), Candidates::default(), Vec::new());
         let excess = vec![[1.0; 3]; finest + 1];
@@ -144,7 +144,7 @@ impl Detector {
 
     /// Takes the best transition of a scale until there is none.
     fn search(&mut self, scale: usize) {
-        let Scale { level, half, .. } = self.scales[scale];
+        let WindowLength { level, half, .. } = self.scales[scale];
         self.mask(level);
         let mut candidates = std::mem::take(&mut self.candidates);
         candidates.clear();
@@ -167,7 +167,7 @@ impl Detector {
     }
 
     fn was_dropped(&self, scale: usize, node: usize) -> bool {
-        let Scale { level, half, .. } = self.scales[scale];
+        let WindowLength { level, half, .. } = self.scales[scale];
         let size = self.levels[level].size;
         self.dropped.iter().any(|(last, next)| scale <= *last && next.abs_diff(node * size) < half * size)
     }
@@ -179,7 +179,7 @@ impl Detector {
     }
 
     fn passes(&self, scale: usize, verdict: &Verdict) -> Option<f64> {
-        let Scale { three, six, .. } = self.scales[scale];
+        let WindowLength { three, six, .. } = self.scales[scale];
         let ratio = (verdict.hinge / three).max(verdict.both / six) / verdict.misfit.min(MISFIT);
         let smooth = verdict.margin < MARGIN.0.max(MARGIN.1 * verdict.both);
         (ratio > 1.0 && !smooth).then_some(ratio)
@@ -193,7 +193,7 @@ impl Detector {
     /// The fit of a window around a node, and the bins of the window. None where there is no room for one and, in a `hurry`, where
     /// noise alone explains the window.
     fn verdict(&self, scale: usize, node: usize, hurry: bool) -> Option<(Verdict, usize, usize)> {
-        let Scale { level, half, three, six } = self.scales[scale];
+        let WindowLength { level, half, three, six } = self.scales[scale];
         let bins = &self.levels[level];
         let (left, right) = bins.room(node, half);
         let fewest = FEWEST_BINS.max(half / 2);
@@ -211,10 +211,10 @@ impl Detector {
             for (position, i) in positions.iter_mut().zip((from..node).chain(node + gap..to)) {
                 *position = (bins.tau[i] - middle) / bins.width;
             }
-            own = Basis::new(&positions[..left + right], left);
+            own = WindowBasis::new(&positions[..left + right], left);
             &own
         };
-        let mut window = Window { basis, bins: left + right, y: [[0.0; ROWS]; 3] };
+        let mut window = BinWindow { basis, bins: left + right, y: [[0.0; ROWS]; 3] };
         for (row, y) in window.y.iter_mut().zip(&bins.y) {
             let offset = y[node];
             row[..left].iter_mut().zip(&y[from..node]).for_each(|(row, y)| *row = y - offset);
@@ -232,9 +232,9 @@ impl Detector {
     }
 
     /// A candidate, placed between samples; none where it does not hold.
-    fn take(&self, scale: usize, node: usize, score: f64) -> Option<Taken> {
+    fn take(&self, scale: usize, node: usize, score: f64) -> Option<AcceptedTransition> {
         let (verdict, from, to) = self.verdict(scale, node, false)?;
-        let Scale { level, .. } = self.scales[scale];
+        let WindowLength { level, .. } = self.scales[scale];
         let bins = &self.levels[level];
         if self.should_have_been_found(scale, node, &verdict) {
             return None;
@@ -247,11 +247,17 @@ impl Detector {
             return None;
         }
         let guard = guard(&placed, &self.levels[0].tau, (to - from) * bins.size / 6);
-        Some(Taken { placed, scale, score, guard })
+        Some(AcceptedTransition { placed, scale, score, guard })
     }
 
     /// The kink, or the jump between samples `near`, of the samples of a window of a level.
-    fn place(&self, level: usize, (from, to): (usize, usize), near: (usize, usize), guess: f64) -> Option<Placed> {
+    fn place(
+        &self,
+        level: usize,
+        (from, to): (usize, usize),
+        near: (usize, usize),
+        guess: f64,
+    ) -> Option<FittedTransition> {
         let (part, size) = self.part(level);
         let (first, last) = (from / size, to / size);
         let kink = part.kink(first, last, guess).map(|(kink, bent)| (self.with_sample_index(kink), bent));
@@ -268,29 +274,29 @@ impl Detector {
     }
 
     /// The bins by which a knot in a window of a level is placed, finer than those of the level, and the samples in each.
-    fn part(&self, level: usize) -> (Part<'_>, usize) {
+    fn part(&self, level: usize) -> (KnotData<'_>, usize) {
         let bins = &self.levels[level.saturating_sub(FINER)];
         let share = (bins.size as f64).sqrt();
         let channels = [&bins.y[0][..], &bins.y[1][..], &bins.y[2][..]];
         let sigma = std::array::from_fn(|c| self.sigma[c] * self.excess[level][c].sqrt() / share);
-        (Part { tau: &bins.tau, channels, sigma }, bins.size)
+        (KnotData { tau: &bins.tau, channels, sigma }, bins.size)
     }
 
     /// A kink that was placed by bins, with the index of the sample after it.
-    fn with_sample_index(&self, kink: Placed) -> Placed {
-        Placed { next: self.levels[0].tau.partition_point(|t| *t <= kink.tau), ..kink }
+    fn with_sample_index(&self, kink: FittedTransition) -> FittedTransition {
+        FittedTransition { next: self.levels[0].tau.partition_point(|t| *t <= kink.tau), ..kink }
     }
 
     /// Whether half the window would have found this candidate, were it a kink or a jump.
     fn should_have_been_found(&self, scale: usize, node: usize, verdict: &Verdict) -> bool {
-        let Scale { level, half, .. } = self.scales[scale];
+        let WindowLength { level, half, .. } = self.scales[scale];
         let (finer, halved) = if level == 0 { (0, half / 2) } else { (level - 1, half) };
         let Some(shorter) = self.scales.iter().find(|s| s.level == finer && s.half == halved) else { return false };
         let ratio = self.levels[finer].width / self.levels[level].width;
         let bins = &self.levels[level];
         let reach = halved * self.levels[finer].size;
         let centre = node * bins.size + bins.size / 2;
-        let free = |t: &Taken| t.guard.1 + reach <= centre || centre + reach < t.guard.0;
+        let free = |t: &AcceptedTransition| t.guard.1 + reach <= centre || centre + reach < t.guard.0;
         if centre < reach || centre + reach > self.levels[0].len() || !self.taken.iter().all(free) {
             return false;
         }
@@ -343,7 +349,7 @@ impl Detector {
         self.levels.iter_mut().for_each(|bins| bins.release(old.guard));
         let mut score = 0.0_f64;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut best: Option<Taken> = None;
+        let mut best: Option<AcceptedTransition> = None;
         for scale in 0..self.scales.len() {
             let level = self.scales[scale].level;
             let bins = &self.levels[level];
@@ -372,17 +378,17 @@ impl Detector {
             high = high.min(placed.tau + AGREES * placed.sigma_tau);
             let guard = guard(&placed, &self.levels[0].tau, (to - from) / 6);
             if best.is_none_or(|b| placed.sigma_tau < b.placed.sigma_tau) {
-                best = Some(Taken { placed, guard, ..old });
+                best = Some(AcceptedTransition { placed, guard, ..old });
             }
         }
-        let new = Taken { score, ..best.unwrap_or(old) };
+        let new = AcceptedTransition { score, ..best.unwrap_or(old) };
         self.levels.iter_mut().for_each(|bins| bins.mask(new.guard));
         self.taken[i] = new;
     }
 }
 
 /// Samples near a transition that belong to neither side, up to `most` either way.
-fn guard(placed: &Placed, tau: &[f64], most: usize) -> (usize, usize) {
+fn guard(placed: &FittedTransition, tau: &[f64], most: usize) -> (usize, usize) {
     let reach = match placed.kind {
         KinkKind::Kink => GUARD * placed.sigma_tau,
         KinkKind::Jump => 0.0,
@@ -404,9 +410,9 @@ fn equivalents(noise: &[ChannelNoise; 3], channels: [&[f64]; 3]) -> [f64; 3] {
     sigma
 }
 
-impl From<Taken> for Kink {
-    fn from(taken: Taken) -> Self {
-        let Placed { kind, tau, sigma_tau, next, change, sigma } = taken.placed;
+impl From<AcceptedTransition> for Kink {
+    fn from(taken: AcceptedTransition) -> Self {
+        let FittedTransition { kind, tau, sigma_tau, next, change, sigma } = taken.placed;
         let score = change.iter().zip(sigma).map(|(c, s)| (c / s).powi(2)).sum();
         Self { tau, sigma_tau, next, kind, change, sigma, score }
     }

@@ -10,13 +10,13 @@ pub(crate) trait Equations {
 
 /// Normal equations: the matrix J^T W J, the gradient J^T W r and the cost r^T W r of residuals r of weights W. They need no memory for the
 /// rows, but square the condition number.
-pub(crate) struct Normal {
+pub(crate) struct NormalMatrix {
     pub matrix: DMatrix<f64>,
     pub gradient: DVector<f64>,
     pub cost: f64,
 }
 
-impl Normal {
+impl NormalMatrix {
     /// No residuals yet, for this many unknowns.
     pub fn empty(unknowns: usize) -> Self {
         Self { matrix: DMatrix::zeros(unknowns, unknowns), gradient: DVector::zeros(unknowns), cost: 0.0 }
@@ -68,7 +68,7 @@ impl Normal {
     }
 }
 
-impl Equations for Normal {
+impl Equations for NormalMatrix {
     fn step(&self) -> Option<DVector<f64>> {
         self.damped_step(0.0)
     }
@@ -107,7 +107,7 @@ mod tests {
     fn rows_and_normal_equations_give_one_step() {
         let rows = DMatrix::from_row_slice(4, 2, &[1.0, 2.0, 0.5, -1.0, 3.0, 0.1, -0.2, 0.7]);
         let right = DVector::from_column_slice(&[0.3, -1.0, 2.0, 0.4]);
-        let mut normal = Normal::empty(2);
+        let mut normal = NormalMatrix::empty(2);
         for k in 0..4 {
             normal.add(&[(0, 0.5 * rows[(k, 0)]), (1, 0.5 * rows[(k, 1)])], -0.5 * right[k], 0.5);
         }

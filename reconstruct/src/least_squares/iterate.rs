@@ -68,7 +68,7 @@ pub(crate) fn iterate<P: Problem>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Damped, Loss, Monotone, Normal, Whole};
+    use super::super::{Damped, Loss, Monotone, NormalMatrix, WholeSteps};
     use super::*;
 
     /// y = a exp(b t) at t = 0, 0.1, ..., 1; the last sample is wild.
@@ -78,10 +78,10 @@ mod tests {
     }
 
     impl Problem for Growth {
-        type Equations = Normal;
+        type Equations = NormalMatrix;
 
-        fn equations(&mut self, x: &DVector<f64>) -> Normal {
-            let mut normal = Normal::empty(2);
+        fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
+            let mut normal = NormalMatrix::empty(2);
             for k in 0..=10 {
                 let t = 0.1 * f64::from(k);
                 let model = x[0] * (x[1] * t).exp();
@@ -101,7 +101,7 @@ mod tests {
         let start = DVector::from_column_slice(&[1.0, 0.0]);
         let sizes = DVector::repeat(2, 1.0);
         let found = [
-            iterate(&mut exact, start.clone(), Whole::until(1e-12), 50),
+            iterate(&mut exact, start.clone(), WholeSteps::until(1e-12), 50),
             iterate(&mut exact, start.clone(), Monotone::with_sizes(sizes), 50),
             iterate(&mut exact, start, Damped::default(), 50),
         ];
@@ -115,7 +115,7 @@ mod tests {
     fn a_robust_loss_leaves_a_wild_sample_out() {
         let start = DVector::from_column_slice(&[1.9, -1.4]);
         let off = |loss| {
-            let (at, _) = iterate(&mut Growth { loss, wild: 1.0 }, start.clone(), Whole::until(1e-12), 100);
+            let (at, _) = iterate(&mut Growth { loss, wild: 1.0 }, start.clone(), WholeSteps::until(1e-12), 100);
             (at.x[1] + 1.5).abs()
         };
         assert!(off(None) > 0.1);
@@ -127,12 +127,12 @@ mod tests {
     fn unknowns_that_nothing_tells_stall_the_iteration() {
         struct Nothing;
         impl Problem for Nothing {
-            type Equations = Normal;
-            fn equations(&mut self, _: &DVector<f64>) -> Normal {
-                Normal::empty(1)
+            type Equations = NormalMatrix;
+            fn equations(&mut self, _: &DVector<f64>) -> NormalMatrix {
+                NormalMatrix::empty(1)
             }
         }
-        let (at, status) = iterate(&mut Nothing, DVector::zeros(1), Whole::until(1e-9), 5);
+        let (at, status) = iterate(&mut Nothing, DVector::zeros(1), WholeSteps::until(1e-9), 5);
         assert_eq!((at.x[0], status), (0.0, Status::Stalled));
     }
 }

@@ -10,7 +10,7 @@ mod iterate;
 mod loss;
 mod step_control;
 
-pub(crate) use equations::{Equations, Normal, Rows};
+pub(crate) use equations::{Equations, NormalMatrix, Rows};
 pub(crate) use iterate::{Iterate, Problem, Status, iterate};
 pub(crate) use loss::Loss;
-pub(crate) use step_control::{Damped, Monotone, Whole};
+pub(crate) use step_control::{Damped, Monotone, WholeSteps};

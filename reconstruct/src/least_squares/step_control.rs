@@ -1,6 +1,6 @@
 //! How far a Gauss-Newton step may go.
 
-use super::equations::{Equations, Normal};
+use super::equations::{Equations, NormalMatrix};
 use super::iterate::{Iterate, Problem};
 use nalgebra::DVector;
 
@@ -18,21 +18,21 @@ pub(crate) trait StepControl<P: Problem> {
     fn advance(&mut self, problem: &mut P, at: &mut Iterate<P::Equations>) -> Option<bool>;
 }
 
-/// Whole steps, for problems that are nearly linear. The equations that are left at the end are those that the last step came from.
-pub(crate) struct Whole {
+/// WholeSteps steps, for problems that are nearly linear. The equations that are left at the end are those that the last step came from.
+pub(crate) struct WholeSteps {
     /// Largest change of an unknown in the last step.
     small: f64,
     is_stale: bool,
 }
 
-impl Whole {
+impl WholeSteps {
     /// Until no unknown changes by as much as `small`.
     pub fn until(small: f64) -> Self {
         Self { small, is_stale: false }
     }
 }
 
-impl<P: Problem> StepControl<P> for Whole {
+impl<P: Problem> StepControl<P> for WholeSteps {
     fn advance(&mut self, problem: &mut P, at: &mut Iterate<P::Equations>) -> Option<bool> {
         if self.is_stale {
             at.equations = problem.equations(&at.x);
@@ -66,15 +66,15 @@ impl Monotone {
     }
 }
 
-impl<P: Problem<Equations = Normal>> StepControl<P> for Monotone {
-    fn set_out(&mut self, from: &Iterate<Normal>) -> bool {
+impl<P: Problem<Equations = NormalMatrix>> StepControl<P> for Monotone {
+    fn set_out(&mut self, from: &Iterate<NormalMatrix>) -> bool {
         let Some(step) = from.equations.step() else { return false };
         self.length = step.component_div(&self.sizes).norm();
         self.step = step;
         true
     }
 
-    fn advance(&mut self, problem: &mut P, at: &mut Iterate<Normal>) -> Option<bool> {
+    fn advance(&mut self, problem: &mut P, at: &mut Iterate<NormalMatrix>) -> Option<bool> {
         while self.share > Self::LEAST_SHARE {
             let there = &at.x + &self.step * self.share;
             let equations = problem.equations(&there);
@@ -117,8 +117,8 @@ impl Default for Damped {
     }
 }
 
-impl<P: Problem<Equations = Normal>> StepControl<P> for Damped {
-    fn advance(&mut self, problem: &mut P, at: &mut Iterate<Normal>) -> Option<bool> {
+impl<P: Problem<Equations = NormalMatrix>> StepControl<P> for Damped {
+    fn advance(&mut self, problem: &mut P, at: &mut Iterate<NormalMatrix>) -> Option<bool> {
         if !at.equations.cost.is_finite() {
             return None;
         }

@@ -2,7 +2,7 @@
 
 use super::nearest::{nearest, resample};
 use crate::contour::{ContourEstimate, TraceKind};
-use crate::least_squares::{Loss, Normal, Problem, Status, Whole, iterate};
+use crate::least_squares::{Loss, NormalMatrix, Problem, Status, WholeSteps, iterate};
 use crate::numeric::median;
 use nalgebra::DVector;
 
@@ -86,7 +86,7 @@ pub fn align(scans: &[ContourEstimate], direction: f64) -> Vec<Offset> {
 }
 
 /// A place of one scan beside one of another.
-struct Pair {
+struct ScanPair {
     scans: (usize, usize),
     /// How far the first is outside the second.
     outside: f64,
@@ -95,7 +95,7 @@ struct Pair {
     sigma: f64,
 }
 
-fn pairs(scans: &[ContourEstimate], direction: f64) -> Vec<Pair> {
+fn pairs(scans: &[ContourEstimate], direction: f64) -> Vec<ScanPair> {
     let mut pairs = Vec::new();
     let single = |scan: usize| scans[scan].of_kind(TraceKind::Single);
     for a in 0..scans.len() {
@@ -112,7 +112,7 @@ fn pairs(scans: &[ContourEstimate], direction: f64) -> Vec<Pair> {
                     let (sin, cos) = near.point.alpha.sin_cos();
                     let outside = (place.x - near.point.x) * sin - (place.y - near.point.y) * cos;
                     let rate = (near.point.alpha - direction).sin();
-                    pairs.push(Pair { scans: (a, b), outside, rate, sigma: place.sigma.hypot(near.point.sigma) });
+                    pairs.push(ScanPair { scans: (a, b), outside, rate, sigma: place.sigma.hypot(near.point.sigma) });
                 }
             }
         }
@@ -122,7 +122,7 @@ fn pairs(scans: &[ContourEstimate], direction: f64) -> Vec<Pair> {
 }
 
 /// For each scan the least number of those it overlaps with, directly or through others, renumbered from 0.
-fn connected_groups(count: usize, pairs: &[Pair]) -> Vec<usize> {
+fn connected_groups(count: usize, pairs: &[ScanPair]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..count).collect();
     for pair in pairs {
         let (a, b) = (group[pair.scans.0], group[pair.scans.1]);
@@ -143,20 +143,20 @@ const SMALL: f64 = 1e-13;
 /// Offsets as a least-squares problem: pairs with a robust loss whose scale is their median residual, and for each group the condition that
 /// its mean is 0, without which offsets are known up to a constant.
 struct Alignment<'a> {
-    pairs: &'a [Pair],
+    pairs: &'a [ScanPair],
     groups: &'a [usize],
     /// Smallest standard deviation of a pair: limits the weight of a single place.
     floor: f64,
 }
 
 impl Problem for Alignment<'_> {
-    type Equations = Normal;
+    type Equations = NormalMatrix;
 
-    fn equations(&mut self, offsets: &DVector<f64>) -> Normal {
-        let residual = |pair: &Pair| pair.outside + pair.rate * (offsets[pair.scans.0] - offsets[pair.scans.1]);
-        let relative = |pair: &Pair| residual(pair).abs() / pair.sigma.max(self.floor);
+    fn equations(&mut self, offsets: &DVector<f64>) -> NormalMatrix {
+        let residual = |pair: &ScanPair| pair.outside + pair.rate * (offsets[pair.scans.0] - offsets[pair.scans.1]);
+        let relative = |pair: &ScanPair| residual(pair).abs() / pair.sigma.max(self.floor);
         let loss = Loss::Quartic(OUTLYING * upper_median(self.pairs.iter().map(relative)).max(1e-6));
-        let mut normal = Normal::empty(offsets.len());
+        let mut normal = NormalMatrix::empty(offsets.len());
         for pair in self.pairs {
             let (row, sigma) = ([(pair.scans.0, pair.rate), (pair.scans.1, -pair.rate)], pair.sigma.max(self.floor));
             normal.add_weighted(&row, residual(pair), loss.weight(sigma.powi(-2), relative(pair)));
@@ -178,13 +178,13 @@ fn upper_median(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The offsets that fit the pairs best, those of each group with mean 0.
-fn change(count: usize, pairs: &[Pair], groups: &[usize]) -> Option<Vec<f64>> {
+fn change(count: usize, pairs: &[ScanPair], groups: &[usize]) -> Option<Vec<f64>> {
     if pairs.is_empty() {
         return None;
     }
     let floor = upper_median(pairs.iter().map(|pair| pair.sigma)).max(1e-9);
     let mut problem = Alignment { pairs, groups, floor };
-    let (at, status) = iterate(&mut problem, DVector::zeros(count), Whole::until(SMALL), STEPS);
+    let (at, status) = iterate(&mut problem, DVector::zeros(count), WholeSteps::until(SMALL), STEPS);
     let is_found = status != Status::Stalled && at.x.iter().all(|value| value.is_finite());
     is_found.then(|| at.x.iter().copied().collect())
 }

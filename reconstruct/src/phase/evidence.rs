@@ -4,7 +4,7 @@ use super::basis::Basis;
 use super::label::Label;
 use super::quantity::Quantity;
 use crate::point::{Clamp, Inverse, MomentZero, NoContact};
-use crate::scan::Estimate;
+use crate::scan::LocalEstimate;
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 /// Error of the criterion, the arc length and the reactions (dimensionless) that solvers and rounding leave. Smaller: exact samples
@@ -87,7 +87,7 @@ pub struct Evidence {
 
 impl Evidence {
     /// The criteria at a place where the reactions and their rates are estimated.
-    pub(crate) fn of<I: Inverse>(rod: &I, estimate: &Estimate) -> Self {
+    pub(crate) fn of<I: Inverse>(rod: &I, estimate: &LocalEstimate) -> Self {
         let none = Vector3::zeros();
         let speed = |found: &MomentZero, later| speed(rod, estimate, found, later);
         Self::new(rod, &estimate.clamp, speed, |gradient| estimate.variance(gradient, &none))
@@ -262,7 +262,7 @@ impl Evidence {
 }
 
 /// The speed of the moment zero across its tangent and along it, with standard deviations.
-fn speed<I: Inverse>(rod: &I, estimate: &Estimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
+fn speed<I: Inverse>(rod: &I, estimate: &LocalEstimate, found: &MomentZero, later: bool) -> [Quantity; 2] {
     let of = |found: &MomentZero| Vector2::from(found.speeds(&found.velocity(&estimate.rate)));
     let value = of(found);
     // The dependence on the reactions themselves matters in noise only: differences over one standard deviation.

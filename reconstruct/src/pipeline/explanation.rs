@@ -6,7 +6,7 @@ use crate::check::{Finding, Mistake, plausibility_with_friction};
 use crate::friction::{ANY, Friction};
 use crate::scan::noise_estimate::{ChannelNoise, estimate};
 use crate::scan::passes;
-use crate::systematic::{Budget, Calibration, Candidate, Source, candidates};
+use crate::systematic::{Budget, Calibration, Source, SourceCandidate, candidates};
 use rod_core::{Rod, Sample, Uniform};
 use std::fmt;
 
@@ -94,14 +94,14 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
     let mut found: Vec<(Explanation, f64)> = again.map(|(mistake, log)| (Explanation::Mistake(mistake), log)).collect();
     if let Some(calibration) = interpreted(rod, &thin, &settings) {
         let mut parts = candidates(&calibration);
-        let tare = parts.iter().find(|part| part.0 == Candidate::Tare).map(|part| part.1);
-        parts.retain(|part| part.0 == Candidate::Tare || tare.is_none_or(|tare| part.1 > tare + STRONG));
+        let tare = parts.iter().find(|part| part.0 == SourceCandidate::Tare).map(|part| part.1);
+        parts.retain(|part| part.0 == SourceCandidate::Tare || tare.is_none_or(|tare| part.1 > tare + STRONG));
         let all = log_sum(parts.iter().map(|part| part.1));
         found.extend(parts.into_iter().map(|(candidate, log)| {
             let explanation = match candidate {
-                Candidate::Tare => Explanation::Tare,
-                Candidate::One(source, value) => Explanation::Source(source, value),
-                Candidate::Several => Explanation::Several,
+                SourceCandidate::Tare => Explanation::Tare,
+                SourceCandidate::One(source, value) => Explanation::Source(source, value),
+                SourceCandidate::Several => Explanation::Several,
             };
             (explanation, calibration.log_likelihood + log - all)
         }));

@@ -59,7 +59,7 @@ pub struct Live {
     track: Track,
     dropped: usize,
     breaks: VecDeque<Break>,
-    window: Window,
+    window: LiveWindow,
     /// Places whose label is not decided, the oldest first, and the scores of the sequences up to them.
     open: VecDeque<Place>,
     before: [f64; 5],
@@ -90,7 +90,7 @@ struct Decided {
 
 /// Lengths, all in samples.
 #[derive(Clone, Copy, Debug)]
-struct Window {
+struct LiveWindow {
     half: usize,
     /// Distance of places.
     stride: usize,
@@ -124,7 +124,7 @@ impl Live {
         let ahead = half.max(kinks.delay() + BREAKS);
         let delay = ahead + (LAG + 2) * stride;
         let kept = delay + half + stride;
-        let window = Window { half, stride, ahead, delay, kept, capacity: 2 * kept };
+        let window = LiveWindow { half, stride, ahead, delay, kept, capacity: 2 * kept };
         let mut track = Track::default();
         track.tau.reserve_exact(window.capacity);
         track.clamps.reserve_exact(window.capacity);
@@ -236,7 +236,7 @@ impl Live {
 
     /// Adds the next place.
     fn visit(&mut self) {
-        let (index, Window { half, stride, .. }) = (self.next, self.window);
+        let (index, LiveWindow { half, stride, .. }) = (self.next, self.window);
         self.next += stride;
         let earlier = self.breaks.partition_point(|here| here.index <= index);
         let lower = earlier.checked_sub(1).map_or(0, |last| self.breaks[last].index).max(self.dropped);

@@ -26,35 +26,35 @@ impl<T> CrossSection<T> {
 
 /// An interval of a rod: its ends, and the force (A, B) that it carries.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Interval<T> {
+pub(crate) struct RodInterval<T> {
     pub from: T,
     pub to: T,
     pub force: [T; 2],
 }
 
-impl<T> Interval<T> {
-    fn map<U>(self, mut change: impl FnMut(T) -> U) -> Interval<U> {
+impl<T> RodInterval<T> {
+    fn map<U>(self, mut change: impl FnMut(T) -> U) -> RodInterval<U> {
         let Self { from, to, force } = self;
-        Interval { from: change(from), to: change(to), force: force.map(change) }
+        RodInterval { from: change(from), to: change(to), force: force.map(change) }
     }
 }
 
 /// A number that any rod carries: a plain one, or one with derivatives, of which those that the rod's own sensitivities tell are exact.
 pub(crate) trait Carried: Scalar {
     /// The cross-section at the end of an interval that starts with `start`.
-    fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &Interval<Self>) -> CrossSection<Self>;
+    fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &RodInterval<Self>) -> CrossSection<Self>;
 }
 
 impl Carried for f64 {
-    fn carry<M: RodModel>(model: &M, start: &CrossSection, along: &Interval<f64>) -> CrossSection {
-        let Interval { from, to, force: [a, b] } = *along;
+    fn carry<M: RodModel>(model: &M, start: &CrossSection, along: &RodInterval<f64>) -> CrossSection {
+        let RodInterval { from, to, force: [a, b] } = *along;
         of_cut(model.carry(from, &cut(start), a, b, to - from))
     }
 }
 
 /// First derivatives are exact.
 impl<const N: usize> Carried for Dual<f64, N> {
-    fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &Interval<Self>) -> CrossSection<Self> {
+    fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &RodInterval<Self>) -> CrossSection<Self> {
         let (end, by) = sensitive(model, &start.map(|v| v.value), &along.map(|v| v.value));
         with_derivatives(end, &by, start, along)
     }
@@ -64,7 +64,7 @@ fn with_derivatives<const N: usize>(
     end: CrossSection,
     by: &CutSensitivities,
     start: &CrossSection<Dual<f64, N>>,
-    along: &Interval<Dual<f64, N>>,
+    along: &RodInterval<Dual<f64, N>>,
 ) -> CrossSection<Dual<f64, N>> {
     let mut end = end.map(Dual::constant);
     for i in 0..N {
@@ -79,7 +79,7 @@ fn with_derivatives<const N: usize>(
 /// changes along the rate. So one difference of the exact sensitivities is enough for all of them. First derivatives, and so the rate
 /// itself, are exact.
 impl<const N: usize> Carried for Dual<Dual<f64, N>, 1> {
-    fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &Interval<Self>) -> CrossSection<Self> {
+    fn carry<M: RodModel>(model: &M, start: &CrossSection<Self>, along: &RodInterval<Self>) -> CrossSection<Self> {
         let (at, on) = (start.map(|v| v.value.value), along.map(|v| v.value.value));
         let rate = (start.map(|v| v.derivatives[0].value), along.map(|v| v.derivatives[0].value));
         let (end, here) = sensitive(model, &at, &on);
@@ -92,7 +92,7 @@ impl<const N: usize> Carried for Dual<Dual<f64, N>, 1> {
             let start =
                 CrossSection { x: at.x, y: at.y, phi: moved(at.phi, rate.0.phi), bend: moved(at.bend, rate.0.bend) };
             let force = [0, 1].map(|i| moved(on.force[i], rate.1.force[i]));
-            let along = Interval { from: moved(on.from, rate.1.from), to: moved(on.to, rate.1.to), force };
+            let along = RodInterval { from: moved(on.from, rate.1.from), to: moved(on.to, rate.1.to), force };
             sensitive(model, &start, &along).1
         });
         let mut rates = end_change(&here, &rate.0, &rate.1).map(Dual::<f64, N>::constant);
@@ -125,14 +125,18 @@ pub(super) fn of_cut(Cut { x, y, phi, moment }: Cut) -> CrossSection {
     CrossSection { x, y, phi, bend: moment }
 }
 
-fn sensitive<M: RodModel>(model: &M, start: &CrossSection, along: &Interval<f64>) -> (CrossSection, CutSensitivities) {
-    let Interval { from, to, force: [a, b] } = *along;
+fn sensitive<M: RodModel>(
+    model: &M,
+    start: &CrossSection,
+    along: &RodInterval<f64>,
+) -> (CrossSection, CutSensitivities) {
+    let RodInterval { from, to, force: [a, b] } = *along;
     let (end, by) = model.carry_with_sensitivities(from, &cut(start), a, b, to - from);
     (of_cut(end), by)
 }
 
 /// How the end changes where the start and the interval change so.
-fn end_change(by: &CutSensitivities, start: &CrossSection, along: &Interval<f64>) -> [f64; 4] {
+fn end_change(by: &CutSensitivities, start: &CrossSection, along: &RodInterval<f64>) -> [f64; 4] {
     let [a, b] = along.force;
     let shift = [start.x, start.y, 0.0, 0.0];
     std::array::from_fn(|k| {
@@ -160,7 +164,7 @@ mod tests {
                 derivatives: [By::constant(rates[i])],
             });
             let start = CrossSection { x: v[1] * v[1], y: v[0], phi: v[5], bend: v[2] * v[3] };
-            (start, Interval { from: v[3], to: v[4] + v[3] * v[0], force: [v[2], v[0] * v[1]] })
+            (start, RodInterval { from: v[3], to: v[4] + v[3] * v[0], force: [v[2], v[0] * v[1]] })
         };
         let all = |end: &CrossSection<Rate>| [end.x, end.y, end.phi, end.bend];
         let (start, along) = of(values);

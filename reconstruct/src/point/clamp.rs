@@ -53,11 +53,11 @@ impl<T: Number> Clamp<T> {
     }
 
     /// [`Self::gradient_at`] with zeros in place of the derivatives by the clamp's pose and reactions: a third of the work.
-    pub fn slide_at(&self, s: T) -> (Section<T>, Gradient<T>) {
+    pub fn slide_at(&self, s: T) -> (Section<T>, SectionGradient<T>) {
         let ([a, b], end) = (self.force(), self.at(s));
         let (sin, cos) = end.phi.sin_cos();
         let by_s = Vector4::new(cos, sin, end.kappa, a * cos + b * sin);
-        let gradient = Gradient {
+        let gradient = SectionGradient {
             by_reactions: Matrix4x3::zeros(),
             #[cfg(feature = "std")]
             by_phi0: Vector4::zeros(),
@@ -67,12 +67,12 @@ impl<T: Number> Clamp<T> {
     }
 
     /// The section at arc length s, with its derivatives.
-    pub fn gradient_at(&self, s: T) -> (Section<T>, Gradient<T>) {
+    pub fn gradient_at(&self, s: T) -> (Section<T>, SectionGradient<T>) {
         let [a, b] = self.force();
         let (end, by) = advance_with_sensitivities(&self.section(), a, b, s);
         let column = |c: [T; 4]| Vector4::from(c);
         let by_reactions = Matrix4x3::from_columns(&[-column(by.by_b), column(by.by_a), -column(by.by_kappa)]);
-        let gradient = Gradient {
+        let gradient = SectionGradient {
             by_reactions,
             #[cfg(feature = "std")]
             by_phi0: column(by.by_phi),
@@ -132,7 +132,7 @@ impl<T: Number> Clamp<T> {
 
 /// Derivatives of a section (x, y, phi, kappa) of the rod. Those by x0 and y0 are trivial: the rod moves along.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gradient<T = f64> {
+pub(crate) struct SectionGradient<T = f64> {
     pub by_reactions: Matrix4x3<T>,
     #[cfg(feature = "std")]
     pub by_phi0: Vector4<T>,
@@ -152,7 +152,7 @@ impl Clamp {
 }
 
 #[cfg(feature = "std")]
-impl Gradient {
+impl SectionGradient {
     /// Rate of the section at a fixed arc length where the clamp and its reactions change at this rate.
     pub fn rate(&self, rate: &Clamp) -> Vector4<f64> {
         let carried = Vector4::new(rate.pose.x, rate.pose.y, 0.0, 0.0);

@@ -1,8 +1,8 @@
 //! What the inversion of a scan has to know of a rod.
 
 use super::bent::{Bent, zeros};
-use super::carried::{Carried, CrossSection, Interval, cut, of_cut};
-use super::clamp::{Clamp, Gradient};
+use super::carried::{Carried, CrossSection, RodInterval, cut, of_cut};
+use super::clamp::{Clamp, SectionGradient};
 use super::moment_zero::MomentZero;
 use super::no_contact::NoContact;
 use nalgebra::{Matrix3, Matrix4x3, Vector3, Vector4};
@@ -28,7 +28,7 @@ pub(crate) trait Inverse {
     fn by_tip(&self, first: &MomentZero, clamp: &Clamp) -> Option<MomentZero>;
 
     /// The section at an arc length, and the derivatives of (x, y, phi, moment) there.
-    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, Gradient);
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, SectionGradient);
 
     /// 2 F . t - 2 |F| sin rho, where F is the force on the rod at the first zero of the moment, t the rod's tangent there and rho the angle
     /// of friction: 0 where that is a tangential contact, negative where it is one of the tip. Of the uniform rod it is the phase
@@ -40,7 +40,7 @@ pub(crate) trait Inverse {
     fn base<T: Carried>(&self, pose: [T; 3], reactions: [T; 3], natural: T) -> CrossSection<T>;
 
     /// The cross-section at the end of an interval that starts with `start`.
-    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T>;
+    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &RodInterval<T>) -> CrossSection<T>;
 
     /// The cross-section at the tip of a part that starts at arc length `s`, and the derivatives of its bend by the force (A, B).
     fn tip(&self, start: &CrossSection, s: f64, force: [f64; 2]) -> (CrossSection, [f64; 2]);
@@ -60,7 +60,7 @@ pub(crate) trait Inverse {
     /// The cross-section at an arc length before the first contact.
     fn at(&self, clamp: &Clamp, s: f64) -> CrossSection {
         let start = self.base(clamp.pose.into(), clamp.reactions.into(), clamp.natural);
-        self.carry(&start, &Interval { from: 0.0, to: s, force: clamp.force() })
+        self.carry(&start, &RodInterval { from: 0.0, to: s, force: clamp.force() })
     }
 
     /// The zero at which the tip would be, were it the only contact.
@@ -86,7 +86,7 @@ impl Inverse for Uniform {
         first.by_tip(clamp)
     }
 
-    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, Gradient) {
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, SectionGradient) {
         clamp.gradient_at(s)
     }
 
@@ -98,7 +98,7 @@ impl Inverse for Uniform {
         CrossSection { x, y, phi, bend: natural - m0z }
     }
 
-    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T> {
+    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &RodInterval<T>) -> CrossSection<T> {
         let [a, b] = along.force;
         cross_section(advance(&section(start), a, b, along.to - along.from))
     }
@@ -167,12 +167,12 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
         (from_tip(&nearest) < from_tip(&first.s)).then(|| zero(&bent, clamp, nearest)).flatten()
     }
 
-    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, Gradient) {
+    fn gradient_at(&self, clamp: &Clamp, s: f64) -> (Section, SectionGradient) {
         let bent = Bent::new(self.0, clamp);
         let (at, columns, by_phi0) = bent.by_reactions(s);
         let (sin, cos) = at.phi.sin_cos();
         let kappa = bent.model.curvature_at(s, at.moment);
-        let gradient = Gradient {
+        let gradient = SectionGradient {
             by_reactions: Matrix4x3::from_columns(&columns.map(Vector4::from)),
             by_phi0: by_phi0.into(),
             by_s: Vector4::new(cos, sin, kappa, bent.moment_rate(&at)),
@@ -199,7 +199,7 @@ impl<R: PhysicalRod> Inverse for Any<'_, R> {
         CrossSection { x: given_way(0), y: given_way(1), phi: given_way(2), bend: -reactions[2] }
     }
 
-    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &Interval<T>) -> CrossSection<T> {
+    fn carry<T: Carried>(&self, start: &CrossSection<T>, along: &RodInterval<T>) -> CrossSection<T> {
         T::carry(self.0.model(), start, along)
     }
 

@@ -24,7 +24,7 @@ mod through_roller;
 mod touch;
 
 #[cfg(feature = "std")]
-pub(crate) use carried::{Carried, CrossSection, Interval};
+pub(crate) use carried::{Carried, CrossSection, RodInterval};
 #[cfg(feature = "std")]
 pub(crate) use clamp::Clamp;
 #[cfg(feature = "std")]

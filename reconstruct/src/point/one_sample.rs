@@ -134,23 +134,23 @@ pub(super) fn contacts_of_readings<const N: usize>(
     let rounding = (EXACT * (1.0 + size)).powi(2);
     let exact = covariance + SMatrix::from_diagonal_element(rounding);
     let zeros = felt.moment_zeros();
-    let places: Vec<Place> = zeros.iter().map(|zero| place(felt, *zero, &exact)).collect();
+    let found: Vec<ZeroOfMoment> = zeros.iter().map(|zero| zero_of_moment(felt, *zero, &exact)).collect();
     let touch = |s: f64, slides: bool| touch(felt, s, slides, covariance).in_units(units);
-    if let Some(tip) = places.iter().find(|place| place.is_at_tip() && place.presses()) {
+    if let Some(tip) = found.iter().find(|zero| zero.is_at_tip() && zero.presses()) {
         return Ok(OneSample::Tip(touch(tip.s, true)));
     }
     // where the force acts along the end of the rod, the moment vanishes there without a change of sign
-    if is_free_of_moment(felt, 1.0, &exact) && place(felt, 1.0, &exact).presses() {
+    if is_free_of_moment(felt, 1.0, &exact) && zero_of_moment(felt, 1.0, &exact).presses() {
         return Ok(OneSample::Tip(touch(1.0, false)));
     }
     let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
-    let tangent = places.iter().find(|place| place.s < 1.0 && place.is_tangential());
+    let tangent = found.iter().find(|zero| zero.s < 1.0 && zero.is_tangential());
     let several = || OneSample::Several(touch(first, true));
-    Ok(tangent.map_or_else(several, |place| OneSample::Tangent(touch(place.s, true))))
+    Ok(tangent.map_or_else(several, |zero| OneSample::Tangent(touch(zero.s, true))))
 }
 
 /// A zero of the moment.
-struct Place {
+struct ZeroOfMoment {
     s: f64,
     s_noise: f64,
     /// Sine of the angle from the contour to the rod: positive at the tip, 0 at a tangential contact.
@@ -158,7 +158,7 @@ struct Place {
     pressing_noise: f64,
 }
 
-impl Place {
+impl ZeroOfMoment {
     fn is_at_tip(&self) -> bool {
         (self.s - 1.0).abs() <= self.s_noise
     }
@@ -170,7 +170,7 @@ impl Place {
     }
 }
 
-fn place<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMatrix<f64, N, N>) -> Place {
+fn zero_of_moment<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMatrix<f64, N, N>) -> ZeroOfMoment {
     let ((at, columns), ([a, b], by_force)) = (felt.by_readings(s), felt.force());
     let (rate, force) = (moment_rate(&at, [a, b]), a.hypot(b));
     // the zero slides along the rod so that the moment there stays 0
@@ -180,7 +180,7 @@ fn place<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMatrix<f64, 
     let by_angle = SVector::from(columns.map(|column| column[2])) + by_s * bend - turn;
     let (pressing, tilt) = (at.phi - b.atan2(a)).sin_cos();
     let noise = |gradient: &SVector<f64, N>| SIGMAS * variance(gradient, covariance).sqrt();
-    Place { s, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) }
+    ZeroOfMoment { s, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) }
 }
 
 /// Whether the moment at an arc length is within its noise.

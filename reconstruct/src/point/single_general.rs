@@ -69,11 +69,11 @@ pub fn single_general(
     }
     let zeros = zeros(rod, &clamp)?;
     let first = *zeros.first().ok_or(NoContact::NoMomentZero)?;
-    let first = Candidate::new(rod, &clamp, first, &covariance)?;
+    let first = ContactAtZero::new(rod, &clamp, first, &covariance)?;
     let mut found = first;
     if first.pressing > first.pressing_noise {
         for &zero in zeros[1..].iter().filter(|zero| zero.0 < 1.0 + STEP && zero.0 > 1.0 - STEP) {
-            let later = Candidate::new(rod, &clamp, zero, &covariance)?;
+            let later = ContactAtZero::new(rod, &clamp, zero, &covariance)?;
             if (later.touch.s - 1.0).abs() <= later.s_noise {
                 found = later;
             }
@@ -118,7 +118,7 @@ fn cut(clamp: &Clamp) -> Cut {
 
 /// A zero of the moment as a contact, dimensionless.
 #[derive(Clone, Copy)]
-struct Candidate {
+struct ContactAtZero {
     touch: Touch,
     /// Bound of the error of its arc length.
     s_noise: f64,
@@ -128,7 +128,7 @@ struct Candidate {
     pressing_noise: f64,
 }
 
-impl Candidate {
+impl ContactAtZero {
     fn new(
         rod: &dyn Propagator,
         clamp: &Clamp,

@@ -39,7 +39,7 @@ pub(crate) struct LocalCubic {
 
 /// Clamp and rates at one place, with the covariance of the reactions and of their rates.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Estimate {
+pub(crate) struct LocalEstimate {
     pub clamp: Clamp,
     pub rate: Clamp,
     /// Variance of a value, covariance of value and rate, variance of a rate are `variance` times these.
@@ -47,7 +47,7 @@ pub(crate) struct Estimate {
     variance: Vector3<f64>,
 }
 
-impl Estimate {
+impl LocalEstimate {
     /// A place known without error.
     pub fn exact(clamp: Clamp, rate: Clamp) -> Self {
         Self { clamp, rate, shape: [0.0; 3], variance: Vector3::zeros() }
@@ -166,7 +166,7 @@ impl LocalCubic {
     }
 
     /// Values and rates at tau.
-    pub fn at(&self, tau: f64) -> Estimate {
+    pub fn at(&self, tau: f64) -> LocalEstimate {
         let t = (tau - self.centre) / self.half;
         let value = Vector4::new(1.0, t, t * t, t * t * t);
         let rate = Vector4::new(0.0, 1.0, 2.0 * t, 3.0 * t * t) / self.half;
@@ -180,7 +180,7 @@ impl LocalCubic {
             }
         };
         let (at_value, at_rate) = (self.inverse * value, self.inverse * rate);
-        Estimate {
+        LocalEstimate {
             clamp: Clamp { natural: self.natural, friction: self.friction, ..split(&value) },
             rate: split(&rate),
             shape: [value.dot(&at_value), value.dot(&at_rate), rate.dot(&at_rate)],

@@ -18,7 +18,7 @@ mod stops;
 mod track;
 mod travel;
 
-pub(crate) use local_cubic::{Estimate, LocalCubic};
+pub(crate) use local_cubic::{LocalCubic, LocalEstimate};
 pub(crate) use noise::{Noise, dimensionless};
 pub use passes::passes;
 pub(crate) use quantum::quantum;

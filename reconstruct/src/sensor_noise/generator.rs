@@ -12,7 +12,7 @@ use rod_core::Reactions;
 pub struct NoiseGenerator {
     // each part only where the model has one, because zero times infinity is not zero
     linear: Option<([[f64; 3]; 3], [f64; 3])>,
-    white: Option<Normal>,
+    white: Option<NormalDraws>,
     ar1: Option<Remembered>,
     walk: Option<Walk>,
     quantum: Option<[f64; 3]>,
@@ -44,7 +44,7 @@ impl NoiseGenerator {
     /// Of a model that has been checked.
     fn new(model: &NoiseModel, seed: u64) -> Self {
         let normal =
-            |sigma: Reactions, stream| channels(sigma).map(|sigma| Normal { sigma, random: random(seed, stream) });
+            |sigma: Reactions, stream| channels(sigma).map(|sigma| NormalDraws { sigma, random: random(seed, stream) });
         let Dropout { probability, .. } = model.dropout;
         Self {
             linear: linear(model),
@@ -65,7 +65,7 @@ impl NoiseGenerator {
             });
         }
         for noise in [
-            self.white.as_mut().map(Normal::draw),
+            self.white.as_mut().map(NormalDraws::draw),
             self.ar1.as_mut().map(Remembered::draw),
             self.walk.as_mut().map(Walk::draw),
         ]
@@ -111,12 +111,12 @@ fn random(seed: u64, stream: Stream) -> ChaCha8Rng {
 
 /// White noise.
 #[derive(Clone, Debug)]
-struct Normal {
+struct NormalDraws {
     sigma: [f64; 3],
     random: ChaCha8Rng,
 }
 
-impl Normal {
+impl NormalDraws {
     fn draw(&mut self) -> [f64; 3] {
         self.sigma.map(|sigma| sigma * self.random.sample::<f64, _>(StandardNormal))
     }
@@ -125,14 +125,14 @@ impl Normal {
 /// AR(1) noise.
 #[derive(Clone, Debug)]
 struct Remembered {
-    normal: Normal,
+    normal: NormalDraws,
     correlation: f64,
     fresh: f64,
     last: Option<[f64; 3]>,
 }
 
 impl Remembered {
-    fn new(normal: Normal, model: &Ar1) -> Self {
+    fn new(normal: NormalDraws, model: &Ar1) -> Self {
         let correlation = model.correlation;
         let fresh = ((1.0 - correlation) * (1.0 + correlation)).sqrt();
         Self { normal, correlation, fresh, last: None }
@@ -152,7 +152,7 @@ impl Remembered {
 /// A random walk from zero.
 #[derive(Clone, Debug)]
 struct Walk {
-    steps: Normal,
+    steps: NormalDraws,
     at: Option<[f64; 3]>,
 }
 

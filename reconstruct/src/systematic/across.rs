@@ -4,7 +4,7 @@ use super::correction::{Frame, motion, still};
 use super::influence::{CorrectionDifferences, point_derivatives};
 use super::source::{Errors, SOURCES, Source};
 use crate::phase::{Label, constrained_contact};
-use crate::scan::{Estimate, Track, TrackIndex};
+use crate::scan::{LocalEstimate, Track, TrackIndex};
 use nalgebra::{Matrix3, Vector3};
 use rod_core::{Rod, Sample, Uniform};
 
@@ -45,7 +45,7 @@ pub fn influences(
     let noise = Matrix3::from_diagonal(&noise.map(|sigma| sigma.max(least).powi(2)));
     let one = |number: usize, label: Label, TrackIndex(index): TrackIndex| {
         let clamp = track.clamps[index];
-        let estimate = Estimate::exact(clamp, still(motion(&track, index)));
+        let estimate = LocalEstimate::exact(clamp, still(motion(&track, index)));
         let (by, _) = point_derivatives(&around, track.tau[index], &estimate, &noise, label)?;
         let alpha = constrained_contact(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];

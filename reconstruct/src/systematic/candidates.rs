@@ -9,7 +9,7 @@ const FINEST: f64 = 1e-12;
 
 /// What explains a scan, besides bias and drift, which every scan has of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Candidate {
+pub(crate) enum SourceCandidate {
     /// Bias and drift alone.
     Tare,
     /// One more source: the estimate where all others are as known, in the unit of the source.
@@ -24,7 +24,7 @@ pub(crate) enum Candidate {
 /// tell. The likelihood of a set of sources S is the integral of this density times that of what is known before over the errors of S, the
 /// others being as known (Laplace's method): r^T N^-1 r / 2 - ln det(N G^-1) / 2, where G holds the inverse variances given for S, N = D +
 /// G, and r = D times the errors that the places alone ask for, all restricted to S.
-pub(crate) fn candidates(calibration: &Calibration) -> Vec<(Candidate, f64)> {
+pub(crate) fn candidates(calibration: &Calibration) -> Vec<(SourceCandidate, f64)> {
     let sources = &calibration.sources;
     let free: Vec<usize> = (0..sources.len()).filter(|k| sources[*k].given > 0.0).collect();
     if calibration.covariance.nrows() != sources.len() || free.is_empty() {
@@ -55,16 +55,16 @@ pub(crate) fn candidates(calibration: &Calibration) -> Vec<(Candidate, f64)> {
     };
     let tare: Vec<usize> = (0..count).filter(|i| sources[free[*i]].source.is_of_scan()).collect();
     let others = (0..count).filter(|i| !sources[free[*i]].source.is_of_scan());
-    let mut found: Vec<(Candidate, f64)> = others
+    let mut found: Vec<(SourceCandidate, f64)> = others
         .filter_map(|i| {
             let (best, log) = likelihood(&[&tare[..], &[i]].concat())?;
             let estimate = &sources[free[i]];
             let value = estimate.known + best[tare.len()] * given(i);
-            Some((Candidate::One(estimate.source, value), log))
+            Some((SourceCandidate::One(estimate.source, value), log))
         })
         .collect();
-    found.extend(likelihood(&tare).map(|(_, log)| (Candidate::Tare, log)));
-    found.extend(likelihood(&(0..count).collect::<Vec<_>>()).map(|(_, log)| (Candidate::Several, log)));
+    found.extend(likelihood(&tare).map(|(_, log)| (SourceCandidate::Tare, log)));
+    found.extend(likelihood(&(0..count).collect::<Vec<_>>()).map(|(_, log)| (SourceCandidate::Several, log)));
     found
 }
 
@@ -110,16 +110,16 @@ mod tests {
     fn the_likelihood_is_the_density_of_what_was_measured() {
         let (sum, sigma, budgets) = (0.04, 1e-3, [0.01, 0.05]);
         let found = candidates(&scan(sum, sigma, budgets));
-        let of = |wanted: &dyn Fn(&Candidate) -> bool| *found.iter().find(|one| wanted(&one.0)).unwrap();
+        let of = |wanted: &dyn Fn(&SourceCandidate) -> bool| *found.iter().find(|one| wanted(&one.0)).unwrap();
         // the sum has the variance of the noise and of the sources that are free
         let density = |free: f64| {
             let variance: f64 = sigma * sigma + free;
             -0.5 * (sum * sum / variance + variance.ln())
         };
-        let tare = of(&|one| *one == Candidate::Tare).1;
-        let gain = of(&|one| matches!(one, Candidate::One(Source::GainF0x, _)));
-        let stiffness = of(&|one| matches!(one, Candidate::One(Source::Stiffness, _)));
-        let several = of(&|one| *one == Candidate::Several).1;
+        let tare = of(&|one| *one == SourceCandidate::Tare).1;
+        let gain = of(&|one| matches!(one, SourceCandidate::One(Source::GainF0x, _)));
+        let stiffness = of(&|one| matches!(one, SourceCandidate::One(Source::Stiffness, _)));
+        let several = of(&|one| *one == SourceCandidate::Several).1;
         let near = |found: f64, free: f64| {
             let expected = density(free) - density(0.0);
             assert!((found - tare - expected).abs() < 1e-6 * expected.abs(), "{} {expected}", found - tare);
@@ -127,7 +127,7 @@ mod tests {
         near(gain.1, 1e-4);
         near(stiffness.1, 25e-4);
         near(several, 26e-4);
-        let Candidate::One(_, value) = stiffness.0 else { unreachable!() };
+        let SourceCandidate::One(_, value) = stiffness.0 else { unreachable!() };
         assert!((value - 0.04 * 25e-4 / (25e-4 + 1e-6)).abs() < 1e-9, "{value}");
     }
 }

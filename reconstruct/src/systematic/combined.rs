@@ -39,14 +39,14 @@ pub struct Combined {
 
 /// What is estimated of several scans.
 #[derive(Clone, Copy, PartialEq)]
-enum Unknown {
+enum CommonSource {
     /// A source of all scans, by its number among those of a scan.
     Same(usize),
     /// Friction of the scans of one recording, by its number among the sources.
     Friction(usize, usize),
 }
 
-impl Unknown {
+impl CommonSource {
     /// Its estimate in a scan, relative to what was known, and its sign there; none where the scan tells nothing of it.
     fn of(self, (recording, scan): &(usize, Calibration)) -> Option<(usize, f64)> {
         match self {
@@ -68,17 +68,17 @@ impl Combined {
         if !scans.iter().all(alike) {
             return None;
         }
-        let same = (0..first.len()).filter(|k| !first[*k].source.is_of_scan()).map(Unknown::Same);
+        let same = (0..first.len()).filter(|k| !first[*k].source.is_of_scan()).map(CommonSource::Same);
         let friction = first.iter().position(|estimate| estimate.source == Source::Friction);
         let recordings: BTreeSet<usize> = scans.iter().map(|scan| scan.0).collect();
-        let frictions = friction.iter().flat_map(|k| recordings.iter().map(|of| Unknown::Friction(*k, *of)));
-        let unknowns: Vec<Unknown> = same.chain(frictions).collect();
+        let frictions = friction.iter().flat_map(|k| recordings.iter().map(|of| CommonSource::Friction(*k, *of)));
+        let unknowns: Vec<CommonSource> = same.chain(frictions).collect();
         let count = unknowns.len();
-        let of = |unknown: Unknown| {
+        let of = |unknown: CommonSource| {
             scans.iter().filter_map(move |scan| unknown.of(scan).map(|(k, sign)| (scan.1.sources[k], sign)))
         };
         // in units of the largest budget; where that is 0, nothing changes
-        let largest = |unknown: &Unknown| of(*unknown).map(|one| one.0.budget).fold(0.0, f64::max);
+        let largest = |unknown: &CommonSource| of(*unknown).map(|one| one.0.budget).fold(0.0, f64::max);
         let budgets: Vec<f64> = unknowns.iter().map(largest).collect();
         let unit = |k: usize| if budgets[k] > 0.0 { budgets[k] } else { 1.0 };
         if budgets.iter().all(|budget| *budget == 0.0) {
@@ -127,7 +127,7 @@ impl Combined {
         let covariance = &factor * factor.transpose();
         let covariance = DMatrix::from_fn(count, count, |i, j| covariance[(i, j)] * unit(i) * unit(j));
         let active: Vec<usize> = (0..count).filter(|k| budgets[*k] > 0.0).collect();
-        let is_friction = |k: &usize| matches!(unknowns[active[*k]], Unknown::Friction(..));
+        let is_friction = |k: &usize| matches!(unknowns[active[*k]], CommonSource::Friction(..));
         let frictions: Vec<usize> = (0..active.len()).filter(is_friction).collect();
         let taken = sparsest_estimate(&found, &(&factor * factor.transpose()), &active, frictions);
         let sources: Option<Vec<SourceEstimate>> = (0..count)

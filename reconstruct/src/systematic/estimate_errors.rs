@@ -3,10 +3,10 @@
 use super::correction::Frame;
 use super::influence::{CorrectionDifferences, criteria_derivatives};
 use super::source::{Errors, Joint, SOURCES, Source};
-use crate::least_squares::{Iterate, Loss, Problem, Rows, Whole, iterate};
+use crate::least_squares::{Iterate, Loss, Problem, Rows, WholeSteps, iterate};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
-use crate::scan::Estimate;
+use crate::scan::LocalEstimate;
 use nalgebra::{DMatrix, DVector, SVector};
 use rod_core::Uniform;
 
@@ -21,7 +21,7 @@ const LOSS: Loss = Loss::Cauchy(OUTLYING);
 /// A place with its phase, as measured.
 pub(super) struct LabelledPlace {
     pub tau: f64,
-    pub measured: Estimate,
+    pub measured: LocalEstimate,
     pub weight: f64,
     pub label: Label,
 }
@@ -231,7 +231,7 @@ pub(super) fn estimate_errors(
     let x = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - means[*k]) * (1.0 / sigmas[*k])));
     let mut problem =
         ErrorProblem { frame, prior, free: &free, places, least, residuals: Vec::new(), scatter: [1.0; CRITERIA] };
-    let (Iterate { x, equations }, _) = iterate(&mut problem, x, Whole::until(SMALL), steps);
+    let (Iterate { x, equations }, _) = iterate(&mut problem, x, WholeSteps::until(SMALL), steps);
     // R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
     for (i, k) in free.iter().enumerate() {

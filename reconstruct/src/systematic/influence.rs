@@ -4,7 +4,7 @@ use super::correction::{Correction, Frame};
 use super::source::{Errors, Joint, SOURCES, Source};
 use crate::phase::{CRITERIA, Criterion, Label, constrained_contact};
 use crate::point::{Clamp, Inverse, MomentZero};
-use crate::scan::Estimate;
+use crate::scan::LocalEstimate;
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 use rod_core::Uniform;
 
@@ -71,7 +71,7 @@ impl CorrectionDifferences {
 
     /// Derivatives of the corrected sample by the errors that count, 0 by others. The place of the clamp is measured in metres: its
     /// derivatives by the length are in lengths of the rod before the error, so that they do not depend on where the frame is.
-    pub fn input_derivatives(&self, tau: f64, measured: &Estimate) -> SMatrix<f64, INPUTS, SOURCES> {
+    pub fn input_derivatives(&self, tau: f64, measured: &LocalEstimate) -> SMatrix<f64, INPUTS, SOURCES> {
         let at = |correction: &Correction| {
             let mut x = inputs(&correction.apply(tau, &measured.clamp, &measured.rate));
             x[0] *= correction.length();
@@ -176,7 +176,7 @@ pub(super) fn variances(by_errors: &SMatrix<f64, CRITERIA, SOURCES>, factor: &Jo
 pub(crate) fn point_covariance(
     around: &CorrectionDifferences,
     tau: f64,
-    measured: &Estimate,
+    measured: &LocalEstimate,
     noise: &Matrix3<f64>,
     label: Label,
     factor: &Joint,
@@ -193,7 +193,7 @@ pub(crate) fn point_covariance(
 pub(super) fn point_derivatives(
     around: &CorrectionDifferences,
     tau: f64,
-    measured: &Estimate,
+    measured: &LocalEstimate,
     noise: &Matrix3<f64>,
     label: Label,
 ) -> Option<(SMatrix<f64, 2, SOURCES>, SMatrix<f64, 2, 3>)> {
@@ -241,14 +241,14 @@ mod tests {
                 // one input after the other in place of errors
                 let by = criteria_derivatives(&place, &SMatrix::<f64, INPUTS, SOURCES>::identity(), true);
                 let here = inputs(&place);
-                let again = Evidence::of(&Uniform, &Estimate::exact(place.0, place.1)).again();
+                let again = Evidence::of(&Uniform, &LocalEstimate::exact(place.0, place.1)).again();
                 assert_eq!(again, later, "{reactions:?}");
                 for k in 0..INPUTS {
                     let at = |step: f64| {
                         let mut x = here;
                         x[k] += step;
                         let (clamp, rate) = clamp_and_rate(&x);
-                        let quantities = Evidence::of(&Uniform, &Estimate::exact(clamp, rate)).quantities();
+                        let quantities = Evidence::of(&Uniform, &LocalEstimate::exact(clamp, rate)).quantities();
                         SVector::<f64, CRITERIA>::from(quantities.map(|quantity| quantity.value))
                     };
                     let difference = ((at(1e-5) - at(-1e-5)) / 2e-5).map(|by| if by.is_finite() { by } else { 0.0 });

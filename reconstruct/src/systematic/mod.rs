@@ -28,7 +28,7 @@ pub(crate) use calibrate::{
     CalibrationScan, RemainingErrors, calibrate, calibrate_labelled, errors_before_scan, log_likelihood,
 };
 pub use calibration::{Calibration, SourceEstimate};
-pub(crate) use candidates::{Candidate, candidates};
+pub(crate) use candidates::{SourceCandidate, candidates};
 pub use combined::Combined;
 pub(crate) use components::DISPLACED;
 pub(crate) use correction::Correction;

@@ -5,7 +5,7 @@
 
 use super::part::Local;
 use super::unknowns::{Gradient, UNKNOWNS, Unknown, Unknowns};
-use crate::point::{Carried, CrossSection, Interval, Inverse, normal_part, tangential};
+use crate::point::{Carried, CrossSection, Inverse, RodInterval, normal_part, tangential};
 use rod_core::{Dual, Scalar};
 
 /// A condition: a number that vanishes.
@@ -35,10 +35,10 @@ pub(super) struct Two<T> {
 fn two_of<I: Inverse, T: Carried>(rod: &I, pose: [T; 3], natural: T, friction: T, v: &Unknowns<T>) -> Two<T> {
     let start = rod.base(pose, Unknown::REACTIONS.map(|u| v[u]), natural);
     let (a, b) = (v[Unknown::F0y], -v[Unknown::F0x]);
-    let first = rod.carry(&start, &Interval { from: T::from_f64(0.0), to: v[Unknown::S1], force: [a, b] });
+    let first = rod.carry(&start, &RodInterval { from: T::from_f64(0.0), to: v[Unknown::S1], force: [a, b] });
     let [of_a, of_b] = tangential(v[Unknown::F1], first.phi.sin_cos(), friction);
     let force = [a - of_a, b - of_b];
-    let second = rod.carry(&first, &Interval { from: v[Unknown::S1], to: v[Unknown::S2], force });
+    let second = rod.carry(&first, &RodInterval { from: v[Unknown::S1], to: v[Unknown::S2], force });
     Two { first, second, force }
 }
 

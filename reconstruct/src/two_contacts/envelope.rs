@@ -5,7 +5,7 @@
 //! v_n(s) = n(s) . dr(s; tau) / dtau = 0.
 
 use crate::point::Inverse;
-use crate::scan::Estimate;
+use crate::scan::LocalEstimate;
 use nalgebra::{Matrix2x3, Vector2, Vector3, Vector4};
 use rod_core::Section;
 
@@ -26,7 +26,7 @@ pub(super) struct NormalSpeed {
 }
 
 impl NormalSpeed {
-    pub fn at<I: Inverse>(rod: &I, estimate: &Estimate, s: f64) -> Self {
+    pub fn at<I: Inverse>(rod: &I, estimate: &LocalEstimate, s: f64) -> Self {
         let (section, gradient) = rod.gradient_at(&estimate.clamp, s);
         let rate: Vector4<f64> = gradient.rate(&estimate.rate);
         let (sin, cos) = section.phi.sin_cos();
@@ -43,7 +43,12 @@ impl NormalSpeed {
 }
 
 /// All places before arc length `end` where the rod touches the envelope, from the clamp outwards.
-pub(super) fn touches<I: Inverse>(rod: &I, estimate: &Estimate, end: f64, mut found: impl FnMut(f64, NormalSpeed)) {
+pub(super) fn touches<I: Inverse>(
+    rod: &I,
+    estimate: &LocalEstimate,
+    end: f64,
+    mut found: impl FnMut(f64, NormalSpeed),
+) {
     let mut before = (0.0, NormalSpeed::at(rod, estimate, 0.0));
     for place in 1..=PLACES {
         let s = end * place as f64 / PLACES as f64;
@@ -59,7 +64,7 @@ pub(super) fn touches<I: Inverse>(rod: &I, estimate: &Estimate, end: f64, mut fo
 /// The zero of the normal speed between two places where its signs differ.
 fn root<I: Inverse>(
     rod: &I,
-    estimate: &Estimate,
+    estimate: &LocalEstimate,
     from: (f64, NormalSpeed),
     to: (f64, NormalSpeed),
 ) -> (f64, NormalSpeed) {

@@ -8,7 +8,7 @@ use super::part::Part;
 use super::system::Solution;
 use super::unknowns::Unknown;
 use crate::phase::Label;
-use crate::point::{Clamp, Interval, Inverse};
+use crate::point::{Clamp, Inverse, RodInterval};
 use nalgebra::{Vector2, Vector3};
 
 /// Straight pieces in place of a rod. They leave it by an eighth of the square of their length times its curvature.
@@ -106,7 +106,7 @@ fn shape<I: Inverse>(rod: &I, clamp: &Clamp, label: Label) -> Option<Shape> {
             let section = rod.at(clamp, s);
             return Vector2::new(section.x, section.y);
         }
-        let section = rod.carry(&last, &Interval { from: end, to: s, force: [0.0; 2] });
+        let section = rod.carry(&last, &RodInterval { from: end, to: s, force: [0.0; 2] });
         Vector2::new(section.x, section.y)
     });
     points.iter().all(|point: &Vector2<f64>| point.x.is_finite() && point.y.is_finite()).then_some(points)

@@ -6,7 +6,7 @@ use super::part::Part;
 use super::system::Solution;
 use super::unknowns::{Unknown, Unknowns};
 use crate::point::{Clamp, Inverse};
-use crate::scan::Estimate;
+use crate::scan::LocalEstimate;
 use nalgebra::Vector3;
 
 /// Instants of a stretch that are checked, and the largest t among them: at the ends of a series its rates are uncertain.
@@ -40,7 +40,7 @@ pub(super) fn are_right<I: Inverse>(rod: &I, part: &Part, solution: &Solution) -
             natural: if i == 0 { local.natural } else { 0.0 },
             friction: if i == 0 { local.friction } else { 0.0 },
         };
-        let estimate = Estimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
+        let estimate = LocalEstimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
         let speed = NormalSpeed::at(rod, &estimate, s1);
         let (_, gradient) = rod.gradient_at(&estimate.clamp, s1);
         let velocity = gradient.rate(&estimate.rate);

@@ -6,7 +6,7 @@ use super::ends::End;
 use super::part::Part;
 use super::unknowns::{Gradient, Unknown, Unknowns};
 use super::weights::{self, Tolerance};
-use crate::least_squares::{Damped, Iterate, Monotone, Normal, Problem, Status, iterate};
+use crate::least_squares::{Damped, Iterate, Monotone, NormalMatrix, Problem, Status, iterate};
 use crate::point::Inverse;
 use nalgebra::{DMatrix, DVector};
 use rod_core::Dual;
@@ -42,8 +42,8 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// The Gauss-Newton equations at x.
-    pub fn normal(&self, x: &DVector<f64>, weights: &[f64]) -> Normal {
-        let mut normal = Normal::empty(x.len());
+    pub fn normal(&self, x: &DVector<f64>, weights: &[f64]) -> NormalMatrix {
+        let mut normal = NormalMatrix::empty(x.len());
         let mut weight = weights.iter();
         let mut row = Vec::new();
         for part in self.parts {
@@ -82,7 +82,7 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// The reactions are as they were measured.
-    fn measured(&self, part: &Part, x: &DVector<f64>, normal: &mut Normal) {
+    fn measured(&self, part: &Part, x: &DVector<f64>, normal: &mut NormalMatrix) {
         let series = &part.series;
         for unknown in Unknown::REACTIONS {
             let (from, n) = part.columns(unknown);
@@ -99,7 +99,7 @@ impl<I: Inverse> System<'_, I> {
 
     /// The part of the cost that asks for smoothness.
     pub fn roughness(&self, x: &DVector<f64>) -> f64 {
-        let mut normal = Normal::empty(x.len());
+        let mut normal = NormalMatrix::empty(x.len());
         for part in self.parts {
             Self::smooth(part, x, &mut normal);
             Self::slid(part, x, &mut normal);
@@ -108,7 +108,7 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// Arc lengths and the first force are smooth.
-    fn smooth(part: &Part, x: &DVector<f64>, normal: &mut Normal) {
+    fn smooth(part: &Part, x: &DVector<f64>, normal: &mut NormalMatrix) {
         let at_clamp = part.force_at_clamp();
         for unknown in Unknown::CONTACTS {
             let (from, n) = part.columns(unknown);
@@ -124,7 +124,7 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// The rod slides past both contacts by nearly the same length.
-    fn slid(part: &Part, x: &DVector<f64>, normal: &mut Normal) {
+    fn slid(part: &Part, x: &DVector<f64>, normal: &mut NormalMatrix) {
         if !part.tip {
             let [a, b] = [Unknown::S1, Unknown::S2].map(|u| part.columns(u).0 + 1);
             normal.add(&[(a, -1.0), (b, 1.0)], x[b] - x[a], weights::SLIDING);
@@ -132,7 +132,7 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// Both contacts and the first force go on from one part to the next.
-    fn joint(&self, from: &Part, to: &Part, x: &DVector<f64>, normal: &mut Normal) {
+    fn joint(&self, from: &Part, to: &Part, x: &DVector<f64>, normal: &mut NormalMatrix) {
         let (before, after) = (from.series.interval, to.series.interval);
         let way = (after.centre - after.half) - (before.centre + before.half);
         let floor = self.tolerance.floor;
@@ -155,7 +155,7 @@ impl<I: Inverse> System<'_, I> {
     }
 
     /// The neighbour's single contact goes on as the first or the second one.
-    fn end(&self, part: &Part, t: f64, end: End, x: &DVector<f64>, normal: &mut Normal) {
+    fn end(&self, part: &Part, t: f64, end: End, x: &DVector<f64>, normal: &mut NormalMatrix) {
         let (local, floor) = (part.local(x, t), self.tolerance.floor);
         let mut row = Vec::new();
         match end {
@@ -220,9 +220,9 @@ impl<'a, 's, I> Weighted<'a, 's, I> {
 }
 
 impl<I: Inverse> Problem for Weighted<'_, '_, I> {
-    type Equations = Normal;
+    type Equations = NormalMatrix;
 
-    fn equations(&mut self, x: &DVector<f64>) -> Normal {
+    fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
         self.system.normal(x, &self.weights)
     }
 
@@ -237,7 +237,7 @@ impl<I: Inverse> Problem for Weighted<'_, '_, I> {
 }
 
 impl Solution {
-    fn at(Iterate { x, equations }: Iterate<Normal>, converged: bool) -> Option<Self> {
+    fn at(Iterate { x, equations }: Iterate<NormalMatrix>, converged: bool) -> Option<Self> {
         Some(Self { x, covariance: equations.covariance()?, cost: equations.cost, converged })
     }
 }

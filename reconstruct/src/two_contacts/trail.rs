@@ -3,7 +3,7 @@
 use super::envelope::{NormalSpeed, touches};
 use super::series::Series;
 use crate::point::Inverse;
-use crate::scan::Estimate;
+use crate::scan::LocalEstimate;
 use nalgebra::DVector;
 
 /// Instants of a stretch at which roots are computed, and the largest t among them: at the ends the rates are uncertain.
@@ -94,7 +94,7 @@ fn off(roots: &[Root], s: f64) -> f64 {
 /// The roots of the normal speed at t.
 fn roots<I: Inverse>(rod: &I, series: &Series, t: f64) -> Vec<Root> {
     let [clamp, rate] = series.clamps(t);
-    let estimate = Estimate::exact(clamp, rate);
+    let estimate = LocalEstimate::exact(clamp, rate);
     let (_, d) = series.interval.basis(t, series.terms());
     let d = DVector::from_vec(d);
     let spread = d.dot(&(&series.inverse * &d));
