@@ -13,7 +13,7 @@ use vibrissa::reconstruct::{Calibration, Combined, Comparison, ContourEstimate, 
 /// Several recordings of one object, with one rod in one frame, together.
 #[derive(Debug)]
 pub struct Merged {
-    scans: Vec<Scan>,
+    scans: Vec<MergedScan>,
     /// The direction along which they were moved onto each other, radians; none where they were not.
     align: Option<f64>,
     /// The contour of those that fit their rod.
@@ -29,7 +29,7 @@ const BY_CHANCE: f64 = 0.02;
 
 /// One of the recordings.
 #[derive(Debug, Serialize)]
-struct Scan {
+struct MergedScan {
     recording: PathBuf,
     folder: String,
     /// Whether recording, units and rod fit together. If not, the merged contour is without it.
@@ -42,7 +42,7 @@ struct Scan {
 
 #[derive(Serialize)]
 struct MergedRecord<'a> {
-    scans: &'a [Scan],
+    scans: &'a [MergedScan],
     align: Option<f64>,
     chi_squared: Option<f64>,
     freedom: Option<usize>,
@@ -80,7 +80,7 @@ impl Merged {
         let scan = |one: &Reconstructed| {
             let fits = one.check.fits();
             let offset = if fits { offsets.next() } else { None };
-            Scan {
+            MergedScan {
                 recording: one.recording.file.clone(),
                 folder: one.name.clone(),
                 fits,
@@ -148,7 +148,7 @@ impl Merged {
     pub fn summary(&self) -> String {
         let mut text = String::new();
         let mut table = Table::new(["recording", "fits its rod", "moved mm", "group"]);
-        for Scan { folder, fits, offset, group, .. } in &self.scans {
+        for MergedScan { folder, fits, offset, group, .. } in &self.scans {
             let fits = if *fits { "yes" } else { "no, left out" };
             let group = group.map_or_else(|| "-".to_owned(), |group| (group + 1).to_string());
             table.row([folder.clone(), fits.to_owned(), format!("{:.4}", 1e3 * offset), group]);

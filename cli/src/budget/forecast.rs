@@ -1,6 +1,6 @@
 //! How far each source of error displaces contact points, by derivatives.
 
-use super::truth::Truth;
+use super::truth::PerfectSensor;
 use nalgebra::{DMatrix, DVector};
 use vibrissa::Rod;
 use vibrissa::reconstruct::{Budget, Reconstruction, Source, influences};
@@ -38,7 +38,7 @@ impl Forecast {
     /// With the calibration and the noise of a reconstruction. None without single contacts.
     pub(super) fn of(
         rod: &Rod,
-        truth: &Truth,
+        truth: &PerfectSensor,
         budget: &Budget,
         sigma: Reactions,
         found: &Reconstruction,
@@ -76,11 +76,14 @@ impl Forecast {
         let noise = median(
             touches.map(|touch| (touch.sigma_normal().powi(2) - touch.sigma_systematic().powi(2)).max(0.0).sqrt()),
         )?;
-        let before = shared(&influence, &DMatrix::identity(count, count))?;
-        let after = shared(&influence, &covariance)?;
+        let before = median_point_sigma(&influence, &DMatrix::identity(count, count))?;
+        let after = median_point_sigma(&influence, &covariance)?;
         let with_known_friction = sources.iter().position(|source| *source == Source::Friction).and_then(|k| {
             let by = covariance.column(k);
-            shared(&influence, &(&covariance - by * by.transpose() / covariance[(k, k)].max(f64::MIN_POSITIVE)))
+            median_point_sigma(
+                &influence,
+                &(&covariance - by * by.transpose() / covariance[(k, k)].max(f64::MIN_POSITIVE)),
+            )
         });
         Some(Self { sources: shares, shared: [before, after], with_known_friction, noise, influence, covariance })
     }
@@ -100,7 +103,7 @@ impl Forecast {
 }
 
 /// Median standard deviation of the points for errors of this covariance.
-pub(super) fn shared(influence: &DMatrix<f64>, covariance: &DMatrix<f64>) -> Option<f64> {
+pub(super) fn median_point_sigma(influence: &DMatrix<f64>, covariance: &DMatrix<f64>) -> Option<f64> {
     let spread = influence * covariance;
     median((0..influence.nrows()).map(|point| {
         let square: DVector<f64> = spread.row(point).transpose().component_mul(&influence.row(point).transpose());

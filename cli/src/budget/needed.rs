@@ -4,7 +4,7 @@
 //! with the given sensor: shapes do not depend on the stiffness. The information of the samples goes with 1 / f^2, the budgets of bias
 //! and drift with f. The phases are taken as identified.
 
-use super::forecast::{Forecast, shared};
+use super::forecast::{Forecast, median_point_sigma};
 use nalgebra::{DMatrix, SymmetricEigen};
 use vibrissa::reconstruct::Source;
 
@@ -43,9 +43,9 @@ impl Needed {
         if count == 0 {
             return None;
         }
-        let told = mapped(forecast.covariance.clone(), |variance| 1.0 / variance.max(FINEST))
+        let information = map_eigenvalues(forecast.covariance.clone(), |variance| 1.0 / variance.max(FINEST))
             - DMatrix::<f64>::identity(count, count);
-        let told = mapped(told, |information| information.max(0.0));
+        let information = map_eigenvalues(information, |value| value.max(0.0));
         let total = |sensor: f64, stiffer: bool| {
             let prior = |k: usize| match forecast.sources[k].source {
                 Source::Friction => 1.0,
@@ -55,8 +55,8 @@ impl Needed {
                 _ => 1.0,
             };
             let prior = DMatrix::from_fn(count, count, |i, j| if i == j { prior(i).powi(-2) } else { 0.0 });
-            let covariance = mapped(&told / (sensor * sensor) + prior, |information| 1.0 / information);
-            shared(&forecast.influence, &covariance).map(|shared| shared.hypot(forecast.noise * sensor))
+            let covariance = map_eigenvalues(&information / (sensor * sensor) + prior, |value| 1.0 / value);
+            median_point_sigma(&forecast.influence, &covariance).map(|shared| shared.hypot(forecast.noise * sensor))
         };
         let factor = |stiffer: bool| -> Option<Factor> {
             let (mut low, mut high) = RANGE;
@@ -94,7 +94,7 @@ impl Factor {
     }
 }
 
-fn mapped(matrix: DMatrix<f64>, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
+fn map_eigenvalues(matrix: DMatrix<f64>, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(matrix);
     let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(of));
     &eigen.eigenvectors * values * eigen.eigenvectors.transpose()

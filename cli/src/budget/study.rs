@@ -4,7 +4,7 @@ use super::error::BudgetError;
 use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};
-use super::truth::Truth;
+use super::truth::PerfectSensor;
 use rod_files::{Scene, SceneError, SceneFriction};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Friction, Known, NoiseModel, reconstruct_passes};
@@ -78,7 +78,7 @@ impl BudgetStudy {
         let budget = Budget { friction: friction.sigma(), ..errors };
         let noise = self.noise.unwrap_or_else(|| usual(&rod));
         noise.check()?;
-        let (truth, scene) = Truth::of(self.scene, self.rate, self.speed)?;
+        let (truth, scene) = PerfectSensor::of(self.scene, self.rate, self.speed)?;
         let settings = Settings { budget: Some(errors), known: Known::NOTHING, friction, ..Settings::default() };
         let (read, _) = truth.read(&truth.samples, &noise, self.seed)?;
         let found = reconstruct_passes(&rod, &read, &settings)
@@ -90,7 +90,7 @@ impl BudgetStudy {
         let trials =
             Trials { truth: &truth, scene: &scene, budget, noise: &noise, settings, seed: self.seed.wrapping_add(1) };
         let runs = trials.run(self.runs)?;
-        let Truth { samples, stop, .. } = truth;
+        let PerfectSensor { samples, stop, .. } = truth;
         Ok(Expected { samples: samples.len(), stop, budget, sigma, forecast, needed, runs, scene })
     }
 }

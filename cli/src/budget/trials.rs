@@ -2,7 +2,7 @@
 
 use super::error::BudgetError;
 use super::forecast::median;
-use super::truth::Truth;
+use super::truth::PerfectSensor;
 use rayon::prelude::*;
 use rod_files::Scene;
 use serde::Serialize;
@@ -16,7 +16,7 @@ const FAR: f64 = 6.0;
 
 /// What the recordings are made of.
 pub(super) struct Trials<'a> {
-    pub truth: &'a Truth,
+    pub truth: &'a PerfectSensor,
     pub scene: &'a Scene,
     pub budget: Budget,
     pub noise: &'a NoiseModel,

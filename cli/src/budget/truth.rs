@@ -8,7 +8,7 @@ use vibrissa::rod::Reactions;
 use vibrissa::{Label, Sample};
 
 /// What a perfect sensor records.
-pub(super) struct Truth {
+pub(super) struct PerfectSensor {
     pub samples: Vec<Sample>,
     pub labels: Vec<Label>,
     /// Numbers of the samples along the path: a snap leaves some out.
@@ -17,7 +17,7 @@ pub(super) struct Truth {
     pub stop: Option<Stop>,
 }
 
-impl Truth {
+impl PerfectSensor {
     pub fn of(scene: Scene, rate: f64, speed: f64) -> Result<(Self, Scene), BudgetError> {
         let simulation = Simulation { scene, noise: NoiseModel::default(), rate, speed, seed: 0, sigmas: false };
         let mut truth = Self { samples: Vec::new(), labels: Vec::new(), numbers: Vec::new(), stop: None };

@@ -48,7 +48,7 @@ impl Freed {
 }
 
 /// What is known before, where only some sources are looked for: the others keep their values, or 0.
-pub(super) fn limited(known: &Known, budget: &Budget, free: &[Freed]) -> Known {
+pub(super) fn known_besides(known: &Known, budget: &Budget, free: &[Freed]) -> Known {
     let others = Source::ALL.into_iter().filter(|source| Freed::of(*source).is_some_and(|of| !free.contains(&of)));
     let held = others.fold(*known, |held, source| {
         let value = known.of(source).map_or(0.0, |known| known.0);

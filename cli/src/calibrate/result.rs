@@ -1,6 +1,6 @@
 //! What the recordings tell.
 
-use super::freed::{Freed, limited, with_held};
+use super::freed::{Freed, known_besides, with_held};
 use crate::figure::Residual;
 use rod_files::{Reconstructed, ReconstructionError, Recording};
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ impl RodCalibration {
         free: &[Freed],
     ) -> Result<Self, CalibrateError> {
         let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(&rod));
-        let known = if free.is_empty() { given } else { limited(&given, &budget, free) };
+        let known = if free.is_empty() { given } else { known_besides(&given, &budget, free) };
         let (mut each, mut findings) = (Vec::<(usize, Calibration)>::new(), Vec::new());
         for (number, recording) in recordings.iter().enumerate() {
             let settings = Settings { known, ..*settings };

@@ -3,7 +3,7 @@
 use super::canvas::{Area, BODY, FigureError, stroke, width};
 use super::element::{Element, number};
 use super::palette::INK;
-use super::scale::Scale;
+use super::scale::AxisScale;
 use super::text::{HPos, Letters};
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ impl<'a> Chart<'a> {
         let (left, top) = self.plot.corner();
         let letters = |at: (f64, f64), side, upwards| Letters { at, side, size: BODY, colour: INK, upwards };
         // as many numbers as there is room for
-        let (across, up) = (Scale::of(&self.x), Scale::of(&self.y));
+        let (across, up) = (AxisScale::of(&self.x), AxisScale::of(&self.y));
         let widest = across.ticks(&self.x, numbers.0).iter().map(|(_, text)| width(text, BODY)).max().unwrap_or(1) + 24;
         let most = (right / widest.max(1)).max(2) as usize;
         for (value, text) in across.ticks(&self.x, numbers.0.min(most)) {

@@ -3,10 +3,10 @@
 use super::canvas::{Area, BODY, FigureError, HPos, stroke, width, write};
 use super::chart::Chart;
 use super::element::{Element, ShapeStyle};
-use super::line::thinned;
+use super::line::thin_line;
 use super::outline;
 use super::palette::{INK, RGBColor};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use vibrissa::Composite;
 use vibrissa::contour::Bounds;
 
@@ -35,7 +35,7 @@ impl Dot {
 /// Draws points (mm) in order, without those that would hide behind the one before.
 pub(crate) fn dots(
     chart: &Chart<'_>,
-    window: &Window,
+    window: &PlaneWindow,
     points: impl IntoIterator<Item = (f64, f64)>,
     dot: Dot,
 ) -> Result<(), FigureError> {
@@ -56,11 +56,11 @@ fn apart(points: impl IntoIterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, 
 }
 
 /// Draws the contours of objects (m), dashed.
-pub(crate) fn contours(chart: &Chart<'_>, window: &Window, objects: &[Composite]) -> Result<(), FigureError> {
-    let Window { x, y, scale } = window;
+pub(crate) fn contours(chart: &Chart<'_>, window: &PlaneWindow, objects: &[Composite]) -> Result<(), FigureError> {
+    let PlaneWindow { x, y, scale } = window;
     let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     for part in objects.iter().flat_map(|object| outline::visible(object, bounds)) {
-        let line = thinned(part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)), (*scale, *scale));
+        let line = thin_line(part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)), (*scale, *scale));
         chart.draw_series([Element::dashed(line, (DASH.0, DASH.1), INK.stroke_width(2))])?;
     }
     Ok(())

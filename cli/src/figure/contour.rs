@@ -3,9 +3,9 @@
 use super::canvas::FigureError;
 use super::chart::Chart;
 use super::element::Element;
-use super::line::thinned;
+use super::line::thin_line;
 use super::palette::{INK, MUTED};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 /// Width of the line, pixels.
@@ -17,10 +17,10 @@ const STROKE: f64 = 20.0;
 /// Draws a part of a contour (mm), and those strokes into the solid that end in the window.
 pub(super) fn draw(
     chart: &Chart<'_>,
-    window: &Window,
+    window: &PlaneWindow,
     part: impl IntoIterator<Item = (f64, f64)>,
 ) -> Result<(), FigureError> {
-    let line = thinned(part, (window.scale, window.scale));
+    let line = thin_line(part, (window.scale, window.scale));
     let seen = |stroke: &[(f64, f64); 2]| window.x.contains(&stroke[1].0) && window.y.contains(&stroke[1].1);
     let strokes = hatching(&line, window.scale).into_iter().filter(seen);
     chart.draw_series(strokes.map(|stroke| Element::line(stroke, MUTED.stroke_width(2))))?;

@@ -5,10 +5,10 @@ use super::chart::Chart;
 use super::contour;
 use super::element::Element;
 use super::labels::Labels;
-use super::line::thinned;
+use super::line::thin_line;
 use super::outline;
 use super::palette::{INK, TRANSITION, WHITE, colour};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use super::support;
 use rod_files::{Interval, Scan};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -41,7 +41,7 @@ pub(super) fn height(scan: &Scan, width: u32) -> Result<f64, FigureError> {
     }
     let seen = with_closed_objects(scan, seen);
     let [x, y] = [span(seen.iter().map(|point| point.0), 0.0), span(seen.iter().map(|point| point.1), 0.0)];
-    let (beside, below) = Window::TRIMMINGS;
+    let (beside, below) = PlaneWindow::TRIMMINGS;
     let plot = f64::from(width.saturating_sub(beside)) - 2.0 * ROOM.0;
     Ok(plot * (y.end - y.start) / (x.end - x.start) + 2.0 * ROOM.1 + f64::from(below))
 }
@@ -67,13 +67,13 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     let seen = with_closed_objects(scan, seen);
     let window = window(area, &seen);
     let chart = window.chart(area, (12, 12))?;
-    let line = |curve: Curve| thinned(curve, (window.scale, window.scale));
+    let line = |curve: Curve| thin_line(curve, (window.scale, window.scale));
     chart.draw_series(shapes.into_iter().map(|(curve, style)| Element::line(line(curve), style)))?;
     chart.draw_series(transitions.into_iter().map(|curve| Element::line(line(curve), TRANSITION.stroke_width(3))))?;
     for curve in landings {
         chart.draw_series([Element::dashed(line(curve), (14, 10), TRANSITION.stroke_width(3))])?;
     }
-    let Window { x, y, .. } = &window;
+    let PlaneWindow { x, y, .. } = &window;
     let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
     for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, bounds)) {
         contour::draw(&chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
@@ -123,13 +123,13 @@ fn curve(state: &State, rod: &AnyRod) -> Result<Curve, RodError> {
 }
 
 /// A window on all points (mm).
-fn window(area: &Area<'_>, points: &[(f64, f64)]) -> Window {
+fn window(area: &Area<'_>, points: &[(f64, f64)]) -> PlaneWindow {
     let (width, height) = area.dim_in_pixel();
-    let (beside, below) = Window::TRIMMINGS;
+    let (beside, below) = PlaneWindow::TRIMMINGS;
     let plot = (f64::from(width.saturating_sub(beside).max(1)), f64::from(height.saturating_sub(below).max(1)));
     let x = span(points.iter().map(|point| point.0), 0.0);
     let y = span(points.iter().map(|point| point.1), 0.0);
-    Window::of(&x, &y, plot, ROOM)
+    PlaneWindow::of(&x, &y, plot, ROOM)
 }
 
 /// Where the name of an interval goes (m), and the direction (rad) in which it keeps off: behind the clamp, in the

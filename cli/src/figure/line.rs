@@ -7,16 +7,16 @@ const SLACK: f64 = 0.01;
 
 /// The points at which a broken line turns, the first and the last among them, where a pixel is so wide and so high.
 /// The canvas knows whole ones only: a straight line with points in between would go in steps.
-pub(super) fn thinned(points: impl IntoIterator<Item = (f64, f64)>, pixel: (f64, f64)) -> Vec<(f64, f64)> {
+pub(super) fn thin_line(points: impl IntoIterator<Item = (f64, f64)>, pixel: (f64, f64)) -> Vec<(f64, f64)> {
     let mut points = points.into_iter();
     let Some(first) = points.next() else { return Vec::new() };
     let (mut kept, mut from, mut last, mut fan) = (vec![first], first, first, Fan::default());
     for point in points {
         let seen = |from: (f64, f64)| ((point.0 - from.0) / (SLACK * pixel.0), (point.1 - from.1) / (SLACK * pixel.1));
-        fan = fan.narrowed(seen(from)).unwrap_or_else(|| {
+        fan = fan.narrow(seen(from)).unwrap_or_else(|| {
             kept.push(last);
             from = last;
-            Fan::default().narrowed(seen(from)).unwrap_or_default()
+            Fan::default().narrow(seen(from)).unwrap_or_default()
         });
         last = point;
     }
@@ -34,7 +34,7 @@ struct Fan {
 
 impl Fan {
     /// Narrowed by one more point; none where a chord to it is not within 1 of the others, or the line comes back.
-    fn narrowed(self, (x, y): (f64, f64)) -> Option<Self> {
+    fn narrow(self, (x, y): (f64, f64)) -> Option<Self> {
         let distance = x.hypot(y);
         if distance < self.far - 1.0 {
             return None;
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn what_is_left_out_is_near_the_chords() {
-        let kept = thinned(arc(5000), (1.0, 2.0));
+        let kept = thin_line(arc(5000), (1.0, 2.0));
         assert!((100..300).contains(&kept.len()), "{}", kept.len());
         assert_eq!((kept.first().copied(), kept.last().copied()), (arc(1).next(), arc(1).last()));
         for (x, y) in arc(5000).map(|(x, y)| (x, y / 2.0)) {
@@ -79,9 +79,9 @@ mod tests {
     #[test]
     fn corners_and_turnings_stay() {
         let corner = [(0.0, 0.0), (50.0, 0.0), (100.0, 0.0), (100.0, 1e-9), (100.0, 30.0), (100.0, 60.0)];
-        assert_eq!(thinned(corner, (1.0, 1.0)), [(0.0, 0.0), (100.0, 1e-9), (100.0, 60.0)]);
+        assert_eq!(thin_line(corner, (1.0, 1.0)), [(0.0, 0.0), (100.0, 1e-9), (100.0, 60.0)]);
         let back = [(0.0, 0.0), (90.0, 0.0), (40.0, 0.0), (0.1, 0.0)];
-        assert_eq!(thinned(back, (1.0, 1.0)), [(0.0, 0.0), (90.0, 0.0), (0.1, 0.0)]);
-        assert_eq!(thinned([], (1.0, 1.0)), []);
+        assert_eq!(thin_line(back, (1.0, 1.0)), [(0.0, 0.0), (90.0, 0.0), (0.1, 0.0)]);
+        assert_eq!(thin_line([], (1.0, 1.0)), []);
     }
 }

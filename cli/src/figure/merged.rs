@@ -3,9 +3,9 @@
 use super::canvas::{FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
 use super::element::Element;
-use super::line::thinned;
+use super::line::thin_line;
 use super::palette::{self, INK, RGBColor};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use vibrissa::reconstruct::{ContourEstimate, Trace, TraceKind};
 
 /// Width; least and largest height of the plot; height of the title and the key, pixels.
@@ -26,10 +26,10 @@ const KINDS: [(TraceKind, RGBColor, &str); 3] = [
 pub(crate) fn merged(contour: &ContourEstimate) -> Result<String, FigureError> {
     let points = || contour.traces.iter().flat_map(millimetres);
     let (x, y) = (span(points().map(|point| point.0), 0.06), span(points().map(|point| point.1), 0.1));
-    let (beside, below) = Window::TRIMMINGS;
+    let (beside, below) = PlaneWindow::TRIMMINGS;
     let plot = f64::from(WIDTH - beside);
     let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
-    let window = Window::of(&x, &y, (plot, high), (0.0, 0.0));
+    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
     svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {
         let (head, area) = root.split_vertically(HEAD);
         write(&head, "contour of all recordings", (24, 36), HPos::Left, TITLE, INK)?;
@@ -38,7 +38,7 @@ pub(crate) fn merged(contour: &ContourEstimate) -> Result<String, FigureError> {
         cloud::key(&head, (24, 100), &entries, None)?;
         let chart = window.chart(&area, (12, 8))?;
         for (kind, colour, _) in KINDS {
-            let line = |trace: &Trace| thinned(millimetres(trace), (window.scale, window.scale));
+            let line = |trace: &Trace| thin_line(millimetres(trace), (window.scale, window.scale));
             let lines = contour.of_kind(kind).map(line);
             chart.draw_series(lines.map(|line| Element::line(line, colour.stroke_width(LINE))))?;
         }

@@ -10,7 +10,7 @@ const BELOW: u32 = 62;
 const MARGIN: u32 = 12;
 
 /// What is seen.
-pub(crate) struct Window {
+pub(crate) struct PlaneWindow {
     /// mm
     pub x: Range<f64>,
     /// mm
@@ -19,7 +19,7 @@ pub(crate) struct Window {
     pub scale: f64,
 }
 
-impl Window {
+impl PlaneWindow {
     /// Width and height (pixels) that axes take beside their plot.
     pub const TRIMMINGS: (u32, u32) = (LEFT + 2 * MARGIN, BELOW + 2 * MARGIN);
 

@@ -4,7 +4,7 @@ use super::canvas::{FigureError, HPos, TITLE, span, svg, write};
 use super::contour;
 use super::element::Element;
 use super::palette::{INK, WHITE};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use rod_files::Profile;
 use std::ops::Range;
 
@@ -22,10 +22,10 @@ pub(crate) fn profile(name: &str, profiles: &[Profile]) -> Result<String, Figure
     let all = || profiles.iter().flat_map(|profile| &profile.points);
     let x = span(all().map(|point| 1e3 * point.x), 0.06);
     let y = span(all().map(|point| 1e3 * point.y), 0.06);
-    let (beside, below) = Window::TRIMMINGS;
+    let (beside, below) = PlaneWindow::TRIMMINGS;
     let (plot, trimmings) = (f64::from(WIDTH - beside), f64::from(below + HEAD));
     let height = (plot * (y.end - y.start) / (x.end - x.start) + trimmings).clamp(HEIGHT.start, HEIGHT.end).round();
-    let window = Window::of(&x, &y, (plot, height - trimmings), (0.0, 0.0));
+    let window = PlaneWindow::of(&x, &y, (plot, height - trimmings), (0.0, 0.0));
     svg((WIDTH, height as u32), |root| {
         let (head, body) = root.split_vertically(HEAD);
         write(&head, name, (24, 36), HPos::Left, TITLE, INK)?;

@@ -3,7 +3,7 @@
 use super::abscissa::Abscissa;
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::palette::{INK, MUTED, label_colour};
-use super::trace::{self, Along, LINE, Part, Trace};
+use super::trace::{self, Along, LINE, TraceChart, TracePart};
 use rod_files::Reconstructed;
 use std::ops::Range;
 use vibrissa::{ClampPath, Pose, Rod};
@@ -54,7 +54,7 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
         for (index, (name, quantity)) in quantities.into_iter().enumerate() {
             let (part, below) = rest.split_vertically(row(index));
             let parts = parts(found, abscissa, &along.across, quantity);
-            let trace = Trace { along: &along, parts, name, phases: index == 0, foot: index == last };
+            let trace = TraceChart { along: &along, parts, name, phases: index == 0, foot: index == last };
             trace::draw(root, &part, &trace)?;
             rest = below;
         }
@@ -84,11 +84,11 @@ fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
     }
 }
 
-fn parts(found: &Reconstructed, abscissa: Abscissa, across: &Range<f64>, quantity: Quantity<'_>) -> Vec<Part> {
+fn parts(found: &Reconstructed, abscissa: Abscissa, across: &Range<f64>, quantity: Quantity<'_>) -> Vec<TracePart> {
     let width = (across.end - across.start) / COLUMNS;
     let part = |(samples, label): (Range<usize>, _)| {
         let points = samples.map(|sample| (abscissa.value(found.samples[sample].pose), quantity(sample)));
-        Part {
+        TracePart {
             points: columns(points.filter(|point| point.1.is_finite()), width),
             style: label_colour(label).stroke_width(LINE),
         }

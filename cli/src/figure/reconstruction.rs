@@ -3,7 +3,7 @@
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
 use super::palette::{self, FAINT, INK, MUTED, label_colour};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use rod_files::{Comparison, Reconstructed, naive_touch};
 use vibrissa::Label;
 use vibrissa::reconstruct::Touch;
@@ -34,10 +34,10 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
 
     let all = || single(Label::A).chain(single(Label::B)).chain(first()).chain(second());
     let (x, y) = (span(all().map(|point| point.0), 0.06), span(all().map(|point| point.1), 0.1));
-    let (beside, below) = Window::TRIMMINGS;
+    let (beside, below) = PlaneWindow::TRIMMINGS;
     let plot = f64::from(WIDTH - beside);
     let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
-    let window = Window::of(&x, &y, (plot, high), (0.0, 0.0));
+    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
     let in_view = |point: &(f64, f64)| window.x.contains(&point.0) && window.y.contains(&point.1);
     let seen: Vec<(f64, f64)> = naive.into_iter().filter(in_view).collect();
     svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {

@@ -8,9 +8,9 @@ const PLAIN: Range<i32> = -2..5;
 
 /// The power of ten that the numbers on an axis share, a multiple of 3.
 #[derive(Clone, Copy)]
-pub(super) struct Scale(i32);
+pub(super) struct AxisScale(i32);
 
-impl Scale {
+impl AxisScale {
     /// Of an axis with this range.
     pub fn of(range: &Range<f64>) -> Self {
         let power = range.start.abs().max(range.end.abs()).log10().floor();
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     fn texts(range: Range<f64>, most: usize) -> Vec<String> {
-        Scale::of(&range).ticks(&range, most).into_iter().map(|(_, text)| text).collect()
+        AxisScale::of(&range).ticks(&range, most).into_iter().map(|(_, text)| text).collect()
     }
 
     #[test]
@@ -90,13 +90,13 @@ mod tests {
     #[test]
     fn small_and_large_numbers_share_a_power_of_ten() {
         assert_eq!(texts(-1e-7..4.1e-6, 5), ["0", "1", "2", "3", "4"]);
-        assert_eq!(Scale::of(&(-1e-7..4.1e-6)).name("f_{0x} in N"), "f_{0x} in µN");
+        assert_eq!(AxisScale::of(&(-1e-7..4.1e-6)).name("f_{0x} in N"), "f_{0x} in µN");
         assert_eq!(texts(0.0..4.1e-4, 5), ["0", "100", "200", "300", "400"]);
-        assert_eq!(Scale::of(&(0.0..2e5)).name("margin"), "margin in 10³");
-        assert_eq!(Scale::of(&(0.0..2e-5)).name("K in (N mm)²"), "K in (mN mm)²");
-        assert_eq!(Scale::of(&(0.0..2e-3)).name("K in (N mm)²"), "K in 10⁻³ (N mm)²");
-        assert_eq!(Scale::of(&(0.0..2e-3)).name("x in mm"), "x in 10⁻³ mm");
-        assert_eq!(Scale::of(&(0.0..0.02)).name("f_{0x} in N"), "f_{0x} in N");
-        assert_eq!(Scale::of(&(0.0..0.0)).name("K"), "K");
+        assert_eq!(AxisScale::of(&(0.0..2e5)).name("margin"), "margin in 10³");
+        assert_eq!(AxisScale::of(&(0.0..2e-5)).name("K in (N mm)²"), "K in (mN mm)²");
+        assert_eq!(AxisScale::of(&(0.0..2e-3)).name("K in (N mm)²"), "K in 10⁻³ (N mm)²");
+        assert_eq!(AxisScale::of(&(0.0..2e-3)).name("x in mm"), "x in 10⁻³ mm");
+        assert_eq!(AxisScale::of(&(0.0..0.02)).name("f_{0x} in N"), "f_{0x} in N");
+        assert_eq!(AxisScale::of(&(0.0..0.0)).name("K"), "K");
     }
 }

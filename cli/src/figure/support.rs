@@ -4,7 +4,7 @@ use super::canvas::FigureError;
 use super::chart::Chart;
 use super::element::Element;
 use super::palette::{INK, WHITE};
-use super::plane::Window;
+use super::plane::PlaneWindow;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use vibrissa::State;
 use vibrissa::rod::{AnyRod, PhysicalRod};
@@ -30,17 +30,17 @@ const GAP: f64 = 2.0;
 const LINE: u32 = 2;
 
 /// Draws what holds the rod in a state.
-pub(super) fn draw(chart: &Chart<'_>, window: &Window, rod: &AnyRod, state: &State) -> Result<(), FigureError> {
+pub(super) fn draw(chart: &Chart<'_>, window: &PlaneWindow, rod: &AnyRod, state: &State) -> Result<(), FigureError> {
     if let Some(springs) = rod.springs() {
         let base = rod.base(state.pose, &state.reactions);
         let compliance = springs.compliance();
         let (moves, turns) = (compliance[0][0] + compliance[1][1] > 0.0, compliance[2][2] > 0.0);
-        let place = Place::new((base.x, base.y), base.phi, window.scale);
-        chart.draw_series(springs_behind(moves, turns).into_iter().map(|line| place.line(line)))?;
+        let frame = DrawingFrame::new((base.x, base.y), base.phi, window.scale);
+        chart.draw_series(springs_behind(moves, turns).into_iter().map(|line| frame.line(line)))?;
     }
     if let Some(roller) = &state.roller {
-        let place = Place::new((roller.x, roller.y), roller.alpha, window.scale);
-        let middles = [-1.0, 1.0].map(|side| place.at((0.0, side * (ROLLER + GAP))));
+        let frame = DrawingFrame::new((roller.x, roller.y), roller.alpha, window.scale);
+        let middles = [-1.0, 1.0].map(|side| frame.at((0.0, side * (ROLLER + GAP))));
         chart.draw_series(middles.map(|at| Element::circle(at, ROLLER, WHITE.filled())))?;
         chart.draw_series(middles.map(|at| Element::circle(at, ROLLER, INK.stroke_width(LINE))))?;
     }
@@ -79,14 +79,14 @@ fn springs_behind(moves: bool, turns: bool) -> Vec<Vec<(f64, f64)>> {
 }
 
 /// A place (m) and a direction in the plane, to draw about by pixels.
-struct Place {
+struct DrawingFrame {
     origin: (f64, f64),
     sin_cos: (f64, f64),
     /// mm per pixel
     scale: f64,
 }
 
-impl Place {
+impl DrawingFrame {
     fn new((x, y): (f64, f64), direction: f64, scale: f64) -> Self {
         Self { origin: (1e3 * x, 1e3 * y), sin_cos: direction.sin_cos(), scale }
     }
@@ -108,7 +108,7 @@ mod tests {
     use rod_files::{Scan, Scene};
 
     /// The figure of a sweep with this table `[clamp]`.
-    fn drawn(clamp: &str) -> String {
+    fn figure_of_sweep(clamp: &str) -> String {
         let scene = include_str!("../../../scenes/O1_q40.toml").replace("step = 1e-3", "step = 1e-2");
         let scene = Scene::parse("scene.toml".as_ref(), &format!("{scene}\n{clamp}")).unwrap();
         figure::sweep(&Scan::run(scene).unwrap()).unwrap()
@@ -116,8 +116,8 @@ mod tests {
 
     #[test]
     fn what_holds_the_rod_is_drawn_at_both_ends_of_the_path() {
-        let lines = |clamp: &str| drawn(clamp).matches("stroke=\"#000000\" stroke-width=\"2\"").count();
-        let rollers = |clamp: &str| drawn(clamp).matches("<circle").count();
+        let lines = |clamp: &str| figure_of_sweep(clamp).matches("stroke=\"#000000\" stroke-width=\"2\"").count();
+        let rollers = |clamp: &str| figure_of_sweep(clamp).matches("<circle").count();
         let rigid = lines("");
         // the plate with five strokes and the connection; a spiral spring is one line more
         assert_eq!(lines("[clamp]\nstiffness_x = 500") - rigid, 2 * 7);

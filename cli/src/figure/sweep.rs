@@ -4,7 +4,7 @@ use super::canvas::{Area, FigureError, HPos, PAGE, TITLE, svg, width, write};
 use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
-use super::trace::{self, Along, Trace};
+use super::trace::{self, Along, TraceChart};
 use rod_files::Scan;
 use std::ops::Range;
 use vibrissa::State;
@@ -67,7 +67,7 @@ fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan, along: &Along) -> Re
     for (index, (name, quantity)) in quantities.into_iter().enumerate() {
         let (phases, foot) = (index == 0, index == 2);
         let (part, below) = rest.split_vertically(height + trace::trimmings(phases, foot));
-        trace::draw(root, &part, &Trace { along, parts: trace::parts(scan, quantity), name, phases, foot })?;
+        trace::draw(root, &part, &TraceChart { along, parts: trace::parts(scan, quantity), name, phases, foot })?;
         rest = below;
     }
     Ok(())

@@ -45,15 +45,15 @@ pub(crate) struct Along {
 }
 
 /// A part of a trace: points in the units of the axes.
-pub(crate) struct Part {
+pub(crate) struct TracePart {
     pub points: Vec<(f64, f64)>,
     pub style: ShapeStyle,
 }
 
 /// What to draw.
-pub(crate) struct Trace<'a> {
+pub(crate) struct TraceChart<'a> {
     pub along: &'a Along,
-    pub parts: Vec<Part>,
+    pub parts: Vec<TracePart>,
     /// The quantity and its unit.
     pub name: &'a str,
     /// Whether the phases stand above.
@@ -106,11 +106,11 @@ fn modes<'a>(part: &Interval<'a>) -> impl Iterator<Item = (usize, SlipMode)> + '
 }
 
 /// A quantity along a sweep, coloured by phase; a wide, pale line where a contact sticks or rolls.
-pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> {
+pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<TracePart> {
     let course = Course::of(&scan.scene);
     let point = |state: &&State| (course.value(state), quantity(state));
     let intervals = scan.intervals();
-    let drawn = |part: &Interval<'_>, style| Part { points: part.states.iter().map(point).collect(), style };
+    let drawn = |part: &Interval<'_>, style| TracePart { points: part.states.iter().map(point).collect(), style };
     let pieces = scan.between_events();
     let sticks = pieces.iter().filter(|part| modes(part).any(|(_, mode)| mode == SlipMode::Stick));
     let sticks = sticks.map(|part| drawn(part, mode_colour(SlipMode::Stick).stroke_width(PALE)));
@@ -118,7 +118,7 @@ pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<Part> 
 }
 
 /// Draws a trace into a part of `root`.
-pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &Trace<'_>) -> Result<(), FigureError> {
+pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &TraceChart<'_>) -> Result<(), FigureError> {
     let Along { across, foot, phases, marks, legs, modes } = trace.along;
     let values = trace.parts.iter().flat_map(|part| part.points.iter().map(|point| point.1));
     let mut up = span(values.chain([0.0]), 0.08);

@@ -3,7 +3,7 @@
 use super::error::PaperError;
 use super::figures::{contact_points, criterion, cycles, distances, goodness, notches, transitions};
 use super::naive::Naive;
-use super::resolved::Resolved;
+use super::resolved::ResolvedScan;
 use super::scans::{Entry, Paper, PaperScan, SCANS};
 use crate::results::write_sweep;
 use rayon::prelude::*;
@@ -63,8 +63,8 @@ impl Paper {
         if interrupt.is_raised() {
             return Ok(None);
         }
-        let resolved: Vec<Resolved<'_>> =
-            middle.par_iter().map(|scan| Resolved::of(scan.scan)).collect::<Result<_, PaperError>>()?;
+        let resolved: Vec<ResolvedScan<'_>> =
+            middle.par_iter().map(|scan| ResolvedScan::of(scan.scan)).collect::<Result<_, PaperError>>()?;
         let middle_scans: Vec<&Scan> = middle.iter().map(|scan| &scan.scan.scan).collect();
         if interrupt.is_raised() {
             return Ok(None);

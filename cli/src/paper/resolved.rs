@@ -12,7 +12,7 @@ use vibrissa::{Composite, Sample, Settings, Sweep, reconstruct};
 const STEP: f64 = 2e-5;
 
 /// What was found where there are two contacts, m.
-pub(crate) struct Resolved<'a> {
+pub(crate) struct ResolvedScan<'a> {
     pub scan: &'a PaperScan,
     /// Points of single contacts.
     pub single: Vec<(f64, f64)>,
@@ -30,7 +30,7 @@ pub(crate) struct Resolved<'a> {
     pub share: f64,
 }
 
-impl<'a> Resolved<'a> {
+impl<'a> ResolvedScan<'a> {
     /// Records the scan without noise, and reconstructs it from its reactions alone.
     ///
     /// # Errors

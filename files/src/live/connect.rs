@@ -43,7 +43,7 @@ impl Sensor {
                 let udp = Udp::connect(&place(*port)).map_err(|error| failed(Box::new(error)))?;
                 let protocol = Rdt::new(RdtSettings { clock_rate: setup.rate, ..RdtSettings::new(setup.profile) });
                 Ok(Self {
-                    feed: linked(udp, protocol).map_err(|error| failed(Box::new(error)))?,
+                    feed: open_link(udp, protocol).map_err(|error| failed(Box::new(error)))?,
                     calibration: Some(calibration),
                     name: address.to_string(),
                 })
@@ -62,7 +62,7 @@ impl Sensor {
                 let port = SerialPort::open(&path.to_string_lossy(), baud.unwrap_or(profile.baud()))
                     .map_err(|error| failed(Box::new(error)))?;
                 Ok(Self {
-                    feed: linked(port, profile.protocol()).map_err(|error| failed(Box::new(error)))?,
+                    feed: open_link(port, profile.protocol()).map_err(|error| failed(Box::new(error)))?,
                     calibration: Some(calibration),
                     name: address.to_string(),
                 })
@@ -78,7 +78,7 @@ struct Linked<E> {
     clock: HostClock,
 }
 
-fn linked<T, P>(transport: T, protocol: P) -> std::io::Result<Box<dyn Feed>>
+fn open_link<T, P>(transport: T, protocol: P) -> std::io::Result<Box<dyn Feed>>
 where
     T: Transport<Error: StdError + Send> + Send + 'static,
     P: Protocol + Send + 'static,

@@ -13,7 +13,7 @@ use vibrissa::hw::recording::{ColumnMap, Recorded, Role, RowFault, Table, TableE
 use vibrissa::hw::{LinkCounters, RawSample, ReactionSample, Scale, WrenchSample};
 
 /// A recording, played back as fast as it is asked for.
-struct Played {
+struct RecordingFeed {
     samples: std::vec::IntoIter<Result<Fed, Miss>>,
     handed: u64,
 }
@@ -31,7 +31,7 @@ pub(super) fn open(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Sens
     } else {
         table(file, setup, how)
     }?;
-    let feed = Box::new(Played { samples: samples.into_iter(), handed: 0 });
+    let feed = Box::new(RecordingFeed { samples: samples.into_iter(), handed: 0 });
     Ok(Sensor { feed, calibration, name: address(file) })
 }
 
@@ -39,12 +39,12 @@ fn address(file: &Path) -> String {
     format!("file:{}", file.display())
 }
 
-fn failed<E: StdError + Send + Sync + 'static>(file: &Path) -> impl Fn(E) -> LiveError {
+fn sensor_error<E: StdError + Send + Sync + 'static>(file: &Path) -> impl Fn(E) -> LiveError {
     move |error| LiveError::Sensor { address: address(file), source: Box::new(error) }
 }
 
 /// The calibration of raw values, which the setup must give.
-fn told(file: &Path, setup: &Setup) -> Result<SensorCalibration, LiveError> {
+fn required_calibration(file: &Path, setup: &Setup) -> Result<SensorCalibration, LiveError> {
     setup.calibration.clone().ok_or_else(|| LiveError::NoScale { address: address(file) })
 }
 
@@ -73,7 +73,7 @@ fn of_file<E: Display>(file: &Path) -> impl Fn(E) -> Miss {
 
 /// Raw values of the channels of a group.
 fn labview(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
-    let opened = TdmsFile::read(file).map_err(failed::<TdmsError>(file))?;
+    let opened = TdmsFile::read(file).map_err(sensor_error::<TdmsError>(file))?;
     let RecordingSetup { columns, group, time, .. } = &setup.recording;
     let group = group.as_ref().and_then(|name| opened.group(name)).ok_or_else(|| {
         choose(file, "group", opened.groups().map(|group| format!("`{}`", group.name())), opened.fault())
@@ -87,14 +87,14 @@ fn labview(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
         RecordingTime::Rate(rate) => TdmsTime::Rate(*rate),
     };
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let samples = tdms::samples(&opened, group.name(), &names, time).map_err(failed::<TdmsError>(file))?;
-    let calibration = told(file, setup)?;
+    let samples = tdms::samples(&opened, group.name(), &names, time).map_err(sensor_error::<TdmsError>(file))?;
+    let calibration = required_calibration(file, setup)?;
     Ok((samples.map(|sample| sample.map(Fed::Raw).map_err(of_file(file))).collect(), Some(calibration)))
 }
 
 /// Wrenches of a topic.
 fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
-    let opened = McapFile::read(file).map_err(failed::<McapError>(file))?;
+    let opened = McapFile::read(file).map_err(sensor_error::<McapError>(file))?;
     let topic = setup.recording.topic.as_ref().ok_or_else(|| {
         let named =
             |topic: &vibrissa::hw::recording::mcap::McapTopic| format!("`{}` of {}", topic.name, topic.type_name);
@@ -103,7 +103,7 @@ fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
     if setup.calibration.is_some() {
         return Err(LiveError::Calibrated { file: file.to_path_buf() });
     }
-    let wrenches = opened.wrenches(topic).map_err(failed::<McapError>(file))?;
+    let wrenches = opened.wrenches(topic).map_err(sensor_error::<McapError>(file))?;
     let samples = wrenches.map(|sample| sample.map(of_wrench).map_err(of_file(file)));
     Ok((samples.collect(), Some(SensorCalibration::Scale(Scale::si()))))
 }
@@ -134,7 +134,7 @@ fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Samples, LiveE
         }
     }
     match rows::<RawSample>(&table, &map, Fed::Raw) {
-        Ok(samples) => Ok((samples, Some(told(file, setup)?))),
+        Ok(samples) => Ok((samples, Some(required_calibration(file, setup)?))),
         Err(error) => {
             let TableError { file, line, problem } = complaint.unwrap_or(error);
             Err(match problem {
@@ -159,7 +159,7 @@ fn rows<S: Recorded>(
     Ok(table.samples::<S>(map)?.map(|row| row.map(&fed).map_err(fault)).collect())
 }
 
-impl Feed for Played {
+impl Feed for RecordingFeed {
     fn next(&mut self) -> Option<Result<Fed, Miss>> {
         let next = self.samples.next()?;
         self.handed += u64::from(next.is_ok());

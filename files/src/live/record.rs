@@ -13,7 +13,7 @@ use vibrissa::reconstruct::Reading;
 
 /// recording.csv and points.jsonl.
 #[derive(Debug)]
-pub(super) struct Record {
+pub(super) struct LiveFiles {
     directory: PathBuf,
     /// Lines of the recording's head: name and text.
     notes: Vec<(&'static str, String)>,
@@ -38,7 +38,7 @@ struct LiveRecord {
     point: PointRecord,
 }
 
-impl Record {
+impl LiveFiles {
     pub fn new(directory: &Path, notes: Vec<(&'static str, String)>) -> Result<Self, OutputError> {
         fs::create_dir_all(directory)
             .map_err(|source| OutputError::Directory { directory: directory.to_path_buf(), source })?;
@@ -58,11 +58,11 @@ impl Record {
                 };
                 let out = BufWriter::new(create(&self.directory, RECORDING)?);
                 let notes: Vec<(&str, &str)> = self.notes.iter().map(|(key, text)| (*key, text.as_str())).collect();
-                Recorder::new(out, &notes, contents).map_err(self.failed(RECORDING))?
+                Recorder::new(out, &notes, contents).map_err(self.write_error(RECORDING))?
             }
         };
         let written = self.recorder.insert(recorder).write(sample);
-        written.map_err(self.failed(RECORDING))
+        written.map_err(self.write_error(RECORDING))
     }
 
     pub fn answer(&mut self, sample: &ReactionSample, reading: Option<&Reading>) -> Result<(), OutputError> {
@@ -76,28 +76,28 @@ impl Record {
             self.line.push(b'\n');
             self.points.write_all(&self.line)
         });
-        written.map_err(self.failed(POINTS))
+        written.map_err(self.write_error(POINTS))
     }
 
     pub fn flush(&mut self) -> Result<(), OutputError> {
-        self.points.flush().map_err(self.failed(POINTS))
+        self.points.flush().map_err(self.write_error(POINTS))
     }
 
     /// Closes both and writes the summary beside them.
     pub fn finish(mut self, counters: &LinkCounters, summary: &impl Serialize) -> Result<(), OutputError> {
         self.flush()?;
         if let Some(recorder) = self.recorder.take() {
-            recorder.finish(Some(counters)).map_err(self.failed(RECORDING))?;
+            recorder.finish(Some(counters)).map_err(self.write_error(RECORDING))?;
         }
         let mut out = BufWriter::new(create(&self.directory, SUMMARY)?);
         serde_json::to_writer_pretty(&mut out, summary)
             .map_err(io::Error::from)
             .and_then(|()| out.write_all(b"\n"))
             .and_then(|()| out.flush())
-            .map_err(self.failed(SUMMARY))
+            .map_err(self.write_error(SUMMARY))
     }
 
-    fn failed(&self, name: &str) -> impl Fn(io::Error) -> OutputError + use<> {
+    fn write_error(&self, name: &str) -> impl Fn(io::Error) -> OutputError + use<> {
         let file = self.directory.join(name);
         move |source| OutputError::File { file: file.clone(), source }
     }

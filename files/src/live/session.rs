@@ -4,7 +4,7 @@ use super::error::LiveError;
 use super::feed::{Fed, Miss};
 use super::head::{Head, PATIENCE, head};
 use super::physics::Physics;
-use super::record::{Record, check};
+use super::record::{LiveFiles, check};
 use super::rounding::rounding;
 use super::scan::LiveScan;
 use super::sensor::Sensor;
@@ -57,7 +57,7 @@ impl LiveScan {
         let clock = "seconds from the first sample".to_owned();
         let notes = vec![("sensor", sensor.name.clone()), ("tare", tare), ("clock", clock)];
         let mut recorded = Recorded {
-            record: Record::new(out, notes)?,
+            record: LiveFiles::new(out, notes)?,
             report,
             physics: Physics::new(),
             label: None,
@@ -149,7 +149,7 @@ fn settings(scan: &LiveScan, free: &[ReactionSample], rounding: Reactions) -> Re
 
 /// The files and the lines of progress of a scan while it runs.
 struct Recorded<'a> {
-    record: Record,
+    record: LiveFiles,
     report: LiveReport,
     physics: Physics,
     /// The label of the last answer.

@@ -234,7 +234,7 @@ impl LiveReport {
             flagged: self.qualities.clone(),
             without_reactions: self.misses,
             first_without: self.first_miss.clone(),
-            noise: NoiseRecord { f0x: self.noise[0], f0y: self.noise[1], m0z: self.noise[2] },
+            noise: LiveNoiseRecord { f0x: self.noise[0], f0y: self.noise[1], m0z: self.noise[2] },
             spacing: self.spacing,
             delay: self.delay,
             latency: LatencyRecord {
@@ -266,7 +266,7 @@ struct SummaryRecord {
     without_reactions: u64,
     first_without: Option<String>,
     /// Standard deviations.
-    noise: NoiseRecord,
+    noise: LiveNoiseRecord,
     /// Path length of the clamp from sample to sample, m.
     spacing: f64,
     /// Number of samples after a sample at which its answer came.
@@ -278,7 +278,7 @@ struct SummaryRecord {
 }
 
 #[derive(Serialize)]
-struct NoiseRecord {
+struct LiveNoiseRecord {
     f0x: f64,
     f0y: f64,
     m0z: f64,

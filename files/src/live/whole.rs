@@ -9,7 +9,7 @@ use super::summary::LiveReport;
 use vibrissa::hw::{Calibration, ChainError, LinkCounters, RawSample, ReactionSample, StageError, StageSource};
 
 /// A recording as reactions.
-pub(crate) struct Whole {
+pub(crate) struct RecordedReactions {
     /// For each sample its reactions, or why it has none.
     pub samples: Vec<Result<ReactionSample, String>>,
     /// Samples after the arrival of the stage, which are left out.
@@ -23,8 +23,9 @@ impl LiveScan {
     ///
     /// # Errors
     /// [`LiveError`]: too few samples, no tare, or nothing tells the poses of the clamp.
-    pub(crate) fn whole(&self, mut sensor: Sensor) -> Result<Whole, LiveError> {
-        let fed: Vec<Result<Fed, Miss>> = std::iter::from_fn(|| sensor.feed.next()).zip(0..).map(numbered).collect();
+    pub(crate) fn whole(&self, mut sensor: Sensor) -> Result<RecordedReactions, LiveError> {
+        let fed: Vec<Result<Fed, Miss>> =
+            std::iter::from_fn(|| sensor.feed.next()).zip(0..).map(with_sequence_number).collect();
         sensor.feed = Box::new(Again { fed: fed.clone().into_iter(), handed: 0 });
         let mut report = LiveReport::new(self, &sensor.name);
         let Head { mut chain, samples, .. } = head(self, &mut sensor, &mut report, &mut |_| (), &|| false)?;
@@ -47,13 +48,17 @@ impl LiveScan {
             });
         }
         let beyond = fed.len() - found.len();
-        Ok(Whole { samples: found, beyond, remarks: report.findings().iter().map(ToString::to_string).collect() })
+        Ok(RecordedReactions {
+            samples: found,
+            beyond,
+            remarks: report.findings().iter().map(ToString::to_string).collect(),
+        })
     }
 }
 
 /// The sample with its number in the recording, by which it is found again. Times of a recording are its own, so that the number that
 /// the device gave it is not needed.
-fn numbered((fed, number): (Result<Fed, Miss>, u64)) -> Result<Fed, Miss> {
+fn with_sequence_number((fed, number): (Result<Fed, Miss>, u64)) -> Result<Fed, Miss> {
     fed.map(|fed| match fed {
         Fed::Raw(raw) => Fed::Raw(RawSample { sequence: Some(number), ..raw }),
         Fed::Reactions(sample) => Fed::Reactions(sample),

@@ -35,7 +35,7 @@ const GAUSS: [(f64, f64); 5] = [
 
 /// A place on a stretch, by its own parameter.
 #[derive(Clone, Copy)]
-struct Place {
+struct StretchPoint {
     t: f64,
     frame: Frame,
 }
@@ -113,8 +113,8 @@ impl<'a> Tracer<'a> {
         self.contour.neighbour(stretch, after).is_some_and(|next| !self.is_piece(next))
     }
 
-    fn place(&self, stretch: usize, t: f64) -> Place {
-        Place { t, frame: self.contour.own_frame(stretch, t) }
+    fn place(&self, stretch: usize, t: f64) -> StretchPoint {
+        StretchPoint { t, frame: self.contour.own_frame(stretch, t) }
     }
 
     fn push(&mut self, frame: Frame) {
@@ -125,7 +125,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The points after the first one of a part that bends one way only.
-    fn part(&mut self, stretch: usize, from: Place, to: Place) -> Option<()> {
+    fn part(&mut self, stretch: usize, from: StretchPoint, to: StretchPoint) -> Option<()> {
         let at = |share: usize| from.t + (to.t - from.t) * share as f64 / FIRST as f64;
         let angles = (0..=FIRST).map(|share| self.contour.own_frame(stretch, at(share)).alpha);
         if angles.clone().all(|angle| (angle - from.frame.alpha).abs() <= STRAIGHT) {
@@ -140,7 +140,7 @@ impl<'a> Tracer<'a> {
         Some(())
     }
 
-    fn halve(&mut self, stretch: usize, from: Place, to: Place, halvings: u32) -> Option<()> {
+    fn halve(&mut self, stretch: usize, from: StretchPoint, to: StretchPoint, halvings: u32) -> Option<()> {
         let middle = self.place(stretch, 0.5 * (from.t + to.t));
         if halvings == 0 || off_chord(from.frame, middle.frame, to.frame) <= self.tolerance {
             return self.go(stretch, from.t, to);
@@ -150,7 +150,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Adds a point.
-    fn go(&mut self, stretch: usize, from: f64, to: Place) -> Option<()> {
+    fn go(&mut self, stretch: usize, from: f64, to: StretchPoint) -> Option<()> {
         if self.points.len() >= self.room {
             return None;
         }

@@ -1,9 +1,9 @@
 //! From a document to a scene: every number checked where it stands.
 
-use super::document::{Document, Point, SweepTable};
-use super::numbers::{counted, not, too_large};
+use super::document::{PointValue, SceneDocument, SweepTable};
+use super::numbers::{check_step_count, not, too_large};
 use super::{Scene, files, friction, leg, object, plausible, rod_table};
-use crate::toml_file::{Fault, Source};
+use crate::toml_file::{Fault, SourceText};
 use std::path::Path;
 use toml::Spanned;
 use vibrissa::contact::ContactError;
@@ -14,24 +14,29 @@ const LEAST_RADIUS: f64 = 1e-12;
 
 /// Files that the objects name are looked for in `directory`. What is wrong may come from a number of another field that is not plausible: the
 /// message then names that one, too.
-pub(super) fn scene(name: String, source: Source, document: Document, directory: &Path) -> Result<Scene, Fault> {
+pub(super) fn scene(
+    name: String,
+    source: SourceText,
+    document: SceneDocument,
+    directory: &Path,
+) -> Result<Scene, Fault> {
     let unlikely = plausible::scene(&document.tables);
     let also = unlikely.first().map(|also| (also.clone(), source.place(also.clone()).without_place()));
-    checked(name, source, document, directory, unlikely).map_err(|fault| match also {
+    scene_of_document(name, source, document, directory, unlikely).map_err(|fault| match also {
         Some((also, said)) => fault.beside(&also, &said),
         None => fault,
     })
 }
 
-fn checked(
+fn scene_of_document(
     name: String,
-    source: Source,
-    document: Document,
+    source: SourceText,
+    document: SceneDocument,
     directory: &Path,
     unlikely: Vec<Fault>,
 ) -> Result<Scene, Fault> {
-    let files = std::iter::once(source.file().to_path_buf()).chain(files::named(&document, directory)).collect();
-    let Document { tables, contour, objects: pieces } = document;
+    let files = std::iter::once(source.file().to_path_buf()).chain(files::named_files(&document, directory)).collect();
+    let SceneDocument { tables, contour, objects: pieces } = document;
     let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
     let objects = object::all(&tables, &contour, &pieces, directory)?;
     let least = LEAST_RADIUS * rod.length();
@@ -53,7 +58,7 @@ fn checked(
 fn path(sweep: &SweepTable) -> Result<ClampPath, Fault> {
     let SweepTable { from, to, angle, angle_to, .. } = sweep;
     let angle_to = angle_to.as_ref().unwrap_or(angle);
-    let pose = |point: &Spanned<Point>, angle: &Spanned<f64>| {
+    let pose = |point: &Spanned<PointValue>, angle: &Spanned<f64>| {
         let [x, y] = point.get_ref().0;
         Pose { x, y, phi: angle.get_ref().to_radians() }
     };
@@ -86,10 +91,10 @@ fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
     let missing =
         |what: &str| Fault::new(table.span(), format!("missing field {what}, the distance between reported states"));
     match (path.turns_only(), step, step_angle) {
-        (false, Some(step), None) => counted(step.span(), "step", *step.get_ref(), path.length()),
+        (false, Some(step), None) => check_step_count(step.span(), "step", *step.get_ref(), path.length()),
         (true, None, Some(step)) => {
             let angle = *step.get_ref();
-            counted(step.span(), "step_angle", angle, path.length().to_degrees()).map(f64::to_radians)
+            check_step_count(step.span(), "step_angle", angle, path.length().to_degrees()).map(f64::to_radians)
         }
         (true, Some(step), _) => {
             let (span, step) = (step.span(), step.get_ref());

@@ -1,6 +1,6 @@
 //! The scene file as written: names, types and spans, no physics.
 
-use super::shape::Piece;
+use super::shape::PieceTable;
 use crate::toml_file::{Fault, comma_in_list};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -11,17 +11,17 @@ use toml::de::{DeTable, DeValue};
 use vibrissa::reconstruct::Source;
 
 /// A scene file, the pieces of its objects beside it.
-pub(super) struct Document {
-    pub tables: Tables,
+pub(super) struct SceneDocument {
+    pub tables: SceneTables,
     /// Those of `[contour]`.
-    pub contour: Vec<Piece>,
+    pub contour: Vec<PieceTable>,
     /// Those of each `[[object]]`.
-    pub objects: Vec<Vec<Piece>>,
+    pub objects: Vec<Vec<PieceTable>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Tables {
+pub(super) struct SceneTables {
     pub rod: Spanned<RodTable>,
     pub clamp: Option<Spanned<ClampTable>>,
     pub contact: Option<Spanned<ContactTable>>,
@@ -91,7 +91,7 @@ pub(super) struct SectionTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ObjectTable {
-    pub position: Option<Spanned<Point>>,
+    pub position: Option<Spanned<PointValue>>,
     pub angle: Option<Spanned<f64>>,
     pub scale: Option<Spanned<f64>>,
     #[serde(default)]
@@ -109,8 +109,8 @@ pub(super) struct ObjectTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SweepTable {
-    pub from: Spanned<Point>,
-    pub to: Spanned<Point>,
+    pub from: Spanned<PointValue>,
+    pub to: Spanned<PointValue>,
     pub angle: Spanned<f64>,
     pub angle_to: Option<Spanned<f64>>,
     pub step: Option<Spanned<f64>>,
@@ -123,9 +123,9 @@ pub(super) struct SweepTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LegTable {
-    pub to: Option<Spanned<Point>>,
+    pub to: Option<Spanned<PointValue>>,
     pub angle_to: Option<Spanned<f64>>,
-    pub pivot: Option<Spanned<Point>>,
+    pub pivot: Option<Spanned<PointValue>>,
     pub turn: Option<Spanned<f64>>,
     pub step: Option<Spanned<f64>>,
     pub step_angle: Option<Spanned<f64>>,
@@ -134,9 +134,9 @@ pub(super) struct LegTable {
 /// Two coordinates. Not an array of two, of which serde would overlook a third number.
 #[derive(Deserialize)]
 #[serde(try_from = "Vec<f64>")]
-pub(super) struct Point(pub [f64; 2]);
+pub(super) struct PointValue(pub [f64; 2]);
 
-impl TryFrom<Vec<f64>> for Point {
+impl TryFrom<Vec<f64>> for PointValue {
     type Error = String;
 
     fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
@@ -149,7 +149,7 @@ impl TryFrom<Vec<f64>> for Point {
 }
 
 /// The tree as a document.
-pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<Document, Fault> {
+pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<SceneDocument, Fault> {
     let single = |name: &str| table.get_ref().get(name).filter(|value| value.get_ref().is_array());
     if let Some((name, list)) =
         ["rod", "clamp", "contact", "contour", "sweep"].iter().find_map(|name| Some((name, single(name)?)))
@@ -174,16 +174,16 @@ pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<Document, Faul
     if let Some(leg) = sweep.and_then(|sweep| sweep.get("leg")).filter(|leg| leg.get_ref().is_table()) {
         return Err(Fault::new(leg.span(), "a table where a list belongs, expected [[sweep.leg]] before each leg"));
     }
-    let tables = Tables::deserialize(toml::de::Deserializer::from(table))?;
-    Ok(Document { tables, contour, objects })
+    let tables = SceneTables::deserialize(toml::de::Deserializer::from(table))?;
+    Ok(SceneDocument { tables, contour, objects })
 }
 
 /// Takes the pieces out of an object. What is not in its place stays there, for serde to complain about.
-fn pieces(object: &mut Spanned<DeValue<'_>>) -> Result<Vec<Piece>, Fault> {
+fn pieces(object: &mut Spanned<DeValue<'_>>) -> Result<Vec<PieceTable>, Fault> {
     let DeValue::Table(object) = object.get_mut() else { return Ok(Vec::new()) };
     match object.get_mut("piece").map(Spanned::get_mut) {
         Some(DeValue::Array(pieces)) => {
-            std::mem::replace(pieces, std::iter::empty().collect()).into_iter().map(Piece::read).collect()
+            std::mem::replace(pieces, std::iter::empty().collect()).into_iter().map(PieceTable::read).collect()
         }
         _ => Ok(Vec::new()),
     }

@@ -1,13 +1,13 @@
 //! The files that a scene names.
 
-use super::document::Document;
+use super::document::SceneDocument;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Files of points, drawings and shapes, and those that a file of shapes names in turn. Relative ones are looked for in the
 /// directory of the file that names them.
-pub(super) fn named(document: &Document, directory: &Path) -> Vec<PathBuf> {
-    let Document { tables, contour, objects } = document;
+pub(super) fn named_files(document: &SceneDocument, directory: &Path) -> Vec<PathBuf> {
+    let SceneDocument { tables, contour, objects } = document;
     let pieces = contour.iter().chain(objects.iter().flatten()).filter_map(|piece| piece.file());
     let mut files: Vec<PathBuf> = pieces.map(|file| directory.join(file)).collect();
     let tables = tables.contour.iter().chain(&tables.object);

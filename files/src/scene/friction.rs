@@ -1,7 +1,7 @@
 //! Friction of a scene: one coefficient for all, one of an object, one of a piece; the closest one counts.
 
-use super::document::Tables;
-use super::shape::Piece;
+use super::document::SceneTables;
+use super::shape::PieceTable;
 use crate::toml_file::{Fault, number};
 use std::ops::Range;
 use toml::{Spanned, Value};
@@ -41,9 +41,9 @@ impl Friction for SceneFriction {
 
 /// The friction of a scene, none where it is nowhere mentioned or 0, with warnings for values that may be mistakes.
 pub(super) fn friction(
-    tables: &Tables,
-    contour: &[Piece],
-    objects: &[Vec<Piece>],
+    tables: &SceneTables,
+    contour: &[PieceTable],
+    objects: &[Vec<PieceTable>],
     shapes: &[Composite],
 ) -> Result<(Option<SceneFriction>, Vec<Fault>), Fault> {
     let mut warnings = Vec::new();

@@ -73,11 +73,11 @@ fn parse(file: &Path, text: &str, instead: &str) -> Result<(Rod, Known), SceneEr
 impl RodFile {
     /// The calibration of the file.
     fn known(&self, rod: &Rod) -> Result<Known, Fault> {
-        self.calibration.as_ref().map_or(Ok(Known::NOTHING), |table| known(table.get_ref(), rod))
+        self.calibration.as_ref().map_or(Ok(Known::NOTHING), |table| known_of_table(table.get_ref(), rod))
     }
 }
 
-fn known(table: &CalibrationTable, rod: &Rod) -> Result<Known, Fault> {
+fn known_of_table(table: &CalibrationTable, rod: &Rod) -> Result<Known, Fault> {
     table.iter().try_fold(Known::NOTHING, |known, (source, estimate)| {
         let EstimateTable { value, sigma, unit } = estimate.get_ref();
         let (expected, size) = unit_of(*source, rod);

@@ -1,7 +1,7 @@
 //! Further legs of the clamp's path: `[[sweep.leg]]`.
 
 use super::document::{LegTable, SweepTable};
-use super::numbers::{counted, not, too_large};
+use super::numbers::{check_step_count, not, too_large};
 use crate::toml_file::Fault;
 use std::sync::Arc;
 use toml::Spanned;
@@ -148,8 +148,8 @@ fn step(table: &Spanned<LegTable>, sweep: &SweepTable, path: &LegPath) -> Result
         return Err(Fault::new(table.span(), message));
     };
     if path.turns_only() {
-        counted(one.span(), what, *one.get_ref(), path.length().to_degrees()).map(f64::to_radians)
+        check_step_count(one.span(), what, *one.get_ref(), path.length().to_degrees()).map(f64::to_radians)
     } else {
-        counted(one.span(), what, *one.get_ref(), path.length())
+        check_step_count(one.span(), what, *one.get_ref(), path.length())
     }
 }

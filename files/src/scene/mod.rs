@@ -24,7 +24,7 @@ pub(crate) use numbers::MOST_STATES;
 pub use rod::read_rod;
 
 use crate::SceneError;
-use crate::toml_file::{self, Source};
+use crate::toml_file::{self, SourceText};
 use rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -58,7 +58,7 @@ pub struct Scene {
     pub warnings: Vec<String>,
     /// The file of the scene, and those that it names.
     pub files: Vec<PathBuf>,
-    source: Source,
+    source: SourceText,
 }
 
 impl Scene {
@@ -97,7 +97,7 @@ impl Scene {
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let directory = file.parent().unwrap_or(file);
-        let source = Source::new(file, text);
+        let source = SourceText::new(file, text);
         let read =
             |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
         let (mut scene, warnings) = toml_file::parse_angles(file, text, read)?;

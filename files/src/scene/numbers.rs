@@ -19,7 +19,7 @@ pub(super) fn too_large(what: &str, value: f64) -> String {
 }
 
 /// A step that is one, and of which `length` has not too many.
-pub(super) fn counted(span: Range<usize>, what: &str, step: f64, length: f64) -> Result<f64, Fault> {
+pub(super) fn check_step_count(span: Range<usize>, what: &str, step: f64, length: f64) -> Result<f64, Fault> {
     if !(step.is_finite() && step > 0.0) {
         return Err(Fault::new(span, format!("{what} is {step}, expected a positive, finite number")));
     }

@@ -1,7 +1,7 @@
 //! Objects: contours of pieces, put where they stand.
 
-use super::document::{ObjectTable, Tables};
-use super::shape::Piece;
+use super::document::{ObjectTable, SceneTables};
+use super::shape::PieceTable;
 use crate::toml_file::Fault;
 use std::ops::Range;
 use std::path::Path;
@@ -12,9 +12,9 @@ use vibrissa::contour::{ContourError, Motion, SelfCrossing, file};
 
 /// All objects of a scene in order: `[contour]`, then every `[[object]]`.
 pub(super) fn all(
-    tables: &Tables,
-    contour: &[Piece],
-    objects: &[Vec<Piece>],
+    tables: &SceneTables,
+    contour: &[PieceTable],
+    objects: &[Vec<PieceTable>],
     directory: &Path,
 ) -> Result<Vec<Composite>, Fault> {
     let own = tables.contour.iter().map(|table| (table, contour));
@@ -30,7 +30,7 @@ pub(super) fn all(
     Ok(objects)
 }
 
-fn object(table: &Spanned<ObjectTable>, pieces: &[Piece], directory: &Path) -> Result<Composite, Fault> {
+fn object(table: &Spanned<ObjectTable>, pieces: &[PieceTable], directory: &Path) -> Result<Composite, Fault> {
     let at = table.span();
     let ObjectTable { reversed, hollow, file, .. } = table.get_ref();
     let motion = motion(table.get_ref())?;
@@ -40,11 +40,11 @@ fn object(table: &Spanned<ObjectTable>, pieces: &[Piece], directory: &Path) -> R
             return Err(Fault::new(file.span(), "given beside pieces, expected either pieces or a file"));
         }
         (Some(file), []) => from_file(file, directory)?,
-        (None, pieces) => of_pieces(&at, pieces, directory)?,
+        (None, pieces) => composite_of(&at, pieces, directory)?,
     };
     let contour = contour.moved(motion).map_err(|error| Fault::new(at.clone(), error.to_string()))?;
     let contour = if *reversed { contour.reversed() } else { contour };
-    oriented(contour, hollow.as_ref(), at)
+    check_orientation(contour, hollow.as_ref(), at)
 }
 
 fn from_file(file: &Spanned<std::path::PathBuf>, directory: &Path) -> Result<Composite, Fault> {
@@ -56,7 +56,7 @@ fn from_file(file: &Spanned<std::path::PathBuf>, directory: &Path) -> Result<Com
     }
 }
 
-fn of_pieces(at: &Range<usize>, pieces: &[Piece], directory: &Path) -> Result<Composite, Fault> {
+fn composite_of(at: &Range<usize>, pieces: &[PieceTable], directory: &Path) -> Result<Composite, Fault> {
     let mut shapes = Pieces::new();
     // To which piece of the file each shape belongs, and which of how many of that piece it is.
     let mut origins = Vec::new();
@@ -67,7 +67,7 @@ fn of_pieces(at: &Range<usize>, pieces: &[Piece], directory: &Path) -> Result<Co
         shapes.extend(contours);
     }
     let fault = |error: ContourError| {
-        let (blamed, other) = blamed(&error);
+        let (blamed, other) = faulty_pieces(&error);
         let origin = |number: Option<usize>| origins.get(number?.checked_sub(1)?);
         let span = origin(blamed).and_then(|origin| pieces.get(origin.piece)).map_or(at, |piece| &piece.span);
         let mut message = error.to_string();
@@ -113,7 +113,7 @@ struct Origin {
 
 /// The number of the piece to be blamed, and of the other one, where there is one: the library counts from 1. Of two
 /// that do not fit it is the second one that was put in the wrong place.
-fn blamed(error: &ContourError) -> (Option<usize>, Option<usize>) {
+fn faulty_pieces(error: &ContourError) -> (Option<usize>, Option<usize>) {
     match *error {
         ContourError::NoCrossing { piece, next, .. } | ContourError::Apart { piece, next, .. } => {
             (Some(next), Some(piece))
@@ -162,7 +162,7 @@ fn motion(table: &ObjectTable) -> Result<Motion, Fault> {
 }
 
 /// The contour, if it runs as it is said to.
-fn oriented(contour: Composite, hollow: Option<&Spanned<bool>>, at: Range<usize>) -> Result<Composite, Fault> {
+fn check_orientation(contour: Composite, hollow: Option<&Spanned<bool>>, at: Range<usize>) -> Result<Composite, Fault> {
     let said = hollow.is_some_and(|hollow| *hollow.get_ref());
     let span = hollow.map_or(at, Spanned::span);
     match (said, contour.is_closed(), contour.is_cavity()) {

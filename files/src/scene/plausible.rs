@@ -1,6 +1,6 @@
 //! Numbers of a scene that are valid, but no rod and no scan have them: most often a wrong unit.
 
-use super::document::{Point, RodTable, SectionTable, Tables};
+use super::document::{PointValue, RodTable, SceneTables, SectionTable};
 use crate::toml_file::Fault;
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -18,7 +18,7 @@ const LONG_WAY: f64 = 100.0;
 type Field<'a> = (&'static str, Option<&'a Spanned<f64>>, RangeInclusive<f64>, &'static str);
 
 /// A warning for each number of a scene outside of its plausible range.
-pub(super) fn scene(tables: &Tables) -> Vec<Fault> {
+pub(super) fn scene(tables: &SceneTables) -> Vec<Fault> {
     let rod = tables.rod.get_ref();
     let sections = rod.section.iter().flat_map(|section| section_fields(section.get_ref()));
     let fields = rod_fields(rod).into_iter().chain(sections);
@@ -48,9 +48,9 @@ fn unlikely((name, field, range, unit): Field<'_>) -> Option<Fault> {
 }
 
 /// A first leg that is very long beside the rod.
-fn long_way(tables: &Tables) -> Option<Fault> {
+fn long_way(tables: &SceneTables) -> Option<Fault> {
     let (sweep, rod) = (tables.sweep.get_ref(), tables.rod.get_ref());
-    let [Point([x0, y0]), Point([x1, y1])] = [sweep.from.get_ref(), sweep.to.get_ref()];
+    let [PointValue([x0, y0]), PointValue([x1, y1])] = [sweep.from.get_ref(), sweep.to.get_ref()];
     let lengths = (x1 - x0).hypot(y1 - y0) / rod.length.get_ref();
     let text = format!("the path is {lengths:.0} lengths of the rod long; are from and to in m?");
     (lengths > LONG_WAY && lengths.is_finite()).then(|| Fault::new(sweep.to.span(), text))

@@ -46,7 +46,7 @@ impl RodFile {
 
     /// The rod of any kind on its clamp.
     pub fn any(&self) -> Result<AnyRod, Fault> {
-        rod_table::recorded(&self.rod, self.clamp.as_ref())
+        rod_table::rod_for_recordings(&self.rod, self.clamp.as_ref())
     }
 }
 

@@ -40,12 +40,15 @@ pub(super) fn rod(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>
             let in_mm = (spec.length..1e3 * spec.length).contains(roller.get_ref());
             Fault::new(roller.span(), format!("{fault}{}", if in_mm { "; is it in mm?" } else { "" }))
         }
-        None => placed(table, fault),
+        None => fault_in_table(table, fault),
     })
 }
 
 /// The rod of a table `[rod]` on the springs of a table `[clamp]`, for recordings of it.
-pub(super) fn recorded(table: &Spanned<RodTable>, clamp: Option<&Spanned<ClampTable>>) -> Result<AnyRod, Fault> {
+pub(super) fn rod_for_recordings(
+    table: &Spanned<RodTable>,
+    clamp: Option<&Spanned<ClampTable>>,
+) -> Result<AnyRod, Fault> {
     let springs = springs(clamp)?;
     Ok(alone(table)?.with_springs(springs))
 }
@@ -58,7 +61,7 @@ pub(super) fn uniform(table: &Spanned<RodTable>, instead: &str) -> Result<Rod, F
 
 /// The rod of a table, clamped rigidly.
 fn alone(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
-    spec(table)?.build().map_err(|fault| placed(table, fault))
+    spec(table)?.build().map_err(|fault| fault_in_table(table, fault))
 }
 
 /// The clamp of a table `[clamp]`, rigid without one.
@@ -138,7 +141,7 @@ fn curvature(field: &Spanned<Value>) -> Result<CurvatureSpec, Fault> {
 }
 
 /// What is wrong with a rod, where that stands in its table.
-fn placed(table: &Spanned<RodTable>, fault: RodFault) -> Fault {
+fn fault_in_table(table: &Spanned<RodTable>, fault: RodFault) -> Fault {
     let place = match fault.section.and_then(|index| table.get_ref().section.get(index)) {
         Some(section) => fault.field.and_then(|field| of_section(section.get_ref(), field)).unwrap_or(section.span()),
         None => fault.field.and_then(|field| of_rod(table.get_ref(), field)).unwrap_or(table.span()),

@@ -15,24 +15,24 @@ const TAG: &str = "shape";
 const FRICTION: &str = "friction";
 
 /// One `[[contour.piece]]` or `[[object.piece]]`.
-pub(super) struct Piece {
+pub(super) struct PieceTable {
     pub span: Range<usize>,
     /// Its coefficient of friction, if it has one of its own.
     pub friction: Option<Spanned<toml::Value>>,
     shape: Shape,
-    fields: Vec<Field>,
+    fields: Vec<ShapeField>,
     /// Of how many pieces of contour it consists, once these were made.
     count: Cell<usize>,
 }
 
 /// Where a field stands, and its values where it is a list.
-struct Field {
+struct ShapeField {
     name: String,
     span: Range<usize>,
     items: Vec<Range<usize>>,
 }
 
-impl Piece {
+impl PieceTable {
     /// A piece as written. Without the name of its shape the table holds the fields of the library's description, read by
     /// name: serde loses all places on its way through an enum with the name inside.
     pub fn read(value: Spanned<DeValue<'_>>) -> Result<Self, Fault> {
@@ -118,14 +118,14 @@ impl Piece {
     }
 }
 
-fn fields(table: &DeTable<'_>) -> Vec<Field> {
+fn fields(table: &DeTable<'_>) -> Vec<ShapeField> {
     let mut fields = Vec::new();
     for (name, value) in table {
         let items = match value.get_ref() {
             DeValue::Array(items) => items.iter().map(Spanned::span).collect(),
             _ => Vec::new(),
         };
-        fields.push(Field { name: name.get_ref().to_string(), span: value.span(), items });
+        fields.push(ShapeField { name: name.get_ref().to_string(), span: value.span(), items });
     }
     fields
 }

@@ -1,6 +1,6 @@
 //! From a document to a setup: every number checked where it stands.
 
-use super::document::{AccuracyTable, Document, MountingTable, SensorTable, TareTable};
+use super::document::{AccuracyTable, MountingTable, SensorTable, SetupDocument, TareTable};
 use super::errors::errors;
 use super::field::{component, positive, units};
 use super::gauges::gauges;
@@ -18,8 +18,9 @@ use vibrissa::hw::{
 };
 
 /// The setup of a document; files that it names are in the directory.
-pub(super) fn setup(document: &Document, tree: &DeTable<'_>, directory: &Path) -> Result<Setup, Fault> {
-    let Document { sensor, mounting, accuracy, tare, identification, recording: played, errors: shared } = document;
+pub(super) fn setup(document: &SetupDocument, tree: &DeTable<'_>, directory: &Path) -> Result<Setup, Fault> {
+    let SetupDocument { sensor, mounting, accuracy, tare, identification, recording: played, errors: shared } =
+        document;
     let table = |name| place_of(tree, name).unwrap_or(0..0);
     let (calibration, rated) = match gauges(sensor, table("sensor"), directory)? {
         Some((gauges, rated)) => (Some(SensorCalibration::Gauges(gauges)), rated),

@@ -6,7 +6,7 @@ use toml::{Spanned, Value};
 /// A setup file.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Document {
+pub(super) struct SetupDocument {
     #[serde(default)]
     pub sensor: SensorTable,
     #[serde(default)]

@@ -99,7 +99,7 @@ fn of_calibration<const N: usize>(
             (0..channels).map(|i| if i < N { (low, high) } else { (f64::NEG_INFINITY, f64::INFINITY) }).collect();
         Rails::new(&ends).map_err(|error| Fault::new(file.span(), error.to_string()))
     });
-    biased(matrix, bias, channels, rails.transpose()?.unwrap_or_else(Rails::none))
+    gauges_with_bias(matrix, bias, channels, rails.transpose()?.unwrap_or_else(Rails::none))
 }
 
 type Rows = Spanned<Vec<Spanned<Vec<f64>>>>;
@@ -149,10 +149,10 @@ fn of_matrix<const N: usize>(
         let span = row.and_then(|row| rows.get_ref().get(row)).map_or(rows.span(), Spanned::span);
         Fault::new(span, error.to_string())
     })?;
-    biased(matrix, bias, N, Rails::none())
+    gauges_with_bias(matrix, bias, N, Rails::none())
 }
 
-fn biased<const N: usize>(
+fn gauges_with_bias<const N: usize>(
     matrix: GaugeMatrix<N>,
     bias: &Option<Spanned<Vec<f64>>>,
     channels: usize,

@@ -16,7 +16,7 @@ pub use errors::SharedErrors;
 pub use recording::{RecordingSetup, RecordingTime};
 
 use crate::{SceneError, toml_file};
-use document::Document;
+use document::SetupDocument;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -116,7 +116,7 @@ impl Setup {
         let read = |table: Spanned<DeTable<'_>>| {
             let tree = table.get_ref().clone();
             let directory = file.parent().unwrap_or(file);
-            let document = Document::deserialize(Deserializer::from(table))?;
+            let document = SetupDocument::deserialize(Deserializer::from(table))?;
             let calibration = document.sensor.calibration.as_ref().map(|name| directory.join(name.get_ref()));
             Ok((check::setup(&document, &tree, directory)?, calibration))
         };

@@ -153,9 +153,9 @@ impl Simulation {
         Ok(self.samples()?.record(out, interrupt).map_err(OutputError::Standard)?)
     }
 
-    fn samples(&self) -> Result<Samples<'_>, SimulationError> {
+    fn samples(&self) -> Result<RecordedSamples<'_>, SimulationError> {
         let sigma = if self.sigmas { Some(self.sigma()?) } else { None };
-        Ok(Samples { simulation: self, sigma, ticks: self.ticks()? })
+        Ok(RecordedSamples { simulation: self, sigma, ticks: self.ticks()? })
     }
 
     fn row(&self, number: usize, pose: Pose, reactions: Reactions, sigma: Reactions) -> [f64; COLUMNS.len()] {
@@ -202,13 +202,13 @@ impl Simulation {
 }
 
 /// The samples of a recording that is being written.
-struct Samples<'a> {
+struct RecordedSamples<'a> {
     simulation: &'a Simulation,
     sigma: Option<Reactions>,
     ticks: Ticks<'a>,
 }
 
-impl Samples<'_> {
+impl RecordedSamples<'_> {
     fn record(mut self, out: &mut dyn Write, interrupt: &Interrupt) -> io::Result<Simulated> {
         let mut recorded = Simulated::default();
         let mut last = None;

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Document {
+pub(super) struct StudyDocument {
     pub scene: Spanned<PathBuf>,
     pub parameter: Vec<Spanned<ParameterTable>>,
 }

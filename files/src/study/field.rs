@@ -5,26 +5,26 @@ use toml::{Table, Value};
 
 /// The names and numbers on the way from the table to the value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Field(Vec<Part>);
+pub(super) struct SceneField(Vec<NamePart>);
 
 #[derive(Clone, Debug, PartialEq)]
-enum Part {
+enum NamePart {
     Name(String),
     /// From 0.
     Number(usize),
 }
 
-impl Field {
+impl SceneField {
     /// None for a text that is no such name.
     pub fn parse(text: &str) -> Option<Self> {
         let mut parts = Vec::new();
         for name in text.split('.') {
             let mut rest = name.split('[');
             let name = rest.next().filter(|name| !name.is_empty() && !name.contains(']'))?;
-            parts.push(Part::Name(name.to_owned()));
+            parts.push(NamePart::Name(name.to_owned()));
             for number in rest {
                 let number: usize = number.strip_suffix(']')?.parse().ok()?;
-                parts.push(Part::Number(number.checked_sub(1)?));
+                parts.push(NamePart::Number(number.checked_sub(1)?));
             }
         }
         Some(Self(parts))
@@ -36,25 +36,25 @@ impl Field {
     /// # Errors
     /// What is wrong with the name, for a message.
     pub fn set(&self, table: &mut Table, number: f64) -> Result<(), String> {
-        let Some((Part::Name(first), rest)) = self.0.split_first() else { return Err("no name".to_owned()) };
+        let Some((NamePart::Name(first), rest)) = self.0.split_first() else { return Err("no name".to_owned()) };
         if rest.is_empty() {
-            return put(table, first, number);
+            return insert_number(table, first, number);
         }
-        let mut at = named(table, first)?;
+        let mut at = value_of(table, first)?;
         for (index, part) in rest.iter().enumerate() {
             let last = index + 1 == rest.len();
             at = match (part, at) {
-                (Part::Name(name), Value::Table(table)) if last => return put(table, name, number),
-                (Part::Name(name), Value::Table(table)) => named(table, name)?,
-                (Part::Number(n), Value::Array(array)) => {
+                (NamePart::Name(name), Value::Table(table)) if last => return insert_number(table, name, number),
+                (NamePart::Name(name), Value::Table(table)) => value_of(table, name)?,
+                (NamePart::Number(n), Value::Array(array)) => {
                     let count = array.len();
                     let missing = || format!("the scene has {count}, expected a number from 1 to {count}");
                     array.get_mut(*n).ok_or_else(missing)?
                 }
-                (Part::Name(name), found) => {
+                (NamePart::Name(name), found) => {
                     return Err(format!("`{name}` is asked of a value of type {}, expected a table", found.type_str()));
                 }
-                (Part::Number(n), found) => {
+                (NamePart::Number(n), found) => {
                     return Err(format!(
                         "[{}] is asked of a value of type {}, expected a list",
                         n + 1,
@@ -71,7 +71,7 @@ impl Field {
 const OPTIONAL: [&str; 3] = ["contact", "clamp", "friction"];
 
 /// What a table has under a name, which is made where it may be missing.
-fn named<'a>(table: &'a mut Table, name: &str) -> Result<&'a mut Value, String> {
+fn value_of<'a>(table: &'a mut Table, name: &str) -> Result<&'a mut Value, String> {
     if OPTIONAL.contains(&name) {
         return Ok(table.entry(name).or_insert_with(|| Value::Table(Table::new())));
     }
@@ -81,7 +81,7 @@ fn named<'a>(table: &'a mut Table, name: &str) -> Result<&'a mut Value, String> 
     table.get_mut(name).ok_or_else(|| format!("the scene has no `{name}` there, only {names}{hint}"))
 }
 
-fn put(table: &mut Table, name: &str, number: f64) -> Result<(), String> {
+fn insert_number(table: &mut Table, name: &str, number: f64) -> Result<(), String> {
     match table.get_mut(name) {
         Some(value) => replace(value, number),
         None => {
@@ -111,7 +111,7 @@ mod tests {
     fn a_number_is_found_by_its_name() {
         let mut table = scene();
         for (name, number) in [("rod.length", 2.0), ("object[1].position[2]", 3.0), ("object[1].angle", 4.0)] {
-            Field::parse(name).unwrap().set(&mut table, number).unwrap();
+            SceneField::parse(name).unwrap().set(&mut table, number).unwrap();
         }
         let expected: Table = "[rod]\nlength = 2.0\n[[object]]\nposition = [1.0, 3.0]\nangle = 4.0\n[[object.piece]]\nshape = \"parabola\""
             .parse()
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn wrong_names_are_told() {
         for text in ["", ".", "a[0]", "a[", "a]", "a[b]", "a..b", "a[1"] {
-            assert_eq!(Field::parse(text), None, "{text}");
+            assert_eq!(SceneField::parse(text), None, "{text}");
         }
         for (name, message) in [
             ("sweep.from[1]", "the scene has no `sweep` there, only `object`, `rod`"),
@@ -133,7 +133,7 @@ mod tests {
             ("object[1].piece[1].shape", "the scene has a value of type string there, expected a number"),
             ("object[1].position", "the scene has a value of type array there, expected a number"),
         ] {
-            assert_eq!(Field::parse(name).unwrap().set(&mut scene(), 1.0), Err(message.to_owned()));
+            assert_eq!(SceneField::parse(name).unwrap().set(&mut scene(), 1.0), Err(message.to_owned()));
         }
     }
 }

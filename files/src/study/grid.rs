@@ -1,6 +1,6 @@
 //! The scenes of a study.
 
-use super::document::Document;
+use super::document::StudyDocument;
 use super::error::StudyError;
 use super::parameter::Parameter;
 use super::row::StudyRow;
@@ -54,7 +54,7 @@ impl Study {
         let text = toml_file::text("the study", file)?;
         let mut scene = PathBuf::new();
         let parameters = toml_file::parse(file, &text, |table| {
-            let document = Document::deserialize(Deserializer::from(table))?;
+            let document = StudyDocument::deserialize(Deserializer::from(table))?;
             scene = file.parent().unwrap_or(Path::new("")).join(document.scene.get_ref());
             if let Err(error) = std::fs::metadata(&scene) {
                 return Err(Fault::new(document.scene.span(), format!("the scene {}: {error}", scene.display())));
@@ -88,7 +88,7 @@ impl Study {
     /// Whether the scene has the fields.
     fn check_fields(&self, file: &Path) -> Result<(), SceneError> {
         toml_file::parse(file, &self.texts[0], |table| {
-            let document = Document::deserialize(Deserializer::from(table))?;
+            let document = StudyDocument::deserialize(Deserializer::from(table))?;
             for (table, parameter) in document.parameter.iter().zip(&self.parameters) {
                 for (written, set) in table.get_ref().set.iter().zip(&parameter.set) {
                     let wrong = |message: String| {
@@ -133,10 +133,10 @@ impl Study {
         if number >= count {
             return Err(StudyError::NoScene { number, last: count - 1 });
         }
-        self.changed(number).map_err(|reason| StudyError::Field { number, reason })
+        self.scene_text(number).map_err(|reason| StudyError::Field { number, reason })
     }
 
-    fn changed(&self, number: usize) -> Result<String, String> {
+    fn scene_text(&self, number: usize) -> Result<String, String> {
         let mut table = self.table.clone();
         let values = self.values(number);
         let sets =
@@ -151,9 +151,9 @@ impl Study {
     /// Sweeps a scene, from 0, and measures it.
     pub fn row(&self, number: usize) -> StudyRow {
         let values = self.values(number);
-        match self.changed(number) {
+        match self.scene_text(number) {
             Ok(text) => StudyRow::sweep(number, values, &self.scene, &text),
-            Err(reason) => StudyRow::refused(number, values, reason),
+            Err(reason) => StudyRow::without_scene(number, values, reason),
         }
     }
 }

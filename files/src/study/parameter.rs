@@ -1,7 +1,7 @@
 //! What a study changes.
 
 use super::document::{ParameterTable, SetTable};
-use super::field::Field;
+use super::field::SceneField;
 use crate::toml_file::Fault;
 use toml::Spanned;
 
@@ -16,7 +16,7 @@ pub(super) struct Parameter {
 /// A number of the scene: offset + scale * value.
 #[derive(Clone, Debug)]
 pub(super) struct Set {
-    pub field: Field,
+    pub field: SceneField,
     pub offset: f64,
     pub scale: f64,
 }
@@ -85,5 +85,5 @@ fn setting(table: &Spanned<SetTable>) -> Result<Set, Fault> {
             return Err(Fault::new(table.span(), format!("{what} is {value}, expected a finite number")));
         }
     }
-    Ok(Set { field: Field::parse(field.get_ref()).ok_or_else(no_field)?, offset: *offset, scale: *scale })
+    Ok(Set { field: SceneField::parse(field.get_ref()).ok_or_else(no_field)?, offset: *offset, scale: *scale })
 }

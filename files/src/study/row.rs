@@ -1,6 +1,6 @@
 //! What is measured in one scene of a study.
 
-use super::touched::touched;
+use super::touched::touched_share;
 use crate::{Scan, Scene, naive_touch};
 use serde::Serialize;
 use std::path::Path;
@@ -65,12 +65,12 @@ impl StudyRow {
     pub fn sweep(scene: usize, values: Vec<f64>, file: &Path, text: &str) -> Self {
         match Scene::parse(file, text) {
             Ok(read) => Self::of(scene, values, Scan::run(read).map_err(|error| error.to_string())),
-            Err(error) => Self::refused(scene, values, error.without_place()),
+            Err(error) => Self::without_scene(scene, values, error.without_place()),
         }
     }
 
     /// A scene that is none, and why.
-    pub(super) fn refused(scene: usize, values: Vec<f64>, reason: String) -> Self {
+    pub(super) fn without_scene(scene: usize, values: Vec<f64>, reason: String) -> Self {
         Self { scene, values, measured: None, reason: Some(reason) }
     }
 
@@ -81,7 +81,7 @@ impl StudyRow {
                 let measured = (!scan.is_empty()).then(|| Measured::of(&scan));
                 Self { scene, values, measured, reason }
             }
-            Err(reason) => Self::refused(scene, values, reason),
+            Err(reason) => Self::without_scene(scene, values, reason),
         }
     }
 
@@ -145,7 +145,7 @@ impl Measured {
             // a sum of nothing is -0
             several: 0.0 + ways.sum::<f64>(),
             naive_error: naive.reduce(f64::max),
-            touched: touched(scan),
+            touched: touched_share(scan),
             largest_moment: outcome.states.iter().map(|state| state.reactions.m0z.abs()).fold(0.0, f64::max),
             states: outcome.states.len(),
         }

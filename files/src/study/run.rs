@@ -21,7 +21,7 @@ const PARTS: &str = "parts";
 
 /// study.json.
 #[derive(PartialEq, Serialize, Deserialize)]
-struct Record {
+struct StudyRecord {
     version: String,
     study: String,
     scene: String,
@@ -93,15 +93,15 @@ impl Study {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
             Err(source) => return Err(StudyError::Part { file, source }),
         };
-        match serde_json::from_slice::<Record>(&text) {
+        match serde_json::from_slice::<StudyRecord>(&text) {
             Ok(record) if record == self.record() => Ok(true),
             _ => Err(StudyError::Another { file }),
         }
     }
 
-    fn record(&self) -> Record {
+    fn record(&self) -> StudyRecord {
         let [study, scene] = self.texts.clone();
-        Record { version: env!("CARGO_PKG_VERSION").to_owned(), study, scene, scenes: self.count() }
+        StudyRecord { version: env!("CARGO_PKG_VERSION").to_owned(), study, scene, scenes: self.count() }
     }
 
     fn write_part(&self, out: &Path, first: usize, rows: &[StudyRow]) -> Result<(), OutputError> {

@@ -21,7 +21,7 @@ const PARTS: usize = 16;
 /// The share of the contours between their outermost touched points that contacts went over; of a closed contour, all but its
 /// largest untouched part counts. None where nothing was touched. A contact covers the contour between two states of
 /// one interval, but not where the tip slips.
-pub(super) fn touched(scan: &Scan) -> Option<f64> {
+pub(super) fn touched_share(scan: &Scan) -> Option<f64> {
     let objects = &scan.scene.objects;
     let mut covered = vec![Vec::new(); objects.len()];
     let slips = scan.outcome.events.iter().filter(|event| event.kind == EventKind::SlipOver);

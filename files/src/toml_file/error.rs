@@ -140,12 +140,12 @@ impl Fault {
 
 /// A text with the name of its file, to report faults that show only when the text is used.
 #[derive(Clone, Debug)]
-pub(crate) struct Source {
+pub(crate) struct SourceText {
     file: PathBuf,
     text: String,
 }
 
-impl Source {
+impl SourceText {
     pub fn new(file: &Path, text: &str) -> Self {
         Self { file: file.to_path_buf(), text: text.to_owned() }
     }
@@ -172,7 +172,7 @@ impl Source {
 impl From<toml::de::Error> for Fault {
     fn from(error: toml::de::Error) -> Self {
         let message = message::plain(error.message());
-        let message = match number::quoted(&message) {
+        let message = match number::hint_for_quoted_number(&message) {
             Some(hint) => format!("{message}; {hint}"),
             None => message,
         };

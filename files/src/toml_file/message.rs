@@ -22,11 +22,11 @@ pub(super) fn plain(message: &str) -> String {
         if let Some((found, expected)) = parts {
             // an integer of more than 64 bits is no number for the deserializer
             let hint = if found.ends_with("128") { " of this size with a decimal point or an exponent" } else { "" };
-            return format!("the value is {}, expected {}{hint}", value(found), wanted(expected));
+            return format!("the value is {}, expected {}{hint}", value(found), expected_in_words(expected));
         }
     }
     if let Some((count, expected)) = message.strip_prefix("invalid length ").and_then(|m| m.split_once(", expected ")) {
-        return format!("the list has {count} values, expected {}", wanted(expected));
+        return format!("the list has {count} values, expected {}", expected_in_words(expected));
     }
     message.replace("number overflowed", "number overflowed, expected at most 1.7e308 either way")
 }
@@ -111,7 +111,7 @@ fn value(found: &str) -> String {
 }
 
 /// What was expected.
-fn wanted(expected: &str) -> String {
+fn expected_in_words(expected: &str) -> String {
     let name = expected.split([' ', ',']).next().unwrap_or_default();
     let whole = "a whole number that is not negative";
     match name {

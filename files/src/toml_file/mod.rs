@@ -5,7 +5,7 @@ mod error;
 mod message;
 mod number;
 
-pub(crate) use error::{Fault, Source, place_of};
+pub(crate) use error::{Fault, SourceText, place_of};
 pub use error::{Invalid, SceneError};
 pub(crate) use message::meant;
 pub(crate) use number::{comma_in_list, number};

@@ -38,7 +38,7 @@ fn with_point(written: &str) -> Option<String> {
 }
 
 /// What to do with the number in the message `the value is the text "0.5", expected a number`.
-pub(super) fn quoted(message: &str) -> Option<String> {
+pub(super) fn hint_for_quoted_number(message: &str) -> Option<String> {
     let text = message.strip_prefix("the value is the text \"")?.strip_suffix("\", expected a number")?;
     let number = if text.parse::<f64>().is_ok() { text.to_owned() } else { with_point(text)? };
     Some(format!("write it without quotes: {number}"))
@@ -65,7 +65,8 @@ mod tests {
 
     #[test]
     fn quotes_go() {
-        let message = |text: &str| quoted(&format!("the value is the text \"{text}\", expected a number"));
+        let message =
+            |text: &str| hint_for_quoted_number(&format!("the value is the text \"{text}\", expected a number"));
         assert_eq!(message("0.5").unwrap(), "write it without quotes: 0.5");
         assert_eq!(message("0,5").unwrap(), "write it without quotes: 0.5");
         assert!(message("long").is_none());

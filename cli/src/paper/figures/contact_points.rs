@@ -3,7 +3,7 @@
 use crate::figure::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use crate::figure::cloud::{self, Dot};
 use crate::figure::palette::{FAINT, INK, MUTED};
-use crate::figure::plane::Window;
+use crate::figure::plane::PlaneWindow;
 use crate::paper::naive::Naive;
 
 /// Width of a scan, height of the title and key, and of the lines above each scan, pixels.
@@ -19,10 +19,10 @@ const TWO: Dot = Dot { colour: MUTED, filled: false };
 pub(crate) fn contact_points(scans: &[&Naive<'_>]) -> Result<String, FigureError> {
     let all = || scans.iter().flat_map(|scan| &scan.points);
     let (x, y) = (span(all().map(|point| 1e3 * point.x), 0.06), span(all().map(|point| 1e3 * point.y), 0.1));
-    let (beside, below) = Window::TRIMMINGS;
+    let (beside, below) = PlaneWindow::TRIMMINGS;
     let plot = f64::from(WIDTH - beside);
     let high = plot * (y.end - y.start) / (x.end - x.start);
-    let window = Window::of(&x, &y, (plot, high), (0.0, 0.0));
+    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
     let size = (WIDTH * scans.len().max(1) as u32, HEAD + NAME + below + high.ceil() as u32);
     svg(size, |root| {
         let (head, mut rest) = root.split_vertically(HEAD);
@@ -39,7 +39,7 @@ pub(crate) fn contact_points(scans: &[&Naive<'_>]) -> Result<String, FigureError
     })
 }
 
-fn panel(area: &Area<'_>, window: &Window, scan: &Naive<'_>) -> Result<(), FigureError> {
+fn panel(area: &Area<'_>, window: &PlaneWindow, scan: &Naive<'_>) -> Result<(), FigureError> {
     let (name, plot) = area.split_vertically(NAME);
     let title = format!("{}, q = {} mm", scan.scan.object, scan.scan.distance);
     write(&name, &title, (24, 28), HPos::Left, TITLE, INK)?;

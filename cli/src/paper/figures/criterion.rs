@@ -2,7 +2,7 @@
 
 use crate::figure::canvas::{FigureError, HPos, PAGE, TITLE, svg, write};
 use crate::figure::palette::INK;
-use crate::figure::trace::{self, Along, Trace};
+use crate::figure::trace::{self, Along, TraceChart};
 use rod_files::Scan;
 use vibrissa::State;
 
@@ -33,7 +33,7 @@ pub(crate) fn criterion(scans: &[&Scan]) -> Result<String, FigureError> {
             trace::draw(
                 root,
                 &plot,
-                &Trace { along: &Along::of(scan), parts, name: "K in (N mm)²", phases: true, foot },
+                &TraceChart { along: &Along::of(scan), parts, name: "K in (N mm)²", phases: true, foot },
             )?;
             rest = below;
         }

@@ -4,7 +4,7 @@ use crate::figure::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, sv
 use crate::figure::cloud::{self, Dot};
 use crate::figure::element::Element;
 use crate::figure::palette::{INK, MUTED, OTHERS, RGBColor};
-use crate::figure::plane::Window;
+use crate::figure::plane::PlaneWindow;
 use crate::paper::naive::{Naive, NaivePoint, STEP};
 use crate::paper::scans::{DISTANCES, OBJECTS};
 use vibrissa::reconstruct::{Comparison, ContourEstimate};
@@ -65,7 +65,7 @@ pub(crate) fn distances(scans: &[Naive<'_>]) -> Result<String, FigureError> {
     let windows = ROWS.map(|row| window(scans, row.height));
     let heights = windows.each_ref().map(|window| {
         let plot = (window.y.end - window.y.start) / window.scale;
-        ROW + NAME + Window::TRIMMINGS.1 + plot.ceil() as u32
+        ROW + NAME + PlaneWindow::TRIMMINGS.1 + plot.ceil() as u32
     });
     svg((WIDTH * OBJECTS.len() as u32, HEAD + heights.iter().sum::<u32>()), |root| {
         let (head, mut rest) = root.split_vertically(HEAD);
@@ -96,15 +96,21 @@ pub(crate) fn distances(scans: &[Naive<'_>]) -> Result<String, FigureError> {
 }
 
 /// A window on the points of all scans, as wide as a panel.
-fn window(scans: &[Naive<'_>], height: Height) -> Window {
+fn window(scans: &[Naive<'_>], height: Height) -> PlaneWindow {
     let all = || scans.iter().flat_map(|scan| &scan.points);
     let (x, y) = (span(all().map(|point| 1e3 * point.x), 0.06), span(all().map(|point| 1e3 * height(point)), 0.08));
-    let plot = f64::from(WIDTH - Window::TRIMMINGS.0);
+    let plot = f64::from(WIDTH - PlaneWindow::TRIMMINGS.0);
     let high = plot * (y.end - y.start) / (x.end - x.start);
-    Window::of(&x, &y, (plot, high), (0.0, 0.0))
+    PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0))
 }
 
-fn panel(area: &Area<'_>, window: &Window, row: &Row, name: &str, scans: &[&Naive<'_>]) -> Result<(), FigureError> {
+fn panel(
+    area: &Area<'_>,
+    window: &PlaneWindow,
+    row: &Row,
+    name: &str,
+    scans: &[&Naive<'_>],
+) -> Result<(), FigureError> {
     let (head, plot) = area.split_vertically(NAME);
     write(&head, name, (24, 26), HPos::Left, BODY, INK)?;
     let chart = window.chart_called(&plot, (8, 6), ("x in mm", row.axis))?;

@@ -4,8 +4,8 @@
 use crate::figure::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use crate::figure::cloud::{self, Dot};
 use crate::figure::palette::{self, FAINT, INK, MUTED};
-use crate::figure::plane::Window;
-use crate::paper::resolved::Resolved;
+use crate::figure::plane::PlaneWindow;
+use crate::paper::resolved::ResolvedScan;
 
 /// Width of a scan, height of the title and key, of a row's title, and of the lines above each scan, pixels.
 const WIDTH: u32 = PAGE / 3;
@@ -19,13 +19,13 @@ const FIRST: Dot = Dot { colour: palette::FIRST, filled: true };
 const SECOND: Dot = Dot { colour: palette::SECOND, filled: true };
 
 /// Draws the notches of several scans side by side: above as the paper has them, below with both contacts.
-pub(crate) fn notches(scans: &[Resolved<'_>]) -> Result<String, FigureError> {
+pub(crate) fn notches(scans: &[ResolvedScan<'_>]) -> Result<String, FigureError> {
     let all =
         || scans.iter().flat_map(|scan| scan.first.iter().chain(&scan.second).chain(&scan.naive).chain(&scan.notches));
     let (x, y) = (span(all().map(|point| 1e3 * point.0), 0.2), span(all().map(|point| 1e3 * point.1), 0.1));
-    let plot = f64::from(WIDTH - Window::TRIMMINGS.0);
-    let window = Window::of(&x, &y, (plot, plot * (y.end - y.start) / (x.end - x.start)), (0.0, 0.0));
-    let panel = NAME + Window::TRIMMINGS.1 + ((window.y.end - window.y.start) / window.scale).ceil() as u32;
+    let plot = f64::from(WIDTH - PlaneWindow::TRIMMINGS.0);
+    let window = PlaneWindow::of(&x, &y, (plot, plot * (y.end - y.start) / (x.end - x.start)), (0.0, 0.0));
+    let panel = NAME + PlaneWindow::TRIMMINGS.1 + ((window.y.end - window.y.start) / window.scale).ceil() as u32;
     let size = (WIDTH * scans.len().max(1) as u32, HEAD + 2 * (ROW + panel));
     svg(size, |root| {
         let (head, rest) = root.split_vertically(HEAD);
@@ -46,7 +46,13 @@ pub(crate) fn notches(scans: &[Resolved<'_>]) -> Result<String, FigureError> {
     })
 }
 
-fn row(area: &Area<'_>, window: &Window, title: &str, scans: &[Resolved<'_>], both: bool) -> Result<(), FigureError> {
+fn row(
+    area: &Area<'_>,
+    window: &PlaneWindow,
+    title: &str,
+    scans: &[ResolvedScan<'_>],
+    both: bool,
+) -> Result<(), FigureError> {
     let (name, mut rest) = area.split_vertically(ROW);
     write(&name, title, (24, 34), HPos::Left, TITLE, INK)?;
     for scan in scans {
