@@ -1,8 +1,8 @@
 //! A clamp on springs.
 
 use crate::errors;
-use crate::made::{Made, Reduced};
-use crate::written::number;
+use crate::pickle::{Constructor, Reduced};
+use crate::scene_tables::number;
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 use toml::{Table, Value};
@@ -70,9 +70,9 @@ impl PyElasticClamp {
     #[new]
     #[pyo3(signature = (*, stiffness_x=None, stiffness_y=None, stiffness_phi=None))]
     fn new(stiffness_x: Option<f64>, stiffness_y: Option<f64>, stiffness_phi: Option<f64>) -> PyResult<Self> {
-        let made = Self { stiffness_x, stiffness_y, stiffness_phi };
-        made.clamp()?;
-        Ok(made)
+        let created = Self { stiffness_x, stiffness_y, stiffness_phi };
+        created.clamp()?;
+        Ok(created)
     }
 
     pub fn __repr__(&self) -> String {
@@ -82,6 +82,6 @@ impl PyElasticClamp {
 
     /// For `pickle` and `copy`: a function and its arguments.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        Ok(Made::class(py, "ElasticClamp", &self.fields().into_py_dict(py)?)?.reduced(py))
+        Ok(Constructor::class(py, "ElasticClamp", &self.fields().into_py_dict(py)?)?.reduce(py))
     }
 }

@@ -1,9 +1,9 @@
 //! Objects: contours of pieces.
 
 use crate::array::two;
-use crate::made::{Made, Reduced, made};
+use crate::pickle::{Constructor, Reduced, constructor};
+use crate::scene_tables::Object;
 use crate::shape::{PyShape, motion, shape};
-use crate::written::Object;
 use crate::{errors, running};
 use pyo3::prelude::*;
 use vibrissa::Composite;
@@ -55,7 +55,7 @@ impl PyComposite {
         let composite = running::run(py, || {
             let composite = Composite::joined(pieces)?;
             match composite.self_crossing() {
-                Some(crossing) => Err(crossed(&crossing)),
+                Some(crossing) => Err(crossing_error(&crossing)),
                 None => Ok(composite),
             }
         })?;
@@ -65,8 +65,8 @@ impl PyComposite {
     }
 
     /// With how it was made, as the class of Python.
-    pub fn made_by(self, made: Made) -> (Self, PyShape) {
-        let shape = PyShape::single(self.composite.clone(), None, Some(made));
+    pub fn with_constructor(self, constructor: Constructor) -> (Self, PyShape) {
+        let shape = PyShape::single(self.composite.clone(), None, Some(constructor));
         (self, shape)
     }
 
@@ -82,13 +82,13 @@ pub fn contours(objects: &[Bound<'_, PyComposite>]) -> Vec<Composite> {
     objects.iter().map(|object| object.get().composite.clone()).collect()
 }
 
-fn crossed(crossing: &vibrissa::contour::SelfCrossing) -> vibrissa::contour::ContourError {
+fn crossing_error(crossing: &vibrissa::contour::SelfCrossing) -> vibrissa::contour::ContourError {
     let ([first, second], [x, y]) = (crossing.pieces, crossing.point);
     vibrissa::contour::ContourError::Crosses { what: "piece", first: first + 1, second: second + 1, x, y }
 }
 
 /// The pieces, of which one may stand for itself.
-fn listed<'py>(pieces: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+fn list_of_pieces<'py>(pieces: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
     if pieces.is_instance_of::<PyShape>() || pieces.hasattr("frame")? {
         return Ok(vec![pieces.clone()]);
     }
@@ -110,12 +110,12 @@ impl PyComposite {
         mirror: bool,
         reversed: bool,
     ) -> PyResult<(Self, PyShape)> {
-        let (py, pieces) = (pieces.py(), listed(pieces)?);
-        let made = made!(py, "Composite", pieces, position, angle, scale, mirror, reversed);
+        let (py, pieces) = (pieces.py(), list_of_pieces(pieces)?);
+        let constructor = constructor!(py, "Composite", pieces, position, angle, scale, mirror, reversed);
         let joined = Self::of(py, &pieces)?;
         let moved = joined.moved_by(motion(position, angle, scale, mirror))?;
         let whole = if reversed { moved.turned() } else { moved };
-        Ok(whole.made_by(made))
+        Ok(whole.with_constructor(constructor))
     }
 
     /// Number of pieces.
@@ -174,8 +174,8 @@ impl PyComposite {
         scale: f64,
         mirror: bool,
     ) -> PyResult<Py<PyComposite>> {
-        let made = Made::method(slf, "moved", (position, angle, scale, mirror))?;
-        Py::new(slf.py(), slf.get().moved_by(motion(position, angle, scale, mirror))?.made_by(made))
+        let constructor = Constructor::method(slf, "moved", (position, angle, scale, mirror))?;
+        Py::new(slf.py(), slf.get().moved_by(motion(position, angle, scale, mirror))?.with_constructor(constructor))
     }
 
     /// The object with solid and outside exchanged.
@@ -184,8 +184,8 @@ impl PyComposite {
     /// -------
     /// Composite
     fn reversed(slf: &Bound<'_, Self>) -> PyResult<Py<PyComposite>> {
-        let made = Made::method(slf, "reversed", ())?;
-        Py::new(slf.py(), slf.get().turned().made_by(made))
+        let constructor = Constructor::method(slf, "reversed", ())?;
+        Py::new(slf.py(), slf.get().turned().with_constructor(constructor))
     }
 
     fn __repr__(&self) -> String {
@@ -200,8 +200,8 @@ impl PyComposite {
     /// For `pickle` and `copy`: a function and its arguments, of an object that was read the table of a scene file.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let py = slf.py();
-        if let Some(made) = &slf.as_super().get().made {
-            return Ok(made.reduced(py));
+        if let Some(constructor) = &slf.as_super().get().constructor {
+            return Ok(constructor.reduce(py));
         }
         let Self { composite, object } = slf.get();
         let none = || errors::value("the object was read from a file that has no table for it");

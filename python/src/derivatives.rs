@@ -66,7 +66,11 @@ enum By<'a> {
 }
 
 /// The quantity or the parameter of the rod of that name.
-fn named<'a>(quantity: &str, [object, piece, section]: [usize; 3], parameter: Option<&'a str>) -> PyResult<By<'a>> {
+fn quantity_or_parameter<'a>(
+    quantity: &str,
+    [object, piece, section]: [usize; 3],
+    parameter: Option<&'a str>,
+) -> PyResult<By<'a>> {
     let of_rod = match quantity {
         "taper" => Some(RodParameter::Taper),
         "natural_curvature" => Some(RodParameter::NaturalCurvature),
@@ -108,9 +112,9 @@ impl PyDerivatives {
     #[new]
     fn new(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, state: &PyState) -> PyResult<Self> {
         let objects = contours(&shape::objects(objects)?);
-        let made = Self { rod: rod.rod.clone(), objects, state: state.clone(), condition: f64::NAN };
-        let condition = made.ask(py, |derivatives| Ok(derivatives.condition()))?;
-        Ok(Self { condition, ..made })
+        let created = Self { rod: rod.rod.clone(), objects, state: state.clone(), condition: f64::NAN };
+        let condition = created.ask(py, |derivatives| Ok(derivatives.condition()))?;
+        Ok(Self { condition, ..created })
     }
 
     /// Condition number of the equations; it grows towards a fold.
@@ -167,7 +171,7 @@ impl PyDerivatives {
         #[pyo3(from_py_with = whole)] section: usize,
         parameter: Option<&str>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyAny>)> {
-        let response = match named(quantity, [object, piece, section], parameter)? {
+        let response = match quantity_or_parameter(quantity, [object, piece, section], parameter)? {
             By::Quantity(quantity) => self.ask(py, |derivatives| derivatives.by(quantity))?,
             By::Rod(parameter) => {
                 let Self { rod, objects, state, .. } = self;
@@ -234,9 +238,9 @@ impl PyTransitionDerivatives {
         let &[x, y, phi] = &rate[..] else {
             return Err(errors::value(format!("rate has {} numbers, expected three: x, y, phi", rate.len())));
         };
-        let made = Self { rod: rod.rod.clone(), objects, event: event.clone(), rate: Pose { x, y, phi } };
-        made.ask(py, |_| Ok(()))?;
-        Ok(made)
+        let created = Self { rod: rod.rod.clone(), objects, event: event.clone(), rate: Pose { x, y, phi } };
+        created.ask(py, |_| Ok(()))?;
+        Ok(created)
     }
 
     /// The change of the path's parameter at the transition per unit of one quantity.
@@ -265,7 +269,7 @@ impl PyTransitionDerivatives {
         #[pyo3(from_py_with = whole)] section: usize,
         parameter: Option<&str>,
     ) -> PyResult<f64> {
-        match named(quantity, [object, piece, section], parameter)? {
+        match quantity_or_parameter(quantity, [object, piece, section], parameter)? {
             By::Quantity(quantity) => self.ask(py, |derivatives| derivatives.by(quantity)),
             By::Rod(parameter) => {
                 let Self { rod, objects, event, rate } = self;

@@ -32,6 +32,6 @@ pub fn unreadable(source: &io::Error, error: &impl Display) -> PyErr {
 pub fn stopped(py: Python<'_>, stop: &Stop, scan: Option<Py<PyAny>>) -> PyErr {
     let pose = (stop.pose.x, stop.pose.y, stop.pose.phi);
     let arguments = (stop.to_string(), stop.reason.to_string(), pose, stop.tau, scan);
-    let made = py.import("vibrissa._errors").and_then(|module| module.getattr("SweepStopped")?.call1(arguments));
-    made.map_or_else(|error| error, PyErr::from_value)
+    let created = py.import("vibrissa._errors").and_then(|module| module.getattr("SweepStopped")?.call1(arguments));
+    created.map_or_else(|error| error, PyErr::from_value)
 }

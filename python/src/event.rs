@@ -2,7 +2,7 @@
 
 use crate::array::{Column, Get};
 use crate::errors;
-use crate::made::Reduced;
+use crate::pickle::Reduced;
 use crate::pose::tuple;
 use crate::state::PyState;
 use pyo3::prelude::*;

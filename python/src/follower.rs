@@ -55,7 +55,7 @@ pub struct PyFollower {
 
 /// The objects for a follower that is dropped before they are.
 #[expect(unsafe_code, reason = "a class of Python has no lifetime; the follower is kept beside what it borrows")]
-fn borrowed(objects: &Arc<[Composite]>) -> &'static [Composite] {
+fn borrow_objects(objects: &Arc<[Composite]>) -> &'static [Composite] {
     // Sound, because the slice lives on the heap, is never written to, and `PyFollower` drops its follower first.
     unsafe { &*Arc::as_ptr(objects) }
 }
@@ -72,7 +72,7 @@ fn rubbing(
 
 impl PyFollower {
     /// To be called without the interpreter: whoever has the lock may be waiting for it, in a shape of Python.
-    fn locked(&self) -> MutexGuard<'_, Follower<'static, AnyRod>> {
+    fn lock_follower(&self) -> MutexGuard<'_, Follower<'static, AnyRod>> {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -90,9 +90,9 @@ impl PyFollower {
     ) -> PyResult<Self> {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
         let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
-        let make = || Follower::new(&rod.rod, borrowed(&objects), pose.0);
-        let made = running::run(py, make)?.map_err(|stop| errors::stopped(py, &stop, None))?;
-        Ok(Self { follower: Mutex::new(rubbing(made, friction)?), objects })
+        let make = || Follower::new(&rod.rod, borrow_objects(&objects), pose.0);
+        let created = running::run(py, make)?.map_err(|stop| errors::stopped(py, &stop, None))?;
+        Ok(Self { follower: Mutex::new(rubbing(created, friction)?), objects })
     }
 
     /// A rod in an equilibrium that is known.
@@ -128,15 +128,15 @@ impl PyFollower {
         let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
         let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
         let state = &state.state;
-        let make = || Follower::from_state(&rod.rod, borrowed(&objects), state);
-        let made = running::run(py, make)?;
-        Ok(Self { follower: Mutex::new(rubbing(made.map_err(errors::value)?, friction)?), objects })
+        let make = || Follower::from_state(&rod.rod, borrow_objects(&objects), state);
+        let created = running::run(py, make)?;
+        Ok(Self { follower: Mutex::new(rubbing(created.map_err(errors::value)?, friction)?), objects })
     }
 
     /// The equilibrium that the rod is in.
     #[getter]
     fn state(&self, py: Python<'_>) -> PyState {
-        PyState { state: py.detach(|| self.locked().state().clone()) }
+        PyState { state: py.detach(|| self.lock_follower().state().clone()) }
     }
 
     /// Bring the clamp to a pose, straight and at a constant ratio of turn and way.
@@ -156,7 +156,7 @@ impl PyFollower {
     /// SweepStopped
     ///     The rod cannot be followed to there; it stays in the equilibrium in which it was. ``tau`` is the share of the move.
     fn to<'py>(&self, py: Python<'py>, pose: PyPose) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let items = running::run(py, || self.locked().to(pose.0))?;
+        let items = running::run(py, || self.lock_follower().to(pose.0))?;
         let item = |item| match item {
             Item::State(state) => Ok(Bound::new(py, PyState { state })?.into_any()),
             Item::Event(event) => Ok(Bound::new(py, PyEvent { event })?.into_any()),
@@ -170,7 +170,7 @@ impl PyFollower {
     /// -------
     /// Follower
     fn clone(&self, py: Python<'_>) -> PyResult<Self> {
-        let follower = Mutex::new(running::run(py, || self.locked().clone())?);
+        let follower = Mutex::new(running::run(py, || self.lock_follower().clone())?);
         Ok(Self { follower, objects: self.objects.clone() })
     }
 

@@ -1,7 +1,7 @@
 //! Coefficients of friction from and to Python.
 
 use crate::errors;
-use crate::written::piece_count;
+use crate::scene_tables::piece_count;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString, PyTuple};
@@ -55,7 +55,7 @@ fn coefficients(object: &Bound<'_, PyAny>) -> PyResult<Option<Coefficients>> {
     } else {
         "a finite coefficient, 0 or more"
     };
-    Err(errors::value(format!("friction is {}, expected {rule}", shown(object))))
+    Err(errors::value(format!("friction is {}, expected {rule}", representation(object))))
 }
 
 /// The items of a list, an array or another sequence.
@@ -67,10 +67,10 @@ fn items<'py>(object: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
 }
 
 fn wrong(object: &Bound<'_, PyAny>) -> PyErr {
-    PyTypeError::new_err(format!("friction is {}, {EXPECTED}", shown(object)))
+    PyTypeError::new_err(format!("friction is {}, {EXPECTED}", representation(object)))
 }
 
-fn shown(object: &Bound<'_, PyAny>) -> String {
+fn representation(object: &Bound<'_, PyAny>) -> String {
     object.repr().map_or_else(|_| "something else".to_owned(), |text| text.to_string())
 }
 
@@ -128,7 +128,7 @@ pub fn listed<'py>(py: Python<'py>, friction: &SceneFriction) -> PyResult<Bound<
 
 /// Writes the friction of an object into its table of a scene file.
 pub fn write(table: &mut Table, found: &[Coefficients]) -> PyResult<()> {
-    let put = |table: &mut Table, one: &Coefficients| table.insert("friction".to_owned(), written(one));
+    let put = |table: &mut Table, one: &Coefficients| table.insert("friction".to_owned(), table_value(one));
     if let Some((first, others)) = found.split_first()
         && others.iter().all(|other| other == first)
     {
@@ -155,7 +155,7 @@ pub fn write(table: &mut Table, found: &[Coefficients]) -> PyResult<()> {
     if rest.is_empty() { Ok(()) } else { Err(none()) }
 }
 
-fn written(found: &Coefficients) -> Value {
+fn table_value(found: &Coefficients) -> Value {
     if found.at_rest == found.slipping {
         return Value::Float(found.at_rest);
     }

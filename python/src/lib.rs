@@ -16,11 +16,11 @@ mod event;
 mod follower;
 mod friction;
 mod live;
-mod made;
 mod own_function;
 mod own_path;
 mod own_shape;
 mod path;
+mod pickle;
 mod pose;
 mod reading;
 mod reconstruct;
@@ -30,6 +30,7 @@ mod running;
 mod samples;
 mod scan;
 mod scene;
+mod scene_tables;
 mod shape;
 mod shapes;
 mod simulate;
@@ -37,7 +38,6 @@ mod single;
 mod state;
 mod study;
 mod sweep;
-mod written;
 
 use pyo3::prelude::*;
 

@@ -64,12 +64,12 @@ impl PyLive {
     fn new(py: Python<'_>, rod: &PyRod, free: Samples, half_window: Option<f64>, as_is: bool) -> PyResult<Self> {
         let (any, rod) = (rod.rod.clone(), rod.uniform()?);
         let budget = if as_is { Budget::NONE } else { Budget::laboratory(rod) };
-        let made = running::run(py, || {
+        let created = running::run(py, || {
             let found = LiveSettings::of_free_rod(rod, &free.0, Reactions::default())?;
             let settings = LiveSettings { half_window: half_window.unwrap_or(found.half_window), ..found };
             LiveSession::with_errors(rod, &settings, &budget, &Known::NOTHING)
         })?;
-        let session = made.map_err(errors::value)?;
+        let session = created.map_err(errors::value)?;
         Ok(Self { delay: session.delay(), session: Mutex::new(session), rod: any })
     }
 

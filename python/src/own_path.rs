@@ -1,9 +1,9 @@
 //! Paths written in Python: functions that give pose and rate.
 
 use crate::errors;
-use crate::made::made;
 use crate::own_function::OwnFunction;
 use crate::path::PyPath;
+use crate::pickle::constructor;
 use pyo3::prelude::*;
 use vibrissa::Pose;
 use vibrissa::contact::{Path, PathPoint};
@@ -68,8 +68,8 @@ impl PyClampFunction {
             return Err(errors::value(format!("length is {length:?}, expected a finite number greater than 0")));
         }
         let range = Range { from: 0.0, to: length };
-        let made = made!(py, "ClampFunction", function, length);
+        let constructor = constructor!(py, "ClampFunction", function, length);
         let function = OwnFunction::new(function, range, "the function", "(6, n)")?;
-        Ok((Self, PyPath::new(OwnPath { function, length }, None, Some(made))))
+        Ok((Self, PyPath::new(OwnPath { function, length }, None, Some(constructor))))
     }
 }

@@ -1,8 +1,8 @@
 //! The way of the clamp.
 
 use crate::array::{Floats, two};
-use crate::made::{Made, Reduced, made};
 use crate::own_path::PyClampFunction;
+use crate::pickle::{Constructor, Reduced, constructor};
 use crate::pose::{PyPose, tuple};
 use crate::{errors, running};
 use numpy::ndarray::Array2;
@@ -43,12 +43,12 @@ pub struct PyPath {
     pub path: Arc<dyn Path>,
     /// None where scene files have no such path.
     pub legs: Option<Vec<Leg>>,
-    made: Option<Made>,
+    constructor: Option<Constructor>,
 }
 
 impl PyPath {
-    pub fn new(path: impl Path + 'static, legs: Option<Vec<Leg>>, made: Option<Made>) -> Self {
-        Self { path: Arc::new(path), legs, made }
+    pub fn new(path: impl Path + 'static, legs: Option<Vec<Leg>>, constructor: Option<Constructor>) -> Self {
+        Self { path: Arc::new(path), legs, constructor }
     }
 
     pub fn shared(&self) -> Shared {
@@ -156,8 +156,8 @@ impl PyPath {
 
     /// For `pickle` and `copy`: a function and its arguments.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        if let Some(made) = &self.made {
-            return Ok(made.reduced(py));
+        if let Some(constructor) = &self.constructor {
+            return Ok(constructor.reduce(py));
         }
         // of a scene: start and end of a straight leg, or pivot and angle
         let leg = |leg: &Leg| match *leg {
@@ -192,8 +192,8 @@ impl PyClampPath {
         let path = ClampPath::new(start.0, end.0).map_err(errors::value)?;
         let legs = vec![Leg::straight(&path, end.0)];
         let (start, end) = (tuple(start.0), tuple(end.0));
-        let made = made!(py, "ClampPath", start, end);
-        Ok((Self, PyPath::new(path, Some(legs), Some(made))))
+        let constructor = constructor!(py, "ClampPath", start, end);
+        Ok((Self, PyPath::new(path, Some(legs), Some(constructor))))
     }
 }
 
@@ -237,8 +237,8 @@ impl PyClampArc {
         let path = path.map_err(errors::value)?;
         let leg = Leg::Pivot { pivot: center, turn, turns_only: path.turns_only() };
         let start = tuple(start.0);
-        let made = made!(py, "ClampArc", start, center, turn, phi_end);
-        Ok((Self, PyPath::new(path, phi_end.is_none().then(|| vec![leg]), Some(made))))
+        let constructor = constructor!(py, "ClampArc", start, center, turn, phi_end);
+        Ok((Self, PyPath::new(path, phi_end.is_none().then(|| vec![leg]), Some(constructor))))
     }
 }
 
@@ -266,7 +266,7 @@ impl PyClampSpline {
         let poses: Vec<Pose> = poses.into_iter().map(|pose| pose.0).collect();
         let path = ClampSpline::through(&poses).map_err(errors::value)?;
         let poses: Vec<_> = poses.into_iter().map(tuple).collect();
-        Ok((Self, PyPath::new(path, None, Some(made!(py, "ClampSpline", poses)))))
+        Ok((Self, PyPath::new(path, None, Some(constructor!(py, "ClampSpline", poses)))))
     }
 }
 
@@ -292,8 +292,8 @@ impl PyChain {
     fn new(py: Python<'_>, legs: Vec<Bound<'_, PyPath>>) -> PyResult<(Self, PyPath)> {
         let path = Chain::new(legs.iter().map(|leg| leg.get().path.clone()).collect()).map_err(errors::value)?;
         let written: Option<Vec<_>> = legs.iter().map(|leg| leg.get().legs.clone()).collect();
-        let made = made!(py, "Chain", legs);
-        Ok((Self, PyPath::new(path, written.map(|legs| legs.concat()), Some(made))))
+        let constructor = constructor!(py, "Chain", legs);
+        Ok((Self, PyPath::new(path, written.map(|legs| legs.concat()), Some(constructor))))
     }
 
     /// Straight legs from pose to pose.
@@ -316,9 +316,9 @@ impl PyChain {
         let poses: Vec<Pose> = poses.into_iter().map(|pose| pose.0).collect();
         let path = Chain::polyline(&poses).map_err(errors::value)?;
         let given: Vec<_> = poses.iter().copied().map(tuple).collect();
-        let made = Made::method(&py.get_type::<Self>(), "polyline", (given,))?;
+        let constructor = Constructor::method(&py.get_type::<Self>(), "polyline", (given,))?;
         let leg = |pair: &[Pose]| ClampPath::new(pair[0], pair[1]).map(|path| Leg::straight(&path, pair[1]));
         let legs = poses.windows(2).map(leg).collect::<Result<_, _>>().map_err(errors::value)?;
-        Py::new(py, (Self, PyPath::new(path, Some(legs), Some(made))))
+        Py::new(py, (Self, PyPath::new(path, Some(legs), Some(constructor))))
     }
 }

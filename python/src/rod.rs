@@ -3,8 +3,8 @@
 use crate::array::Floats;
 use crate::clamp::PyElasticClamp;
 use crate::errors;
-use crate::made::{Made, Reduced};
-use crate::written::{number, point, points};
+use crate::pickle::{Constructor, Reduced};
+use crate::scene_tables::{number, point, points};
 use numpy::ndarray::Ix2;
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -80,7 +80,7 @@ fn wrong(fault: RodFault) -> PyErr {
     })
 }
 
-fn put(table: &mut Table, names: &[&str], values: &[Option<f64>]) {
+fn insert_numbers(table: &mut Table, names: &[&str], values: &[Option<f64>]) {
     let given =
         names.iter().zip(values).filter_map(|(name, value)| Some(((*name).to_owned(), Value::Float((*value)?))));
     table.extend(given);
@@ -139,9 +139,9 @@ impl PySection {
 
     fn table(&self) -> Table {
         let mut table = Table::from_iter([("length".to_owned(), Value::Float(self.length))]);
-        put(&mut table, &STIFFNESS, &self.stiffness());
+        insert_numbers(&mut table, &STIFFNESS, &self.stiffness());
         if self.natural_curvature != 0.0 {
-            put(&mut table, &["natural_curvature"], &[Some(self.natural_curvature)]);
+            insert_numbers(&mut table, &["natural_curvature"], &[Some(self.natural_curvature)]);
         }
         table
     }
@@ -172,7 +172,7 @@ impl PySection {
     }
 
     fn __repr__(&self) -> String {
-        let mut text = shown("Section", self.length, self.stiffness());
+        let mut text = representation("Section", self.length, self.stiffness());
         if self.natural_curvature != 0.0 {
             text += &format!(", natural_curvature={:?}", self.natural_curvature);
         }
@@ -183,12 +183,12 @@ impl PySection {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let mut arguments: Vec<_> = STIFFNESS.into_iter().zip(self.stiffness()).collect();
         arguments.extend([("length", Some(self.length)), ("natural_curvature", Some(self.natural_curvature))]);
-        Ok(Made::class(py, "Section", &arguments.into_py_dict(py)?)?.reduced(py))
+        Ok(Constructor::class(py, "Section", &arguments.into_py_dict(py)?)?.reduce(py))
     }
 }
 
 /// The beginning of a text that makes a rod or section.
-fn shown(what: &str, length: f64, stiffness: Stiffness) -> String {
+fn representation(what: &str, length: f64, stiffness: Stiffness) -> String {
     let named = |(name, value): (&str, Option<f64>)| value.map(|value| format!(", {name}={value:?}"));
     let wire: String = STIFFNESS.into_iter().zip(stiffness).skip(1).filter_map(named).collect();
     let stiffness = stiffness[0].map_or_else(String::new, |stiffness| format!(", {stiffness:?}"));
@@ -288,8 +288,8 @@ impl PyRod {
     /// The table `[rod]`.
     pub fn table(&self) -> Table {
         let mut table = Table::from_iter([("length".to_owned(), Value::Float(self.length))]);
-        put(&mut table, &STIFFNESS, &self.stiffness);
-        put(&mut table, &["tip_diameter", "yield_stress"], &[self.tip_diameter, self.yield_stress]);
+        insert_numbers(&mut table, &STIFFNESS, &self.stiffness);
+        insert_numbers(&mut table, &["tip_diameter", "yield_stress"], &[self.tip_diameter, self.yield_stress]);
         if let Some(curvature) = &self.natural_curvature {
             table.insert("natural_curvature".to_owned(), curvature.value());
         }
@@ -406,7 +406,7 @@ impl PyRod {
     }
 
     fn __repr__(&self) -> String {
-        let mut text = shown("Rod", self.length, self.stiffness);
+        let mut text = representation("Rod", self.length, self.stiffness);
         if let Some(tip) = self.tip_diameter {
             text += &format!(", tip_diameter={tip:?}");
         }
@@ -440,6 +440,6 @@ impl PyRod {
         arguments.set_item("natural_curvature", self.natural_curvature.clone())?;
         arguments.set_item("clamp", self.clamp.clone())?;
         arguments.set_item("sections", (!self.sections.is_empty()).then(|| self.sections.clone()))?;
-        Ok(Made::class(py, "Rod", &arguments)?.reduced(py))
+        Ok(Constructor::class(py, "Rod", &arguments)?.reduce(py))
     }
 }

@@ -4,13 +4,13 @@ use crate::array::whole_or_none;
 use crate::composite::{PyComposite, contours};
 use crate::errors;
 use crate::friction::{self, Given};
-use crate::made::{Reduced, made};
 use crate::path::{Leg, PyPath};
+use crate::pickle::{Reduced, constructor};
 use crate::rod::PyRod;
 use crate::scan::PyScan;
+use crate::scene_tables::{Object, degrees, number, point, two};
 use crate::shape::objects;
 use crate::sweep::{Options, Steps, run};
-use crate::written::{Object, degrees, number, point, two};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rod_files::{LegPath, Scene, SceneFriction};
@@ -404,6 +404,6 @@ impl PyScene {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let (rod, objects, path) = (self.rod.bind(py), self.objects(py), self.path.bind(py));
         let (objects, step, name, friction) = (PyList::new(py, objects)?, &self.steps, &self.name, self.friction(py)?);
-        Ok(made!(py, "Scene", rod, objects, path, step, name, friction).reduced(py))
+        Ok(constructor!(py, "Scene", rod, objects, path, step, name, friction).reduce(py))
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::array::{Column, Floats, Get, structured, two};
 use crate::composite::PyComposite;
-use crate::made::{Made, Reduced, made};
 use crate::own_shape;
+use crate::pickle::{Constructor, Reduced, constructor};
 use crate::{errors, running};
 use numpy::ndarray::{ArrayD, ArrayViewD, IxDyn};
 use numpy::{IntoPyArray, PyArrayDyn};
@@ -28,7 +28,7 @@ pub struct PyShape {
     /// The pieces as tables of a scene file; none where they have no name there.
     pub written: Option<Vec<Table>>,
     /// How it was made; none of an object that was read.
-    pub made: Option<Made>,
+    pub constructor: Option<Constructor>,
 }
 
 impl PyShape {
@@ -36,7 +36,7 @@ impl PyShape {
     pub fn new(
         make: impl Fn() -> Pieces + Send + Sync + 'static,
         written: Option<Vec<Table>>,
-        made: Made,
+        constructor: Constructor,
     ) -> Result<Self, ContourError> {
         let mut pieces = make();
         let whole = match (pieces.pop(), pieces.is_empty()) {
@@ -46,14 +46,18 @@ impl PyShape {
                 Box::new(Composite::new(pieces)?)
             }
         };
-        Ok(Self { make: Arc::new(make), whole, written, made: Some(made) })
+        Ok(Self { make: Arc::new(make), whole, written, constructor: Some(constructor) })
     }
 
     /// A shape of one piece.
-    pub fn single(shape: impl Contour + Clone + 'static, written: Option<Table>, made: Option<Made>) -> Self {
+    pub fn single(
+        shape: impl Contour + Clone + 'static,
+        written: Option<Table>,
+        constructor: Option<Constructor>,
+    ) -> Self {
         let whole: Box<dyn Contour> = Box::new(shape.clone());
         let make = move || vec![Box::new(shape.clone()) as Box<dyn Contour>];
-        Self { make: Arc::new(make), whole, written: written.map(|table| vec![table]), made }
+        Self { make: Arc::new(make), whole, written: written.map(|table| vec![table]), constructor }
     }
 
     pub fn pieces(&self) -> Pieces {
@@ -93,8 +97,8 @@ fn object<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyComposite>> {
         Ok(composite) => Ok(composite.clone()),
         Err(_) => {
             let (py, pieces) = (given.py(), vec![given.clone()]);
-            let made = made!(py, "Composite", pieces);
-            Bound::new(py, PyComposite::of(py, &pieces)?.made_by(made))
+            let constructor = constructor!(py, "Composite", pieces);
+            Bound::new(py, PyComposite::of(py, &pieces)?.with_constructor(constructor))
         }
     }
 }
@@ -233,7 +237,7 @@ impl PyShape {
         scale: f64,
         mirror: bool,
     ) -> PyResult<Self> {
-        let made = Made::method(slf, "moved", (position, angle, scale, mirror))?;
+        let constructor = Constructor::method(slf, "moved", (position, angle, scale, mirror))?;
         let shape = slf.get();
         let motion = motion(position, angle, scale, mirror);
         Moved::new(shape.pieces().remove(0), motion).map_err(errors::value)?;
@@ -245,7 +249,7 @@ impl PyShape {
                 .filter_map(|piece| Some(Box::new(Moved::new(piece, motion).ok()?) as Box<dyn Contour>))
                 .collect()
         };
-        Self::new(moved, None, made).map_err(errors::value)
+        Self::new(moved, None, constructor).map_err(errors::value)
     }
 
     /// The shape travelled the other way, which exchanges solid and outside.
@@ -254,12 +258,12 @@ impl PyShape {
     /// -------
     /// Shape
     fn reversed(slf: &Bound<'_, Self>) -> PyResult<Self> {
-        let made = Made::method(slf, "reversed", ())?;
+        let constructor = Constructor::method(slf, "reversed", ())?;
         let make = slf.get().make.clone();
         let reversed = move || -> Pieces {
             make().into_iter().rev().map(|piece| Box::new(Reversed::new(piece)) as Box<dyn Contour>).collect()
         };
-        Self::new(reversed, None, made).map_err(errors::value)
+        Self::new(reversed, None, constructor).map_err(errors::value)
     }
 
     /// A part of a shape of one piece.
@@ -278,7 +282,7 @@ impl PyShape {
     /// ValueError
     ///     The part is empty or leaves the range, or the shape has several pieces.
     fn trimmed(slf: &Bound<'_, Self>, start: f64, end: f64) -> PyResult<Self> {
-        let made = Made::method(slf, "trimmed", (start, end))?;
+        let constructor = Constructor::method(slf, "trimmed", (start, end))?;
         let mut pieces = slf.get().pieces();
         let range = Range { from: start, to: end };
         match (pieces.pop(), pieces.is_empty()) {
@@ -292,7 +296,7 @@ impl PyShape {
                 .filter_map(|piece| Some(Box::new(Trimmed::new(piece, range).ok()?) as Box<dyn Contour>))
                 .collect()
         };
-        Self::new(trimmed, None, made).map_err(errors::value)
+        Self::new(trimmed, None, constructor).map_err(errors::value)
     }
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
@@ -303,6 +307,6 @@ impl PyShape {
     /// For `pickle` and `copy`: a function and its arguments.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let none = || errors::value("the shape cannot be pickled, expected an object of its own: vibrissa.Composite");
-        self.made.as_ref().map(|made| made.reduced(py)).ok_or_else(none)
+        self.constructor.as_ref().map(|constructor| constructor.reduce(py)).ok_or_else(none)
     }
 }

@@ -2,11 +2,11 @@
 
 use crate::array::{two, twos};
 use crate::errors;
-use crate::made::{Made, made};
 use crate::own_function::OwnFunction;
+use crate::pickle::{Constructor, constructor};
 use crate::running;
+use crate::scene_tables::{degrees, piece};
 use crate::shape::PyShape;
-use crate::written::{degrees, piece};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use vibrissa::contour::description::{
@@ -31,13 +31,13 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
 fn single(
     shape: Result<impl Contour + Clone + 'static, ContourError>,
     written: Option<&Shape>,
-    made: Made,
+    constructor: Constructor,
 ) -> PyResult<PyShape> {
-    Ok(PyShape::single(shape.map_err(errors::value)?, written.and_then(piece), Some(made)))
+    Ok(PyShape::single(shape.map_err(errors::value)?, written.and_then(piece), Some(constructor)))
 }
 
 /// Shapes that the library makes from their description.
-fn described(shape: Shape, made: Made) -> PyResult<PyShape> {
+fn described_shape(shape: Shape, constructor: Constructor) -> PyResult<PyShape> {
     let named = |error: vibrissa::contour::description::ShapeError| match error.field {
         Some(field) => errors::value(format!("{field}: {error}")),
         None => errors::value(error),
@@ -45,7 +45,7 @@ fn described(shape: Shape, made: Made) -> PyResult<PyShape> {
     shape.pieces(Path::new("")).map_err(named)?;
     let written = piece(&shape).map(|table| vec![table]);
     // the description has been tried
-    PyShape::new(move || shape.pieces(Path::new("")).unwrap_or_default(), written, made).map_err(errors::value)
+    PyShape::new(move || shape.pieces(Path::new("")).unwrap_or_default(), written, constructor).map_err(errors::value)
 }
 
 /// A straight line; the solid is on its left.
@@ -70,9 +70,9 @@ impl PyLine {
         #[pyo3(from_py_with = two)] start: [f64; 2],
         #[pyo3(from_py_with = two)] end: [f64; 2],
     ) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "Line", start, end);
+        let constructor = constructor!(py, "Line", start, end);
         let written = Shape::Line(LineFields { from: start, to: end });
-        Ok((Self, single(Line::new(start, end), Some(&written), made)?))
+        Ok((Self, single(Line::new(start, end), Some(&written), constructor)?))
     }
 }
 
@@ -111,7 +111,7 @@ impl PyParabola {
         x_from: Option<f64>,
         x_to: Option<f64>,
     ) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "Parabola", vertex, coefficient, x_from, x_to);
+        let constructor = constructor!(py, "Parabola", vertex, coefficient, x_from, x_to);
         let written = Shape::Parabola(ParabolaFields { vertex, coefficient, from_x: x_from, to_x: x_to });
         let whole = Parabola::new(vertex, coefficient);
         let shape = match (x_from, x_to) {
@@ -120,7 +120,7 @@ impl PyParabola {
                 whole.and_then(|whole| whole.between(from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY)))
             }
         };
-        Ok((Self, single(shape, Some(&written), made)?))
+        Ok((Self, single(shape, Some(&written), constructor)?))
     }
 }
 
@@ -152,10 +152,10 @@ impl PyCircularArc {
         angle_from: f64,
         angle_to: f64,
     ) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "CircularArc", center, radius, angle_from, angle_to);
+        let constructor = constructor!(py, "CircularArc", center, radius, angle_from, angle_to);
         let (from_angle, to_angle) = (degrees(angle_from), degrees(angle_to));
         let written = Shape::Arc(ArcFields { center, radius, from_angle, to_angle });
-        Ok((Self, single(CircularArc::new(center, radius, angle_from, angle_to), Some(&written), made)?))
+        Ok((Self, single(CircularArc::new(center, radius, angle_from, angle_to), Some(&written), constructor)?))
     }
 }
 
@@ -191,10 +191,13 @@ impl PyEllipticArc {
         angle_to: f64,
         rotation: f64,
     ) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "EllipticArc", center, radii, angle_from, angle_to, rotation);
+        let constructor = constructor!(py, "EllipticArc", center, radii, angle_from, angle_to, rotation);
         let [turned, from_angle, to_angle] = [rotation, angle_from, angle_to].map(degrees);
         let written = Shape::Ellipse(EllipseFields { center, radii, rotation: turned, from_angle, to_angle });
-        Ok((Self, single(EllipticArc::new(center, radii, rotation, angle_from, angle_to), Some(&written), made)?))
+        Ok((
+            Self,
+            single(EllipticArc::new(center, radii, rotation, angle_from, angle_to), Some(&written), constructor)?,
+        ))
     }
 }
 
@@ -216,7 +219,7 @@ pub struct PyBezier;
 impl PyBezier {
     #[new]
     fn new(py: Python<'_>, #[pyo3(from_py_with = twos)] control: Vec<[f64; 2]>) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "Bezier", control);
+        let constructor = constructor!(py, "Bezier", control);
         let shape = match control[..] {
             [a, b, c, d] => Bezier::new([a, b, c, d]),
             [a, b, c] => Bezier::quadratic([a, b, c]),
@@ -225,7 +228,7 @@ impl PyBezier {
                 return Err(errors::value(format!("control has {found} points, expected four or three")));
             }
         };
-        Ok((Self, single(shape, None, made)?))
+        Ok((Self, single(shape, None, constructor)?))
     }
 }
 
@@ -261,7 +264,7 @@ impl PySpline {
         angle_to: Option<f64>,
         smoothing: Option<f64>,
     ) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "Spline", points, end, angle_from, angle_to, smoothing);
+        let constructor = constructor!(py, "Spline", points, end, angle_from, angle_to, smoothing);
         let (field, kind) = match end {
             "natural" => (SplineEndField::Natural, SplineEnd::Natural),
             "clamped" => (SplineEndField::Clamped, SplineEnd::Clamped { from: angle_from, to: angle_to }),
@@ -288,7 +291,7 @@ impl PySpline {
         };
         let (from_angle, to_angle) = (angle_from.map(degrees), angle_to.map(degrees));
         let fields = SplineFields { points: Some(points), file: None, end: field, from_angle, to_angle, smoothing };
-        Ok((Self, single(shape, Some(&Shape::Spline(fields)), made)?))
+        Ok((Self, single(shape, Some(&Shape::Spline(fields)), constructor)?))
     }
 }
 
@@ -317,8 +320,11 @@ impl PyPolygon {
         #[pyo3(from_py_with = twos)] points: Vec<[f64; 2]>,
         closed: bool,
     ) -> PyResult<(Self, PyShape)> {
-        let made = made!(py, "Polygon", points, closed);
-        Ok((Self, described(Shape::Polygon(PolygonFields { points: Some(points), file: None, closed }), made)?))
+        let constructor = constructor!(py, "Polygon", points, closed);
+        Ok((
+            Self,
+            described_shape(Shape::Polygon(PolygonFields { points: Some(points), file: None, closed }), constructor)?,
+        ))
     }
 }
 
@@ -354,8 +360,8 @@ impl PySvg {
         id: Option<String>,
     ) -> PyResult<(Self, PyShape)> {
         let file = file.map(|file| std::path::absolute(&file).unwrap_or(file));
-        let made = made!(py, "Svg", path, scale, file, id);
-        Ok((Self, described(Shape::Svg(SvgFields { file, path, id, scale }), made)?))
+        let constructor = constructor!(py, "Svg", path, scale, file, id);
+        Ok((Self, described_shape(Shape::Svg(SvgFields { file, path, id, scale }), constructor)?))
     }
 }
 
@@ -387,10 +393,10 @@ impl PyGraph {
     #[new]
     fn new(function: Bound<'_, PyAny>, x_from: f64, x_to: f64) -> PyResult<(Self, PyShape)> {
         let (py, range) = (function.py(), Range { from: x_from, to: x_to });
-        let made = made!(py, "Graph", function, x_from, x_to);
+        let constructor = constructor!(py, "Graph", function, x_from, x_to);
         let own = OwnFunction::<3>::new(function, range, "the function", "(3, n)")?;
         let graph = running::run(py, || Graph::with_derivatives(range, move |x| own.at(x)))?;
-        Ok((Self, single(graph, None, made)?))
+        Ok((Self, single(graph, None, constructor)?))
     }
 }
 
@@ -415,13 +421,13 @@ impl PyCurve {
     #[new]
     fn new(function: Bound<'_, PyAny>, t_from: f64, t_to: f64) -> PyResult<(Self, PyShape)> {
         let (py, range) = (function.py(), Range { from: t_from, to: t_to });
-        let made = made!(py, "Curve", function, t_from, t_to);
+        let constructor = constructor!(py, "Curve", function, t_from, t_to);
         let own = OwnFunction::<6>::new(function, range, "the function", "(3, 2, n)")?;
         let derivatives = move |t| {
             let [x, y, dx, dy, ddx, ddy] = own.at(t);
             [[x, y], [dx, dy], [ddx, ddy]]
         };
         let curve = running::run(py, || Curve::with_derivatives(range, derivatives))?;
-        Ok((Self, single(curve, None, made)?))
+        Ok((Self, single(curve, None, constructor)?))
     }
 }

@@ -120,12 +120,12 @@ pub fn simulate<'py>(
         Some(given) => given.of(&objects)?,
         None => scene.friction.clone(),
     };
-    let made = running::run(py, || {
+    let constructor = running::run(py, || {
         let sensor = noise.generator(seed).map_err(errors::value)?;
         let sweep = Sweep::new(rod, &objects[..], path, step).and_then(|sweep| rubbing(sweep, friction.as_ref()));
         Ok::<_, PyErr>(Recorder { sweep: sweep.map_err(errors::value)?, path, sensor, step, rate }.run())
     })?;
-    match made? {
+    match constructor? {
         (_, Some(stop)) => Err(errors::stopped(py, &stop, None)),
         (samples, None) => structured(py, SAMPLE, samples.iter()),
     }

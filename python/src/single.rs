@@ -12,19 +12,19 @@ use vibrissa::reconstruct::{OneSample, Touch, one_sample, single as invert};
 use vibrissa::rod::Reactions;
 
 /// A point, where there is one, whether a single contact gives such reactions, and of which kind.
-struct Point {
+struct SinglePoint {
     touch: Option<Touch>,
     fits: bool,
     kind: Cow<'static, str>,
 }
 
-impl Point {
+impl SinglePoint {
     fn of(&self, number: impl Fn(&Touch) -> f64) -> f64 {
         self.touch.as_ref().map_or(f64::NAN, number)
     }
 }
 
-const POINT: &[Column<Point>] = &[
+const POINT: &[Column<SinglePoint>] = &[
     Column { name: "x", get: Get::Float(|point| point.of(|touch| touch.x)) },
     Column { name: "y", get: Get::Float(|point| point.of(|touch| touch.y)) },
     Column { name: "s", get: Get::Float(|point| point.of(|touch| touch.s)) },
@@ -83,13 +83,13 @@ pub fn single<'py>(py: Python<'py>, rod: &PyRod, samples: Samples) -> PyResult<B
         let closed = rod.rod.uniform_on_rigid_clamp();
         let closed = closed.map(|rod| invert(rod, pose, reactions, &covariance));
         match (closed, one) {
-            (Some(Ok(touch)), _) => Point { touch: Some(touch), fits: true, kind },
-            (Some(Err(none)), _) => Point { touch: none.touch(), fits: false, kind },
+            (Some(Ok(touch)), _) => SinglePoint { touch: Some(touch), fits: true, kind },
+            (Some(Err(none)), _) => SinglePoint { touch: none.touch(), fits: false, kind },
             (None, Ok(one)) => {
                 let fits = matches!(one, OneSample::Tip(_) | OneSample::Tangent(_));
-                Point { touch: one.touch(), fits, kind }
+                SinglePoint { touch: one.touch(), fits, kind }
             }
-            (None, Err(_)) => Point { touch: None, fits: false, kind },
+            (None, Err(_)) => SinglePoint { touch: None, fits: false, kind },
         }
     };
     let points = running::run(py, || samples.0.iter().map(point).collect::<Vec<_>>())?;

@@ -2,7 +2,7 @@
 
 use crate::array::{Column, Get, whole};
 use crate::errors;
-use crate::made::{Reduced, made};
+use crate::pickle::{Reduced, constructor};
 use crate::pose::tuple;
 use crate::rod::PyRod;
 use numpy::ndarray::Array2;
@@ -207,7 +207,7 @@ impl PyContact {
     /// For `pickle` and `copy`: a function and its arguments.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let Self { kind, s, x, y, alpha, force, object, piece, mode, friction, slip } = self;
-        Ok(made!(py, "Contact", kind, s, x, y, alpha, force, object, piece, mode, friction, slip).reduced(py))
+        Ok(constructor!(py, "Contact", kind, s, x, y, alpha, force, object, piece, mode, friction, slip).reduce(py))
     }
 }
 

@@ -7,12 +7,12 @@ use pyo3::types::{PyDict, PyTuple};
 pub type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 /// A function that makes an object, and its arguments.
-pub struct Made {
+pub struct Constructor {
     function: Py<PyAny>,
     arguments: Py<PyTuple>,
 }
 
-impl Made {
+impl Constructor {
     fn by<'py>(py: Python<'py>, function: &str, arguments: Bound<'py, PyTuple>) -> PyResult<Self> {
         let function = py.import("vibrissa._pickled")?.getattr(function)?.unbind();
         Ok(Self { function, arguments: arguments.unbind() })
@@ -35,17 +35,17 @@ impl Made {
     }
 
     /// As `__reduce__` gives it.
-    pub fn reduced<'py>(&self, py: Python<'py>) -> Reduced<'py> {
+    pub fn reduce<'py>(&self, py: Python<'py>) -> Reduced<'py> {
         (self.function.bind(py).clone(), self.arguments.bind(py).clone())
     }
 }
 
 /// An object of a class with arguments that are named as these variables.
-macro_rules! made {
+macro_rules! constructor {
     ($py:expr, $class:literal, $($name:ident),+) => {{
         let arguments = pyo3::types::PyDict::new($py);
         $(arguments.set_item(stringify!($name), $name.clone())?;)+
-        $crate::made::Made::class($py, $class, &arguments)?
+        $crate::pickle::Constructor::class($py, $class, &arguments)?
     }};
 }
-pub(crate) use made;
+pub(crate) use constructor;
