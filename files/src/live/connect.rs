@@ -2,9 +2,8 @@
 
 use super::address::SensorAddress;
 use super::error::LiveError;
-use super::feed::{Fed, Feed, Miss};
+use super::feed::{Fed, Feed, Miss, Sensor};
 use super::played;
-use super::sensor::Sensor;
 use crate::{ReadOptions, SensorCalibration, Setup};
 use std::error::Error as StdError;
 use std::time::Duration;

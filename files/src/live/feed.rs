@@ -1,5 +1,6 @@
 //! Where the samples of a live scan come from.
 
+use crate::SensorCalibration;
 use vibrissa::hw::{LinkCounters, RawSample, ReactionSample};
 
 /// A sample as its source gives it.
@@ -30,4 +31,14 @@ pub trait Feed {
 
     /// Time, s, by the clock of the samples' host times; none for a recording.
     fn now(&self) -> Option<f64>;
+}
+
+/// A sensor that is connected.
+pub struct Sensor {
+    /// Its samples.
+    pub feed: Box<dyn Feed>,
+    /// Its calibration to N and N m; none where the samples are reactions already.
+    pub calibration: Option<SensorCalibration>,
+    /// Its name for the record.
+    pub name: String,
 }

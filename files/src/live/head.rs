@@ -1,17 +1,17 @@
 //! The samples before the first answer: those of the free rod, their tare, and the start of the stage.
 
 use super::error::LiveError;
-use super::feed::{Fed, Miss};
+use super::feed::{Fed, Miss, Sensor};
 use super::motion::Motion;
 use super::scan::LiveScan;
-use super::sensor::Sensor;
 use super::summary::LiveReport;
 use crate::SensorCalibration;
 use vibrissa::hw::{
-    Calibration, CalibrationError, RawSample, ReactionSample, Scale, SignalChain, Tare, TareError, TareLimits,
-    TareWindow, Timekeeper, Wrench, WrenchChain, WrenchSample, Zero,
+    Calibration, CalibrationError, Channels, Mounting, RawSample, ReactionSample, Scale, SignalChain, Tare, TareError,
+    TareLimits, TareWindow, Timekeeper, Wrench, WrenchChain, WrenchSample, Zero,
 };
 use vibrissa::reconstruct::LiveSettings;
+use vibrissa::rod::Reactions;
 
 /// Largest change within a tare window, in units of the rod (EI/L^2, EI/L): it would move the tip by 0.3 % of the length.
 const SMALL: f64 = 0.01;
@@ -161,4 +161,19 @@ fn zero(scan: &LiveScan, wrenches: &[WrenchSample]) -> Result<Zero, TareError> {
     let mut window = TareWindow::new(limits);
     wrenches.iter().try_for_each(|wrench| window.push(wrench))?;
     window.finish()
+}
+
+/// Standard deviation of reactions from numbers rounded to one unit of the device, q / sqrt 12; zero where the unit is not known.
+pub(super) fn rounding(scaled: &Scaled<'_>, mounting: &Mounting, at: &ReactionSample) -> Reactions {
+    // the converter behind gauges is not known
+    let SensorCalibration::Scale(scale) = &scaled.calibration else { return Reactions::default() };
+    let one = RawSample::new(0.0, scale.channels(&Wrench::default()));
+    let ones = one.channels.iter().map(|_| 1.0).collect::<Vec<f64>>();
+    let raw = Channels::new(&ones).map(|channels| RawSample { channels, ..one });
+    let quantum = raw.and_then(|raw| scale.wrench(&raw).ok()).map(|sample| sample.wrench).unwrap_or_default();
+    // sensors that send N and N m as floats have no unit to round to
+    let is_si = *scale == Scale::si();
+    let sigma = quantum * if is_si { 0.0 } else { 12.0_f64.sqrt().recip() };
+    let sample = WrenchSample { sigma: Some(sigma), ..WrenchSample::new(0.0, Wrench::default()) };
+    mounting.reactions(&sample, at.pose).sigma.unwrap_or_default()
 }

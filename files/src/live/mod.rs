@@ -1,7 +1,7 @@
 //! A sensor, read and reconstructed as it measures.
 //!
 //! `address` and `stage` are the arguments of the command line for the sensor and the clamp. `connect` opens a [`Sensor`], or `played` a
-//! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise (`rounding`). `session` is the
+//! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise. `session` is the
 //! scan from the first sample to the last, `losses` counts what no counter tells of, `physics` checks at its end
 //! whether it can be of the rod, `record` writes its files and `summary` its report.
 //! `whole` takes a recording at once, and `recorded` any file: reactions as they are, raw values and wrenches by the way of a live scan.
@@ -18,9 +18,7 @@ mod physics;
 mod played;
 mod record;
 mod recorded;
-mod rounding;
 mod scan;
-mod sensor;
 mod session;
 mod stage;
 mod summary;
@@ -28,9 +26,8 @@ mod whole;
 
 pub use address::{AddressError, SensorAddress};
 pub use error::LiveError;
-pub use feed::{Fed, Feed, Miss};
+pub use feed::{Fed, Feed, Miss, Sensor};
 pub use latency::Latency;
 pub use scan::LiveScan;
-pub use sensor::Sensor;
 pub use stage::{StageSpec, StageSpecError};
 pub use summary::{End, LiveReport};

@@ -1,8 +1,7 @@
 //! Recordings, played back.
 
 use super::error::LiveError;
-use super::feed::{Fed, Feed, Miss};
-use super::sensor::Sensor;
+use super::feed::{Fed, Feed, Miss, Sensor};
 use crate::{ReadOptions, RecordingSetup, RecordingTime, SensorCalibration, Setup};
 use std::error::Error as StdError;
 use std::fmt::Display;

@@ -2,8 +2,8 @@
 
 use super::address::SensorAddress;
 use super::error::LiveError;
+use super::feed::Sensor;
 use super::scan::LiveScan;
-use super::sensor::Sensor;
 use crate::{Place, Recording, RecordingError, Row, RowFault, RowProblem};
 use std::path::Path;
 use vibrissa::hw::ReactionSample;

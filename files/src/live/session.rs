@@ -1,13 +1,11 @@
 //! A live scan, from the first sample to the last.
 
 use super::error::LiveError;
-use super::feed::{Fed, Miss};
-use super::head::{Head, PATIENCE, head};
+use super::feed::{Fed, Miss, Sensor};
+use super::head::{Head, PATIENCE, head, rounding};
 use super::physics::Physics;
 use super::record::{LiveFiles, check};
-use super::rounding::rounding;
 use super::scan::LiveScan;
-use super::sensor::Sensor;
 use super::summary::{End, LiveReport};
 use std::path::Path;
 use vibrissa::Label;

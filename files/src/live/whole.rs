@@ -1,10 +1,9 @@
 //! A whole recording of a sensor, turned into reactions as a live scan does it.
 
 use super::error::LiveError;
-use super::feed::{Fed, Feed, Miss};
+use super::feed::{Fed, Feed, Miss, Sensor};
 use super::head::{Chain, Head, head};
 use super::scan::LiveScan;
-use super::sensor::Sensor;
 use super::summary::LiveReport;
 use vibrissa::hw::{Calibration, ChainError, LinkCounters, RawSample, ReactionSample, StageError, StageSource};
 

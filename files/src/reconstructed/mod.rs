@@ -6,7 +6,6 @@
 mod comparison;
 mod files;
 mod fit;
-mod naive;
 mod points;
 mod report;
 mod result;
@@ -15,7 +14,7 @@ mod truth;
 
 pub use comparison::{Comparison, Transition, TruthError};
 pub use files::COLUMNS as CONTOUR_COLUMNS;
-pub use naive::naive_touch;
 pub(crate) use points::PointRecord;
 pub use result::{Reconstructed, ReconstructionError};
 pub use summary::hardly_told;
+pub use truth::naive_touch;

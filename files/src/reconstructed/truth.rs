@@ -1,14 +1,15 @@
 //! The comparison of a reconstruction with the scene that the recording is of.
 
 use super::comparison::{Comparison, Transition, TruthError};
-use super::naive::naive_touch;
 use super::result::Reconstructed;
 use crate::{Scan, Scene};
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 use vibrissa::contact::EventKind;
-use vibrissa::reconstruct::Touch;
 use vibrissa::reconstruct::score::{Confusion, Deviation, KinkScore, signed_distance};
-use vibrissa::{Composite, Event, Label, Pose};
+use vibrissa::reconstruct::{Touch, one_sample, single};
+use vibrissa::rod::AnyRod;
+use vibrissa::{Composite, Event, Label, Pose, Sample};
 
 /// Largest distance, rod lengths, of a pose from the path of the scene at which it is compared.
 const OFF_PATH: f64 = 1e-3;
@@ -213,5 +214,15 @@ impl<'a> Truth<'a> {
                 }
             })
             .collect()
+    }
+}
+
+/// The contact point of a sample as if it were a single one: where the moment vanishes first. For a uniform rod the pose is that of the base,
+/// for another one that of the support.
+pub fn naive_touch(rod: &AnyRod, sample: &Sample) -> Option<Touch> {
+    let (Sample { pose, reactions, .. }, exact) = (*sample, Matrix3::zeros());
+    match rod.uniform() {
+        Some(rod) => single(rod, pose, reactions, &exact).map_or_else(|none| none.touch(), Some),
+        None => one_sample(rod, pose, reactions, &exact).ok()?.touch(),
     }
 }

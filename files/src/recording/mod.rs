@@ -5,14 +5,12 @@
 
 mod columns;
 mod error;
-mod place;
 mod read;
 mod row;
 mod warnings;
 
 pub use error::RecordingError;
-pub use place::Place;
-pub use row::{RowFault, RowProblem};
+pub use row::{Place, RowFault, RowProblem};
 
 use std::path::PathBuf;
 use vibrissa::Sample;

@@ -3,7 +3,7 @@
 //! The bins are cut by the index of the sample, never by the position of the noisy points: a mean over points that are selected by
 //! their own noise would be biased.
 
-use super::point::ContactPoint;
+use super::measured::ContactPoint;
 use super::scatter;
 use nalgebra::{Matrix2, Vector2};
 

@@ -1,6 +1,6 @@
 //! Leaps in a run of contact points: a snap or a slip to another place of the contour within one contact phase.
 
-use super::point::ContactPoint;
+use super::measured::ContactPoint;
 use super::scatter;
 use crate::numeric::squared_distance;
 use nalgebra::Vector2;

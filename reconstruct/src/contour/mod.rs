@@ -11,7 +11,6 @@ mod gap;
 mod leaps;
 mod line;
 mod measured;
-mod point;
 mod runs;
 mod scatter;
 mod simplify;

@@ -1,8 +1,7 @@
 //! The samples of a scan, taken apart into consecutive ones of a kind.
 
 use super::gap::GapReason;
-use super::measured::SamplePoints;
-use super::point::ContactPoint;
+use super::measured::{ContactPoint, SamplePoints};
 use std::ops::Range;
 
 /// Runs of consecutive points of a kind, and the gaps between them.

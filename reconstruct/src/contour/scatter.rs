@@ -3,7 +3,7 @@
 //! Fourth differences of neighbours remove what changes smoothly and have 70 times the variance of white noise. Their median is not
 //! affected by the few that span a vertex or a leap.
 
-use super::point::ContactPoint;
+use super::measured::ContactPoint;
 use crate::numeric::squared_distance;
 use nalgebra::{Matrix2, Vector2};
 

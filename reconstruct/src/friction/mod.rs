@@ -6,14 +6,11 @@
 //! contacts. `plateau` finds that value, [`Friction`] says what is known before, [`FrictionEstimate`] what was found, and
 //! [`without_friction`] takes it off by a scan back.
 
-mod estimate;
-mod known;
+mod coefficient;
 mod plateau;
 mod there_and_back;
 
-pub(crate) use estimate::SPREAD;
-pub use estimate::{FrictionAlone, FrictionEstimate};
-pub(crate) use known::ANY;
-pub use known::Friction;
+pub(crate) use coefficient::{ANY, SPREAD};
+pub use coefficient::{Friction, FrictionAlone, FrictionEstimate};
 pub(crate) use plateau::{PlateauFriction, flatness, plateau_friction, shows_friction};
 pub use there_and_back::{Pair, without_friction};

@@ -1,11 +1,10 @@
 //! The evidence for each phase at a place of a scan.
 
-use super::basis::Basis;
 use super::label::Label;
-use super::quantity::Quantity;
 use crate::point::{Clamp, Inverse, MomentZero, NoContact};
 use crate::scan::LocalEstimate;
 use nalgebra::{Matrix2x3, Vector2, Vector3};
+use std::fmt;
 
 /// Error of the criterion, the arc length and the reactions (dimensionless) that solvers and rounding leave. Smaller: exact samples
 /// contradict their own phase.
@@ -287,4 +286,72 @@ fn speed<I: Inverse>(rod: &I, estimate: &LocalEstimate, found: &MomentZero, late
         let speed = Quantity::new(value[row], estimate.variance(&by_value, &by_rate), floor);
         if speed.sigma.is_finite() { speed } else { Quantity::UNKNOWN }
     })
+}
+
+/// The criterion that decided a label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum Basis {
+    /// The size of the reactions.
+    Force,
+    /// The phase criterion K (Merker et al. 2020, eq. 20).
+    Criterion,
+    /// The arc length at which the moment vanishes.
+    Length,
+    /// The direction in which the reconstructed point moves.
+    Tangent,
+    /// Kinks and the phase diagram: the phases before and after.
+    Diagram,
+}
+
+impl fmt::Display for Basis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Force => "force",
+            Self::Criterion => "criterion",
+            Self::Length => "length",
+            Self::Tangent => "tangent",
+            Self::Diagram => "diagram",
+        })
+    }
+}
+
+/// A quantity that a phase requires to vanish, and its standard deviation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quantity {
+    /// Its value.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+}
+
+impl Quantity {
+    /// A quantity of infinite uncertainty.
+    pub const UNKNOWN: Self = Self { value: 0.0, sigma: f64::INFINITY };
+
+    /// From a variance, and an error that it has in any case.
+    pub(super) fn new(value: f64, variance: f64, floor: f64) -> Self {
+        Self { value, sigma: (variance + floor * floor).sqrt() }
+    }
+
+    /// Value over standard deviation.
+    pub fn z(&self) -> f64 {
+        self.value / self.sigma
+    }
+
+    /// Log of the odds of "it is 0" against "it is spread about 0 by this standard deviation": 0 where the noise is much wider.
+    pub(super) fn vanishes(&self, spread: f64) -> f64 {
+        if self.sigma.is_infinite() {
+            return 0.0;
+        }
+        let wide = self.sigma.hypot(spread);
+        (wide / self.sigma).ln() - 0.5 * (self.z() * self.z() - (self.value / wide).powi(2))
+    }
+
+    /// Log of the likelihood that it is not positive.
+    pub(super) fn not_positive(&self) -> f64 {
+        let z = self.z().max(0.0);
+        -0.5 * z * z
+    }
 }

@@ -5,8 +5,6 @@
 //! sample whose phase is known.
 
 #[cfg(feature = "std")]
-mod basis;
-#[cfg(feature = "std")]
 mod border;
 #[cfg(feature = "std")]
 mod contact;
@@ -18,18 +16,14 @@ mod evidence;
 mod identify;
 mod label;
 #[cfg(feature = "std")]
-mod quantity;
-#[cfg(feature = "std")]
 mod trellis;
 
-#[cfg(feature = "std")]
-pub use basis::Basis;
 #[cfg(feature = "std")]
 pub(crate) use contact::{constrained_contact, contact};
 #[cfg(feature = "std")]
 pub(crate) use diagram::Break;
 #[cfg(feature = "std")]
-pub use evidence::Evidence;
+pub use evidence::{Basis, Evidence, Quantity};
 #[cfg(feature = "std")]
 pub(crate) use evidence::{CRITERIA, Criterion};
 #[cfg(feature = "std")]
@@ -37,7 +31,5 @@ pub(crate) use identify::{
     Place, PlaceNumber, ScanPhases, evaluate_places, identify_phases, label_log_likelihood, most_likely_labels, parts,
 };
 pub use label::Label;
-#[cfg(feature = "std")]
-pub use quantity::Quantity;
 #[cfg(feature = "std")]
 pub(crate) use trellis::{Trellis, forward_probabilities, most_likely, viterbi_step};

@@ -1,9 +1,9 @@
 //! Alternating estimation: the most likely labels given the shared errors, then the errors given the labels, until both stay the same.
 
-use super::calibrate::RemainingErrors;
 use super::calibration::BEYOND;
 use super::correction::Frame;
 use super::estimate_errors::{ErrorEstimate, LabelledPlace, Prior, estimate_errors};
+use super::remaining::RemainingErrors;
 use super::source::{Errors, Joint, SOURCES};
 use crate::phase::{CRITERIA, Criterion, Label, Place, label_log_likelihood, most_likely_labels};
 use crate::scan::Track;

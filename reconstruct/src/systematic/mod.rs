@@ -13,29 +13,27 @@ mod calibrate;
 mod calibration;
 mod candidates;
 mod combined;
-mod components;
 mod correction;
 mod disturb;
 mod estimate_errors;
 mod free;
 mod influence;
 mod known;
+mod remaining;
 mod source;
 
 pub use across::{Influence, influences};
 pub use budget::Budget;
-pub(crate) use calibrate::{
-    CalibrationScan, RemainingErrors, calibrate, calibrate_labelled, errors_before_scan, log_likelihood,
-};
+pub(crate) use calibrate::{CalibrationScan, calibrate, calibrate_labelled, errors_before_scan, log_likelihood};
 pub use calibration::{Calibration, SourceEstimate};
 pub(crate) use candidates::{SourceCandidate, candidates};
 pub use combined::Combined;
-pub(crate) use components::DISPLACED;
 pub(crate) use correction::Correction;
 #[cfg(feature = "contact")]
 pub(crate) use correction::{Frame, motion, still};
 pub use disturb::disturb;
 pub(crate) use influence::{CorrectionDifferences, point_covariance};
 pub use known::Known;
+pub(crate) use remaining::{DISPLACED, RemainingErrors};
 pub(crate) use source::Errors;
 pub use source::Source;
