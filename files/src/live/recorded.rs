@@ -10,7 +10,7 @@ use vibrissa::hw::ReactionSample;
 
 impl LiveScan {
     /// The recording in any file that Vibrissa reads: reactions with poses, or, where the file is TDMS or MCAP or the scan has a stage, raw
-    /// values or wrenches, which setup and stage turn into reactions as in a live self.
+    /// values or wrenches, which setup and stage turn into reactions as in a live scan.
     ///
     /// # Errors
     /// [`LiveError`]: the file cannot be read, or its samples cannot be turned into reactions.

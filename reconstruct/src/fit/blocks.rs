@@ -13,7 +13,7 @@ use std::ops::Range;
 
 /// Blocks into which a recording is divided, more where kinks cut it. More: more time; fewer: less is seen between kinks.
 const BLOCKS: usize = 600;
-/// Samples of a block over the long-run variance of the noise, so that the means of neighbouring blocks are nearly independent.
+/// Smallest length of a block over the ratio of long-run to sample variance, so that the means of neighbouring blocks are nearly independent.
 const INDEPENDENT: f64 = 2.0;
 /// Standard deviation of a block over the largest reaction, at least: what the contour of a fit, a cubic spline, and the mean of a block
 /// leave of noise-free samples.
@@ -106,7 +106,8 @@ impl Blocks {
         let (mut from, mut start, mut after_jump) = (first, self.blocks.len(), false);
         for end in ends {
             for part in (from..end).collect::<Vec<_>>().chunks(width) {
-                let index: Vec<usize> = part.iter().filter_map(|k| numbered[k - first].ok()).collect();
+                let index: Vec<usize> =
+                    part.iter().filter_map(|k| numbered[k - first].ok()).map(|index| index.0).collect();
                 let (Some(range), false) = (part.first().zip(part.last()), index.is_empty()) else { continue };
                 let range = *range.0..range.1 + 1;
                 self.blocks.push(block(pass, &track, &index, range, local, largest));

@@ -4,14 +4,14 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use rod_contours::{Composite, Contour, Frame, Spline, SplineEnd};
 use rod_core::SupportRate;
 
-/// A free-form contour, dimensionless. Its unknowns are the distances by which its points lie off those of the start.
+/// A free-form contour, m. Its unknowns are the distances by which its points lie off those of the start.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     base: Vec<Vector2<f64>>,
     normals: Vec<Vector2<f64>>,
     pub offsets: DVector<f64>,
     spline: Spline,
-    /// Second derivatives at the knots by the values at the knots (natural ends): the columns are cardinal splines.
+    /// Column j: second derivatives at all knots of the natural spline that is 1 at knot j and 0 at the others.
     second: DMatrix<f64>,
     knots: Vec<f64>,
 }

@@ -24,7 +24,7 @@ use crate::scan::Track;
 use crate::systematic::{Correction, Errors, Frame, Source, still};
 use blocks::Blocks;
 use curve::Curve;
-use nalgebra::{DMatrix, DVector, Matrix3, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 use outline::{Touched, outline};
 use problem::{Fit, Sources};
 use rod_contact::{Contact, ContactKind};
@@ -33,16 +33,18 @@ use std::ops::Range;
 
 /// Contours, each with twice as many points as the one before, from 0.03 L on.
 const LEVELS: usize = 3;
-/// Most steps at each.
+/// Most steps before the smoothness is estimated anew. As a rule 20 are enough; a start that is far off takes 50.
 const STEPS: usize = 60;
-/// Standard deviation of the change of curvature at first, 1/L per root of L: contours of a few curvatures a rod length.
+/// Initial standard deviation of the change of curvature, L^-1.5: a parabola of 5 / L has 10 to 20.
 const BEND: f64 = 30.0;
-/// Smallest and largest one, and how often it is estimated anew at each contour.
+/// Smallest and largest one, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
 const BENDS: (f64, f64) = (1.0, 1e3);
+/// How often it is estimated anew at each contour: a third time changes it by less than a tenth.
+const ESTIMATES: usize = 2;
 /// Smallest standard deviation of a contact point of the start, rod lengths: none counts more than others by much.
 const SURE: f64 = 1e-3;
-/// That of a point that a single contact would have where there is no answer, and the force over its noise from which on it is taken.
-const UNSURE: f64 = 0.02;
+/// Largest one of a point that a single contact would have where there is no answer, and smallest force over its noise.
+const UNSURE: f64 = 0.05;
 const CERTAIN: f64 = 6.0;
 
 /// Why there is no fit.
@@ -53,11 +55,11 @@ pub enum FitError {
     #[error("no contact point is known from which a fit could start")]
     NoContacts,
     /// With friction the states of a rod depend on the whole way of the clamp.
-    #[error("of a recording with friction no contour is fitted")]
+    #[error("recordings with friction cannot be fitted")]
     Friction,
-    /// No equilibrium of the rod on the contour of the start.
-    #[error("the rod has no equilibria on a contour through the contact points")]
-    NoStates,
+    /// The contact points give no curve that the fit could change.
+    #[error("the contact points are in no order that gives a contour to start from")]
+    NoStart,
 }
 
 /// A block of samples against the fit.
@@ -93,7 +95,7 @@ pub struct ContourFit {
 /// are estimated, and of a uniform one none of its natural curvature.
 ///
 /// First the fit starts from the contact points that are answered; where that does not explain the recording, also from those that single
-/// contacts would have wherever there is no answer. The start that explains more wins.
+/// contacts would have wherever there is no answer. A start that explains the recording wins, else the one of lower cost.
 ///
 /// # Errors
 /// [`FitError`].
@@ -106,25 +108,27 @@ pub fn fit_contour<R: PhysicalRod>(
         return Err(FitError::Friction);
     }
     let units = rod.units();
-    let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStates)?;
+    let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
     let answered = in_units(Blocks::of(&uniform, samples, local), units);
     let (first, last) = answered.blocks.first().zip(answered.blocks.last()).ok_or(FitError::NoContacts)?;
     let (track, _) = Track::new(&uniform, samples);
     let frame = Frame::of(&track).ok_or(FitError::NoContacts)?.on_way(last.tau - first.tau);
     let (sources, errors) = sources(&uniform, local);
     let recording = Recording { rod, units, frame, sources: &sources, errors };
-    let found = recording.fitted(&answered, touched(local, &uniform));
+    let found = recording.fitted(&answered, &touched(local, &uniform), true);
     if found.as_ref().is_ok_and(|solved| solved.goodness.explains) {
         return found.map(|solved| solved.result(&answered, &sources, &uniform));
     }
     let mut singles = answered.clone();
     let mut points = touched(local, &uniform);
     points.extend(recording.fill_with_singles(&mut singles));
-    match (found, recording.fitted(&singles, points)) {
-        (Ok(found), Ok(other)) if found.cost <= other.cost => Ok(found.result(&answered, &sources, &uniform)),
-        (Ok(found), Err(_)) => Ok(found.result(&answered, &sources, &uniform)),
-        (_, other) => Ok(other?.result(&singles, &sources, &uniform)),
-    }
+    let other = recording.fitted(&singles, &points, false);
+    let is_other_better = match (&found, &other) {
+        (Ok(found), Ok(other)) => other.goodness.explains || other.cost < found.cost,
+        (found, other) => found.is_err() && other.is_ok(),
+    };
+    let (best, blocks) = if is_other_better { (other, &singles) } else { (found, &answered) };
+    best.map(|solved| solved.result(blocks, &sources, &uniform))
 }
 
 /// What the fits of a recording from several starts share.
@@ -139,9 +143,9 @@ struct Recording<'a, R> {
 
 impl<R: PhysicalRod> Recording<'_, R> {
     /// The fit from a contour through these points on, at finer and finer contours until one explains the recording.
-    fn fitted(&self, blocks: &Blocks, points: Vec<Touched>) -> Result<Solved, FitError> {
+    fn fitted(&self, blocks: &Blocks, points: &[Touched], is_sure: bool) -> Result<Solved, FitError> {
         let Self { rod, units, frame, sources, .. } = *self;
-        let points = outline(&points).ok_or(FitError::NoContacts)?;
+        let points = outline(points, is_sure).ok_or(FitError::NoContacts)?;
         let start = points.iter().map(|point| point * units.length).collect();
         let curve = Curve::through(start).ok_or(FitError::NoContacts)?;
         let states = vec![None; blocks.blocks.len()];
@@ -159,13 +163,13 @@ impl<R: PhysicalRod> Recording<'_, R> {
             let Some(finer) = fit.curve.refined().filter(|_| !explains) else { break };
             fit.curve = finer;
         }
-        best.ok_or(FitError::NoStates)
+        best.ok_or(FitError::NoStart)
     }
 
     /// Gives blocks without an answer the single contact that their reactions would have, and returns those points.
     fn fill_with_singles(&self, blocks: &mut Blocks) -> Vec<Touched> {
         let mut errors = self.sources.known;
-        self.sources.free.iter().zip(&self.errors).for_each(|(k, z)| errors[*k] = z * self.sources.sigmas[*k]);
+        self.sources.free.iter().zip(&self.errors).for_each(|(k, z)| errors[*k] += z * self.sources.sigmas[*k]);
         let Some(correction) = Correction::new(self.frame, &errors) else { return Vec::new() };
         let mut found = Vec::new();
         for block in blocks.blocks.iter_mut().filter(|block| block.contacts.is_empty()) {
@@ -177,18 +181,24 @@ impl<R: PhysicalRod> Recording<'_, R> {
             let pose = Pose { x: pose.x * self.units.length, y: pose.y * self.units.length, phi: pose.z };
             let reactions =
                 Reactions { f0x: f0x * self.units.force, f0y: f0y * self.units.force, m0z: m0z * self.units.moment };
-            let told = one_sample(self.rod, pose, reactions, &Matrix3::zeros());
+            let units = self.units;
+            let sigma = block.sigma.component_mul(&Vector3::new(units.force, units.force, units.moment));
+            let told = one_sample(self.rod, pose, reactions, &Matrix3::from_diagonal(&sigma.component_mul(&sigma)));
             let Some((touch, tip)) =
                 told.ok().and_then(|told| Some((told.touch()?, matches!(told, OneSample::Tip(_)))))
             else {
                 continue;
             };
+            let sigma = touch.sigma_normal() / units.length;
+            if sigma > UNSURE {
+                continue;
+            }
             let kind = if tip { ContactKind::Tip } else { ContactKind::Tangent };
             block.contacts = vec![Contact { kind, s: touch.s.min(self.units.length), ..touch.into() }];
             found.push(Touched {
                 at: Vector2::new(touch.x, touch.y) / self.units.length,
                 along: Vector2::new(touch.alpha.cos(), touch.alpha.sin()),
-                weight: UNSURE.powi(-2),
+                weight: sigma.hypot(SURE).powi(-2),
             });
         }
         found
@@ -212,7 +222,7 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, units: Uni
     x.rows_mut(0, count).copy_from(&fit.curve.offsets);
     x.rows_mut(count, free).copy_from(errors);
     let bends = [BENDS.0, BENDS.1].map(|bend| bend * units.length.powf(-1.5));
-    for _ in 0..2 {
+    for _ in 0..ESTIMATES {
         let (at, _) = iterate(fit, x.clone(), Damped::default(), STEPS);
         x = at.x;
         if let Some(covariance) = at.equations.covariance() {
@@ -239,8 +249,8 @@ impl Solved {
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
-            let unit = sources.sigmas[*k] * Source::ALL[*k].unit(rod);
-            (Source::ALL[*k], x[count + i] * unit, sigma(count + i) * unit)
+            let (source, unit, given) = (Source::ALL[*k], Source::ALL[*k].unit(rod), sources.sigmas[*k]);
+            (source, (sources.known[*k] + x[count + i] * given) * unit, sigma(count + i) * given * unit)
         };
         let errors: Vec<(Source, f64, f64)> = sources.free.iter().enumerate().map(of_source).collect();
         // the model has the length of the given rod; the true one may have another
@@ -272,17 +282,17 @@ fn in_units(mut blocks: Blocks, units: Units) -> Blocks {
 
 /// The sources of errors that the local answer had a budget for, and its estimates in standard deviations of that.
 fn sources(rod: &Rod, local: &Reconstruction) -> (Sources, DVector<f64>) {
-    let (mut sigmas, mut start) = (Errors::zeros(), Errors::zeros());
+    let (mut sigmas, mut known, mut start) = (Errors::zeros(), Errors::zeros(), Errors::zeros());
     for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
         // the rod of the model is straight and has no friction
         if !matches!(estimate.source, Source::NaturalCurvature | Source::Friction) {
             let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
-            (sigmas[k], start[k]) = (estimate.budget / unit, estimate.taken / unit);
+            (sigmas[k], known[k], start[k]) = (estimate.budget / unit, estimate.known / unit, estimate.taken / unit);
         }
     }
     let free: Vec<usize> = (0..sigmas.len()).filter(|k| sigmas[*k] > 0.0).collect();
-    let start = DVector::from_iterator(free.len(), free.iter().map(|k| start[*k] / sigmas[*k]));
-    (Sources { sigmas, known: Errors::zeros(), free }, start)
+    let start = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - known[*k]) / sigmas[*k]));
+    (Sources { sigmas, known, free }, start)
 }
 
 /// The contact points of the local answer, in lengths of its rod.

@@ -7,6 +7,12 @@ use std::collections::BTreeMap;
 pub(super) const SPACING: f64 = 0.03;
 /// Two points closer than this share of the spacing are one.
 const CLOSE: f64 = 0.4;
+/// Points at an end that are left out, at most, and the step that parts them from the others, in spacings.
+const STRAYS: usize = 3;
+const STRAY_STEP: f64 = 6.0;
+/// Distance of a point from the middle of its neighbours over theirs from which on it is noise, and how often it is brought nearer.
+const ZIGZAG: f64 = 0.15;
+const SMOOTHINGS: usize = 3;
 /// Gaps wider than so many spacings get points in them, but no more than these: a spline cannot bend between two of its points.
 const WIDE: f64 = 1.5;
 const MOST_PARTS: f64 = 12.0;
@@ -27,9 +33,18 @@ pub(super) struct Touched {
 }
 
 /// Points along the contour, in its direction, with the solid on the left; none where fewer than two places were touched.
-pub(super) fn outline(touched: &[Touched]) -> Option<Vec<Vector2<f64>>> {
+///
+/// `is_sure` says that the points are answers; others are as noise left them: then strays are left out and zigzags smoothed.
+pub(super) fn outline(touched: &[Touched], is_sure: bool) -> Option<Vec<Vector2<f64>>> {
     let places = cells(touched);
-    let mut ordered = thinned(&in_order(&places));
+    let mut ordered = in_order(&places);
+    if !is_sure {
+        ordered = without_strays(ordered);
+    }
+    ordered = thinned(ordered);
+    if !is_sure {
+        ordered = smoothed(ordered);
+    }
     if ordered.len() < 2 {
         // one place alone: a straight line through it
         let one = places.first()?;
@@ -64,8 +79,8 @@ fn cells(touched: &[Touched]) -> Vec<Touched> {
     cells.values().filter_map(mean).collect()
 }
 
-/// The path through all places whose steps are cheapest, added one by one: a step from one place to another costs its length, and more
-/// where it does not go the way of the contour.
+/// Greedy ordering: joins the cheapest pairs first, without branching or closing. A step from one place to another costs its length, and
+/// more where it does not go the way of the contour.
 fn in_order(places: &[Touched]) -> Vec<Vector2<f64>> {
     let count = places.len();
     let cost = |i: usize, j: usize| {
@@ -98,12 +113,41 @@ fn in_order(places: &[Touched]) -> Vec<Vector2<f64>> {
     ordered
 }
 
+/// Without a few points at an end that a long step parts from all others: noise threw them there.
+fn without_strays(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+    for _ in 0..2 {
+        let is_far = |k: &usize| (points[k + 1] - points[*k]).norm() > STRAY_STEP * SPACING;
+        let most = STRAYS.min(points.len() / 4);
+        if let Some(cut) = (0..most).rev().find(is_far) {
+            points.drain(..=cut);
+        }
+        points.reverse();
+    }
+    points
+}
+
+/// Each point but the ends at the mean of itself, twice, and its neighbours, where it leaves their line by more than a part of their distance: a
+/// rod finds no equilibrium on a zigzag of noise.
+fn smoothed(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+    for _ in 0..SMOOTHINGS {
+        let before = points.clone();
+        for k in 1..points.len().saturating_sub(1) {
+            let (a, b, c) = (before[k - 1], before[k], before[k + 1]);
+            let middle = 0.5 * (a + c);
+            if (b - middle).norm() > ZIGZAG * (c - a).norm() {
+                points[k] = 0.5 * (b + middle);
+            }
+        }
+    }
+    points
+}
+
 /// Without points that lie too close to the one before.
-fn thinned(points: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
+fn thinned(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     let mut kept: Vec<Vector2<f64>> = Vec::with_capacity(points.len());
     for point in points {
         if kept.last().is_none_or(|last| (point - last).norm() > CLOSE * SPACING) {
-            kept.push(*point);
+            kept.push(point);
         }
     }
     kept
@@ -133,7 +177,7 @@ mod tests {
         let x = |k: usize| 0.005 * k as f64;
         let mut touched: Vec<Touched> = (0..100).map(|k| side(x(k), 0.0, 1.0)).collect();
         touched.extend((0..100).map(|k| side(x(k), 0.01, -1.0)));
-        let ordered = outline(&touched).unwrap();
+        let ordered = outline(&touched, true).unwrap();
         let inner = &ordered[1..ordered.len() - 1];
         let turns = inner.windows(2).filter(|pair| pair[0].y != pair[1].y).count();
         assert_eq!(turns, 1, "{inner:?}");

@@ -3,7 +3,7 @@
 use super::blocks::{Block, Blocks};
 use super::curve::Curve;
 use super::forward::Forward;
-use crate::least_squares::{Loss, Normal, Problem};
+use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Frame, still};
@@ -12,30 +12,32 @@ use rod_contact::{Derivatives, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, SupportRate};
 
-/// Length of the residual of a block, in standard deviations, beyond which it counts less: a contour that is far off has many such.
+/// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
+/// off converges slowly.
 const OUTLYING: f64 = 6.0;
-/// The same of a change of curvature: a vertex is one.
+/// The same for changes of curvature. Larger: vertices are rounded; smaller: noise makes vertices.
 const VERTEX: f64 = 3.0;
 /// Standard deviation of a point of the contour about its start, rod lengths: places that nothing touches stay near the line between others.
 const NEAR: f64 = 0.3;
-/// Squared residual that a block counts which no branch of the model reaches.
-const UNREACHED: f64 = 36.0;
+/// Cost of a block that no branch of the model reaches. Larger: contours win that reach everything; smaller: those that lose bad blocks.
+const UNREACHED: f64 = OUTLYING * OUTLYING;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
-/// Rates of a contact with a knot below which they are left out: cardinal splines fall to a fourth from knot to knot.
+/// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
 const FAR: f64 = 1e-5;
 
 /// What is known of the shared errors before: their sources and standard deviations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sources {
     pub sigmas: Errors,
-    /// Values of those that are not unknowns.
+    /// What is known of each, 0 where nothing is.
     pub known: Errors,
     /// Numbers of those that are not known exactly.
     pub free: Vec<usize>,
 }
 
-/// The fit at one contour. Its unknowns are the offsets of the contour's points (m), then the errors in standard deviations of their budget.
+/// The fit at one contour. Its unknowns are the offsets of the contour's points (m), then the errors less what is known of them, in standard
+/// deviations of their budget.
 pub(super) struct Fit<'a, R> {
     pub rod: &'a R,
     pub curve: Curve,
@@ -104,7 +106,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     fn errors(&self, x: &DVector<f64>) -> Errors {
         let mut errors = self.sources.known;
         let first = self.curve.count();
-        self.sources.free.iter().enumerate().for_each(|(i, k)| errors[*k] = x[first + i] * self.sources.sigmas[*k]);
+        self.sources.free.iter().enumerate().for_each(|(i, k)| errors[*k] += x[first + i] * self.sources.sigmas[*k]);
         errors
     }
 
@@ -246,8 +248,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The prior alone: the errors by their budget, and changes of curvature.
-    pub fn prior(&self, x: &DVector<f64>, curve: &Curve) -> Normal {
-        let (first, mut prior) = (self.curve.count(), Normal::empty(x.len()));
+    pub fn prior(&self, x: &DVector<f64>, curve: &Curve) -> NormalMatrix {
+        let (first, mut prior) = (self.curve.count(), NormalMatrix::empty(x.len()));
         (0..self.sources.free.len()).for_each(|i| prior.add(&[(first + i, 1.0)], x[first + i], 1.0));
         // places that nothing touched are somewhere near the start
         let near = NEAR * self.rod.units().length;
@@ -279,12 +281,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
 }
 
 impl<R: PhysicalRod> Problem for Fit<'_, R> {
-    type Equations = Normal;
+    type Equations = NormalMatrix;
 
-    fn equations(&mut self, x: &DVector<f64>) -> Normal {
+    fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
         let here = self.model(x).and_then(|model| Some((self.rows(x, &model)?, model)));
         let Some((rows, Model { curve, states, .. })) = here else {
-            return Normal { cost: f64::INFINITY, ..Normal::empty(x.len()) };
+            return NormalMatrix { cost: f64::INFINITY, ..NormalMatrix::empty(x.len()) };
         };
         let mut normal = self.prior(x, &curve);
         let loss = Loss::Cauchy(OUTLYING);

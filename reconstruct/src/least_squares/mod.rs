@@ -1,4 +1,4 @@
-//! Nonlinear least squares: every fit of this crate is a [`Problem`] that this room solves.
+//! Nonlinear least squares: every nonlinear fit of this crate is a [`Problem`] that this module solves.
 //!
 //! A problem gives its Gauss-Newton equations at a point: residuals, each divided by its standard deviation, their derivatives, and a prior
 //! as residuals of its own. Outliers count less by a [`Loss`]. [`iterate`] is the one loop; how far each step may go is a [`StepControl`]:
