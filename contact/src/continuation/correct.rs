@@ -1,13 +1,13 @@
 //! Predict along the tangent, correct by Newton's method: the next point of a branch, before it is judged.
 
 use crate::contact_set::{Configuration, Unknown};
-use crate::continuation::Point;
-use crate::continuation::branch::{Condition, Tangent};
+use crate::continuation::branch::Condition;
 use crate::continuation::joint::{BehindJoint, cross_joint, crosses_joint};
 use crate::continuation::stepper::Stepper;
 use crate::continuation::transition::range_of_force;
+use crate::continuation::{Corrected, Point};
 use crate::limits::LIMITS;
-use rod_core::{PhysicalRod, SolveReport};
+use rod_core::PhysicalRod;
 
 /// A step along the tangent, before it is corrected.
 pub(super) struct Prediction {
@@ -17,17 +17,6 @@ pub(super) struct Prediction {
     reach: f64,
     /// Whether the step aims at the target pose.
     lands: bool,
-}
-
-/// The next point of a branch, before it is judged.
-pub(super) struct Corrected {
-    pub next: Configuration,
-    pub tangent: Tangent,
-    pub report: SolveReport,
-    /// Arclength of the step along the first tangent.
-    pub length: f64,
-    /// Whether the branch has a kink there, and `tangent` is that behind it.
-    pub kink: bool,
 }
 
 impl<R: PhysicalRod> Stepper<'_, R> {

@@ -1,8 +1,8 @@
 //! The checks that end a branch, or refuse a step that may have passed over something.
 
 use crate::contact_set::Configuration;
+use crate::continuation::Corrected;
 use crate::continuation::branch::Tangent;
-use crate::continuation::correct::Corrected;
 use crate::continuation::dip::{dips, least_rate};
 use crate::continuation::stepper::{Refused, Stepper};
 use crate::continuation::{Point, Step};

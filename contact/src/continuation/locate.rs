@@ -1,8 +1,8 @@
 //! Look for the transitions within a step, and locate the first one along the branch.
 
 use crate::contact_set::Configuration;
+use crate::continuation::Corrected;
 use crate::continuation::branch::{Condition, Tangent};
-use crate::continuation::correct::Corrected;
 use crate::continuation::dip::may_lie_down;
 use crate::continuation::ends::{end_if_short, obstacle_of};
 use crate::continuation::fold::{locate_fold, locate_zero};

@@ -36,6 +36,7 @@ use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::gap::Scan;
 use crate::limits::LIMITS;
+use rod_core::SolveReport;
 
 /// A point of the sweep: an equilibrium, its scan, its quality, and the tangent of the branch there.
 #[derive(Clone, Debug)]
@@ -110,4 +111,15 @@ impl Step {
     pub fn rounding(&self) -> f64 {
         if let Self::Changed(_) = self { LIMITS.step.same_pose } else { 0.0 }
     }
+}
+
+/// The next point of a branch, before it is judged.
+struct Corrected {
+    pub next: Configuration,
+    pub tangent: Tangent,
+    pub report: SolveReport,
+    /// Arclength of the step along the first tangent.
+    pub length: f64,
+    /// Whether the branch has a kink there, and `tangent` is that behind it.
+    pub kink: bool,
 }

@@ -3,9 +3,8 @@
 use crate::contact_set::Configuration;
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::Quality;
-use crate::continuation::correct::Corrected;
 use crate::continuation::transition::Transition;
-use crate::continuation::{Change, Point, Seen, Step};
+use crate::continuation::{Change, Corrected, Point, Seen, Step};
 use crate::error::{Obstacle, StopReason};
 use crate::gap::{Scan, Scanner};
 use crate::limits::LIMITS;

@@ -1,13 +1,13 @@
 //! A state as the boundary-value problem that it solves.
 
 use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
-use crate::derivatives::motion::Given;
+use crate::derivatives::quantity::Quantity;
 use crate::error::ContactError;
 use crate::scene::rod::{Walk, at_clamp, push};
 use crate::scene::world::World;
 use crate::state::{ContactFriction, ContactKind, SlipMode, State};
 use rod_contours::StretchKind;
-use rod_core::{Clamp, Hold, Linearisation, MultiPoint, PhysicalRod, Pose, Reactions, Units};
+use rod_core::{Clamp, ClampLaw, Hold, Linearisation, MultiPoint, PhysicalRod, Pose, Reactions, Units};
 
 /// Largest residual (L, rad) of a state that counts as an equilibrium. States of a sweep are within 1e-9.
 const LARGEST_RESIDUAL: f64 = 1e-8;
@@ -92,4 +92,45 @@ fn configuration<R: PhysicalRod>(rod: &R, world: &World<'_>, state: &State) -> R
         configuration.rub(j, friction, false);
     }
     Ok(configuration)
+}
+
+/// A clamp on springs under its reactions, dimensionless.
+#[derive(Clone, Debug)]
+pub(crate) struct Given {
+    compliance: [[f64; 3]; 3],
+    reactions: [f64; 3],
+}
+
+impl Given {
+    pub fn new(law: ClampLaw, Reactions { f0x, f0y, m0z }: Reactions) -> Self {
+        Self { compliance: law.compliance, reactions: [f0x, f0y, m0z] }
+    }
+
+    /// The change of compliance times reactions (x, y, phi; dimensionless) under the same dimensionless reactions, per SI unit of the
+    /// quantity.
+    pub fn rates(&self, units: &Units, quantity: Quantity<'_>) -> [f64; 3] {
+        let Units { length, force, moment, .. } = *units;
+        let spring = match quantity {
+            // in units of force and moment, which are proportional to E I
+            Quantity::Stiffness => return self.times(|_, _| 1.0 / (moment * length)),
+            // of E I / L^3 along x and y, E I / L^2 across, E I / L
+            Quantity::Length => {
+                let powers = |i: usize, j: usize| 1.0 + f64::from(u8::from(i < 2)) + f64::from(u8::from(j < 2));
+                return self.times(|i, j| -powers(i, j) / length);
+            }
+            Quantity::ClampStiffnessX => 0,
+            Quantity::ClampStiffnessY => 1,
+            Quantity::ClampStiffnessPhi => 2,
+            _ => return [0.0; 3],
+        };
+        // dC = -C dK C: what gives way along the spring, and the unit of its stiffness
+        let unit = if spring < 2 { force / length } else { moment };
+        let given = self.times(|_, _| 1.0)[spring] / unit;
+        self.compliance.map(|row| -row[spring] * given)
+    }
+
+    /// Compliance, entry by entry times a factor, times reactions.
+    fn times(&self, factor: impl Fn(usize, usize) -> f64) -> [f64; 3] {
+        std::array::from_fn(|i| (0..3).map(|j| self.compliance[i][j] * factor(i, j) * self.reactions[j]).sum())
+    }
 }

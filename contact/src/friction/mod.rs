@@ -12,7 +12,7 @@
 //!
 //! A contact set that is `SMOOTH` throughout is one without friction, or one whose friction has not been decided yet.
 
-mod law;
+pub(crate) mod law;
 mod modes;
 
 pub use law::{Coefficients, Friction};

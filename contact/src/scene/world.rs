@@ -1,7 +1,7 @@
 //! The objects as the rod sees them: in lengths of the rod.
 
 use crate::error::ContactError;
-use crate::friction::{Coefficients, Friction};
+use crate::friction::law::{Coefficients, Friction};
 use rod_contours::{
     Bounds, Closest, Composite, Contour, Frame, FrameRate, Index, Part, Range, Run, RunClosest, RunEnd, StretchKind,
 };

@@ -1,7 +1,6 @@
 //! A snap: the equilibrium ends, and the rod slips or jumps to another one.
 
 use super::Sweep;
-use super::rubbing::without_friction;
 use crate::contact_set::edit::{across_corner, beyond_borders, beyond_corner, off_corner};
 use crate::contact_set::{ActiveContact, Configuration, Unknown};
 use crate::continuation::certify::energy;
@@ -341,4 +340,13 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn if_energy_falls(&self, before: f64, point: Option<Point>) -> Option<Point> {
         point.filter(|point| self.may_fall(before, &point.configuration))
     }
+}
+
+/// The same contacts without a force along the contour. The coefficients of friction of the objects stay.
+pub(super) fn without_friction(configuration: &Configuration) -> Configuration {
+    let mut without = configuration.clone();
+    for j in 0..without.count() {
+        without.set_slipping(j, 0.0);
+    }
+    without
 }

@@ -1,7 +1,7 @@
 //! A sweep with friction: the modes of the contacts are chosen anew at every event.
 
 use super::Sweep;
-use super::landing::EndedBranch;
+use super::landing::{EndedBranch, without_friction};
 use crate::contact_set::{Configuration, Segments};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::energy;
@@ -45,15 +45,6 @@ fn event_of_turn(before: &Configuration, after: &Configuration) -> Option<EventK
 
 /// Steps in which the coefficient grows from 0: an equilibrium without friction is near the one with a tenth of it.
 const GROWTH: u32 = 10;
-
-/// The same contacts without a force along the contour. The coefficients of friction of the objects stay.
-pub(super) fn without_friction(configuration: &Configuration) -> Configuration {
-    let mut without = configuration.clone();
-    for j in 0..without.count() {
-        without.set_slipping(j, 0.0);
-    }
-    without
-}
 
 /// The equilibrium with friction near `landed`, to which a descent without friction has led. Statics does not determine this friction, because it
 /// depends on the motion: at each contact it opposes the motion from the shape `before`. None where there is no such equilibrium.

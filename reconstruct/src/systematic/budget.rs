@@ -1,6 +1,6 @@
 //! How large the errors may be that all samples of a scan share.
 
-use super::source::Source;
+use super::source::{Errors, Source};
 use rod_core::{Rod, Units};
 
 /// Standard deviations of the errors that all samples of a scan share ([`Source`]), before anything is known from the scan itself.
@@ -127,4 +127,9 @@ impl Budget {
         let value = |source: Source| (source, self.of(source));
         Source::ALL.map(value).into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0))
     }
+}
+
+/// The standard deviations of a budget, dimensionless.
+pub(crate) fn deviations(budget: &Budget, rod: &Rod) -> Errors {
+    Errors::from_fn(|k, _| budget.of(Source::ALL[k]) / Source::ALL[k].unit(rod))
 }

@@ -1,7 +1,7 @@
 //! Labels and shared errors of a scan by alternating estimation, and the report of the errors.
 
 use super::alternation::{Alternation, LabelsAndErrors, RAISED, raise};
-use super::budget::Budget;
+use super::budget::{Budget, deviations};
 use super::calibration::{Calibration, SourceEstimate, ties};
 use super::correction::{Correction, Frame};
 use super::estimate_errors::{
@@ -10,7 +10,7 @@ use super::estimate_errors::{
 use super::free::free_stretches;
 use super::known::Known;
 use super::remaining::RemainingErrors;
-use super::source::{Errors, Joint, SOURCES, Source, deviations};
+use super::source::{Errors, Joint, SOURCES, Source};
 use crate::phase::{Break, CRITERIA, Criterion, Label, Place};
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};

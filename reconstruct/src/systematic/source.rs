@@ -1,6 +1,5 @@
 //! The sources of errors that all samples of a scan share.
 
-use super::budget::Budget;
 use nalgebra::{SMatrix, SVector};
 use rod_core::Rod;
 use std::fmt;
@@ -166,9 +165,4 @@ impl fmt::Display for Source {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name().0)
     }
-}
-
-/// The standard deviations of a budget, dimensionless.
-pub(crate) fn deviations(budget: &Budget, rod: &Rod) -> Errors {
-    Errors::from_fn(|k, _| budget.of(Source::ALL[k]) / Source::ALL[k].unit(rod))
 }
