@@ -148,7 +148,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
         if found.check.fits() {
             continue;
         }
-        if let Some(causes) = found.explained() {
+        if let Some(causes) = found.explained().filter(|_| !is_explained) {
             warn(&format!("warning: {file}: {causes}\n"));
         }
         code = ExitCode::from(UNFINISHED);

@@ -45,7 +45,13 @@ impl Reconstructed {
                 longest.to
             );
         }
-        Some(why + ": the points there may be wrong, or the object, the rod or the sensor changed")
+        if let Some((source, off)) = fit.goodness.farthest_error.filter(|error| error.1.abs() > 5.0) {
+            why += &format!("; its {source} is {off:.0} standard deviations off what is known");
+        }
+        Some(
+            why + ": the points there may be wrong, the object, the rod or the sensor changed, or the fit had no good start; compare the \
+                   labels in phases.svg with `fit.runs` in report.json",
+        )
     }
 }
 
@@ -61,6 +67,8 @@ pub(super) struct FitRecord {
     p_value: Option<f64>,
     /// Share of the blocks of samples at whose poses the model has no state.
     unreached: Option<f64>,
+    /// The error that is farthest off what is known of it.
+    farthest_error: Option<FarthestErrorRecord>,
     worst: Option<WorstRecord>,
     runs: Vec<FittedRunRecord>,
     errors: Vec<FittedErrorRecord>,
@@ -75,6 +83,13 @@ struct WorstRecord {
     chi_squared: f64,
     residuals: usize,
     p_value: f64,
+}
+
+/// How far an error is off what is known of it, in standard deviations of its budget.
+#[derive(Serialize)]
+struct FarthestErrorRecord {
+    source: Source,
+    standard_deviations: f64,
 }
 
 /// Rows along which the model has one phase; null where it has no state.
@@ -114,6 +129,9 @@ impl FitRecord {
             degrees_of_freedom: Some(goodness.degrees_of_freedom),
             p_value: Some(goodness.p_value),
             unreached: Some(goodness.unreached),
+            farthest_error: goodness
+                .farthest_error
+                .map(|(source, off)| FarthestErrorRecord { source, standard_deviations: off }),
             worst: goodness.worst.as_ref().map(|worst| WorstRecord {
                 rows: [rows[worst.samples.start], rows[worst.samples.end - 1]],
                 channel: worst.channel.clone(),

@@ -90,8 +90,12 @@ impl Reconstructed {
         })
     }
 
-    /// Fits a contour to the whole recording, from the result on: whether a rod past one contour gives these reactions.
+    /// Fits a contour to the whole recording, from the result on: whether a rod past one contour gives these reactions. Nothing is fitted where
+    /// signs, units or rod are wrong.
     pub fn fit(&mut self) {
+        if self.check.findings.iter().any(Finding::is_gross) {
+            return;
+        }
         self.fit = Some(match self.rod.uniform() {
             Some(rod) => fit_contour(rod, &self.samples, &self.found),
             None => fit_contour(&self.rod, &self.samples, &self.found),

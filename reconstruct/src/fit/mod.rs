@@ -33,6 +33,9 @@ use std::ops::Range;
 
 /// Contours, each with twice as many points as the one before, from 0.03 L on.
 const LEVELS: usize = 3;
+/// Chi squared over its degrees of freedom above which no finer contour is tried: where the start has the right contacts, the coarsest one
+/// leaves 1 to 3. Larger: more time on recordings that nothing explains.
+const HOPELESS: f64 = 30.0;
 /// Most steps before the smoothness is estimated anew. As a rule 20 are enough; a start that is far off takes 50.
 const STEPS: usize = 60;
 /// Initial standard deviation of the change of curvature, L^-1.5: a parabola of 5 / L has 10 to 20.
@@ -157,10 +160,14 @@ impl<R: PhysicalRod> Recording<'_, R> {
             errors = solved.x.rows(fit.curve.count(), errors.len()).into_owned();
             fit.curve = solved.curve.clone();
             let explains = solved.goodness.explains;
+            let ratio = solved.goodness.chi_squared / solved.goodness.degrees_of_freedom;
             if best.as_ref().is_none_or(|best| solved.cost < best.cost || explains) {
                 best = Some(solved);
             }
-            let Some(finer) = fit.curve.refined().filter(|_| !explains) else { break };
+            if explains || ratio > HOPELESS {
+                break;
+            }
+            let Some(finer) = fit.curve.refined() else { break };
             fit.curve = finer;
         }
         best.ok_or(FitError::NoStart)
@@ -238,7 +245,9 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, units: Uni
     let prior = fit.prior(&x, &curve).matrix;
     let determined = x.len() as f64 - (&covariance * prior).trace();
     let samples: Vec<Range<usize>> = fit.blocks.blocks.iter().map(|block| block.samples.clone()).collect();
-    let goodness = Goodness::of(&explained, &samples, determined);
+    let off = |(i, k): (usize, &usize)| (Source::ALL[*k], x[count + i]);
+    let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let goodness = Goodness::of(&explained, &samples, determined, farthest);
     fit.states = states;
     Some(Solved { x, curve, cost: equations.cost, covariance, explained, goodness })
 }

@@ -2,6 +2,7 @@
 
 use super::problem::Explained;
 use crate::numeric::chi_squared::upper_tail;
+use crate::systematic::Source;
 use std::ops::Range;
 
 /// Blocks of a window.
@@ -43,16 +44,29 @@ pub struct Goodness {
     pub worst: Option<WorstWindow>,
     /// Share of the blocks of samples at whose poses the model has no state: it has jumped there, or cannot be followed.
     pub unreached: f64,
-    /// Whether the recording is explained: neither probability is below 1e-4, and no more than 2 % of the blocks are not reached.
+    /// The error that all samples share which is farthest off what is known of it, in standard deviations of its budget; none where no errors are
+    /// estimated.
+    pub farthest_error: Option<(Source, f64)>,
+    /// Whether the recording is explained: neither probability is below 1e-4, no more than 2 % of the blocks are not reached, and no error is off
+    /// by more than five standard deviations of its budget.
     pub explains: bool,
 }
+
+/// Standard deviations of its budget by which an error may be off what is known of it. A free contour explains nearly any recording if its errors
+/// may be of any size: a rod that is 10 % shorter than given, with a length error of 13 standard deviations.
+const MOST_OFF: f64 = 5.0;
 
 /// Largest share of blocks that are not reached of a recording that is explained: those beside a jump that the model makes a little earlier.
 const MOST_UNREACHED: f64 = 0.02;
 
 impl Goodness {
     /// From the residuals of blocks with these samples. `determined` is the number of unknowns that the recording determines.
-    pub(super) fn of(explained: &Explained, samples: &[Range<usize>], determined: f64) -> Self {
+    pub(super) fn of(
+        explained: &Explained,
+        samples: &[Range<usize>],
+        determined: f64,
+        farthest_error: Option<(Source, f64)>,
+    ) -> Self {
         let known: Vec<usize> = (0..samples.len()).filter(|k| explained.residuals[*k].is_some()).collect();
         let square = |k: &usize| explained.residuals[*k].map_or(0.0, |residual| residual.norm_squared());
         let chi_squared: f64 = known.iter().map(square).sum();
@@ -80,7 +94,8 @@ impl Goodness {
         let unreached = explained.unreached as f64 / (explained.unreached + known.len()).max(1) as f64;
         let explains = p_value >= UNLIKELY
             && worst.as_ref().is_none_or(|worst| worst.p_value >= UNLIKELY)
-            && unreached <= MOST_UNREACHED;
-        Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, explains }
+            && unreached <= MOST_UNREACHED
+            && farthest_error.is_none_or(|error| error.1.abs() <= MOST_OFF);
+        Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, farthest_error, explains }
     }
 }

@@ -1,12 +1,12 @@
 //! The value of K / (2 |F|) along tangential contacts: sin rho.
 
-use crate::least_squares::{Loss, NormalMatrix, Problem, WholeSteps, iterate};
+use crate::least_squares::Loss;
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{Evidence, Place, label_log_likelihood};
 use crate::point::{Clamp, Inverse};
 use crate::scan::{LocalEstimate, Noise, Track};
 use crate::systematic::Correction;
-use nalgebra::{DVector, Vector3};
+use nalgebra::Vector3;
 
 /// Largest sine of the angle of friction: mu = 3.
 const LARGEST: f64 = 0.95;
@@ -303,30 +303,22 @@ fn plateau_value(sides: &[TangentialPlace], peak: f64) -> (f64, f64) {
         sine = middle;
         near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
     }
-    let mut plateau = Plateau { sides, scatter: 1.0 };
-    let (at, _) = iterate(&mut plateau, DVector::repeat(1, sine), WholeSteps::until(0.0), TURNS);
-    (at.x[0].clamp(-LARGEST, LARGEST), at.equations.matrix[(0, 0)])
-}
-
-/// The value of a plateau as a least-squares problem; the scale of its loss is that of the residuals one step before.
-struct Plateau<'a> {
-    sides: &'a [TangentialPlace],
-    scatter: f64,
-}
-
-impl Problem for Plateau<'_> {
-    type Equations = NormalMatrix;
-
-    fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
-        let loss = Loss::Cauchy(OUTLYING * self.scatter);
-        let mut normal = NormalMatrix::empty(1);
-        for side in self.sides {
-            let residual = x[0] - side.value;
-            let weight = loss.weight(side.weight, residual / side.sigma) / (side.sigma * self.scatter).powi(2);
-            normal.add_weighted(&[(0, 1.0)], residual, weight);
+    // a weighted mean whose loss has the scale of the residuals one turn before
+    let (mut information, mut scatter) = (0.0, 1.0);
+    for _ in 0..TURNS {
+        let z = |side: &TangentialPlace| (side.value - sine) / side.sigma;
+        let near = sides.iter().filter(|side| (side.value - sine).abs() < NEAR.hypot(SIGMAS * side.sigma));
+        let next = robust_sigma(near.map(z)).unwrap_or(1.0).max(1.0);
+        let loss = Loss::Cauchy(OUTLYING * scatter);
+        let mut sums = (0.0, 0.0);
+        for side in sides {
+            let weight = loss.weight(side.weight, z(side)) / (side.sigma * scatter).powi(2);
+            sums = (sums.0 + weight, sums.1 + weight * side.value);
         }
-        let near = self.sides.iter().filter(|side| (side.value - x[0]).abs() < NEAR.hypot(SIGMAS * side.sigma));
-        self.scatter = robust_sigma(near.map(|side| (side.value - x[0]) / side.sigma)).unwrap_or(1.0).max(1.0);
-        normal
+        if sums.0 > 0.0 {
+            (information, sine) = (sums.0, sums.1 / sums.0);
+        }
+        scatter = next;
     }
+    (sine.clamp(-LARGEST, LARGEST), information)
 }
