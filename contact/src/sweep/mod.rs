@@ -185,7 +185,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
         &self.stepper.corrector.setup
     }
 
-    /// Ends with [`StopReason::StepBudget`] after so many steps along branches of equilibria, those counted that were tried and
+    /// Ends with [`StopReason::StepBudget`](crate::StopReason::StepBudget) after so many steps along branches of equilibria, those counted that were tried and
     /// found too long; by default after 2 million, which takes a minute or two. An event takes about ten.
     #[must_use]
     pub fn with_most_steps(mut self, most: u64) -> Self {
