@@ -1,9 +1,10 @@
 //! Objects: contours of pieces.
 
 use crate::array::two;
+use crate::own_shape::shape;
 use crate::pickle::{Constructor, Reduced, constructor};
 use crate::scene_tables::Object;
-use crate::shape::{PyShape, motion, shape};
+use crate::shape::{PyShape, motion};
 use crate::{errors, running};
 use pyo3::prelude::*;
 use vibrissa::Composite;
@@ -222,5 +223,24 @@ impl PyComposite {
     fn turned(&self) -> Self {
         let object = self.object.clone().map(|object| Object { reversed: !object.reversed, ..object });
         Self { composite: self.composite.clone().reversed(), object }
+    }
+}
+
+/// One object or several, each a composite, a shape or an object of Python that has a frame.
+pub fn objects<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyComposite>>> {
+    if given.is_instance_of::<PyShape>() || given.hasattr("frame")? {
+        return Ok(vec![object(given)?]);
+    }
+    given.try_iter()?.map(|one| object(&one?)).collect()
+}
+
+fn object<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyComposite>> {
+    match given.downcast::<PyComposite>() {
+        Ok(composite) => Ok(composite.clone()),
+        Err(_) => {
+            let (py, pieces) = (given.py(), vec![given.clone()]);
+            let constructor = constructor!(py, "Composite", pieces);
+            Bound::new(py, PyComposite::of(py, &pieces)?.with_constructor(constructor))
+        }
     }
 }

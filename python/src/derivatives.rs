@@ -1,11 +1,11 @@
 //! Derivatives of equilibria and of transitions.
 
 use crate::array::{Column, Floats, Get, structured, whole};
-use crate::composite::contours;
+use crate::composite::{self, contours};
 use crate::event::PyEvent;
 use crate::rod::PyRod;
 use crate::state::PyState;
-use crate::{errors, running, shape};
+use crate::{errors, running};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibrissa::contact::{ContactError, Derivatives, Quantity, TransitionDerivatives};
@@ -111,7 +111,7 @@ fn quantity_or_parameter<'a>(
 impl PyDerivatives {
     #[new]
     fn new(py: Python<'_>, rod: &PyRod, objects: &Bound<'_, PyAny>, state: &PyState) -> PyResult<Self> {
-        let objects = contours(&shape::objects(objects)?);
+        let objects = contours(&composite::objects(objects)?);
         let created = Self { rod: rod.rod.clone(), objects, state: state.clone(), condition: f64::NAN };
         let condition = created.ask(py, |derivatives| Ok(derivatives.condition()))?;
         Ok(Self { condition, ..created })
@@ -233,7 +233,7 @@ impl PyTransitionDerivatives {
         event: &PyEvent,
         rate: Floats<'_>,
     ) -> PyResult<Self> {
-        let objects = contours(&shape::objects(objects)?);
+        let objects = contours(&composite::objects(objects)?);
         let rate: Vec<f64> = rate.view().iter().copied().collect();
         let &[x, y, phi] = &rate[..] else {
             return Err(errors::value(format!("rate has {} numbers, expected three: x, y, phi", rate.len())));

@@ -1,10 +1,10 @@
 //! Equilibrium at one pose for given contacts.
 
-use crate::composite::contours;
+use crate::composite::{self, contours};
 use crate::pose::PyPose;
 use crate::rod::PyRod;
 use crate::state::{PyContact, PyState};
-use crate::{errors, running, shape};
+use crate::{errors, running};
 use pyo3::prelude::*;
 use vibrissa::contact::Contact;
 
@@ -72,7 +72,7 @@ pub fn equilibrium(
     pose: PyPose,
     guess: Vec<Bound<'_, PyContact>>,
 ) -> PyResult<PyEquilibrium> {
-    let objects = contours(&shape::objects(objects)?);
+    let objects = contours(&composite::objects(objects)?);
     let guess: Vec<Contact> = guess.iter().map(|contact| contact.get().contact()).collect::<PyResult<_>>()?;
     let solve = || vibrissa::equilibrium(&rod.rod, &objects[..], pose.0, &guess);
     let found = running::run(py, solve)?;

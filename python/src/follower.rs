@@ -1,12 +1,12 @@
 //! A rod that is moved from pose to pose.
 
-use crate::composite::contours;
+use crate::composite::{self, contours};
 use crate::event::PyEvent;
 use crate::friction::Given;
 use crate::pose::PyPose;
 use crate::rod::PyRod;
 use crate::state::PyState;
-use crate::{errors, running, shape};
+use crate::{errors, running};
 use pyo3::prelude::*;
 use rod_files::SceneFriction;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -88,7 +88,7 @@ impl PyFollower {
         pose: PyPose,
         friction: Option<Given>,
     ) -> PyResult<Self> {
-        let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
+        let objects: Arc<[Composite]> = contours(&composite::objects(objects)?).into();
         let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
         let make = || Follower::new(&rod.rod, borrow_objects(&objects), pose.0);
         let created = running::run(py, make)?.map_err(|stop| errors::stopped(py, &stop, None))?;
@@ -125,7 +125,7 @@ impl PyFollower {
         state: &PyState,
         friction: Option<Given>,
     ) -> PyResult<Self> {
-        let objects: Arc<[Composite]> = contours(&shape::objects(objects)?).into();
+        let objects: Arc<[Composite]> = contours(&composite::objects(objects)?).into();
         let friction = friction.map(|given| given.of(&objects)).transpose()?.flatten();
         let state = &state.state;
         let make = || Follower::from_state(&rod.rod, borrow_objects(&objects), state);

@@ -53,6 +53,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     shapes::add(module)?;
     module.add_class::<composite::PyComposite>()?;
     path::add(module)?;
+    module.add_class::<own_path::PyClampFunction>()?;
     module.add_class::<state::PyContact>()?;
     module.add_class::<state::PyState>()?;
     module.add_class::<event::PyEvent>()?;

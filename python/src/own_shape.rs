@@ -2,6 +2,7 @@
 
 use crate::array::two;
 use crate::own_function::OwnFunction;
+use crate::shape::PyShape;
 use crate::{errors, running};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -54,6 +55,21 @@ impl fmt::Debug for OwnShape {
     }
 }
 
+/// A shape of the library, or an object of Python that has a frame.
+pub fn shape<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyShape>> {
+    if let Ok(shape) = object.downcast::<PyShape>() {
+        return Ok(shape.clone());
+    }
+    if object.hasattr("frame")? {
+        let own = OwnShape::new(object)?;
+        return Bound::new(object.py(), PyShape::single(own, None, None));
+    }
+    let found = object.get_type().name()?;
+    Err(pyo3::exceptions::PyTypeError::new_err(format!(
+        "the shape is of type {found}, expected a vibrissa.Shape or an object with a method frame(t); points make a Polygon or a Spline"
+    )))
+}
+
 /// Test a shape against the contract of shapes.
 ///
 /// A shape of your own is any object with a method ``frame(t)``. It takes a one-dimensional array of n parameters, and
@@ -76,7 +92,7 @@ impl fmt::Debug for OwnShape {
 #[pyfunction]
 #[pyo3(signature = (shape, samples=None))]
 pub fn check_contract(py: Python<'_>, shape: &Bound<'_, PyAny>, samples: Option<Vec<f64>>) -> PyResult<()> {
-    let shape = crate::shape::shape(shape)?;
+    let shape = self::shape(shape)?;
     let samples = samples.unwrap_or_else(|| (0..=20).map(|k| f64::from(k) / 20.0).collect());
     let shape = shape.get();
     running::run(py, || contract::check(shape.contour(), &samples))?.map_err(errors::value)

@@ -1,7 +1,6 @@
 //! The way of the clamp.
 
 use crate::array::{Floats, two};
-use crate::own_path::PyClampFunction;
 use crate::pickle::{Constructor, Reduced, constructor};
 use crate::pose::{PyPose, tuple};
 use crate::{errors, running};
@@ -17,7 +16,6 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyClampPath>()?;
     module.add_class::<PyClampArc>()?;
     module.add_class::<PyClampSpline>()?;
-    module.add_class::<PyClampFunction>()?;
     module.add_class::<PyChain>()
 }
 

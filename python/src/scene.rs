@@ -1,7 +1,7 @@
 //! Scenes from and to TOML.
 
 use crate::array::whole_or_none;
-use crate::composite::{PyComposite, contours};
+use crate::composite::{PyComposite, contours, objects};
 use crate::errors;
 use crate::friction::{self, Given};
 use crate::path::{Leg, PyPath};
@@ -9,7 +9,6 @@ use crate::pickle::{Reduced, constructor};
 use crate::rod::PyRod;
 use crate::scan::PyScan;
 use crate::scene_tables::{Object, degrees, number, point, two};
-use crate::shape::objects;
 use crate::sweep::{Options, Steps, run};
 use pyo3::prelude::*;
 use pyo3::types::PyList;

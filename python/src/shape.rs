@@ -1,9 +1,7 @@
 //! Shapes: what all of them can do.
 
 use crate::array::{Column, Floats, Get, structured, two};
-use crate::composite::PyComposite;
-use crate::own_shape;
-use crate::pickle::{Constructor, Reduced, constructor};
+use crate::pickle::{Constructor, Reduced};
 use crate::{errors, running};
 use numpy::ndarray::{ArrayD, ArrayViewD, IxDyn};
 use numpy::{IntoPyArray, PyArrayDyn};
@@ -66,40 +64,6 @@ impl PyShape {
 
     pub fn contour(&self) -> &dyn Contour {
         &*self.whole
-    }
-}
-
-/// A shape of the library, or an object of Python that has a frame.
-pub fn shape<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyShape>> {
-    if let Ok(shape) = object.downcast::<PyShape>() {
-        return Ok(shape.clone());
-    }
-    if object.hasattr("frame")? {
-        let own = own_shape::OwnShape::new(object)?;
-        return Bound::new(object.py(), PyShape::single(own, None, None));
-    }
-    let found = object.get_type().name()?;
-    Err(pyo3::exceptions::PyTypeError::new_err(format!(
-        "the shape is of type {found}, expected a vibrissa.Shape or an object with a method frame(t); points make a Polygon or a Spline"
-    )))
-}
-
-/// One object or several, each a composite, a shape or an object of Python that has a frame.
-pub fn objects<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyComposite>>> {
-    if given.is_instance_of::<PyShape>() || given.hasattr("frame")? {
-        return Ok(vec![object(given)?]);
-    }
-    given.try_iter()?.map(|one| object(&one?)).collect()
-}
-
-fn object<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyComposite>> {
-    match given.downcast::<PyComposite>() {
-        Ok(composite) => Ok(composite.clone()),
-        Err(_) => {
-            let (py, pieces) = (given.py(), vec![given.clone()]);
-            let constructor = constructor!(py, "Composite", pieces);
-            Bound::new(py, PyComposite::of(py, &pieces)?.with_constructor(constructor))
-        }
     }
 }
 

@@ -1,14 +1,13 @@
 //! The sweep.
 
 use crate::array::whole_or_none;
-use crate::composite::{PyComposite, contours};
+use crate::composite::{PyComposite, contours, objects};
 use crate::errors;
 use crate::friction::{Given, rubbing};
 use crate::path::PyPath;
 use crate::rod::PyRod;
 use crate::running::{self, Watch};
 use crate::scan::PyScan;
-use crate::shape::objects;
 use crate::state::PyState;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -1,6 +1,6 @@
 //! Kinks and jumps as the samples come.
 
-use super::find::KinkOptions;
+use super::options::KinkOptions;
 use super::scale::reach;
 use super::search::Detector;
 use super::transition::Kink;

@@ -30,10 +30,12 @@ mod filter;
 mod find;
 mod free_knot;
 mod level;
+mod options;
 mod scale;
 mod search;
 mod transition;
 
 pub use filter::KinkFilter;
-pub use find::{KinkOptions, find_kinks};
+pub use find::find_kinks;
+pub use options::KinkOptions;
 pub use transition::{Kink, KinkKind};

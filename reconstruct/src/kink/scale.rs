@@ -1,6 +1,6 @@
 //! The lengths of windows.
 
-use super::find::KinkOptions;
+use super::options::KinkOptions;
 
 /// Half-windows in bins at the finest level, and at the others.
 const FINEST: [usize; 4] = [4, 6, 8, 12];

@@ -2,9 +2,9 @@
 
 use super::basis::{BinWindow, FEWEST_BINS, MOST_BINS, ROWS, Verdict, WindowBasis};
 use super::candidate::Candidates;
-use super::find::KinkOptions;
 use super::free_knot::{FittedTransition, KnotData};
 use super::level::Level;
+use super::options::KinkOptions;
 use super::scale::{WindowLength, scales};
 use super::transition::{Kink, KinkKind};
 use crate::numeric::chi_squared::{exceeded_by_six, exceeded_by_three, wilson_hilferty};

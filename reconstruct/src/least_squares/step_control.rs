@@ -1,7 +1,7 @@
 //! How far a Gauss-Newton step may go.
 
 use super::equations::{Equations, NormalMatrix};
-use super::iterate::{Iterate, Problem};
+use super::problem::{Iterate, Problem};
 use nalgebra::DVector;
 
 /// Relative decrease of the cost, predicted by a step, below which the iteration has settled.

@@ -9,7 +9,7 @@ use super::estimate_errors::{
 };
 use super::free::free_stretches;
 use super::known::Known;
-use super::remaining::RemainingErrors;
+use super::remaining::{PLACES, RemainingErrors};
 use super::source::{Errors, Joint, SOURCES, Source};
 use crate::phase::{Break, CRITERIA, Criterion, Label, Place};
 use crate::scan::{Noise, Track};
@@ -17,9 +17,7 @@ use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 use rod_core::Rod;
 use std::ops::Range;
 
-/// Most places that the errors are estimated from, besides those next to kinks. More: more time.
-pub(super) const PLACES: usize = 800;
-/// The same where the likelihood alone is asked for, up to the last turn. Fewer: the labels of this turn may not be the likeliest.
+/// [`PLACES`] where the likelihood alone is asked for, up to the last turn. Fewer: the labels of this turn may not be the likeliest.
 const FEW_PLACES: usize = 80;
 /// Most steps of a turn then: as a rule the errors settle in three.
 const FEW_STEPS: usize = 3;

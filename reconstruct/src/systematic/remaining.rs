@@ -1,7 +1,6 @@
 //! The errors that remain after the correction of a scan: the evidence with them, and the few combinations of them that matter along a
 //! stretch.
 
-use super::calibrate::PLACES;
 use super::correction::{Correction, Frame};
 use super::influence::{CorrectionDifferences, POINT_INPUTS, criteria_derivatives, point_covariance, variances};
 use super::source::{Errors, Joint};
@@ -11,6 +10,8 @@ use nalgebra::{Matrix2, Matrix3, SymmetricEigen};
 use rod_core::Uniform;
 use std::ops::Range;
 
+/// Most places that the errors are estimated from, besides those next to kinks. More: more time.
+pub(super) const PLACES: usize = 800;
 /// Most combinations. More: more time, as each costs a step of the stretch's least squares.
 const MOST: usize = 6;
 /// Smallest part of the largest combination's standard deviation that counts.

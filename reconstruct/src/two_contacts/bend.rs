@@ -2,8 +2,7 @@
 
 use super::conditions::two_by;
 use super::ends::End;
-use super::pair::{INSTANTS, place};
-use super::part::{Local, Part};
+use super::part::{INSTANTS, Local, Part, place};
 use super::run::Resolved;
 use super::unknowns::{Gradient, UNKNOWNS, Unknown, Unknowns};
 use crate::point::{CrossSection, Inverse};

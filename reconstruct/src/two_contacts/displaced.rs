@@ -4,8 +4,7 @@
 
 use super::conditions::two;
 use super::ends::End;
-use super::pair::{INSTANTS, place};
-use super::part::Part;
+use super::part::{INSTANTS, Part, place};
 use super::run::Resolved;
 use super::single::Single;
 use super::system::System;

@@ -3,7 +3,7 @@
 use super::bend::bends;
 use super::conditions::two_by;
 use super::displaced::Spread;
-use super::part::{Local, Part};
+use super::part::{INSTANTS, Local, Part, place};
 use super::run::Resolved;
 use super::slip::slides;
 use super::unknowns::{UNKNOWNS, Unknown};
@@ -13,8 +13,6 @@ use crate::point::{CrossSection, Inverse, Touch, normal_part};
 use nalgebra::{Matrix2, Matrix6, SMatrix, SVector, Vector2};
 use rod_core::Dual;
 
-/// Instants of a stretch at which covariances are computed; they are interpolated linearly in between.
-pub(super) const INSTANTS: usize = 33;
 /// A force vanishes where it is within this many standard deviations of zero.
 const VANISHES: f64 = 3.0;
 /// Standard deviation across the contour by an error along it, in units of the curvature and the variance along. The error across is half
@@ -65,11 +63,6 @@ impl Pair {
             second: self.second.map(|touch| touch.with_systematic(second)),
         }
     }
-}
-
-/// The t of an instant.
-pub(super) fn place(k: usize) -> f64 {
-    -1.0 + 2.0 * k as f64 / (INSTANTS - 1) as f64
 }
 
 /// The contacts of the samples at these path parameters of a part, appended to `pairs`.

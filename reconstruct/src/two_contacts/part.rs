@@ -4,6 +4,14 @@ use super::series::Series;
 use super::unknowns::{Gradient, Unknown, Unknowns};
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
+/// Instants of a stretch at which covariances are computed; they are interpolated linearly in between.
+pub(super) const INSTANTS: usize = 33;
+
+/// The t of an instant.
+pub(super) fn place(k: usize) -> f64 {
+    -1.0 + 2.0 * k as f64 / (INSTANTS - 1) as f64
+}
+
 /// One stretch of a run, and the place of its unknowns in the vector of all: the coefficients of f0x, f0y, m0z (as many terms as
 /// the series has), of s1, f1 and, where the second contact is not at the tip, s2 (`terms` each).
 #[derive(Clone, Debug)]

@@ -4,8 +4,7 @@
 //! missing. A contact sticks where the matter of the rod stands still there.
 
 use super::conditions::two_moving;
-use super::pair::{INSTANTS, place};
-use super::part::{Local, Part};
+use super::part::{INSTANTS, Local, Part, place};
 use super::unknowns::Unknown;
 use crate::point::{Clamp, Inverse};
 use nalgebra::{DVector, Vector3};
