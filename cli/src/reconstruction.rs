@@ -132,11 +132,10 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for found in found {
         let file = found.recording.file.display();
-        let is_explained = found.fit.as_ref().is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.explains));
         // kinks within a run are those of contacts that the fit knows
         let is_told = |finding: &&Finding| {
             finding.is_misfit()
-                || finding.is_warning() && !(is_explained && matches!(finding, Finding::KinksWithin { .. }))
+                || finding.is_warning() && !(found.is_explained() && matches!(finding, Finding::KinksWithin { .. }))
         };
         for finding in found.check.findings.iter().filter(is_told) {
             warn(&format!("warning: {file}: {finding}\n"));
@@ -148,7 +147,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
         if found.check.fits() {
             continue;
         }
-        if let Some(causes) = found.explained().filter(|_| !is_explained) {
+        if let Some(causes) = found.explained().filter(|_| !found.is_explained()) {
             warn(&format!("warning: {file}: {causes}\n"));
         }
         code = ExitCode::from(UNFINISHED);

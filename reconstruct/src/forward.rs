@@ -58,15 +58,17 @@ impl Reading {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn guess(&self, objects: &(impl AsRef<[Composite]> + ?Sized)) -> Option<Vec<Contact>> {
-        let touches = match (&self.touch, &self.second) {
-            _ if self.label == crate::Label::Free => Vec::new(),
-            (Ok(touch), None) if !self.label.several() => vec![*touch],
-            (Ok(first), Some(Ok(second))) => vec![*first, *second],
-            _ => return None,
-        };
-        let last = touches.len().saturating_sub(1);
-        let contact = |(j, touch)| on(objects.as_ref(), touch, self.label.tip() && j == last);
-        touches.into_iter().enumerate().map(contact).collect()
+        self.touches()?.into_iter().map(|(touch, tip)| on(objects.as_ref(), touch, tip)).collect()
+    }
+
+    /// The contact points of this sample, from the clamp to the tip, each with whether it is the tip's; none where one of them is not known.
+    pub(crate) fn touches(&self) -> Option<Vec<(Touch, bool)>> {
+        match (self.touch, self.second) {
+            _ if self.label == crate::Label::Free => Some(Vec::new()),
+            (Ok(touch), None) if !self.label.several() => Some(vec![(touch, self.label.tip())]),
+            (Ok(first), Some(Ok(second))) => Some(vec![(first, false), (second, self.label.tip())]),
+            _ => None,
+        }
     }
 }
 

@@ -3,16 +3,16 @@
 use super::result::Reconstructed;
 use serde::Serialize;
 use std::fmt::Write;
+use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::{ContourFit, FitError, Source};
+use vibrissa::reconstruct::Source;
 
 impl Reconstructed {
     /// Adds whether one contour explains the recording; nothing where that was not looked at.
     pub(super) fn tell_fit(&self, text: &mut String) -> std::fmt::Result {
         let Some(Ok(fit)) = &self.fit else { return Ok(()) };
         let goodness = &fit.goodness;
-        let labels = FitRecord::of(&Ok(fit.clone()), &self.rows).runs;
-        let labels: Vec<String> = labels.iter().filter_map(|run| run.label).map(|label| label.to_string()).collect();
+        let labels: Vec<String> = fit.runs().iter().filter_map(|run| run.1).map(|label| label.to_string()).collect();
         writeln!(
             text,
             "fit: {} the recording, chi squared {:.0} of {:.0} degrees of freedom; phases: {}",
@@ -23,6 +23,16 @@ impl Reconstructed {
         )
     }
 
+    /// Whether one contour explains the recording; false where that was not looked at.
+    pub fn is_explained(&self) -> bool {
+        self.fit.as_ref().is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.explains))
+    }
+
+    /// First and last row of some samples.
+    fn rows_of(&self, samples: &Range<usize>) -> [usize; 2] {
+        [self.rows[samples.start], self.rows[samples.end - 1]]
+    }
+
     /// Why one contour does not explain the recording; none where it does, or where that was not looked at.
     pub fn contradiction(&self) -> Option<String> {
         let fit = match self.fit.as_ref()? {
@@ -31,21 +41,16 @@ impl Reconstructed {
             Err(error) => return Some(format!("whether one contour explains the recording is not known: {error}")),
         };
         let mut why = "no contour was found that explains the whole recording".to_owned();
-        if let Some(worst) = fit.goodness.worst.as_ref().filter(|worst| worst.p_value < 1e-4) {
-            let (from, to) = (self.rows[worst.samples.start], self.rows[worst.samples.end - 1]);
+        if let Some(worst) = fit.goodness.unlikely_window() {
+            let [from, to] = self.rows_of(&worst.samples);
             why += &format!("; it fails worst in {} at rows {from} to {to}", worst.channel);
         }
-        let missing = FitRecord::of(&Ok(fit.clone()), &self.rows).runs;
-        let missing = missing.iter().filter(|run| run.label.is_none());
-        if let Some(longest) = missing.max_by_key(|run| run.to - run.from).filter(|_| fit.goodness.unreached > 0.02) {
-            why += &format!(
-                "; at {:.0} % of the samples, as rows {} to {}, the rod cannot be on it",
-                100.0 * fit.goodness.unreached,
-                longest.from,
-                longest.to
-            );
+        let missing = fit.runs().into_iter().filter(|run| run.1.is_none()).map(|run| self.rows_of(&run.0));
+        if let Some([from, to]) = missing.max_by_key(|[from, to]| to - from).filter(|_| fit.goodness.is_unreached()) {
+            let share = 100.0 * fit.goodness.unreached;
+            why += &format!("; at {share:.0} % of the samples, as rows {from} to {to}, the rod cannot be on it");
         }
-        if let Some((source, off)) = fit.goodness.farthest_error.filter(|error| error.1.abs() > 5.0) {
+        if let Some((source, off)) = fit.goodness.error_beyond_budget() {
             why += &format!("; its {source} is {off:.0} standard deviations off what is known");
         }
         Some(
@@ -108,21 +113,17 @@ struct FittedErrorRecord {
 }
 
 impl FitRecord {
-    pub fn of(fit: &Result<ContourFit, FitError>, rows: &[usize]) -> Self {
-        let fit = match fit {
+    pub fn of(found: &Reconstructed) -> Option<Self> {
+        let fit = match found.fit.as_ref()? {
             Ok(fit) => fit,
-            Err(error) => return Self { missing: Some(error.to_string()), ..Self::default() },
+            Err(error) => return Some(Self { missing: Some(error.to_string()), ..Self::default() }),
         };
         let goodness = &fit.goodness;
-        let mut runs: Vec<FittedRunRecord> = Vec::new();
-        for block in &fit.blocks {
-            let (from, to) = (rows[block.samples.start], rows[block.samples.end - 1]);
-            match runs.last_mut().filter(|run| run.label == block.label) {
-                Some(run) => run.to = to,
-                None => runs.push(FittedRunRecord { label: block.label, from, to }),
-            }
-        }
-        Self {
+        let run = |(samples, label): (Range<usize>, Option<Label>)| {
+            let [from, to] = found.rows_of(&samples);
+            FittedRunRecord { label, from, to }
+        };
+        Some(Self {
             explains: goodness.explains,
             missing: None,
             chi_squared: Some(goodness.chi_squared),
@@ -133,18 +134,18 @@ impl FitRecord {
                 .farthest_error
                 .map(|(source, off)| FarthestErrorRecord { source, standard_deviations: off }),
             worst: goodness.worst.as_ref().map(|worst| WorstRecord {
-                rows: [rows[worst.samples.start], rows[worst.samples.end - 1]],
+                rows: found.rows_of(&worst.samples),
                 channel: worst.channel.clone(),
                 chi_squared: worst.chi_squared,
                 residuals: worst.residuals,
                 p_value: worst.p_value,
             }),
-            runs,
+            runs: fit.runs().into_iter().map(run).collect(),
             errors: fit
                 .errors
                 .iter()
                 .map(|&(source, value, sigma)| FittedErrorRecord { source, value, sigma })
                 .collect(),
-        }
+        })
     }
 }

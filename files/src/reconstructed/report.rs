@@ -412,7 +412,7 @@ impl ReportRecord {
             calibration: result.calibration().cloned(),
             friction: result.passes.iter().filter_map(friction).collect(),
             physics: PhysicsRecord::of(found),
-            fit: found.fit.as_ref().map(|fit| FitRecord::of(fit, rows)),
+            fit: FitRecord::of(found),
             truth: found.comparison.as_ref().map(Into::into),
         }
     }

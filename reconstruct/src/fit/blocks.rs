@@ -4,11 +4,11 @@ use crate::kink::KinkKind;
 use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
 use crate::point::{Clamp, Touch};
-use crate::scan::Track;
-use crate::systematic::motion;
+use crate::scan::{Fault, Track, TrackIndex, dimensionless};
+use crate::systematic::{Frame, motion};
 use nalgebra::Vector3;
 use rod_contact::{Contact, ContactKind};
-use rod_core::{Rod, Sample};
+use rod_core::{Rod, Sample, Units};
 use std::ops::Range;
 
 /// Blocks into which a recording is divided, more where kinks cut it. More: more time; fewer: less is seen between kinks.
@@ -21,7 +21,7 @@ const LEAST_NOISE: f64 = 3e-4;
 /// Blocks on either side of a jump that are left out: its place is known to a sample, and a real rod rings after it.
 const BESIDE_JUMP: usize = 1;
 
-/// The mean of a block of samples, dimensionless.
+/// The mean of a block of samples, dimensionless but for its contacts.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     /// The samples from the first to after the last.
@@ -34,7 +34,7 @@ pub(super) struct Block {
     pub sigma: Vector3<f64>,
     /// What the local answer says of the sample in its middle.
     pub label: Label,
-    /// The contacts that it gives, dimensionless; empty where they are not known.
+    /// The contacts that it gives, SI units of the given rod; empty where they are not known.
     pub contacts: Vec<Contact>,
     /// Whether it is beside a jump.
     pub is_by_jump: bool,
@@ -46,149 +46,140 @@ pub(super) struct Blocks {
     pub blocks: Vec<Block>,
     /// Ranges of blocks between jumps and between passes.
     pub segments: Vec<Range<usize>>,
+    /// Of the whole recording.
+    pub frame: Frame,
 }
 
-/// The usable samples of a pass and how local answers are made dimensionless.
-pub(super) struct Pass<'a> {
-    pub rod: &'a Rod,
-    /// Numbers of all samples of the recording that belong to the pass.
-    pub samples: Range<usize>,
-    /// Path of the clamp before it, rod lengths and radians.
-    pub before: f64,
+/// What all blocks of a recording are made with.
+struct Cut<'a> {
+    /// The given rod.
+    rod: &'a Rod,
+    local: &'a Reconstruction,
+    /// Units of the rod of the local answers.
+    found: Units,
+    /// Samples of a block.
+    width: usize,
+    /// Smallest standard deviations of a block.
+    least: Vector3<f64>,
 }
 
 impl Blocks {
-    /// Of a recording with its local answers. `rod` has the units of the given rod, `found` is the rod of the local answers.
-    pub fn of(rod: &Rod, samples: &[Sample], local: &Reconstruction) -> Self {
+    /// Of a recording with its local answers, of which `rod` has the units; none where no sample can be used.
+    pub fn of(rod: &Rod, samples: &[Sample], local: &Reconstruction) -> Option<Self> {
         let long_run = local.noise.iter().fold(1.0, |most: f64, channel| most.max(channel.long_run));
-        let width = samples.len().div_ceil(BLOCKS).max((INDEPENDENT * long_run) as usize).max(1);
-        let width = if local.noise.iter().all(|channel| channel.sigma < f64::MIN_POSITIVE) { 1 } else { width };
-        let largest = {
-            let most = |of: fn(&Sample) -> f64| {
-                samples.iter().map(|s| of(s).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
-            };
-            let units = rod.units();
-            let force = most(|s| s.reactions.f0x).max(most(|s| s.reactions.f0y)) / units.force;
-            Vector3::new(force, force, most(|s| s.reactions.m0z) / units.moment)
+        let most = |of: fn(&Sample) -> f64| {
+            samples.iter().map(|sample| of(sample).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
         };
-        let mut found = Self { blocks: Vec::new(), segments: Vec::new() };
-        let mut before = 0.0;
+        let force = most(|s| s.reactions.f0x).max(most(|s| s.reactions.f0y)) / rod.units().force;
+        let largest = Vector3::new(force, force, most(|s| s.reactions.m0z) / rod.units().moment);
+        let cut = Cut {
+            rod,
+            local,
+            found: local.calibration().map_or(rod.units(), |calibration| calibration.rod(rod).units()),
+            width: samples.len().div_ceil(BLOCKS).max((INDEPENDENT * long_run) as usize),
+            least: largest * LEAST_NOISE,
+        };
+        let (mut blocks, mut segments, mut before, mut frame) = (Vec::new(), Vec::new(), 0.0, None);
         for pass in &local.passes {
-            let pass = Pass { rod, samples: pass.samples.clone(), before };
-            before += found.add_pass(&pass, samples, local, width, &largest);
+            let (track, indices) = Track::new(rod, samples.get(pass.samples.clone()).unwrap_or_default());
+            let Some((own, (from, to))) = Frame::of(&track).zip(track.tau.first().zip(track.tau.last())) else {
+                continue;
+            };
+            frame = frame.or(Some(own));
+            cut.pass(pass.samples.clone(), before, (&track, &indices), &mut blocks, &mut segments);
+            before += to - from;
         }
-        found
+        let (first, last) = (blocks.first().map(|block: &Block| block.tau)?, blocks.last()?.tau);
+        Some(Self { blocks, segments, frame: frame?.on_way(last - first) })
     }
+}
 
-    /// Adds the blocks of a pass; returns the length of its path.
-    fn add_pass(
-        &mut self,
-        pass: &Pass<'_>,
-        samples: &[Sample],
-        local: &Reconstruction,
-        width: usize,
-        largest: &Vector3<f64>,
-    ) -> f64 {
-        let first = pass.samples.start;
-        let (track, numbered) = Track::new(pass.rod, samples.get(pass.samples.clone()).unwrap_or_default());
-        let cuts = |jump: bool| {
-            local
-                .kinks
-                .iter()
-                .filter(move |kink| !jump || kink.kind == KinkKind::Jump)
-                .map(|kink| kink.next)
-                .filter(|next| pass.samples.contains(next))
-        };
-        let jumps: Vec<usize> = cuts(true).collect();
-        let mut ends: Vec<usize> = cuts(false).chain([pass.samples.end]).collect();
-        ends.sort_unstable();
-        ends.dedup();
-        let (mut from, mut start, mut after_jump) = (first, self.blocks.len(), false);
-        for end in ends {
-            for part in (from..end).collect::<Vec<_>>().chunks(width) {
-                let index: Vec<usize> =
-                    part.iter().filter_map(|k| numbered[k - first].ok()).map(|index| index.0).collect();
-                let (Some(range), false) = (part.first().zip(part.last()), index.is_empty()) else { continue };
-                let range = *range.0..range.1 + 1;
-                self.blocks.push(block(pass, &track, &index, range, local, largest));
+impl Cut<'_> {
+    /// Adds the blocks and segments of the pass with these samples. The clamp has gone `before` until then.
+    fn pass(
+        &self,
+        samples: Range<usize>,
+        before: f64,
+        (track, indices): (&Track, &[Result<TrackIndex, Fault>]),
+        blocks: &mut Vec<Block>,
+        segments: &mut Vec<Range<usize>>,
+    ) {
+        let mut cuts: Vec<(usize, bool)> = self
+            .local
+            .kinks
+            .iter()
+            .filter(|kink| samples.contains(&kink.next))
+            .map(|kink| (kink.next, kink.kind == KinkKind::Jump))
+            .collect();
+        cuts.sort_unstable();
+        // where several lie before one sample, a jump is the last of them
+        cuts.reverse();
+        cuts.dedup_by_key(|cut| cut.0);
+        cuts.reverse();
+        let (mut from, mut start, mut after_jump) = (samples.start, blocks.len(), false);
+        for (end, is_jump) in cuts.into_iter().chain([(samples.end, false)]) {
+            for first in (from..end).step_by(self.width) {
+                let part = first..end.min(first + self.width);
+                let usable = indices[part.start - samples.start..part.end - samples.start].iter();
+                let usable: Vec<usize> = usable.filter_map(|index| Some(index.ok()?.0)).collect();
+                if !usable.is_empty() {
+                    blocks.push(self.block(part, before, track, &usable));
+                }
             }
-            let is_jump = jumps.contains(&end);
-            if is_jump || end == pass.samples.end {
-                let segment = start..self.blocks.len();
-                let beside = |k: usize| {
-                    after_jump && k < segment.start + BESIDE_JUMP || is_jump && k + BESIDE_JUMP >= segment.end
-                };
-                for k in segment.clone().filter(|k| beside(*k)) {
-                    self.blocks[k].is_by_jump = true;
+            if is_jump || end == samples.end {
+                let segment = start..blocks.len();
+                for k in segment.clone() {
+                    blocks[k].is_by_jump =
+                        after_jump && k < segment.start + BESIDE_JUMP || is_jump && k + BESIDE_JUMP >= segment.end;
                 }
                 if !segment.is_empty() {
-                    self.segments.push(segment);
+                    segments.push(segment);
                 }
-                (start, after_jump) = (self.blocks.len(), is_jump);
+                (start, after_jump) = (blocks.len(), is_jump);
             }
             from = end;
         }
-        match (track.tau.first(), track.tau.last()) {
-            (Some(from), Some(to)) => to - from,
-            _ => 0.0,
+    }
+
+    /// The block of some samples, which have these indices in the track.
+    fn block(&self, samples: Range<usize>, before: f64, track: &Track, usable: &[usize]) -> Block {
+        let count = usable.len() as f64;
+        let mut clamp = track.clamps[usable[0]];
+        clamp.pose = usable.iter().map(|i| track.clamps[*i].pose).sum::<Vector3<f64>>() / count;
+        clamp.reactions = usable.iter().map(|i| track.clamps[*i].reactions).sum::<Vector3<f64>>() / count;
+        let noise = dimensionless(&self.local.noise, self.rod.units());
+        let sigma = Vector3::from_fn(|c, _| {
+            // of AR(1) noise with this long-run variance
+            let long_run = noise[c].long_run.max(1.0);
+            let rho = (long_run - 1.0) / (long_run + 1.0);
+            let factor = ((1.0 + rho) - 2.0 * rho * (1.0 - rho.powf(count)) / (count * (1.0 - rho))) / (1.0 - rho);
+            (noise[c].sigma * (factor / count).sqrt()).max(self.least[c]).max(f64::MIN_POSITIVE)
+        });
+        let middle = &self.local.readings[samples.start + (samples.end - samples.start) / 2];
+        Block {
+            tau: before + usable.iter().map(|i| track.tau[*i]).sum::<f64>() / count,
+            clamp,
+            motion: motion(track, usable[usable.len() / 2]),
+            sigma,
+            label: middle.label,
+            contacts: self.contacts(middle),
+            is_by_jump: false,
+            samples,
         }
     }
-}
 
-fn block(
-    pass: &Pass<'_>,
-    track: &Track,
-    index: &[usize],
-    samples: Range<usize>,
-    local: &Reconstruction,
-    largest: &Vector3<f64>,
-) -> Block {
-    let count = index.len() as f64;
-    let mut clamp = track.clamps[index[0]];
-    clamp.pose = index.iter().map(|i| track.clamps[*i].pose).sum::<Vector3<f64>>() / count;
-    clamp.reactions = index.iter().map(|i| track.clamps[*i].reactions).sum::<Vector3<f64>>() / count;
-    let units = pass.rod.units();
-    let size = [units.force, units.force, units.moment];
-    let sigma = Vector3::from_fn(|c, _| {
-        let noise = &local.noise[c];
-        // of AR(1) noise with this long-run variance
-        let rho = (noise.long_run.max(1.0) - 1.0) / (noise.long_run.max(1.0) + 1.0);
-        let factor = ((1.0 + rho) - 2.0 * rho * (1.0 - rho.powf(count)) / (count * (1.0 - rho))) / (1.0 - rho);
-        (noise.sigma / size[c] * (factor / count).sqrt()).max(LEAST_NOISE * largest[c]).max(f64::MIN_POSITIVE)
-    });
-    let middle = &local.readings[samples.start + (samples.end - samples.start) / 2];
-    let (length, force) = local.calibration().map_or((units.length, units.force), |calibration| {
-        let found = calibration.rod(pass.rod).units();
-        (found.length, found.force)
-    });
-    Block {
-        tau: pass.before + index.iter().map(|i| track.tau[*i]).sum::<f64>() / count,
-        clamp,
-        motion: motion(track, index[index.len() / 2]),
-        sigma,
-        label: middle.label,
-        contacts: contacts(middle, length, force),
-        is_by_jump: false,
-        samples,
-    }
-}
-
-/// The contacts of a sample, dimensionless; empty where not all are known.
-fn contacts(reading: &Reading, length: f64, force: f64) -> Vec<Contact> {
-    let contact = |touch: &Touch, tip: bool| Contact {
-        object: 0,
-        piece: 0,
-        kind: if tip { ContactKind::Tip } else { ContactKind::Tangent },
-        s: (touch.s / length).min(1.0),
-        x: touch.x / length,
-        y: touch.y / length,
-        alpha: touch.alpha,
-        force: touch.force / force,
-        friction: None,
-    };
-    match (&reading.touch, &reading.second) {
-        (Ok(touch), None) if !reading.label.several() => vec![contact(touch, reading.label.tip())],
-        (Ok(first), Some(Ok(second))) => vec![contact(first, false), contact(second, reading.label.tip())],
-        _ => Vec::new(),
+    /// The contacts of a sample in units of the given rod; empty where not all are known.
+    fn contacts(&self, reading: &Reading) -> Vec<Contact> {
+        let (found, given) = (self.found, self.rod.units());
+        let in_lengths = |v: f64| v / found.length * given.length;
+        let contact = |(touch, tip): (Touch, bool)| Contact {
+            kind: if tip { ContactKind::Tip } else { ContactKind::Tangent },
+            s: in_lengths(touch.s).min(given.length),
+            x: in_lengths(touch.x),
+            y: in_lengths(touch.y),
+            force: touch.force / found.force * given.force,
+            ..touch.into()
+        };
+        reading.touches().unwrap_or_default().into_iter().map(contact).collect()
     }
 }

@@ -5,12 +5,13 @@ use super::curve::Curve;
 use super::forward::Forward;
 use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
+use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
-use crate::systematic::{Correction, Errors, Frame, still};
+use crate::systematic::{Correction, Errors, Source, still};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rod_contact::{Derivatives, State};
 use rod_contours::Composite;
-use rod_core::{PhysicalRod, Pose, SupportRate};
+use rod_core::{PhysicalRod, Pose, Rod, SupportRate};
 
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
 /// off converges slowly.
@@ -36,13 +37,37 @@ pub(super) struct Sources {
     pub free: Vec<usize>,
 }
 
+impl Sources {
+    /// Those that the local answer had a budget for, and its estimates less what is known, in standard deviations of the budget.
+    pub fn of(rod: &Rod, local: &Reconstruction) -> (Self, DVector<f64>) {
+        let (mut sigmas, mut known, mut start) = (Errors::zeros(), Errors::zeros(), Errors::zeros());
+        for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
+            // the rod of the model is straight and has no friction
+            if !matches!(estimate.source, Source::NaturalCurvature | Source::Friction) {
+                let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
+                (sigmas[k], known[k], start[k]) =
+                    (estimate.budget / unit, estimate.known / unit, estimate.taken / unit);
+            }
+        }
+        let free: Vec<usize> = (0..sigmas.len()).filter(|k| sigmas[*k] > 0.0).collect();
+        let start = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - known[*k]) / sigmas[*k]));
+        (Self { sigmas, known, free }, start)
+    }
+
+    /// The errors that are so many standard deviations of their budget off what is known.
+    pub fn errors<'a>(&self, off: impl IntoIterator<Item = &'a f64>) -> Errors {
+        let mut errors = self.known;
+        self.free.iter().zip(off).for_each(|(k, off)| errors[*k] += off * self.sigmas[*k]);
+        errors
+    }
+}
+
 /// The fit at one contour. Its unknowns are the offsets of the contour's points (m), then the errors less what is known of them, in standard
 /// deviations of their budget.
 pub(super) struct Fit<'a, R> {
     pub rod: &'a R,
     pub curve: Curve,
     pub blocks: &'a Blocks,
-    pub frame: Frame,
     pub sources: &'a Sources,
     /// Standard deviation of the change of curvature over a length of way, 1/m per root of m.
     pub bend: f64,
@@ -104,15 +129,12 @@ struct Row {
 
 impl<R: PhysicalRod> Fit<'_, R> {
     fn errors(&self, x: &DVector<f64>) -> Errors {
-        let mut errors = self.sources.known;
-        let first = self.curve.count();
-        self.sources.free.iter().enumerate().for_each(|(i, k)| errors[*k] += x[first + i] * self.sources.sigmas[*k]);
-        errors
+        self.sources.errors(x.iter().skip(self.curve.count()))
     }
 
     /// The blocks without the errors.
     fn corrected(&self, errors: &Errors) -> Option<Vec<Corrected>> {
-        let (correction, length) = (Correction::new(self.frame, errors)?, self.rod.units().length);
+        let (correction, length) = (Correction::new(self.blocks.frame, errors)?, self.rod.units().length);
         let of = |block: &Block| {
             let apply = |clamp: &Clamp| {
                 let clamp = correction.apply(block.tau, clamp, &still(block.motion)).0;
@@ -135,11 +157,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// The reactions of a state, dimensionless.
     fn reactions(&self, state: Option<&State>) -> Vector3<f64> {
-        let units = self.rod.units();
-        state.map_or(Vector3::zeros(), |state| {
-            let reactions = state.reactions;
-            Vector3::new(reactions.f0x / units.force, reactions.f0y / units.force, reactions.m0z / units.moment)
-        })
+        let of = |state: &State| Clamp::new(self.rod.units(), state.pose, state.reactions).reactions;
+        state.map_or(Vector3::zeros(), of)
     }
 
     /// The model with these unknowns; none where its contour is no curve.
@@ -185,6 +204,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         stiffness.map_or_else(|_| Matrix3::zeros(), |by| Matrix3::from_fn(|c, j| by[c][j] / size[c]))
     }
 
+    /// None at a fold.
     fn rates(&self, Model { curve, object, .. }: &Model, state: &State) -> Option<Rates> {
         let units = self.rod.units();
         let derivatives = Derivatives::new(self.rod, object, state).ok()?;

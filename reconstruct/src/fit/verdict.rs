@@ -92,10 +92,27 @@ impl Goodness {
             }
         });
         let unreached = explained.unreached as f64 / (explained.unreached + known.len()).max(1) as f64;
-        let explains = p_value >= UNLIKELY
-            && worst.as_ref().is_none_or(|worst| worst.p_value >= UNLIKELY)
-            && unreached <= MOST_UNREACHED
-            && farthest_error.is_none_or(|error| error.1.abs() <= MOST_OFF);
-        Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, farthest_error, explains }
+        let mut found =
+            Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, farthest_error, explains: false };
+        found.explains = p_value >= UNLIKELY
+            && found.unlikely_window().is_none()
+            && !found.is_unreached()
+            && found.error_beyond_budget().is_none();
+        found
+    }
+
+    /// The worst window, where it is too unlikely for a recording that is explained.
+    pub fn unlikely_window(&self) -> Option<&WorstWindow> {
+        self.worst.as_ref().filter(|worst| worst.p_value < UNLIKELY)
+    }
+
+    /// Whether more blocks are not reached than of a recording that is explained.
+    pub fn is_unreached(&self) -> bool {
+        self.unreached > MOST_UNREACHED
+    }
+
+    /// The farthest error, where it is farther off what is known than of a recording that is explained.
+    pub fn error_beyond_budget(&self) -> Option<(Source, f64)> {
+        self.farthest_error.filter(|error| error.1.abs() > MOST_OFF)
     }
 }

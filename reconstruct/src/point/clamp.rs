@@ -143,11 +143,17 @@ pub(crate) struct SectionGradient<T = f64> {
 impl Clamp {
     /// The sample with this pose and these reactions, SI units, for a straight rod of these units that has the same curvature at its clamp.
     pub fn sample(&self, units: Units, of: &Sample) -> Sample {
+        let (pose, reactions) = self.in_units(units);
+        Sample { pose, reactions, ..*of }
+    }
+
+    /// Its pose and reactions, SI units, with the moment of such a rod.
+    pub fn in_units(&self, units: Units) -> (Pose, Reactions) {
         let (p, r) = (&self.pose, &self.reactions);
         let pose = Pose { x: p.x * units.length, y: p.y * units.length, phi: p.z };
         let reactions =
             Reactions { f0x: r.x * units.force, f0y: r.y * units.force, m0z: (r.z - self.natural) * units.moment };
-        Sample { pose, reactions, ..*of }
+        (pose, reactions)
     }
 }
 
