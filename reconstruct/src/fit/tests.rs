@@ -1,3 +1,5 @@
+#![expect(clippy::print_stdout, reason = "prints the numbers that the page on reconstruction names")]
+
 use super::{ContourFit, FitError, fit_contour};
 use crate::{Ar1, Budget, Label, NoiseModel, Settings, Source, disturb, reconstruct_passes};
 use rod_contact::{ClampPath, State, Sweep};
