@@ -205,6 +205,8 @@ pub enum StopReason {
     FrictionInNotch,
     /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
     StepBudget,
+    /// The rod jumps, and was to be followed up to there ([`Follower::without_jumps`](crate::Follower::without_jumps)).
+    Jump,
 }
 
 /// Why a step along a branch of equilibria is refused, and tried at half its length.
@@ -270,6 +272,7 @@ impl std::fmt::Display for StopReason {
             Self::RougherPiece => "rougher-piece",
             Self::FrictionInNotch => "friction-in-notch",
             Self::StepBudget => "step-budget",
+            Self::Jump => "jump",
         })
     }
 }
@@ -322,6 +325,7 @@ impl std::fmt::Display for Stop {
                 "the rod lies down in a notch, which is only followed without friction; end the path before it"
             }
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
+            StopReason::Jump => "the rod jumps; it was to be followed up to there",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",
         };
         f.write_str(why)

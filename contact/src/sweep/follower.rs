@@ -116,6 +116,12 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         Ok(self)
     }
 
+    /// Only up to where the rod jumps, [`StopReason::Jump`]: where it lands costs as much as hundreds of states.
+    pub fn without_jumps(mut self) -> Self {
+        self.sweep.ends_at_jump = true;
+        self
+    }
+
     /// The rod at the first pose of the path of `sweep`.
     fn at_rest(sweep: Sweep<'a, R>, at: Point) -> Self {
         let (state, pose) = (sweep.state(&at), sweep.setup().path.at(0.0));
@@ -166,7 +172,8 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
 impl<R: PhysicalRod> Clone for Follower<'_, R> {
     fn clone(&self) -> Self {
         let setup = self.sweep.setup().clone();
-        let sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
+        let mut sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
+        sweep.ends_at_jump = self.sweep.ends_at_jump;
         Self { sweep, configuration: self.configuration.clone(), pose: self.pose, state: self.state.clone() }
     }
 }
@@ -174,6 +181,26 @@ impl<R: PhysicalRod> Clone for Follower<'_, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn it_stops_before_a_jump_if_it_is_told_to() {
+        use rod_contours::Parabola;
+        let (rod, object) =
+            (Rod::new(1.0, 1.0).unwrap(), Composite::single(Parabola::new([0.0, 0.0], 5.0).unwrap()).unwrap());
+        let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+        let mut rod = Follower::new(&rod, &object, clamp(0.9)).unwrap().without_jumps();
+        rod.to(clamp(0.2)).unwrap();
+        let before = rod.state().clone();
+        let stop = rod.to(clamp(-0.9)).unwrap_err();
+        assert_eq!(stop.reason, StopReason::Jump);
+        assert!(0.0 < stop.tau && stop.tau < 1.0, "{stop:?}");
+        assert_eq!(*rod.state(), before);
+        // a copy stops there, too, and so far it can be followed
+        let mut copy = rod.clone();
+        let almost = 0.2 - 1.1 * stop.tau + 1e-6;
+        copy.to(clamp(almost)).unwrap();
+        assert_eq!(copy.to(clamp(-0.9)).unwrap_err().reason, StopReason::Jump);
+    }
 
     #[test]
     fn it_goes_from_thread_to_thread() {

@@ -49,6 +49,10 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         if let Some(landed) = self.slip(here, &last).or_else(|| self.slip_off(here, &last)) {
             return Ok(self.report_landing(EventKind::SlipOver, last, landed));
         }
+        if self.ends_at_jump && here.count() > 0 {
+            self.reached = here.tau();
+            return Err(StopReason::Jump);
+        }
         if let Some(landed) = self.descend(here, &last) {
             return Ok(if here.count() == 0 {
                 self.land_at_first_contact(last, landed)

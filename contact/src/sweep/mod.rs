@@ -44,6 +44,8 @@ pub struct Sweep<'a, R = Rod> {
     pending: VecDeque<Item>,
     /// Whether it only brings an equilibrium to another pose.
     is_silent: bool,
+    /// Whether it ends where the rod jumps.
+    ends_at_jump: bool,
     /// Path parameter of the last state, or of a snap without landing: how far it came.
     reached: f64,
     crowd: Crowd,
@@ -165,6 +167,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
             start: None,
             pending: VecDeque::new(),
             is_silent: false,
+            ends_at_jump: false,
             reached: 0.0,
             crowd: Crowd::NONE,
             dissipated: Some(0.0),
