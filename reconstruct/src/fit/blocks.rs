@@ -30,6 +30,8 @@ pub(super) struct Block {
     pub clamp: Clamp,
     /// Rate of the pose along the path.
     pub motion: Vector3<f64>,
+    /// Half of the way of the pose from its first sample to its last.
+    pub half: Vector3<f64>,
     /// Standard deviations of its reactions.
     pub sigma: Vector3<f64>,
     /// What the local answer says of the sample in its middle.
@@ -160,6 +162,7 @@ impl Cut<'_> {
             tau: before + usable.iter().map(|i| track.tau[*i]).sum::<f64>() / count,
             clamp,
             motion: motion(track, usable[usable.len() / 2]),
+            half: 0.5 * (track.clamps[usable[usable.len() - 1]].pose - track.clamps[usable[0]].pose),
             sigma,
             label: middle.label,
             contacts: self.contacts(middle),

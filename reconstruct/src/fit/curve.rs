@@ -1,165 +1,266 @@
-//! The contour of a fit: a cubic spline whose points move along the normals of the start.
+//! The contour of a fit: smooth pieces that meet at vertices, and whose points move.
 
+use super::piece::Piece;
+use crate::numeric::wrap_angle;
 use nalgebra::{DMatrix, DVector, Vector2};
-use rod_contours::{Composite, Contour, Frame, Spline, SplineEnd};
+use rod_contact::{Contact, ContactKind};
+use rod_contours::{Composite, Contour, Frame};
 use rod_core::SupportRate;
+use std::ops::Range;
 
-/// A free-form contour, m. Its unknowns are the distances by which its points lie off those of the start.
+/// A point of a contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Node {
+    pub at: Vector2<f64>,
+    /// Whether its pieces meet at an angle there.
+    pub is_vertex: bool,
+    /// How far it may be off, as a standard deviation.
+    pub sigma: f64,
+}
+
+impl Node {
+    pub fn smooth(at: Vector2<f64>, sigma: f64) -> Self {
+        Self { at, is_vertex: false, sigma }
+    }
+}
+
+/// Objects, each a chain of nodes with the solid on its left. The unknowns are the distances by which nodes lie off those of the start: along
+/// the normal, of a vertex along x and y.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
-    base: Vec<Vector2<f64>>,
-    normals: Vec<Vector2<f64>>,
+    /// Nodes of the start, chain after chain.
+    nodes: Vec<Node>,
+    chains: Vec<Range<usize>>,
+    /// The directions in which each node moves, and the number of its first unknown.
+    ways: Vec<(Vec<Vector2<f64>>, usize)>,
     pub offsets: DVector<f64>,
-    spline: Spline,
-    /// Column j: second derivatives at all knots of the natural spline that is 1 at knot j and 0 at the others.
-    second: DMatrix<f64>,
-    knots: Vec<f64>,
+    /// Where the nodes are.
+    points: Vec<Vector2<f64>>,
+    pieces: Vec<Piece>,
 }
+
+/// A value that depends on some of the unknowns, and its derivatives by these.
+pub(super) type Dependent = (f64, Vec<(usize, f64)>);
 
 impl Curve {
-    /// Through points, in the direction of contours.
-    pub fn through(base: Vec<Vector2<f64>>) -> Option<Self> {
-        let n = base.len();
-        if n < 3 {
-            return None;
+    /// Through chains of nodes, in the direction of contours; none where one of them gives no curve.
+    pub fn through(chains: &[Vec<Node>]) -> Option<Self> {
+        let mut nodes: Vec<Node> = Vec::new();
+        let (mut ranges, mut ways, mut unknowns) = (Vec::new(), Vec::new(), 0);
+        for chain in chains.iter().filter(|chain| chain.len() > 1) {
+            let last = chain.len() - 1;
+            for (i, node) in chain.iter().enumerate() {
+                let is_vertex = node.is_vertex && i > 0 && i < last;
+                let along = chain[(i + 1).min(last)].at - chain[i.saturating_sub(1)].at;
+                let normal = Vector2::new(-along.y, along.x).normalize();
+                let own = if is_vertex { vec![Vector2::x(), Vector2::y()] } else { vec![normal] };
+                unknowns += own.len();
+                ways.push((own, unknowns - 1 - usize::from(is_vertex)));
+                nodes.push(Node { is_vertex, ..*node });
+            }
+            ranges.push(nodes.len() - chain.len()..nodes.len());
         }
-        let normals = (0..n)
-            .map(|i| {
-                let along = base[(i + 1).min(n - 1)] - base[i.saturating_sub(1)];
-                Vector2::new(-along.y, along.x).normalize()
-            })
-            .collect();
-        Self::of(base, normals, DVector::zeros(n))
+        let points = nodes.iter().map(|node| node.at).collect();
+        let curve = Self { nodes, chains: ranges, ways, offsets: DVector::zeros(unknowns), points, pieces: Vec::new() };
+        if curve.nodes.is_empty() { None } else { curve.with_pieces() }
     }
 
-    fn of(base: Vec<Vector2<f64>>, normals: Vec<Vector2<f64>>, offsets: DVector<f64>) -> Option<Self> {
-        let points: Vec<[f64; 2]> =
-            base.iter().zip(&normals).zip(offsets.iter()).map(|((p, n), d)| (p + n * *d).into()).collect();
-        let spline = Spline::through(&points, SplineEnd::Natural).ok()?;
-        let knots: Vec<f64> = spline.knots().collect();
-        let second = second_derivatives(&knots);
-        Some(Self { base, normals, offsets, spline, second, knots })
-    }
-
-    /// With other offsets of its points along their normals.
-    pub fn moved(&self, offsets: DVector<f64>) -> Option<Self> {
-        Self::of(self.base.clone(), self.normals.clone(), offsets)
-    }
-
-    pub fn count(&self) -> usize {
-        self.base.len()
-    }
-
-    /// The same curve with each interval cut in two.
-    pub fn refined(&self) -> Option<Self> {
-        let mut points = Vec::new();
-        for pair in self.knots.windows(2) {
-            for t in [pair[0], 0.5 * (pair[0] + pair[1])] {
-                let frame = self.spline.frame(t);
-                points.push(Vector2::new(frame.x, frame.y));
+    fn with_pieces(mut self) -> Option<Self> {
+        self.pieces.clear();
+        for (object, chain) in self.chains.iter().enumerate() {
+            let mut first = chain.start;
+            for k in chain.start + 1..chain.end {
+                if self.nodes[k].is_vertex || k + 1 == chain.end {
+                    let number = self.pieces.iter().rev().take_while(|piece| piece.object == object).count();
+                    self.pieces.push(Piece::through(&self.points[first..=k], first, object, number)?);
+                    first = k;
+                }
             }
         }
-        let last = self.spline.frame(*self.knots.last()?);
-        points.push(Vector2::new(last.x, last.y));
-        Self::through(points)
+        Some(self)
     }
 
-    pub fn composite(&self) -> Option<Composite> {
-        Composite::single(self.spline.clone()).ok()
-    }
-
-    /// The frame at the point closest to (x, y).
-    pub fn frame_near(&self, x: f64, y: f64) -> Frame {
-        self.spline.frame(self.spline.closest(x, y).t)
-    }
-
-    /// The points.
-    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        self.spline.points()
-    }
-
-    /// [`rates`](Self::rates) at the point closest to (x, y).
-    pub fn rates_near(&self, x: f64, y: f64) -> Vec<SupportRate> {
-        self.rates(self.spline.closest(x, y).t)
-    }
-
-    /// The values, first and second derivatives of all cardinal splines at `t`.
-    fn cardinal(&self, t: f64) -> [DVector<f64>; 3] {
-        let n = self.knots.len();
-        let j = self.knots.partition_point(|k| *k <= t).clamp(1, n - 1) - 1;
-        let h = self.knots[j + 1] - self.knots[j];
-        let b = (t - self.knots[j]) / h;
-        let a = 1.0 - b;
-        let (lower, upper) = (self.second.row(j).transpose(), self.second.row(j + 1).transpose());
-        let mut value = &lower * ((a * a * a - a) * h * h / 6.0) + &upper * ((b * b * b - b) * h * h / 6.0);
-        value[j] += a;
-        value[j + 1] += b;
-        let mut first = &upper * ((3.0 * b * b - 1.0) * h / 6.0) - &lower * ((3.0 * a * a - 1.0) * h / 6.0);
-        first[j] -= 1.0 / h;
-        first[j + 1] += 1.0 / h;
-        [value, first, lower * a + upper * b]
-    }
-
-    /// How point and tangent at `t` change with each offset.
-    fn rates(&self, t: f64) -> Vec<SupportRate> {
-        let [value, first, _] = self.cardinal(t);
-        let tangent = self.tangent(&first);
-        let speed = tangent.norm();
-        let rate = |i: usize| {
-            let n = self.normals[i];
-            let across = (tangent.x * n.y - tangent.y * n.x) / speed;
-            SupportRate { x: n.x * value[i], y: n.y * value[i], alpha: across * first[i] / speed }
+    /// With other offsets of its nodes.
+    pub fn moved(&self, offsets: DVector<f64>) -> Option<Self> {
+        let point = |(node, (own, first)): (&Node, &(Vec<Vector2<f64>>, usize))| {
+            own.iter().enumerate().fold(node.at, |at, (i, way)| at + way * offsets[first + i])
         };
-        (0..self.count()).map(rate).collect()
+        let points = self.nodes.iter().zip(&self.ways).map(point).collect();
+        Self { points, offsets, pieces: Vec::new(), ..self.clone() }.with_pieces()
     }
 
-    fn tangent(&self, by: &DVector<f64>) -> Vector2<f64> {
-        (0..self.count())
-            .fold(Vector2::zeros(), |sum, i| sum + (self.base[i] + self.normals[i] * self.offsets[i]) * by[i])
+    /// Number of unknowns.
+    pub fn count(&self) -> usize {
+        self.offsets.len()
     }
 
-    /// Change of the curvature from each knot to the next over the root of their distance, and its derivatives by the offsets.
-    pub fn bends(&self) -> Vec<(f64, DVector<f64>)> {
-        let n = self.count();
-        let at: Vec<(f64, DVector<f64>)> = self
-            .knots
-            .iter()
-            .map(|t| {
-                let [_, first, second] = self.cardinal(*t);
-                let (p, q) = (self.tangent(&first), self.tangent(&second));
-                let speed = p.norm();
-                let cross = p.x * q.y - p.y * q.x;
-                let kappa = cross / speed.powi(3);
-                let rates = DVector::from_fn(n, |i, _| {
-                    let nn = self.normals[i];
-                    let (dp, dq) = (nn * first[i], nn * second[i]);
-                    (dp.x * q.y - dp.y * q.x + p.x * dq.y - p.y * dq.x) / speed.powi(3)
-                        - 3.0 * kappa * p.dot(&dp) / (speed * speed)
-                });
-                (kappa, rates)
-            })
-            .collect();
-        (0..n - 1)
-            .map(|i| {
-                let root = (self.knots[i + 1] - self.knots[i]).sqrt();
-                ((at[i + 1].0 - at[i].0) / root, (&at[i + 1].1 - &at[i].1) / root)
-            })
-            .collect()
+    /// The same contour with more nodes: `parts` says into how many parts the interval after each node is cut, `is_vertex` which smooth
+    /// nodes become vertices.
+    pub fn refined(&self, parts: impl Fn(usize) -> usize, is_vertex: impl Fn(usize) -> bool) -> Option<Self> {
+        let mut chains: Vec<Vec<Node>> = Vec::new();
+        for (object, chain) in self.chains.iter().enumerate() {
+            let mut nodes = Vec::new();
+            for piece in self.pieces.iter().filter(|piece| piece.object == object) {
+                for (i, knots) in piece.knots().windows(2).enumerate() {
+                    let k = piece.first + i;
+                    let node = self.nodes[k];
+                    nodes.push(Node { at: self.points[k], is_vertex: node.is_vertex || is_vertex(k), ..node });
+                    let sigma = node.sigma.max(self.nodes[k + 1].sigma);
+                    let count = parts(k);
+                    nodes.extend((1..count).map(|part| {
+                        let frame = piece.spline.frame(knots[0] + (knots[1] - knots[0]) * part as f64 / count as f64);
+                        Node::smooth(Vector2::new(frame.x, frame.y), sigma)
+                    }));
+                }
+            }
+            nodes.push(Node { at: self.points[chain.end - 1], ..self.nodes[chain.end - 1] });
+            chains.push(nodes);
+        }
+        Self::through(&chains)
+    }
+
+    pub fn objects(&self) -> Option<Vec<Composite>> {
+        let pieces_of = |object: usize| self.pieces.iter().filter(move |piece| piece.object == object);
+        let boxed = |piece: &Piece| Box::new(piece.spline.clone()) as Box<dyn Contour>;
+        (0..self.chains.len()).map(|object| Composite::new(pieces_of(object).map(boxed).collect()).ok()).collect()
+    }
+
+    /// The nodes of each object: where they are, and whether they are vertices.
+    pub fn chains(&self) -> impl Iterator<Item = impl Iterator<Item = (usize, Node)>> {
+        self.chains.iter().map(|chain| chain.clone().map(|k| (k, Node { at: self.points[k], ..self.nodes[k] })))
+    }
+
+    /// How far each unknown may be off 0, as a standard deviation.
+    pub fn sigmas(&self) -> impl Iterator<Item = f64> {
+        self.nodes.iter().zip(&self.ways).flat_map(|(node, (own, _))| own.iter().map(|_| node.sigma))
+    }
+
+    /// Variance of a node across the contour, or of a vertex in its worst direction, of this covariance of the unknowns.
+    pub fn variance(&self, node: usize, covariance: &DMatrix<f64>) -> f64 {
+        let (own, first) = &self.ways[node];
+        match own.len() {
+            1 => covariance[(*first, *first)],
+            _ => {
+                let (a, b, c) =
+                    (covariance[(*first, *first)], covariance[(first + 1, first + 1)], covariance[(*first, first + 1)]);
+                0.5 * (a + b) + (0.25 * (a - b).powi(2) + c * c).sqrt()
+            }
+        }
+    }
+
+    /// The piece closest to (x, y), and the parameter there.
+    fn nearest(&self, x: f64, y: f64) -> Option<(&Piece, f64)> {
+        let places = self.pieces.iter().map(|piece| (piece, piece.closest(x, y)));
+        let distance = |closest: &rod_contours::Closest| (closest.frame.x - x).hypot(closest.frame.y - y);
+        places.min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1))).map(|(piece, closest)| (piece, closest.t))
+    }
+
+    /// A contact of about there on this contour: at a vertex near by, where the rod has a direction between those of its pieces.
+    pub fn place(&self, contact: &Contact, near: f64) -> Option<Contact> {
+        let vertex = (contact.kind != ContactKind::Tip).then(|| self.vertex_near(contact, near)).flatten();
+        if let Some(piece) = vertex {
+            let at = piece.points()[piece.points().len() - 1];
+            let kind = ContactKind::Corner;
+            return Some(Contact { object: piece.object, piece: piece.number, kind, x: at.x, y: at.y, ..*contact });
+        }
+        let (piece, t) = self.nearest(contact.x, contact.y)?;
+        let Frame { x, y, alpha, .. } = piece.spline.frame(t);
+        let kind = if contact.kind == ContactKind::Tip { ContactKind::Tip } else { ContactKind::Tangent };
+        Some(Contact { object: piece.object, piece: piece.number, kind, x, y, alpha, ..*contact })
+    }
+
+    /// The piece before the nearest vertex on which a rod of the direction of a contact can lie.
+    fn vertex_near(&self, contact: &Contact, near: f64) -> Option<&Piece> {
+        let distance = |at: &Vector2<f64>| (at.x - contact.x).hypot(at.y - contact.y);
+        let pairs = self.pieces.windows(2).filter(|pair| {
+            let (before, after) = (pair[0].end(), pair[1].start());
+            let turn = wrap_angle(after.alpha - before.alpha);
+            let at = wrap_angle(contact.alpha - before.alpha);
+            pair[0].object == pair[1].object && 0.0 <= at && at <= turn && distance(&pair[1].points()[0]) < near
+        });
+        pairs.min_by(|a, b| distance(&a[1].points()[0]).total_cmp(&distance(&b[1].points()[0]))).map(|pair| &pair[0])
+    }
+
+    /// The node before a contact of a state; none for one at a vertex.
+    pub fn interval(&self, contact: &Contact) -> Option<usize> {
+        let piece = self.piece_of(contact).filter(|_| !is_at_vertex(contact))?;
+        let t = piece.closest(contact.x, contact.y).t;
+        let intervals = piece.knots().len() - 1;
+        Some(piece.first + piece.knots().partition_point(|knot| *knot <= t).clamp(1, intervals) - 1)
+    }
+
+    fn piece_of(&self, contact: &Contact) -> Option<&Piece> {
+        self.pieces.iter().find(|one| one.object == contact.object && one.number == contact.piece)
+    }
+
+    /// How point and tangent of the contour at a contact of a state change with the unknowns.
+    pub fn rates(&self, contact: &Contact) -> Vec<(usize, SupportRate)> {
+        let Some(piece) = self.piece_of(contact) else { return Vec::new() };
+        if is_at_vertex(contact) {
+            let (own, first) = &self.ways[piece.first + piece.knots().len() - 1];
+            let rate = |(i, way): (usize, &Vector2<f64>)| (first + i, SupportRate { x: way.x, y: way.y, alpha: 0.0 });
+            return own.iter().enumerate().map(rate).collect();
+        }
+        let t = piece.closest(contact.x, contact.y).t;
+        let tangent = piece.derivatives(t).0;
+        let speed = tangent.norm();
+        let mut rates = Vec::new();
+        for at in piece.cardinals(t) {
+            let (own, first) = &self.ways[at.node];
+            rates.extend(own.iter().enumerate().map(|(i, way)| {
+                let across = (tangent.x * way.y - tangent.y * way.x) / speed;
+                let alpha = across * at.first / speed;
+                (first + i, SupportRate { x: way.x * at.value, y: way.y * at.value, alpha })
+            }));
+        }
+        rates
+    }
+
+    /// Change of the curvature from each node of a piece to the next over the root of their distance.
+    pub fn bends(&self) -> Vec<Dependent> {
+        let mut bends = Vec::new();
+        for piece in &self.pieces {
+            let at: Vec<Dependent> = piece.knots().iter().map(|t| self.curvature(piece, *t)).collect();
+            for (pair, knots) in at.windows(2).zip(piece.knots().windows(2)) {
+                let root = (knots[1] - knots[0]).sqrt();
+                let rates = pair[0].1.iter().zip(&pair[1].1).map(|(a, b)| (a.0, (b.1 - a.1) / root)).collect();
+                bends.push(((pair[1].0 - pair[0].0) / root, rates));
+            }
+        }
+        bends
+    }
+
+    /// The curvature of a piece at `t`; its derivatives are by the same unknowns at all places of the piece.
+    fn curvature(&self, piece: &Piece, t: f64) -> Dependent {
+        let (p, q) = piece.derivatives(t);
+        let speed = p.norm();
+        let kappa = (p.x * q.y - p.y * q.x) / speed.powi(3);
+        let mut rates = Vec::new();
+        for at in piece.cardinals(t) {
+            let (own, first) = &self.ways[at.node];
+            rates.extend(own.iter().enumerate().map(|(i, way)| {
+                let (dp, dq) = (way * at.first, way * at.second);
+                let turned = dp.x * q.y - dp.y * q.x + p.x * dq.y - p.y * dq.x;
+                (first + i, turned / speed.powi(3) - 3.0 * kappa * p.dot(&dp) / (speed * speed))
+            }));
+        }
+        (kappa, rates)
+    }
+
+    /// For each interval from a node to the next of its piece: its first node, its length and the angle by which the contour turns.
+    pub fn turns(&self) -> Vec<(usize, f64, f64)> {
+        let mut turns = Vec::new();
+        for piece in &self.pieces {
+            let angle = |t: f64| piece.spline.frame(t).alpha;
+            for (i, knots) in piece.knots().windows(2).enumerate() {
+                let turn = wrap_angle(angle(knots[1]) - angle(knots[0]));
+                turns.push((piece.first + i, knots[1] - knots[0], turn));
+            }
+        }
+        turns
     }
 }
 
-/// The second derivatives at the knots of the natural cubic splines that are 1 at one knot and 0 at the others, a column each.
-fn second_derivatives(knots: &[f64]) -> DMatrix<f64> {
-    let n = knots.len();
-    let h: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
-    let (mut matrix, mut right) = (DMatrix::identity(n, n), DMatrix::zeros(n, n));
-    for i in 1..n - 1 {
-        matrix[(i, i - 1)] = h[i - 1] / 6.0;
-        matrix[(i, i)] = (h[i - 1] + h[i]) / 3.0;
-        matrix[(i, i + 1)] = h[i] / 6.0;
-        right[(i, i - 1)] = 1.0 / h[i - 1];
-        right[(i, i)] = -1.0 / h[i - 1] - 1.0 / h[i];
-        right[(i, i + 1)] = 1.0 / h[i];
-    }
-    matrix.lu().solve(&right).unwrap_or(right)
+fn is_at_vertex(contact: &Contact) -> bool {
+    matches!(contact.kind, ContactKind::Corner | ContactKind::Notch)
 }

@@ -2,6 +2,7 @@
 
 use super::blocks::Blocks;
 use super::curve::Curve;
+use nalgebra::Vector3;
 use rod_contact::{Contact, EventKind, Follower, Item, State, equilibrium};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose};
@@ -9,11 +10,16 @@ use rod_core::{PhysicalRod, Pose};
 /// Equilibria from which a segment is followed, at most: each reaches up to where the rod snaps.
 const ANCHORS: usize = 6;
 
+/// Poses on either side of the middle of a block at which its mean is taken.
+const PARTS: usize = 3;
+/// Distance from a vertex, rod lengths, within which the guess of a contact may be one at the vertex: points are known to so much at the start.
+const NEAR_VERTEX: f64 = 0.02;
+
 /// A rod past a contour, both in units in which the given rod has its own length and stiffness.
 pub(super) struct Forward<'a, R> {
     pub rod: &'a R,
     pub curve: &'a Curve,
-    pub object: &'a Composite,
+    pub objects: &'a [Composite],
 }
 
 impl<R: PhysicalRod> Forward<'_, R> {
@@ -52,22 +58,40 @@ impl<R: PhysicalRod> Forward<'_, R> {
         found
     }
 
+    /// The mean reactions over the poses `half` before to `half` after that of a state, N and N m: what the mean of a block of samples has where
+    /// contacts form or let go inside it. None where the rod snaps there.
+    pub fn mean_reactions(&self, state: &State, half: [f64; 3]) -> Option<Vector3<f64>> {
+        let of = |state: &State| Vector3::new(state.reactions.f0x, state.reactions.f0y, state.reactions.m0z);
+        let mut sum = of(state);
+        for sense in [-1.0, 1.0] {
+            let mut follower = Follower::from_state(self.rod, self.objects, state).ok()?.without_jumps();
+            for part in 1..=PARTS {
+                let share = sense * (part as f64 - 0.25) / (PARTS as f64 + 0.25);
+                let Pose { x, y, phi } = state.pose;
+                let pose = Pose { x: x + share * half[0], y: y + share * half[1], phi: phi + share * half[2] };
+                if follower.to(pose).ok()?.iter().any(is_snap) {
+                    return None;
+                }
+                sum += of(follower.state());
+            }
+        }
+        Some(sum / (2 * PARTS + 1) as f64)
+    }
+
     /// The equilibrium with about these contacts, if the rod can be there.
     fn equilibrium(&self, pose: Pose, guess: &[Contact]) -> Option<State> {
-        let on = |contact: &Contact| {
-            let frame = self.curve.frame_near(contact.x, contact.y);
-            Contact { x: frame.x, y: frame.y, alpha: frame.alpha, ..*contact }
-        };
-        let guess: Vec<Contact> = guess.iter().map(on).collect();
-        let found = equilibrium(self.rod, self.object, pose, &guess).ok()?;
+        let near = NEAR_VERTEX * self.rod.units().length;
+        let guess: Vec<Contact> = guess.iter().map(|contact| self.curve.place(contact, near)).collect::<Option<_>>()?;
+        let found = equilibrium(self.rod, self.objects, pose, &guess).ok()?;
         found.is_admissible().ok()?;
         Some(found.state)
     }
 
     /// Follows the rod from a state until it snaps, cannot be followed, or comes to a pose whose state is known.
     fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
-        let Ok(mut follower) = Follower::from_state(self.rod, self.object, from) else { return };
-        let is_snap = |item: &Item| matches!(item, Item::Event(event) if matches!(event.kind, EventKind::Snap | EventKind::SnapOff));
+        let Ok(mut follower) = Follower::from_state(self.rod, self.objects, from).map(Follower::without_jumps) else {
+            return;
+        };
         for k in way {
             let Ok(items) = follower.to(poses[k]) else { return };
             if items.iter().any(is_snap) || found[k].is_some() {
@@ -76,4 +100,8 @@ impl<R: PhysicalRod> Forward<'_, R> {
             found[k] = Some(follower.state().clone());
         }
     }
+}
+
+fn is_snap(item: &Item) -> bool {
+    matches!(item, Item::Event(event) if matches!(event.kind, EventKind::Snap | EventKind::SnapOff))
 }

@@ -8,7 +8,9 @@
 mod blocks;
 mod curve;
 mod forward;
+mod order;
 mod outline;
+mod piece;
 mod problem;
 mod solve;
 mod start;
@@ -23,10 +25,15 @@ use crate::pipeline::Reconstruction;
 use crate::systematic::Source;
 use blocks::Blocks;
 use problem::Sources;
+use rod_contours::{Composite, Contour, ContourError, Spline, SplineEnd};
 use rod_core::{PhysicalRod, Rod, Sample};
-use solve::Recorded;
-use start::{fill_with_singles, touched};
+use solve::{Search, Solved};
+use start::{Start, starts};
 use std::ops::Range;
+
+/// Most evaluations of the model at all poses of a recording, some milliseconds each. The recordings of the tests that are explained take up to 300;
+/// larger: more time on those that nothing explains.
+const MOST_EVALUATIONS: usize = 1000;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -56,14 +63,40 @@ pub struct FittedBlock {
     pub residuals: Option<[f64; 3]>,
 }
 
+/// A part of the contour: a cubic spline with natural ends through points in the direction of contours, cut at its vertices.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FittedObject {
+    /// Points, m.
+    pub points: Vec<[f64; 2]>,
+    /// Standard deviations of these across the contour, m.
+    pub sigmas: Vec<f64>,
+    /// Numbers of the points at which smooth pieces meet at an angle.
+    pub vertices: Vec<usize>,
+}
+
+impl FittedObject {
+    /// The part as a shape.
+    ///
+    /// # Errors
+    /// [`ContourError`], where numbers that were changed by hand give no contour.
+    pub fn contour(&self) -> Result<Composite, ContourError> {
+        let cuts = std::iter::once(0).chain(self.vertices.iter().copied());
+        let ends = self.vertices.iter().copied().chain([self.points.len().saturating_sub(1)]);
+        let piece = |(from, to): (usize, usize)| {
+            let points = self.points.get(from..=to).unwrap_or_default();
+            Ok(Box::new(Spline::through(points, SplineEnd::Natural)?) as Box<dyn Contour>)
+        };
+        Composite::new(cuts.zip(ends).map(piece).collect::<Result<_, ContourError>>()?)
+    }
+}
+
 /// The contour that explains a recording best, and how well it does.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContourFit {
-    /// Points of a cubic spline with natural ends, in the direction of contours, m.
-    pub contour: Vec<[f64; 2]>,
-    /// Standard deviations of these across the contour, m.
-    pub sigmas: Vec<f64>,
+    /// What was touched, as far as it hangs together.
+    pub objects: Vec<FittedObject>,
     /// The errors that all samples share, in the units of the sources, with their standard deviations; empty where they are not estimated.
     pub errors: Vec<(Source, f64, f64)>,
     /// How well it explains the recording.
@@ -89,8 +122,8 @@ impl ContourFit {
 /// Fits contour and shared errors to the `samples` of a recording, from its local answers `local` on. Of a rod that is not uniform no errors
 /// are estimated, and of a uniform one none of its natural curvature.
 ///
-/// First the fit starts from the contact points that are answered; where that does not explain the recording, also from those that single
-/// contacts would have wherever there is no answer. A start that explains the recording wins, else the one of lower cost.
+/// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
+/// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.
 ///
 /// # Errors
 /// [`FitError`].
@@ -104,21 +137,24 @@ pub fn fit_contour<R: PhysicalRod>(
     }
     let units = rod.units();
     let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
-    let answered = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
+    let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
-    let recorded = Recorded { rod, sources: &sources, errors: &errors };
-    let mut points = touched(local, &uniform);
-    let found = recorded.fitted(&answered, &points, true);
-    if found.as_ref().is_ok_and(|solved| solved.goodness.explains) {
-        return found.map(|solved| solved.result(&answered, &sources, &uniform));
+    let starts = starts(rod, &uniform, local, blocks, &sources.errors(&errors));
+    if starts.is_empty() {
+        return Err(FitError::NoContacts);
     }
-    let mut singles = answered.clone();
-    points.extend(fill_with_singles(rod, &mut singles, &sources.errors(&errors)));
-    let other = recorded.fitted(&singles, &points, false);
-    let is_other_better = match (&found, &other) {
-        (Ok(found), Ok(other)) => other.goodness.explains || other.cost < found.cost,
-        (found, other) => found.is_err() && other.is_ok(),
-    };
-    let (best, blocks) = if is_other_better { (other, &singles) } else { (found, &answered) };
-    best.map(|solved| solved.result(blocks, &sources, &uniform))
+    let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: MOST_EVALUATIONS };
+    let mut best: Option<(Solved, &Start)> = None;
+    for start in &starts {
+        let found = search.fitted(start);
+        let is_better = |found: &Solved| best.as_ref().is_none_or(|best| found.is_better_than(&best.0));
+        if let Some(found) = found.filter(is_better) {
+            best = Some((found, start));
+        }
+        if search.evaluations == 0 || best.as_ref().is_some_and(|best| best.0.goodness.explains) {
+            break;
+        }
+    }
+    let (solved, start) = best.ok_or(FitError::NoStart)?;
+    Ok(solved.result(&start.blocks, &sources, &uniform))
 }

@@ -1,167 +1,168 @@
-//! The order of contact points along the contour: the start of a fit.
+//! From contact points in order to a contour that a fit can start from.
 
+use super::curve::{Curve, Node};
+use super::order::{
+    LONGEST, NO_WAY, SHARPLY, SURE, Touched, cells, dearness, in_order, mean, merged, sure_enough, weight,
+    without_doubles,
+};
+use crate::numeric::wrap_angle;
 use nalgebra::Vector2;
-use std::collections::BTreeMap;
 
-/// Distance of the points of the start, rod lengths.
-pub(super) const SPACING: f64 = 0.03;
-/// Two points closer than this share of the spacing are one.
-const CLOSE: f64 = 0.4;
-/// Points at an end that are left out, at most, and the step that parts them from the others, in spacings.
-const STRAYS: usize = 3;
-const STRAY_STEP: f64 = 6.0;
+/// Distance of the nodes of the start in standard deviations of the points, and the smallest and the largest one, rod lengths. Smaller: noise
+/// comes into the order; larger: the start is coarser than what is known.
+const PER_SIGMA: f64 = 100.0;
+const SPACINGS: (f64, f64) = (0.008, 0.03);
+/// Longest step between places that no contact has in common: the rod bridges, or jumps across, what is between them.
+const APART: f64 = 2.0;
+/// Chains whose places have less than this share of the weight of all are strays, unless the points are sure.
+const STRAY: f64 = 1e-3;
 /// Distance of a point from the middle of its neighbours over theirs from which on it is noise, and how often it is brought nearer.
 const ZIGZAG: f64 = 0.15;
 const SMOOTHINGS: usize = 3;
-/// Gaps wider than so many spacings get points in them, but no more than these: a spline cannot bend between two of its points.
+/// Gaps wider than so many spacings get points in them: a spline cannot bend between two of its points.
 const WIDE: f64 = 1.5;
-const MOST_PARTS: f64 = 12.0;
-/// Directions that cells tell apart: the two sides of a thin object are not one place.
-const DIRECTIONS: f64 = 4.0;
-/// Cosine between a step and the tangents at its ends below which it is dearer, and by how much.
-const AHEAD: f64 = 0.3;
-const ASTRAY: f64 = 4.0;
-/// Way by which the contour goes straight on beyond the first and the last contact, rod lengths.
-const BEYOND: f64 = 0.15;
+/// Radius (rod lengths) and angle (radians) of a bend that is a vertex: smaller, and larger.
+const SHARP: f64 = 4e-3;
+const VERTEX_TURN: f64 = 0.3;
+/// Standard deviation of a node about its start, rod lengths, where the rod touched about there, and where it is a guess between such places.
+/// Smaller: the start shows in the result; larger: places that no state touches yet are drawn away by the smoothness of their neighbours.
+const TOUCHED: f64 = 0.03;
+const BETWEEN: f64 = 0.3;
+/// Beyond its first and last contact a contour goes on towards its solid, out of the way of the rod: by so much, in rod lengths, but no further
+/// than a share of the way to other chains; turning by so much in all (radians) where nothing is near, and where it must end before another
+/// chain; in so many steps. These nodes may be off by a share of that way, where it must end.
+const BEYOND: f64 = 0.12;
+const TO_OTHERS: f64 = 0.4;
+const CURLS: (f64, f64) = (0.4, 0.8);
+const STEPS: usize = 4;
+const OFF: f64 = 0.3;
 
-/// A place that was touched: where, in which direction the contour goes there, and its weight.
+/// What an outline takes its points for: starts of different kinds converge to different contours, of which the recording chooses one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Touched {
-    pub at: Vector2<f64>,
-    pub along: Vector2<f64>,
-    pub weight: f64,
+pub(super) struct Interpretation {
+    /// The points are answers; others are as noise left them: then strays are left out and zigzags smoothed.
+    pub is_sure: bool,
+    /// Neighbouring traces are of one object; else the contour between them is not known.
+    pub is_joined: bool,
+    /// Places that noise alone might part, and that turn, are one vertex; else they are a bend.
+    pub is_sharp: bool,
 }
 
-/// Points along the contour, in its direction, with the solid on the left; none where fewer than two places were touched.
-///
-/// `is_sure` says that the points are answers; others are as noise left them: then strays are left out and zigzags smoothed.
-pub(super) fn outline(touched: &[Touched], is_sure: bool) -> Option<Vec<Vector2<f64>>> {
-    let places = cells(touched);
-    let mut ordered = in_order(&places);
-    if !is_sure {
-        ordered = without_strays(ordered);
+/// Chains of nodes along the contours, in their direction, with the solid on the left.
+pub(super) fn outline(touched: &[Touched], reading: Interpretation) -> Vec<Vec<Node>> {
+    let touched = sure_enough(touched, if reading.is_sharp { SHARPLY } else { SURE });
+    let Some(best) = touched.get(touched.len() / 2) else { return Vec::new() };
+    let spacing = (PER_SIGMA * best.sigma).clamp(SPACINGS.0, SPACINGS.1);
+    let mut chains = in_order(&cells(&touched, spacing), if reading.is_joined { LONGEST } else { APART * spacing });
+    without_doubles(&mut chains, spacing);
+    if !reading.is_sure {
+        let all: f64 = chains.iter().map(|chain| weight(chain)).sum();
+        chains.retain(|chain| weight(chain) > STRAY * all);
     }
-    ordered = thinned(ordered);
-    if !is_sure {
-        ordered = smoothed(ordered);
-    }
-    if ordered.len() < 2 {
-        // one place alone: a straight line through it
-        let one = places.first()?;
-        ordered = vec![one.at - one.along * 0.5 * SPACING, one.at + one.along * 0.5 * SPACING];
-    }
-    ordered = filled(&ordered);
-    let count = ordered.len();
-    let from = (ordered[0] - ordered[1]).normalize() * BEYOND;
-    let to = (ordered[count - 1] - ordered[count - 2]).normalize() * BEYOND;
-    ordered.insert(0, ordered[0] + from);
-    ordered.push(ordered[count] + to);
-    Some(ordered)
-}
-
-/// Means of what lies in one cell and has about one direction.
-fn cells(touched: &[Touched]) -> Vec<Touched> {
-    let mut cells: BTreeMap<(i64, i64, i64), Touched> = BTreeMap::new();
-    for one in touched {
-        let turn = one.along.y.atan2(one.along.x) / std::f64::consts::TAU;
-        let key = |v: f64| (v / SPACING).floor() as i64;
-        let direction = (turn * DIRECTIONS + 0.5).floor().rem_euclid(DIRECTIONS) as i64;
-        let nothing = Touched { at: Vector2::zeros(), along: Vector2::zeros(), weight: 0.0 };
-        let cell = cells.entry((key(one.at.x), key(one.at.y), direction)).or_insert(nothing);
-        cell.at += one.at * one.weight;
-        cell.along += one.along * one.weight;
-        cell.weight += one.weight;
-    }
-    let mean = |cell: &Touched| {
-        let along = cell.along.try_normalize(1e-9 * cell.weight)?;
-        Some(Touched { at: cell.at / cell.weight, along, weight: cell.weight })
+    let chains: Vec<Vec<Touched>> = chains.into_iter().map(|chain| merged(chain, spacing)).collect();
+    // the way from a place to the nearest one of another chain
+    let apart = |k: usize, place: &Touched| {
+        let others = chains.iter().enumerate().filter(|other| other.0 != k).flat_map(|other| other.1);
+        others.map(|other| (other.at - place.at).norm()).fold(f64::INFINITY, f64::min)
     };
-    cells.values().filter_map(mean).collect()
+    let beyond = |k: usize, place: Option<&Touched>| BEYOND.min(TO_OTHERS * place.map_or(0.0, |place| apart(k, place)));
+    let ends = |(k, chain): (usize, &Vec<Touched>)| [beyond(k, chain.first()), beyond(k, chain.last())];
+    let ends: Vec<[f64; 2]> = chains.iter().enumerate().map(ends).collect();
+    chains.into_iter().zip(ends).flat_map(|(chain, ends)| simple(chain, ends, (spacing, reading))).collect()
 }
 
-/// Greedy ordering: joins the cheapest pairs first, without branching or closing. A step from one place to another costs its length, and
-/// more where it does not go the way of the contour.
-fn in_order(places: &[Touched]) -> Vec<Vector2<f64>> {
-    let count = places.len();
-    let cost = |i: usize, j: usize| {
-        let step = places[j].at - places[i].at;
-        let length = step.norm();
-        let astray = |along: &Vector2<f64>| (AHEAD - step.dot(along) / length.max(1e-12)).max(0.0);
-        length * (1.0 + ASTRAY * (astray(&places[i].along) + astray(&places[j].along)))
-    };
-    let mut steps: Vec<(f64, usize, usize)> = (0..count)
-        .flat_map(|i| (0..count).filter(move |j| *j != i).map(move |j| (i, j)))
-        .map(|(i, j)| (cost(i, j), i, j))
-        .collect();
-    steps.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (mut next, mut before) = (vec![None; count], vec![None; count]);
-    // the path that each place belongs to
-    let mut path: Vec<usize> = (0..count).collect();
-    for (_, i, j) in steps {
-        if next[i].is_none() && before[j].is_none() && path[i] != path[j] {
-            (next[i], before[j]) = (Some(j), Some(i));
-            let (from, to) = (path[j], path[i]);
-            path.iter_mut().filter(|path| **path == from).for_each(|path| *path = to);
+/// A chain as nodes, with its ends so far beyond; one that crosses itself is cut at its dearest step until no part does.
+fn simple(mut chain: Vec<Touched>, ends: [f64; 2], style: (f64, Interpretation)) -> Vec<Vec<Node>> {
+    let nodes = nodes(&chain, ends, style);
+    if Curve::through(std::slice::from_ref(&nodes)).and_then(|curve| curve.objects()).is_some() {
+        return vec![nodes];
+    }
+    let dear = |k: &usize| dearness(&chain[*k - 1], &chain[*k]);
+    let Some(cut) = (1..chain.len()).max_by(|a, b| dear(a).total_cmp(&dear(b))) else { return Vec::new() };
+    let at_cut = BEYOND.min(TO_OTHERS * (chain[cut].at - chain[cut - 1].at).norm());
+    let rest = chain.split_off(cut);
+    [simple(chain, [ends[0], at_cut], style), simple(rest, [at_cut, ends[1]], style)].concat()
+}
+
+/// A chain of nodes through places, with its ends beyond them.
+fn nodes(chain: &[Touched], ends: [f64; 2], style: (f64, Interpretation)) -> Vec<Node> {
+    let (Some(first), Some(last)) = (chain.first(), chain.last()) else { return Vec::new() };
+    let mut points = with_vertices(chain, style.1.is_sharp);
+    if !style.1.is_sure {
+        smooth(&mut points);
+    }
+    let mut nodes = beyond(first, -ends[0]);
+    nodes.reverse();
+    nodes.extend(filled(&points, style.0));
+    nodes.extend(beyond(last, ends[1]));
+    nodes
+}
+
+/// Nodes with which a contour goes on from a place: so far forwards, or backwards if the way is negative.
+fn beyond(from: &Touched, way: f64) -> Vec<Node> {
+    let is_cut = way.abs() < BEYOND;
+    let (curl, sigma) = if is_cut { (CURLS.1, OFF * way.abs()) } else { (CURLS.0, BETWEEN) };
+    let mut at = from.at;
+    (0..STEPS)
+        .map(|k| {
+            let alpha = from.alpha() + way.signum() * curl * (k as f64 + 0.5) / STEPS as f64;
+            at += Vector2::new(alpha.cos(), alpha.sin()) * (way / STEPS as f64);
+            Node::smooth(at, sigma)
+        })
+        .collect()
+}
+
+/// The places as nodes; those that turn within a small radius are one vertex.
+fn with_vertices(chain: &[Touched], is_sharp: bool) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(chain.len());
+    let mut k = 0;
+    while k < chain.len() {
+        let (mut end, mut turn) = (k, 0.0);
+        while let Some(next) = chain.get(end + 1) {
+            let (step, by) = (next.at - chain[end].at, wrap_angle(next.alpha() - chain[end].alpha()));
+            // noise alone gives places an order against their directions
+            let is_astray = step.dot(&chain[end].along).min(step.dot(&next.along)) < 0.0;
+            let is_close = (next.at - chain[k].at).norm() < NO_WAY;
+            let is_bend = by > 0.0 && (is_sharp && is_close || step.norm() < SHARP * by);
+            if !(is_bend || is_astray && is_close) {
+                break;
+            }
+            (end, turn) = (end + 1, turn + by);
         }
+        let is_vertex = turn > VERTEX_TURN;
+        nodes.push(Node { at: mean(&chain[k..=end]).at, is_vertex, sigma: TOUCHED });
+        k = end + 1;
     }
-    let mut here = (0..count).find(|k| before[*k].is_none());
-    let mut ordered = Vec::with_capacity(count);
-    while let Some(k) = here {
-        ordered.push(places[k].at);
-        here = next[k];
-    }
-    ordered
+    nodes
 }
 
-/// Without a few points at an end that a long step parts from all others: noise threw them there.
-fn without_strays(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
-    for _ in 0..2 {
-        let is_far = |k: &usize| (points[k + 1] - points[*k]).norm() > STRAY_STEP * SPACING;
-        let most = STRAYS.min(points.len() / 4);
-        if let Some(cut) = (0..most).rev().find(is_far) {
-            points.drain(..=cut);
-        }
-        points.reverse();
-    }
-    points
-}
-
-/// Each point but the ends at the mean of itself, twice, and its neighbours, where it leaves their line by more than a part of their distance: a
+/// Each node but the ends at the mean of itself, twice, and its neighbours, where it leaves their line by more than a part of their distance: a
 /// rod finds no equilibrium on a zigzag of noise.
-fn smoothed(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+fn smooth(nodes: &mut [Node]) {
     for _ in 0..SMOOTHINGS {
-        let before = points.clone();
-        for k in 1..points.len().saturating_sub(1) {
-            let (a, b, c) = (before[k - 1], before[k], before[k + 1]);
+        let before = nodes.to_vec();
+        for k in 1..nodes.len().saturating_sub(1) {
+            let (a, b, c) = (before[k - 1].at, before[k].at, before[k + 1].at);
             let middle = 0.5 * (a + c);
-            if (b - middle).norm() > ZIGZAG * (c - a).norm() {
-                points[k] = 0.5 * (b + middle);
+            if !before[k].is_vertex && (b - middle).norm() > ZIGZAG * (c - a).norm() {
+                nodes[k].at = 0.5 * (b + middle);
             }
         }
     }
-    points
 }
 
-/// Without points that lie too close to the one before.
-fn thinned(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
-    let mut kept: Vec<Vector2<f64>> = Vec::with_capacity(points.len());
-    for point in points {
-        if kept.last().is_none_or(|last| (point - last).norm() > CLOSE * SPACING) {
-            kept.push(point);
-        }
+/// With nodes between those of a wide gap, on the line that joins them.
+fn filled(nodes: &[Node], spacing: f64) -> Vec<Node> {
+    let mut filled = Vec::with_capacity(nodes.len());
+    for pair in nodes.windows(2) {
+        let step = pair[1].at - pair[0].at;
+        let parts = (step.norm() / (WIDE * spacing)).ceil().max(1.0);
+        filled.push(pair[0]);
+        filled.extend(
+            (1..parts as usize).map(|k| Node::smooth(pair[0].at + step * (k as f64 / parts), BETWEEN.min(step.norm()))),
+        );
     }
-    kept
-}
-
-/// With points between those of a wide gap, on the line that joins them.
-fn filled(points: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
-    let mut filled = Vec::with_capacity(points.len());
-    for pair in points.windows(2) {
-        let parts = ((pair[1] - pair[0]).norm() / (WIDE * SPACING)).ceil().clamp(1.0, MOST_PARTS);
-        let part = |k: usize| pair[0] + (pair[1] - pair[0]) * (k as f64 / parts);
-        filled.extend((0..parts as usize).map(part));
-    }
-    filled.extend(points.last());
+    filled.extend(nodes.last());
     filled
 }
 
@@ -172,15 +173,21 @@ mod tests {
     #[test]
     fn both_sides_of_a_thin_plate_are_passed_in_order() {
         // from left to right below, and back above, at a thickness of a third of the spacing
-        let side =
-            |x: f64, y: f64, way: f64| Touched { at: Vector2::new(x, y), along: Vector2::new(way, 0.0), weight: 1.0 };
+        let side = |x: f64, y: f64, way: f64| Touched {
+            at: Vector2::new(x, y),
+            along: Vector2::new(way, 0.0),
+            sigma: 1e-3,
+            weight: 1.0,
+            trace: 0,
+        };
         let x = |k: usize| 0.005 * k as f64;
         let mut touched: Vec<Touched> = (0..100).map(|k| side(x(k), 0.0, 1.0)).collect();
         touched.extend((0..100).map(|k| side(x(k), 0.01, -1.0)));
-        let ordered = outline(&touched, true).unwrap();
-        let inner = &ordered[1..ordered.len() - 1];
-        let turns = inner.windows(2).filter(|pair| pair[0].y != pair[1].y).count();
-        assert_eq!(turns, 1, "{inner:?}");
+        let reading = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
+        let chains = outline(&touched, reading);
+        let ordered: Vec<Vector2<f64>> = chains.concat().iter().map(|node| node.at).collect();
+        let inner = &ordered[STEPS..ordered.len() - STEPS];
+        assert!(inner.iter().map(|point| point.y).is_sorted(), "{inner:?}");
         let on = |y: f64| inner.iter().filter(|point| point.y == y).map(|point| point.x).collect::<Vec<_>>();
         assert!(on(0.0).is_sorted() && on(0.01).iter().rev().is_sorted(), "{inner:?}");
     }

@@ -12,14 +12,13 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rod_contact::{Derivatives, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Rod, SupportRate};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
 /// off converges slowly.
 const OUTLYING: f64 = 6.0;
 /// The same for changes of curvature. Larger: vertices are rounded; smaller: noise makes vertices.
 const VERTEX: f64 = 3.0;
-/// Standard deviation of a point of the contour about its start, rod lengths: places that nothing touches stay near the line between others.
-const NEAR: f64 = 0.3;
 /// Cost of a block that no branch of the model reaches. Larger: contours win that reach everything; smaller: those that lose bad blocks.
 const UNREACHED: f64 = OUTLYING * OUTLYING;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
@@ -71,8 +70,11 @@ pub(super) struct Fit<'a, R> {
     pub sources: &'a Sources,
     /// Standard deviation of the change of curvature over a length of way, 1/m per root of m.
     pub bend: f64,
-    /// States of the last contour.
+    /// States of the best contour so far, and its cost.
     pub states: Vec<Option<State>>,
+    pub least: f64,
+    /// How often the model was evaluated.
+    pub evaluations: usize,
 }
 
 /// The recording against a contour.
@@ -108,7 +110,7 @@ impl Corrected {
 /// The model with some unknowns.
 pub(super) struct Model {
     pub curve: Curve,
-    object: Composite,
+    objects: Vec<Composite>,
     corrected: Vec<Corrected>,
     pub states: Vec<Option<State>>,
 }
@@ -161,15 +163,28 @@ impl<R: PhysicalRod> Fit<'_, R> {
         state.map_or(Vector3::zeros(), of)
     }
 
+    /// The mean reactions of a block whose contacts are not those of its neighbours, dimensionless: they change inside it. None of others.
+    fn mean_reactions(&self, forward: &Forward<'_, R>, states: &[Option<State>], block: usize) -> Option<Vector3<f64>> {
+        let (state, units) = (states[block].as_ref()?, self.rod.units());
+        let contacts = |state: &State| (state.contacts.len(), state.phase().tip);
+        let neighbours = [block.checked_sub(1), Some(block + 1)];
+        let mut others = neighbours.into_iter().flatten().filter_map(|k| states.get(k)?.as_ref());
+        let half = self.blocks.blocks[block].half;
+        let half = [half.x * units.length, half.y * units.length, half.z];
+        let mean =
+            others.any(|other| contacts(other) != contacts(state)).then(|| forward.mean_reactions(state, half))??;
+        Some(mean.component_div(&Vector3::new(units.force, units.force, units.moment)))
+    }
+
     /// The model with these unknowns; none where its contour is no curve.
     pub fn model(&self, x: &DVector<f64>) -> Option<Model> {
         let curve = self.curve.moved(x.rows(0, self.curve.count()).into_owned())?;
-        let object = curve.composite()?;
+        let objects = curve.objects()?;
         let corrected = self.corrected(&self.errors(x))?;
         let poses: Vec<Pose> = corrected.iter().map(|one| one.pose).collect();
-        let states =
-            Forward { rod: self.rod, curve: &curve, object: &object }.states(self.blocks, &poses, &self.states);
-        Some(Model { curve, object, corrected, states })
+        let forward = Forward { rod: self.rod, curve: &curve, objects: &objects };
+        let states = forward.states(self.blocks, &poses, &self.states);
+        Some(Model { curve, objects, corrected, states })
     }
 
     /// Whether a block without a state is explained by a free rod: nothing in its segment tells of a contact.
@@ -181,15 +196,17 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The recording against the model.
-    pub fn explained(&self, Model { object, corrected, states, .. }: &Model) -> Explained {
+    pub fn explained(&self, Model { curve, objects, corrected, states }: &Model) -> Explained {
+        let forward = Forward { rod: self.rod, curve, objects };
         let mut explained = Explained::default();
         for (k, block) in self.blocks.blocks.iter().enumerate() {
             let state = states[k].as_ref();
             let is_known = state.is_some() || self.is_free(k, states);
             let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
-            let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(object, state));
-            let residual = corrected[k].residual(&self.reactions(state), &by_pose, block);
+            let model = self.mean_reactions(&forward, states, k).unwrap_or_else(|| self.reactions(state));
+            let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
+            let residual = corrected[k].residual(&model, &by_pose, block);
             explained.residuals.push((is_known && !block.is_by_jump).then_some(residual));
             explained.unreached += usize::from(!is_known && !block.is_by_jump);
         }
@@ -197,26 +214,28 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// Derivatives of the reactions of a state by the pose; none at a fold count as 0.
-    fn by_pose(&self, object: &Composite, state: &State) -> Matrix3<f64> {
+    fn by_pose(&self, objects: &[Composite], state: &State) -> Matrix3<f64> {
         let units = self.rod.units();
         let size = [units.force, units.force, units.moment];
-        let stiffness = Derivatives::new(self.rod, object, state).and_then(|derivatives| derivatives.stiffness());
+        let stiffness = Derivatives::new(self.rod, objects, state).and_then(|derivatives| derivatives.stiffness());
         stiffness.map_or_else(|_| Matrix3::zeros(), |by| Matrix3::from_fn(|c, j| by[c][j] / size[c]))
     }
 
     /// None at a fold.
-    fn rates(&self, Model { curve, object, .. }: &Model, state: &State) -> Option<Rates> {
+    fn rates(&self, Model { curve, objects, .. }: &Model, state: &State) -> Option<Rates> {
         let units = self.rod.units();
-        let derivatives = Derivatives::new(self.rod, object, state).ok()?;
+        let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
         let stiffness = derivatives.stiffness().ok()?;
         let size = Vector3::new(units.force, units.force, units.moment);
-        let at: Vec<Vec<SupportRate>> =
-            state.contacts.iter().map(|contact| curve.rates_near(contact.x, contact.y)).collect();
         let is_near = |rate: &SupportRate| rate.x.hypot(rate.y) > FAR || rate.alpha.abs() * units.length > FAR;
-        let by_offsets = (0..curve.count())
-            .filter(|i| at.iter().any(|rates| is_near(&rates[*i])))
+        let near = |contact| curve.rates(contact).into_iter().filter(|(_, rate)| is_near(rate)).collect();
+        let at: Vec<BTreeMap<usize, SupportRate>> = state.contacts.iter().map(near).collect();
+        let unknowns: BTreeSet<usize> = at.iter().flat_map(|rates| rates.keys().copied()).collect();
+        let by_offsets = unknowns
+            .into_iter()
             .filter_map(|i| {
-                let by = derivatives.by_contours(|contact| at[contact][i]).ok()?.reactions;
+                let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
+                let by = derivatives.by_contours(of_contact).ok()?.reactions;
                 Some((i, Vector3::new(by.f0x, by.f0y, by.m0z).component_div(&size)))
             })
             .collect();
@@ -271,12 +290,10 @@ impl<R: PhysicalRod> Fit<'_, R> {
     pub fn prior(&self, x: &DVector<f64>, curve: &Curve) -> NormalMatrix {
         let (first, mut prior) = (self.curve.count(), NormalMatrix::empty(x.len()));
         (0..self.sources.free.len()).for_each(|i| prior.add(&[(first + i, 1.0)], x[first + i], 1.0));
-        // places that nothing touched are somewhere near the start
-        let near = NEAR * self.rod.units().length;
-        (0..first).for_each(|i| prior.add(&[(i, 1.0)], x[i], near));
+        self.curve.sigmas().enumerate().for_each(|(i, sigma)| prior.add(&[(i, 1.0)], x[i], sigma));
         for (value, rates) in curve.bends() {
             let z = value / self.bend;
-            let row: Vec<(usize, f64)> = rates.iter().map(|rate| rate / self.bend).enumerate().collect();
+            let row: Vec<(usize, f64)> = rates.iter().map(|(i, rate)| (*i, rate / self.bend)).collect();
             prior.add_weighted(&row, z, Loss::Cauchy(VERTEX).weight(1.0, z));
             prior.cost += Loss::Cauchy(VERTEX).excess(z);
         }
@@ -288,10 +305,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
     pub fn bend_of(&self, x: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
         let count = self.curve.count();
         let Some(curve) = self.curve.moved(x.rows(0, count).into_owned()) else { return self.bend };
-        let block = covariance.view((0, 0), (count, count));
         let (mut sum, mut weights) = (0.0, 0.0);
         for (value, rates) in curve.bends() {
-            let unknown = rates.dot(&(block * &rates));
+            let with = |(i, rate): &(usize, f64)| {
+                rates.iter().map(|(j, other)| rate * covariance[(*i, *j)] * other).sum::<f64>()
+            };
+            let unknown: f64 = rates.iter().map(with).sum();
             let weight = Loss::Cauchy(VERTEX).weight(1.0, value / self.bend);
             sum += weight * (value * value + unknown);
             weights += weight;
@@ -304,6 +323,7 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
     type Equations = NormalMatrix;
 
     fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
+        self.evaluations += 1;
         let here = self.model(x).and_then(|model| Some((self.rows(x, &model)?, model)));
         let Some((rows, Model { curve, states, .. })) = here else {
             return NormalMatrix { cost: f64::INFINITY, ..NormalMatrix::empty(x.len()) };
@@ -321,7 +341,13 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
                 }
             }
         }
-        self.states = states;
+        // a step that is rejected may have lost states
+        if normal.cost <= self.least {
+            self.least = normal.cost;
+            for (known, state) in self.states.iter_mut().zip(states) {
+                *known = state.or(known.take());
+            }
+        }
         normal
     }
 }

@@ -1,24 +1,37 @@
 //! The best contour and errors from a start on.
 
 use super::blocks::{Block, Blocks};
-use super::curve::Curve;
-use super::outline::{Touched, outline};
+use super::curve::{Curve, Node};
 use super::problem::{Explained, Fit, Model, Sources};
+use super::start::Start;
 use super::verdict::Goodness;
-use super::{ContourFit, FitError, FittedBlock};
+use super::{ContourFit, FittedBlock, FittedObject};
 use crate::least_squares::{Damped, Iterate, iterate};
 use crate::systematic::Source;
 use nalgebra::{DMatrix, DVector};
 use rod_core::{PhysicalRod, Rod};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// Contours, each with twice as many points as the one before, from 0.03 L on.
-const LEVELS: usize = 3;
-/// Chi squared over its degrees of freedom above which no finer contour is tried: in the tests the coarsest one leaves 1 to 2. Larger: more time
-/// on recordings that nothing explains.
+/// Contours, each with more nodes than the one before where the recording asks for them.
+const LEVELS: usize = 6;
+/// Mean square of the residuals of the blocks that touch an interval from which on it is cut in two, and the shortest one that is (rod lengths).
+/// Smaller: more unknowns than the recording asks for.
+const ASKS: f64 = 1.3;
+const SHORTEST: f64 = 2e-3;
+/// Radius (rod lengths) and angle (radians) of a bend from which on, smaller and larger, it becomes a vertex.
+const SHARP: f64 = 6e-3;
+const VERTEX_TURN: f64 = 0.4;
+/// Chi squared over its degrees of freedom above which, and share of that of the contour before, no finer contour is tried. Larger: more time on
+/// recordings that nothing explains.
 const HOPELESS: f64 = 30.0;
+const NO_BETTER: f64 = 0.7;
+/// Share of the cost of the contour before above which no finer one is tried.
+const SETTLED_LEVEL: f64 = 0.9999;
 /// Most steps before the smoothness is estimated anew. The fits of the tests take up to 55.
 const STEPS: usize = 60;
+/// Relative decrease of the cost at which the iteration has settled: some tenths of chi squared.
+const SETTLED: f64 = 1e-5;
 /// Initial standard deviation of the change of curvature, L^-1.5: the contour of O2 in the tests comes out at 12 to 18.
 const BEND: f64 = 30.0;
 /// Smallest and largest one, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
@@ -26,43 +39,90 @@ const BENDS: (f64, f64) = (1.0, 1e3);
 /// How often it is estimated anew at each contour. More: more time.
 const ESTIMATES: usize = 2;
 
-/// What the fits of a recording from several starts share.
-pub(super) struct Recorded<'a, R> {
+/// The search for the contour of a recording, from several starts.
+pub(super) struct Search<'a, R> {
     pub rod: &'a R,
     pub sources: &'a Sources,
     /// Errors at the start less what is known of them, in standard deviations of their budget.
     pub errors: &'a DVector<f64>,
+    /// Evaluations that are left.
+    pub evaluations: usize,
 }
 
-impl<R: PhysicalRod> Recorded<'_, R> {
-    /// The fit from a contour through these points on, at finer and finer contours until one explains the recording.
-    pub fn fitted(&self, blocks: &Blocks, points: &[Touched], is_sure: bool) -> Result<Solved, FitError> {
-        let Self { rod, sources, .. } = *self;
+impl<R: PhysicalRod> Search<'_, R> {
+    /// The fit from a start on, at finer and finer contours until one explains the recording.
+    pub fn fitted(&mut self, start: &Start) -> Option<Solved> {
+        let (rod, sources, blocks) = (self.rod, self.sources, &start.blocks);
         let units = rod.units();
-        let points = outline(points, is_sure).ok_or(FitError::NoContacts)?;
-        let start = points.iter().map(|point| point * units.length).collect();
-        let curve = Curve::through(start).ok_or(FitError::NoContacts)?;
+        let mut chains = start.chains.clone();
+        for node in chains.iter_mut().flatten() {
+            (node.at, node.sigma) = (node.at * units.length, node.sigma * units.length);
+        }
+        let curve = Curve::through(&chains)?;
         let states = vec![None; blocks.blocks.len()];
-        let mut fit = Fit { rod, curve, blocks, sources, bend: BEND * units.length.powf(-1.5), states };
+        let mut fit = Fit {
+            rod,
+            curve,
+            blocks,
+            sources,
+            bend: BEND * units.length.powf(-1.5),
+            states,
+            least: f64::INFINITY,
+            evaluations: 0,
+        };
         let mut best: Option<Solved> = None;
         let mut errors = self.errors.clone();
+        let mut before = (f64::INFINITY, f64::INFINITY);
         for _ in 0..LEVELS {
-            let Some(solved) = solve(&mut fit, &errors) else { break };
+            let solved = solve(&mut fit, &errors);
+            self.evaluations = self.evaluations.saturating_sub(std::mem::take(&mut fit.evaluations));
+            let Some(solved) = solved else { break };
             errors = solved.x.rows(fit.curve.count(), errors.len()).into_owned();
-            fit.curve = solved.curve.clone();
-            let explains = solved.goodness.explains;
+            let (explains, cost) = (solved.goodness.explains, solved.cost);
             let ratio = solved.goodness.chi_squared / solved.goodness.degrees_of_freedom;
-            if best.as_ref().is_none_or(|best| solved.cost < best.cost || explains) {
+            let finer = finer(&solved, &fit);
+            if best.as_ref().is_none_or(|best| solved.is_better_than(best)) {
                 best = Some(solved);
             }
-            if explains || ratio > HOPELESS {
+            let is_hopeless = ratio > HOPELESS && ratio > NO_BETTER * before.0;
+            if explains || is_hopeless || self.evaluations == 0 || cost > SETTLED_LEVEL * before.1 {
                 break;
             }
-            let Some(finer) = fit.curve.refined() else { break };
-            fit.curve = finer;
+            let Some(finer) = finer else { break };
+            (fit.curve, before) = (finer, (ratio, cost));
         }
-        best.ok_or(FitError::NoStart)
+        best
     }
+}
+
+/// The contour of a fit with more nodes where the recording asks for them; none where it asks for none.
+fn finer<R: PhysicalRod>(solved: &Solved, fit: &Fit<'_, R>) -> Option<Curve> {
+    let (curve, length) = (&solved.curve, fit.rod.units().length);
+    // by interval, the sum of the squares of the residuals of the blocks that touch it, and their number
+    let mut asking: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+    for (state, residual) in fit.states.iter().zip(&solved.explained.residuals) {
+        let Some((state, residual)) = state.as_ref().zip(*residual) else { continue };
+        for interval in state.contacts.iter().filter_map(|contact| curve.interval(contact)) {
+            let (sum, count) = asking.entry(interval).or_default();
+            (*sum, *count) = (*sum + residual.norm_squared(), *count + 3.0);
+        }
+    }
+    let turns = curve.turns();
+    let asks = |interval: &usize| asking.get(interval).is_some_and(|(sum, count)| *sum > ASKS * count);
+    let is_cut = |(interval, long, _): &(usize, f64, f64)| *long > 2.0 * SHORTEST * length && asks(interval);
+    let cut: BTreeSet<usize> = turns.iter().filter(|turn| is_cut(turn)).map(|turn| turn.0).collect();
+    let sharp = turns.windows(2).filter(|pair| {
+        let (turn, long) = (0.5 * (pair[0].2 + pair[1].2), 0.5 * (pair[0].1 + pair[1].1));
+        pair[1].0 == pair[0].0 + 1
+            && turn > VERTEX_TURN
+            && long < SHARP * length * turn
+            && (asks(&pair[0].0) || asks(&pair[1].0))
+    });
+    let sharp: BTreeSet<usize> = sharp.map(|pair| pair[1].0).collect();
+    if cut.is_empty() && sharp.is_empty() {
+        return None;
+    }
+    curve.refined(|k| 1 + usize::from(cut.contains(&k)), |k| sharp.contains(&k))
 }
 
 /// A fit at one contour.
@@ -83,13 +143,15 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<
     x.rows_mut(count, free).copy_from(errors);
     let bends = [BENDS.0, BENDS.1].map(|bend| bend * fit.rod.units().length.powf(-1.5));
     for _ in 0..ESTIMATES {
-        let (at, _) = iterate(fit, x.clone(), Damped::default(), STEPS);
+        fit.least = f64::INFINITY;
+        let (at, _) = iterate(fit, x.clone(), Damped::until(SETTLED), STEPS);
         x = at.x;
         if let Some(covariance) = at.equations.covariance() {
             fit.bend = fit.bend_of(&x, &covariance).clamp(bends[0], bends[1]);
         }
     }
-    let (Iterate { x, equations }, _) = iterate(fit, x, Damped::default(), STEPS);
+    fit.least = f64::INFINITY;
+    let (Iterate { x, equations }, _) = iterate(fit, x, Damped::until(SETTLED), STEPS);
     let covariance = equations.covariance()?;
     let model = fit.model(&x)?;
     let explained = fit.explained(&model);
@@ -101,11 +163,15 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<
     let off = |(i, k): (usize, &usize)| (Source::ALL[*k], x[count + i]);
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let goodness = Goodness::of(&explained, &samples, determined, farthest);
-    fit.states = states;
+    (fit.states, fit.curve) = (states, curve.clone());
     Some(Solved { x, curve, cost: equations.cost, covariance, explained, goodness })
 }
 
 impl Solved {
+    pub fn is_better_than(&self, other: &Self) -> bool {
+        self.goodness.explains || !other.goodness.explains && self.cost < other.cost
+    }
+
     pub fn result(self, blocks: &Blocks, sources: &Sources, rod: &Rod) -> ContourFit {
         let Self { x, curve, covariance, explained, goodness, .. } = self;
         let count = curve.count();
@@ -122,9 +188,13 @@ impl Solved {
             label: explained.labels[k],
             residuals: explained.residuals[k].map(Into::into),
         };
+        let object = |nodes: Vec<(usize, Node)>| FittedObject {
+            points: nodes.iter().map(|(_, node)| [node.at.x * length, node.at.y * length]).collect(),
+            sigmas: nodes.iter().map(|(k, _)| curve.variance(*k, &covariance).max(0.0).sqrt() * length).collect(),
+            vertices: (0..nodes.len()).filter(|i| nodes[*i].1.is_vertex).collect(),
+        };
         ContourFit {
-            contour: curve.points().map(|[x, y]| [x * length, y * length]).collect(),
-            sigmas: (0..count).map(|i| sigma(i) * length).collect(),
+            objects: curve.chains().map(|chain| object(chain.collect())).collect(),
             errors,
             goodness,
             blocks: blocks.blocks.iter().enumerate().map(block).collect(),

@@ -1,7 +1,9 @@
 //! Contact points from which a fit starts.
 
 use super::blocks::Blocks;
-use super::outline::Touched;
+use super::curve::Node;
+use super::order::Touched;
+use super::outline::{Interpretation, outline};
 use crate::pipeline::Reconstruction;
 use crate::point::{OneSample, Touch, one_sample};
 use crate::systematic::{Correction, Errors, still};
@@ -9,8 +11,8 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{PhysicalRod, Rod};
 
-/// Smallest standard deviation of a contact point, rod lengths: none counts more than others by much.
-const SURE: f64 = 1e-3;
+/// Standard deviation of a contact point, rod lengths, up to which all count the same.
+const EQUAL: f64 = 1e-3;
 /// Largest standard deviation (rod lengths) of the point that a single contact would have where there is no answer. Larger: points that noise
 /// throws anywhere enter the order along the contour.
 const UNSURE: f64 = 0.05;
@@ -19,27 +21,76 @@ const CERTAIN: f64 = 6.0;
 
 impl Touched {
     /// By a contact point, in rod lengths.
-    fn by(touch: &Touch, length: f64) -> Self {
+    fn by(touch: &Touch, length: f64, trace: usize) -> Self {
+        // across the contour and along it: points that lie anywhere on the rod tell of no order
+        let sigma = (touch.covariance - touch.systematic).trace().max(0.0).sqrt() / length;
         Self {
             at: Vector2::new(touch.x, touch.y) / length,
             along: Vector2::new(touch.alpha.cos(), touch.alpha.sin()),
-            weight: (touch.sigma_normal() / length).hypot(SURE).powi(-2),
+            sigma,
+            weight: sigma.hypot(EQUAL).powi(-2),
+            trace,
         }
     }
 }
 
-/// The contact points of the local answer, in lengths of its rod.
-pub(super) fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
+/// Where a fit starts.
+pub(super) struct Start {
+    pub blocks: Blocks,
+    /// The contour, rod lengths.
+    pub chains: Vec<Vec<Node>>,
+}
+
+/// Where the fit of a recording may start, the most likely first; `given` is a uniform rod of its length and stiffness at the clamp, `errors` are those of the local answer.
+pub(super) fn starts<R: PhysicalRod>(
+    rod: &R,
+    given: &Rod,
+    local: &Reconstruction,
+    blocks: Blocks,
+    errors: &Errors,
+) -> Vec<Start> {
+    let mut points = touched(local, given);
+    let answers = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
+    let mut starts: Vec<Start> = Vec::new();
+    let mut add = |blocks: &Blocks, points: &[Touched], reading: Interpretation| {
+        let chains = outline(points, reading);
+        if !chains.is_empty() && starts.iter().all(|start| start.chains != chains) {
+            starts.push(Start { blocks: blocks.clone(), chains });
+        }
+    };
+    add(&blocks, &points, answers);
+    add(&blocks, &points, Interpretation { is_joined: true, ..answers });
+    add(&blocks, &points, Interpretation { is_sharp: true, ..answers });
+    let mut filled = blocks;
+    let singles = singles(rod, local, &mut filled, errors);
+    if !singles.is_empty() {
+        points.extend(singles);
+        let guesses = Interpretation { is_sure: false, ..answers };
+        add(&filled, &points, guesses);
+        add(&filled, &points, Interpretation { is_joined: true, ..guesses });
+    }
+    starts
+}
+
+/// The contact points of the local answer, in lengths of its rod. Between two kinks, each contact of the rod is one trace.
+fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
     let length = local.calibration().map_or(given.length(), |calibration| calibration.rod(given).length());
-    let touches = local.readings.iter().flat_map(|reading| {
+    let mut points = Vec::new();
+    for (number, reading) in local.readings.iter().enumerate() {
+        let first = 2 * kinks_before(local, number);
         let second = reading.second.and_then(Result::ok);
-        reading.touch.ok().into_iter().chain(second)
-    });
-    touches.map(|touch| Touched::by(&touch, length)).collect()
+        points.extend(reading.touch.ok().map(|touch| Touched::by(&touch, length, first)));
+        points.extend(second.map(|touch| Touched::by(&touch, length, first + 1)));
+    }
+    points
+}
+
+fn kinks_before(local: &Reconstruction, sample: usize) -> usize {
+    local.kinks.partition_point(|kink| kink.next <= sample)
 }
 
 /// Gives blocks without an answer the single contact that their reactions, without these errors, would have, and returns those points.
-pub(super) fn fill_with_singles<R: PhysicalRod>(rod: &R, blocks: &mut Blocks, errors: &Errors) -> Vec<Touched> {
+fn singles<R: PhysicalRod>(rod: &R, local: &Reconstruction, blocks: &mut Blocks, errors: &Errors) -> Vec<Touched> {
     let units = rod.units();
     let Some(correction) = Correction::new(blocks.frame, errors) else { return Vec::new() };
     let mut found = Vec::new();
@@ -57,7 +108,8 @@ pub(super) fn fill_with_singles<R: PhysicalRod>(rod: &R, blocks: &mut Blocks, er
         };
         let kind = if matches!(contact, OneSample::Tip(_)) { ContactKind::Tip } else { ContactKind::Tangent };
         block.contacts = vec![Contact { kind, s: touch.s.min(units.length), ..touch.into() }];
-        found.push(Touched::by(&touch, units.length));
+        let point = Touched::by(&touch, units.length, 2 * kinks_before(local, block.samples.start));
+        found.push(Touched { weight: point.weight * block.samples.len() as f64, ..point });
     }
     found
 }

@@ -3,7 +3,7 @@
 use super::{ContourFit, FitError, fit_contour};
 use crate::{Ar1, Budget, Label, NoiseModel, Settings, Source, disturb, reconstruct_passes};
 use rod_contact::{ClampPath, State, Sweep};
-use rod_contours::{Composite, Contour, Parabola, Spline, SplineEnd};
+use rod_contours::{Composite, Contour, Parabola};
 use rod_core::{Pose, Reactions, Rod, Sample};
 
 /// Object O2 of Merker et al. (2020).
@@ -50,9 +50,10 @@ fn fitted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<ContourF
 
 /// Distances of the true contacts from the contour, m, in order of size.
 fn distances(fit: &ContourFit, states: &[State]) -> Vec<f64> {
-    let curve = Spline::through(&fit.contour, SplineEnd::Natural).unwrap();
+    let contours: Vec<Composite> = fit.objects.iter().map(|object| object.contour().unwrap()).collect();
+    let gap = |x: f64, y: f64| contours.iter().map(|one| one.closest(x, y).gap.abs()).fold(f64::INFINITY, f64::min);
     let contacts = states.iter().flat_map(|state| &state.contacts);
-    let mut distances: Vec<f64> = contacts.map(|contact| curve.closest(contact.x, contact.y).gap.abs()).collect();
+    let mut distances: Vec<f64> = contacts.map(|contact| gap(contact.x, contact.y)).collect();
     distances.sort_by(f64::total_cmp);
     distances
 }
@@ -145,4 +146,61 @@ fn a_recording_without_contacts_has_no_fit() {
         (0..400).map(|k| Sample::new(clamp(k), Reactions { f0x: 0.0, f0y: 0.0, m0z: 0.0 })).collect();
     noisy(&mut samples, 3);
     assert_eq!(fitted(&rod, &samples, &AS_IS), Err(FitError::NoContacts));
+}
+
+/// The gradient of the cost against differences, at contours with a vertex at which the rod lies and beside it.
+#[test]
+fn derivatives_of_the_cost_are_its_differences() {
+    use super::curve::{Curve, Node};
+    use super::problem::{Fit, Sources};
+    use crate::least_squares::Problem;
+    use nalgebra::{DVector, Vector2};
+    let rod = steel();
+    let corner = Composite::polyline(&[[-0.0705, 0.15], [-0.003, 0.001], [0.0825, 0.15]]).unwrap();
+    let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    let states =
+        Sweep::new(&rod, &corner, ClampPath::new(clamp(0.06), clamp(-0.06)).unwrap(), 1e-4).unwrap().run().states;
+    let mut samples = samples(&states);
+    noisy(&mut samples, 0);
+    let local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
+    let blocks = super::Blocks::of(&rod, &samples, &local).unwrap();
+    let sources = Sources::default();
+    for shift in [0.0, 2e-4] {
+        let node = |x: f64, y: f64, is_vertex| Node { at: Vector2::new(x, y + shift), is_vertex, sigma: 0.01 };
+        let chain = [
+            node(-0.0705, 0.15, false),
+            node(-0.012, 0.0209, false),
+            node(-0.003, 0.001, true),
+            node(0.011, 0.0254, false),
+            node(0.0825, 0.15, false),
+        ];
+        let curve = Curve::through(&[chain.to_vec()]).unwrap();
+        let unknowns = curve.count();
+        let known = vec![None; blocks.blocks.len()];
+        let mut fit = Fit {
+            rod: &rod,
+            curve,
+            blocks: &blocks,
+            sources: &sources,
+            bend: 1e3,
+            states: known,
+            least: f64::INFINITY,
+            evaluations: 0,
+        };
+        let at = DVector::zeros(unknowns);
+        let here = fit.equations(&at);
+        let reached = fit.states.iter().flatten().count();
+        assert!(reached > blocks.blocks.len() / 2, "{reached} of {}", blocks.blocks.len());
+        for i in 0..unknowns {
+            let mut cost = |h: f64| {
+                let mut x = at.clone();
+                x[i] += h;
+                fit.equations(&x).cost
+            };
+            let h = 1e-8;
+            let difference = (cost(h) - cost(-h)) / (2.0 * h);
+            let off = (2.0 * here.gradient[i] - difference).abs() / (1e3 + difference.abs());
+            assert!(off < 0.01, "unknown {i}: {} {difference}", 2.0 * here.gradient[i]);
+        }
+    }
 }

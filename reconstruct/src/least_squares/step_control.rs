@@ -97,6 +97,8 @@ impl<P: Problem<Equations = NormalMatrix>> StepControl<P> for Monotone {
 /// Damped steps that let the cost fall (Levenberg-Marquardt), from starts that are too far away for others.
 pub(crate) struct Damped {
     damping: f64,
+    /// Relative decrease of the cost, predicted by a step, below which the step is not tried and the iteration has settled.
+    settled: f64,
 }
 
 impl Damped {
@@ -113,7 +115,14 @@ impl Damped {
 impl Default for Damped {
     /// Damping at first, relative to the diagonal of the equations.
     fn default() -> Self {
-        Self { damping: 1e-3 }
+        Self { damping: 1e-3, settled: 0.0 }
+    }
+}
+
+impl Damped {
+    /// Until a step would let the cost fall by less than this share: for costs that are not smooth, along which short steps go on for ever.
+    pub fn until(settled: f64) -> Self {
+        Self { settled, ..Self::default() }
     }
 }
 
@@ -124,6 +133,9 @@ impl<P: Problem<Equations = NormalMatrix>> StepControl<P> for Damped {
         }
         for _ in 0..Self::ATTEMPTS {
             if let Some(step) = at.equations.damped_step(self.damping) {
+                if at.equations.relative_fall(&step) < self.settled {
+                    return Some(true);
+                }
                 let there = &at.x + &step;
                 let equations = problem.equations(&there);
                 if equations.cost <= at.equations.cost * (1.0 + Self::COST_ROUNDING) {

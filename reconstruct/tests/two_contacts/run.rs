@@ -2,6 +2,7 @@
 
 use super::scene::Scan;
 use crate::common::noise::Noise;
+use rod_contact::State;
 use rod_core::Reactions;
 use rod_reconstruct::{Reading, Sample, Settings, reconstruct};
 
@@ -38,9 +39,14 @@ pub const LEVELS: [Level; 7] = [
 
 /// The answers to a recording with this noise.
 pub fn readings(scan: &Scan, level: &Level, seed: u64, settings: &Settings) -> Vec<Reading> {
+    let samples = samples(&scan.states, level, seed);
+    reconstruct(&scan.rod, &samples, settings).map(|found| found.readings).unwrap_or_default()
+}
+
+/// A recording of these states with this noise.
+pub fn samples(states: &[State], level: &Level, seed: u64) -> Vec<Sample> {
     let mut channels = [0, 1, 2].map(|c| Noise::new(3 * seed + c, level.correlation));
-    let samples: Vec<Sample> = scan
-        .states
+    states
         .iter()
         .map(|state| {
             let Reactions { f0x: x, f0y: y, m0z: m } = state.reactions;
@@ -48,6 +54,5 @@ pub fn readings(scan: &Scan, level: &Level, seed: u64, settings: &Settings) -> V
             let reactions = Reactions { f0x: x + level.force * a, f0y: y + level.force * b, m0z: m + level.moment * c };
             Sample::new(state.pose, reactions)
         })
-        .collect();
-    reconstruct(&scan.rod, &samples, settings).map(|found| found.readings).unwrap_or_default()
+        .collect()
 }

@@ -1,9 +1,9 @@
 //! Tables over many random scenes.
 
 use super::judge::{Tallies, Tally, judge, wrong};
-use super::run::{CLEAN, LEVELS, readings};
+use super::run::{CLEAN, LEVELS, readings, samples};
 use super::scene::{Scan, Scene, nine_teeth, of_parabolas};
-use rod_reconstruct::{Budget, Settings};
+use rod_reconstruct::{Budget, Label, Settings, fit_contour, reconstruct};
 
 fn print(title: &str, tallies: &Tallies) {
     println!(
@@ -54,6 +54,53 @@ fn random_scenes() {
     for (level, tallies) in LEVELS.iter().zip(all) {
         print(level.name, &tallies);
     }
+}
+
+/// `SEEDS=0..24 cargo test --release -p rod-reconstruct --test suite fits_of_random -- --ignored --nocapture`: every fifth sample of the
+/// recordings above at 2.5 mN AR(1), whether one contour explains them, and the share of samples with their label, of those farther than eight
+/// from a transition.
+#[test]
+#[ignore = "a table of many fits"]
+fn fits_of_random_scenes() {
+    const THINNED: usize = 5;
+    const NEAR: usize = 8;
+    let seeds = std::env::var("SEEDS").unwrap_or("0..24".into());
+    let (from, to) = seeds.split_once("..").unwrap();
+    let (mut explained, mut all) = (0, 0);
+    for seed in from.parse::<u64>().unwrap()..to.parse().unwrap() {
+        let Some(scan) = Scene::of(seed).map(Scene::scan) else { continue };
+        let states: Vec<_> = scan.states.iter().step_by(THINNED).cloned().collect();
+        let samples = samples(&states, &LEVELS[4], seed);
+        let Ok(local) = reconstruct(&scan.rod, &samples, &noise_alone()) else { continue };
+        let truth: Vec<Label> =
+            states.iter().map(|state| Label::of(state.phase().contacts, state.phase().tip)).collect();
+        let is_far = |k: &usize| {
+            truth[k.saturating_sub(NEAR)..(k + NEAR).min(truth.len())].iter().all(|label| *label == truth[*k])
+        };
+        let far: Vec<usize> = (0..truth.len()).filter(is_far).collect();
+        let right = |label: &dyn Fn(usize) -> Option<Label>| {
+            100.0 * far.iter().filter(|k| label(**k) == Some(truth[**k])).count() as f64 / far.len().max(1) as f64
+        };
+        let before = right(&|k| Some(local.readings[k].label));
+        all += 1;
+        match fit_contour(&scan.rod, &samples, &local) {
+            Ok(fit) => {
+                let mut labels = vec![None; samples.len()];
+                fit.blocks.iter().for_each(|block| labels[block.samples.clone()].fill(block.label));
+                let ratio = fit.goodness.chi_squared / fit.goodness.degrees_of_freedom;
+                explained += usize::from(fit.goodness.explains);
+                println!(
+                    "{}: explained {}, chi squared {ratio:.2}, unreached {:.3}, labels right {before:.1} % -> {:.1} %",
+                    scan.scene.name,
+                    fit.goodness.explains,
+                    fit.goodness.unreached,
+                    right(&|k| labels[k])
+                );
+            }
+            Err(error) => println!("{}: {error}", scan.scene.name),
+        }
+    }
+    println!("{explained} of {all} explained");
 }
 
 /// `cargo test -p rod-reconstruct --test suite three_contacts -- --ignored --nocapture`
