@@ -43,6 +43,7 @@ pub struct Follower<'a, R = Rod> {
     /// The clamp, dimensionless.
     pose: Pose,
     state: State,
+    most_steps: u64,
 }
 
 impl<'a, R: PhysicalRod> Follower<'a, R> {
@@ -122,10 +123,16 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         self
     }
 
+    /// Each move takes at most so many steps, those counted that are refused; else it ends with [`StopReason::StepBudget`]. Without this, two
+    /// million.
+    pub fn with_most_steps(self, most_steps: u64) -> Self {
+        Self { most_steps, ..self }
+    }
+
     /// The rod at the first pose of the path of `sweep`.
     fn at_rest(sweep: Sweep<'a, R>, at: Point) -> Self {
         let (state, pose) = (sweep.state(&at), sweep.setup().path.at(0.0));
-        Self { sweep, configuration: at.configuration, pose, state }
+        Self { sweep, configuration: at.configuration, pose, state, most_steps: LIMITS.sweep.most_steps }
     }
 
     /// The equilibrium that the rod is in.
@@ -149,7 +156,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
             return Ok(vec![Item::State(self.state.clone())]);
         };
         let (way, here) = (path.length(), path.at(path.length()));
-        self.sweep.stepper.steps_left = LIMITS.sweep.most_steps;
+        self.sweep.stepper.steps_left = self.most_steps;
         self.sweep.set_out(path.into(), self.configuration.clone());
         self.sweep.course = Course::to_end(way);
         let share = |tau: f64| (tau / way).min(1.0);
@@ -174,7 +181,8 @@ impl<R: PhysicalRod> Clone for Follower<'_, R> {
         let setup = self.sweep.setup().clone();
         let mut sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
         sweep.ends_at_jump = self.sweep.ends_at_jump;
-        Self { sweep, configuration: self.configuration.clone(), pose: self.pose, state: self.state.clone() }
+        let Self { configuration, pose, state, most_steps, .. } = self;
+        Self { sweep, configuration: configuration.clone(), pose: *pose, state: state.clone(), most_steps: *most_steps }
     }
 }
 
@@ -195,6 +203,7 @@ mod tests {
         assert_eq!(stop.reason, StopReason::Jump);
         assert!(0.0 < stop.tau && stop.tau < 1.0, "{stop:?}");
         assert_eq!(*rod.state(), before);
+        assert_eq!(rod.clone().with_most_steps(1).to(clamp(-0.9)).unwrap_err().reason, StopReason::StepBudget);
         // a copy stops there, too, and so far it can be followed
         let mut copy = rod.clone();
         let almost = 0.2 - 1.1 * stop.tau + 1e-6;

@@ -12,6 +12,8 @@ const ANCHORS: usize = 6;
 
 /// Poses on either side of the middle of a block at which its mean is taken.
 const PARTS: usize = 3;
+/// Most steps from block to block: as many as a dozen transitions take. Larger: more time at contours along which the rod cannot be followed.
+const MOST_STEPS: u64 = 60;
 /// Distance from a vertex, rod lengths, within which the guess of a contact may be one at the vertex: points are known to so much at the start.
 const NEAR_VERTEX: f64 = 0.02;
 
@@ -64,7 +66,7 @@ impl<R: PhysicalRod> Forward<'_, R> {
         let of = |state: &State| Vector3::new(state.reactions.f0x, state.reactions.f0y, state.reactions.m0z);
         let mut sum = of(state);
         for sense in [-1.0, 1.0] {
-            let mut follower = Follower::from_state(self.rod, self.objects, state).ok()?.without_jumps();
+            let mut follower = self.follower(state)?;
             for part in 1..=PARTS {
                 let share = sense * (part as f64 - 0.25) / (PARTS as f64 + 0.25);
                 let Pose { x, y, phi } = state.pose;
@@ -87,11 +89,14 @@ impl<R: PhysicalRod> Forward<'_, R> {
         Some(found.state)
     }
 
+    fn follower(&self, from: &State) -> Option<Follower<'_, R>> {
+        let follower = Follower::from_state(self.rod, self.objects, from).ok()?;
+        Some(follower.without_jumps().with_most_steps(MOST_STEPS))
+    }
+
     /// Follows the rod from a state until it snaps, cannot be followed, or comes to a pose whose state is known.
     fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
-        let Ok(mut follower) = Follower::from_state(self.rod, self.objects, from).map(Follower::without_jumps) else {
-            return;
-        };
+        let Some(mut follower) = self.follower(from) else { return };
         for k in way {
             let Ok(items) = follower.to(poses[k]) else { return };
             if items.iter().any(is_snap) || found[k].is_some() {
