@@ -121,6 +121,7 @@ impl Default for Damped {
 
 impl Damped {
     /// Until a step would let the cost fall by less than this share: for costs that are not smooth, along which short steps go on for ever.
+    #[cfg(feature = "contact")]
     pub fn until(settled: f64) -> Self {
         Self { settled, ..Self::default() }
     }
