@@ -205,7 +205,7 @@ pub enum StopReason {
     FrictionInNotch,
     /// The steps that the sweep may take are used up ([`Sweep::with_most_steps`](crate::Sweep::with_most_steps)).
     StepBudget,
-    /// The rod jumps, and was to be followed up to there ([`Follower::without_jumps`](crate::Follower::without_jumps)).
+    /// The rod jumps, and was to be followed no further ([`Follower::without_jumps`](crate::Follower::without_jumps)).
     Jump,
 }
 
@@ -325,7 +325,7 @@ impl std::fmt::Display for Stop {
                 "the rod lies down in a notch, which is only followed without friction; end the path before it"
             }
             StopReason::StepBudget => "the sweep has taken all the steps it may take; allow more, or sweep in parts",
-            StopReason::Jump => "the rod jumps; it was to be followed up to there",
+            StopReason::Jump => "the rod jumps; follow it without `without_jumps` to see where it lands",
             StopReason::Chatter => "contacts come and go at one pose without end; start a new sweep beyond",
         };
         f.write_str(why)

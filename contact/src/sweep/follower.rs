@@ -117,14 +117,13 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         Ok(self)
     }
 
-    /// Only up to where the rod jumps, [`StopReason::Jump`]: where it lands costs as much as hundreds of states.
+    /// Ends a move with [`StopReason::Jump`] where the equilibrium ends and the rod jumps. To find where it lands costs as much as hundreds of states.
     pub fn without_jumps(mut self) -> Self {
         self.sweep.ends_at_jump = true;
         self
     }
 
-    /// Each move takes at most so many steps, those counted that are refused; else it ends with [`StopReason::StepBudget`]. Without this, two
-    /// million.
+    /// Ends a move with [`StopReason::StepBudget`] after so many steps, refused ones counted; after two million without this.
     pub fn with_most_steps(self, most_steps: u64) -> Self {
         Self { most_steps, ..self }
     }

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use rod_contact::{Contact, ContactKind};
 use rod_contours::{Composite, Contour, Frame};
 use rod_core::SupportRate;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A point of a contour.
@@ -61,19 +62,18 @@ impl Curve {
             ranges.push(nodes.len() - chain.len()..nodes.len());
         }
         let points = nodes.iter().map(|node| node.at).collect();
-        let curve = Self { nodes, chains: ranges, ways, offsets: DVector::zeros(unknowns), points, pieces: Vec::new() };
+        let offsets = DVector::zeros(unknowns);
+        let curve = Self { nodes, chains: ranges, ways, offsets, points, pieces: Vec::new() };
         if curve.nodes.is_empty() { None } else { curve.with_pieces() }
     }
 
     fn with_pieces(mut self) -> Option<Self> {
-        self.pieces.clear();
         for (object, chain) in self.chains.iter().enumerate() {
-            let mut first = chain.start;
+            let (mut first, mut number) = (chain.start, 0);
             for k in chain.start + 1..chain.end {
                 if self.nodes[k].is_vertex || k + 1 == chain.end {
-                    let number = self.pieces.iter().rev().take_while(|piece| piece.object == object).count();
                     self.pieces.push(Piece::through(&self.points[first..=k], first, object, number)?);
-                    first = k;
+                    (first, number) = (k, number + 1);
                 }
             }
         }
@@ -86,7 +86,8 @@ impl Curve {
             own.iter().enumerate().fold(node.at, |at, (i, way)| at + way * offsets[first + i])
         };
         let points = self.nodes.iter().zip(&self.ways).map(point).collect();
-        Self { points, offsets, pieces: Vec::new(), ..self.clone() }.with_pieces()
+        let (nodes, chains, ways) = (self.nodes.clone(), self.chains.clone(), self.ways.clone());
+        Self { nodes, chains, ways, offsets, points, pieces: Vec::new() }.with_pieces()
     }
 
     /// Number of unknowns.
@@ -94,9 +95,8 @@ impl Curve {
         self.offsets.len()
     }
 
-    /// The same contour with more nodes: `parts` says into how many parts the interval after each node is cut, `is_vertex` which smooth
-    /// nodes become vertices.
-    pub fn refined(&self, parts: impl Fn(usize) -> usize, is_vertex: impl Fn(usize) -> bool) -> Option<Self> {
+    /// The same contour with a node in the middle of the interval after each node of `cut`, and with vertices at the nodes of `sharp`.
+    pub fn refined(&self, cut: &BTreeSet<usize>, sharp: &BTreeSet<usize>) -> Option<Self> {
         let mut chains: Vec<Vec<Node>> = Vec::new();
         for (object, chain) in self.chains.iter().enumerate() {
             let mut nodes = Vec::new();
@@ -104,13 +104,12 @@ impl Curve {
                 for (i, knots) in piece.knots().windows(2).enumerate() {
                     let k = piece.first + i;
                     let node = self.nodes[k];
-                    nodes.push(Node { at: self.points[k], is_vertex: node.is_vertex || is_vertex(k), ..node });
-                    let sigma = node.sigma.max(self.nodes[k + 1].sigma);
-                    let count = parts(k);
-                    nodes.extend((1..count).map(|part| {
-                        let frame = piece.spline.frame(knots[0] + (knots[1] - knots[0]) * part as f64 / count as f64);
-                        Node::smooth(Vector2::new(frame.x, frame.y), sigma)
-                    }));
+                    nodes.push(Node { at: self.points[k], is_vertex: node.is_vertex || sharp.contains(&k), ..node });
+                    if cut.contains(&k) {
+                        let frame = piece.spline.frame(knots[0] + (knots[1] - knots[0]) / 2.0);
+                        let sigma = node.sigma.max(self.nodes[k + 1].sigma);
+                        nodes.push(Node::smooth(Vector2::new(frame.x, frame.y), sigma));
+                    }
                 }
             }
             nodes.push(Node { at: self.points[chain.end - 1], ..self.nodes[chain.end - 1] });
@@ -181,7 +180,7 @@ impl Curve {
         pairs.min_by(|a, b| distance(&a[1].points()[0]).total_cmp(&distance(&b[1].points()[0]))).map(|pair| &pair[0])
     }
 
-    /// The node before a contact of a state; none for one at a vertex.
+    /// The node at which the interval of a contact of a state begins; none for a contact at a vertex.
     pub fn interval(&self, contact: &Contact) -> Option<usize> {
         let piece = self.piece_of(contact).filter(|_| !is_at_vertex(contact))?;
         let t = piece.closest(contact.x, contact.y).t;

@@ -2,14 +2,12 @@
 
 use super::blocks::Blocks;
 use super::curve::Curve;
-use nalgebra::Vector3;
-use rod_contact::{Contact, EventKind, Follower, Item, State, equilibrium};
+use rod_contact::{Contact, Follower, State, equilibrium};
 use rod_contours::Composite;
-use rod_core::{PhysicalRod, Pose};
+use rod_core::{PhysicalRod, Pose, Reactions};
 
 /// Equilibria from which a segment is followed, at most: each reaches up to where the rod snaps.
 const ANCHORS: usize = 6;
-
 /// Poses on either side of the middle of a block at which its mean is taken.
 const PARTS: usize = 3;
 /// Most steps from block to block: as many as a dozen transitions take. Larger: more time at contours along which the rod cannot be followed.
@@ -60,24 +58,23 @@ impl<R: PhysicalRod> Forward<'_, R> {
         found
     }
 
-    /// The mean reactions over the poses `half` before to `half` after that of a state, N and N m: what the mean of a block of samples has where
-    /// contacts form or let go inside it. None where the rod snaps there.
-    pub fn mean_reactions(&self, state: &State, half: [f64; 3]) -> Option<Vector3<f64>> {
-        let of = |state: &State| Vector3::new(state.reactions.f0x, state.reactions.f0y, state.reactions.m0z);
-        let mut sum = of(state);
+    /// The mean reactions over the poses `half` before to `half` after that of a state, as a block of samples has where contacts form or let go
+    /// inside it. None where the rod jumps there.
+    pub fn mean_reactions(&self, state: &State, half: [f64; 3]) -> Option<Reactions> {
+        let Reactions { mut f0x, mut f0y, mut m0z } = state.reactions;
         for sense in [-1.0, 1.0] {
             let mut follower = self.follower(state)?;
             for part in 1..=PARTS {
                 let share = sense * (part as f64 - 0.25) / (PARTS as f64 + 0.25);
                 let Pose { x, y, phi } = state.pose;
                 let pose = Pose { x: x + share * half[0], y: y + share * half[1], phi: phi + share * half[2] };
-                if follower.to(pose).ok()?.iter().any(is_snap) {
-                    return None;
-                }
-                sum += of(follower.state());
+                follower.to(pose).ok()?;
+                let there = follower.state().reactions;
+                (f0x, f0y, m0z) = (f0x + there.f0x, f0y + there.f0y, m0z + there.m0z);
             }
         }
-        Some(sum / (2 * PARTS + 1) as f64)
+        let count = (2 * PARTS + 1) as f64;
+        Some(Reactions { f0x: f0x / count, f0y: f0y / count, m0z: m0z / count })
     }
 
     /// The equilibrium with about these contacts, if the rod can be there.
@@ -89,24 +86,20 @@ impl<R: PhysicalRod> Forward<'_, R> {
         Some(found.state)
     }
 
+    /// Follows the rod from a state on, up to where it jumps.
     fn follower(&self, from: &State) -> Option<Follower<'_, R>> {
         let follower = Follower::from_state(self.rod, self.objects, from).ok()?;
         Some(follower.without_jumps().with_most_steps(MOST_STEPS))
     }
 
-    /// Follows the rod from a state until it snaps, cannot be followed, or comes to a pose whose state is known.
+    /// Follows the rod from a state until it jumps, cannot be followed, or comes to a pose whose state is known.
     fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
         let Some(mut follower) = self.follower(from) else { return };
         for k in way {
-            let Ok(items) = follower.to(poses[k]) else { return };
-            if items.iter().any(is_snap) || found[k].is_some() {
+            if follower.to(poses[k]).is_err() || found[k].is_some() {
                 return;
             }
             found[k] = Some(follower.state().clone());
         }
     }
-}
-
-fn is_snap(item: &Item) -> bool {
-    matches!(item, Item::Event(event) if matches!(event.kind, EventKind::Snap | EventKind::SnapOff))
 }

@@ -31,8 +31,8 @@ use solve::{Search, Solved};
 use start::{Start, starts};
 use std::ops::Range;
 
-/// Most evaluations of the model at all poses of a recording, some milliseconds each. The recordings of the tests that are explained take up to 300;
-/// larger: more time on those that nothing explains.
+/// Most evaluations of the model at all poses of a recording, each of milliseconds. Larger: more time on recordings that nothing explains; smaller:
+/// those with many contacts are given up.
 const MOST_EVALUATIONS: usize = 1000;
 
 /// Why there is no fit.
@@ -139,14 +139,11 @@ pub fn fit_contour<R: PhysicalRod>(
     let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
     let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
-    let starts = starts(rod, &uniform, local, blocks, &sources.errors(&errors));
-    if starts.is_empty() {
-        return Err(FitError::NoContacts);
-    }
     let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: MOST_EVALUATIONS };
-    let mut best: Option<(Solved, &Start)> = None;
-    for start in &starts {
-        let found = search.fitted(start);
+    let (mut best, mut is_started): (Option<(Solved, Start)>, _) = (None, false);
+    for start in starts(rod, &uniform, local, blocks, sources.errors(&errors)) {
+        is_started = true;
+        let found = search.fitted(&start);
         let is_better = |found: &Solved| best.as_ref().is_none_or(|best| found.is_better_than(&best.0));
         if let Some(found) = found.filter(is_better) {
             best = Some((found, start));
@@ -155,6 +152,6 @@ pub fn fit_contour<R: PhysicalRod>(
             break;
         }
     }
-    let (solved, start) = best.ok_or(FitError::NoStart)?;
+    let (solved, start) = best.ok_or(if is_started { FitError::NoStart } else { FitError::NoContacts })?;
     Ok(solved.result(&start.blocks, &sources, &uniform))
 }

@@ -8,17 +8,17 @@ use std::collections::{BTreeMap, BTreeSet};
 const CLOSE: f64 = 0.4;
 /// Angle between two directions, radians, up to which they are about one.
 const SAME_TURN: f64 = 0.15;
-/// Standard deviation of a contact point, rod lengths, up to which it is always used, and the distance of a better one, in standard deviations,
-/// within which one that is larger is not.
+/// Standard deviation of a contact point, rod lengths, up to which it is always used; the second where places are looked at sharply.
 pub(super) const SURE: f64 = 0.01;
 pub(super) const SHARPLY: f64 = 0.003;
+/// One that is known worse is not used where a better one is within so many of its standard deviations.
 const WITHIN: f64 = 3.0;
 /// Directions that cells tell apart: both sides of a thin object, and the places along a sharp bend, are not one place.
 const DIRECTIONS: f64 = 12.0;
 /// What an angle between the directions of two places adds to the length of the step between them, rod lengths per radian.
 const TURNING: f64 = 0.01;
-/// How much more it adds where the contour turns into the solid.
-const INWARDS: f64 = 3.0;
+/// How much more it adds where the contour is concave.
+const CONCAVE: f64 = 3.0;
 /// Distance of two places, rod lengths, up to which the way from one to the other has no direction.
 pub(super) const NO_WAY: f64 = 0.01;
 /// Cosine between a step and the tangents at its ends below which it is dearer, and by how much.
@@ -47,7 +47,8 @@ impl Touched {
     }
 }
 
-/// Without points that are badly known where better ones are near: noise throws those at the beginning of a contact along the rod.
+/// The points, the best known first, without those that are known worse than `sure` and have better ones near them: noise throws points at the
+/// beginning of a contact along the rod.
 pub(super) fn sure_enough(touched: &[Touched], sure: f64) -> Vec<Touched> {
     let mut order = touched.to_vec();
     order.sort_by(|a, b| b.weight.total_cmp(&a.weight));
@@ -91,7 +92,7 @@ pub(super) fn cells(touched: &[Touched], spacing: f64) -> Vec<Cell> {
     cells.into_values().collect()
 }
 
-/// Greedy ordering: joins the cheapest pairs first, without branching or closing. A step from one place to another costs its length, and
+/// Chains of places by greedy ordering: joins the cheapest pairs first, without branching or closing. A step from one place to another costs its length, and
 /// more where it does not go the way of the contour.
 pub(super) fn in_order(cells: &[Cell], apart: f64) -> Vec<Vec<Touched>> {
     let count = cells.len();
@@ -126,9 +127,9 @@ pub(super) fn dearness(from: &Touched, to: &Touched) -> f64 {
     let length = step.norm();
     let astray = |along: &Vector2<f64>| (AHEAD - step.dot(along) / length.max(1e-12)).max(0.0);
     let turn = wrap_angle(to.alpha() - from.alpha());
-    // the way between places that are closer than they are known has no direction; there a rod tells of bends out of the solid alone
+    // the way between places that noise alone might part has no direction; a rod that lies there tells of convex bends
     let known = (length - NO_WAY).max(0.0);
-    let turning = if turn < 0.0 { -INWARDS * turn } else { turn };
+    let turning = if turn < 0.0 { -CONCAVE * turn } else { turn };
     length + known * ASTRAY * (astray(&from.along) + astray(&to.along)) + TURNING * turning
 }
 

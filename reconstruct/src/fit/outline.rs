@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 /// comes into the order; larger: the start is coarser than what is known.
 const PER_SIGMA: f64 = 100.0;
 const SPACINGS: (f64, f64) = (0.008, 0.03);
-/// Longest step between places that no contact has in common: the rod bridges, or jumps across, what is between them.
+/// Longest step between places that no contact has in common, spacings: the rod bridges, or jumps across, what is between them.
 const APART: f64 = 2.0;
 /// Chains whose places have less than this share of the weight of all are strays, unless the points are sure.
 const STRAY: f64 = 1e-3;
@@ -28,16 +28,17 @@ const VERTEX_TURN: f64 = 0.3;
 /// Smaller: the start shows in the result; larger: places that no state touches yet are drawn away by the smoothness of their neighbours.
 const TOUCHED: f64 = 0.03;
 const BETWEEN: f64 = 0.3;
-/// Beyond its first and last contact a contour goes on towards its solid, out of the way of the rod: by so much, in rod lengths, but no further
-/// than a share of the way to other chains; turning by so much in all (radians) where nothing is near, and where it must end before another
-/// chain; in so many steps. These nodes may be off by a share of that way, where it must end.
+/// A contour goes on beyond its first and last contact, by so much (rod lengths), but by no more than this share of the way to another chain.
 const BEYOND: f64 = 0.12;
 const TO_OTHERS: f64 = 0.4;
+/// It turns there towards its solid, out of the way of the rod: by so much in all (radians) where it goes on that far, and where another chain
+/// ends it before; in so many steps.
 const CURLS: (f64, f64) = (0.4, 0.8);
 const STEPS: usize = 4;
+/// Standard deviation of these nodes over the way, where another chain ends it.
 const OFF: f64 = 0.3;
 
-/// What an outline takes its points for: starts of different kinds converge to different contours, of which the recording chooses one.
+/// What an outline takes its points for. Different ones lead to different contours, and the recording tells which of them is right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interpretation {
     /// The points are answers; others are as noise left them: then strays are left out and zigzags smoothed.
@@ -51,8 +52,9 @@ pub(super) struct Interpretation {
 /// Chains of nodes along the contours, in their direction, with the solid on the left.
 pub(super) fn outline(touched: &[Touched], reading: Interpretation) -> Vec<Vec<Node>> {
     let touched = sure_enough(touched, if reading.is_sharp { SHARPLY } else { SURE });
-    let Some(best) = touched.get(touched.len() / 2) else { return Vec::new() };
-    let spacing = (PER_SIGMA * best.sigma).clamp(SPACINGS.0, SPACINGS.1);
+    // in order of their sigmas
+    let Some(median) = touched.get(touched.len() / 2) else { return Vec::new() };
+    let spacing = (PER_SIGMA * median.sigma).clamp(SPACINGS.0, SPACINGS.1);
     let mut chains = in_order(&cells(&touched, spacing), if reading.is_joined { LONGEST } else { APART * spacing });
     without_doubles(&mut chains, spacing);
     if !reading.is_sure {
@@ -68,12 +70,12 @@ pub(super) fn outline(touched: &[Touched], reading: Interpretation) -> Vec<Vec<N
     let beyond = |k: usize, place: Option<&Touched>| BEYOND.min(TO_OTHERS * place.map_or(0.0, |place| apart(k, place)));
     let ends = |(k, chain): (usize, &Vec<Touched>)| [beyond(k, chain.first()), beyond(k, chain.last())];
     let ends: Vec<[f64; 2]> = chains.iter().enumerate().map(ends).collect();
-    chains.into_iter().zip(ends).flat_map(|(chain, ends)| simple(chain, ends, (spacing, reading))).collect()
+    chains.into_iter().zip(ends).flat_map(|(chain, ends)| simple(chain, ends, spacing, reading)).collect()
 }
 
 /// A chain as nodes, with its ends so far beyond; one that crosses itself is cut at its dearest step until no part does.
-fn simple(mut chain: Vec<Touched>, ends: [f64; 2], style: (f64, Interpretation)) -> Vec<Vec<Node>> {
-    let nodes = nodes(&chain, ends, style);
+fn simple(mut chain: Vec<Touched>, ends: [f64; 2], spacing: f64, reading: Interpretation) -> Vec<Vec<Node>> {
+    let nodes = nodes(&chain, ends, spacing, reading);
     if Curve::through(std::slice::from_ref(&nodes)).and_then(|curve| curve.objects()).is_some() {
         return vec![nodes];
     }
@@ -81,24 +83,24 @@ fn simple(mut chain: Vec<Touched>, ends: [f64; 2], style: (f64, Interpretation))
     let Some(cut) = (1..chain.len()).max_by(|a, b| dear(a).total_cmp(&dear(b))) else { return Vec::new() };
     let at_cut = BEYOND.min(TO_OTHERS * (chain[cut].at - chain[cut - 1].at).norm());
     let rest = chain.split_off(cut);
-    [simple(chain, [ends[0], at_cut], style), simple(rest, [at_cut, ends[1]], style)].concat()
+    [simple(chain, [ends[0], at_cut], spacing, reading), simple(rest, [at_cut, ends[1]], spacing, reading)].concat()
 }
 
 /// A chain of nodes through places, with its ends beyond them.
-fn nodes(chain: &[Touched], ends: [f64; 2], style: (f64, Interpretation)) -> Vec<Node> {
+fn nodes(chain: &[Touched], ends: [f64; 2], spacing: f64, reading: Interpretation) -> Vec<Node> {
     let (Some(first), Some(last)) = (chain.first(), chain.last()) else { return Vec::new() };
-    let mut points = with_vertices(chain, style.1.is_sharp);
-    if !style.1.is_sure {
+    let mut points = with_vertices(chain, reading.is_sharp);
+    if !reading.is_sure {
         smooth(&mut points);
     }
     let mut nodes = beyond(first, -ends[0]);
     nodes.reverse();
-    nodes.extend(filled(&points, style.0));
+    nodes.extend(filled(&points, spacing));
     nodes.extend(beyond(last, ends[1]));
     nodes
 }
 
-/// Nodes with which a contour goes on from a place: so far forwards, or backwards if the way is negative.
+/// Nodes with which a contour goes on from a place, `way` rod lengths forwards, or backwards where that is negative.
 fn beyond(from: &Touched, way: f64) -> Vec<Node> {
     let is_cut = way.abs() < BEYOND;
     let (curl, sigma) = if is_cut { (CURLS.1, OFF * way.abs()) } else { (CURLS.0, BETWEEN) };

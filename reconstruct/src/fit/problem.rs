@@ -176,7 +176,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let half = [half.x * units.length, half.y * units.length, half.z];
         let mean =
             others.any(|other| contacts(other) != contacts(state)).then(|| forward.mean_reactions(state, half))??;
-        Some(mean.component_div(&Vector3::new(units.force, units.force, units.moment)))
+        Some(Clamp::new(units, state.pose, mean).reactions)
     }
 
     /// The model with these unknowns; none where its contour is no curve.

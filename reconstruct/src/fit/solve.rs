@@ -28,11 +28,11 @@ const HOPELESS: f64 = 30.0;
 const NO_BETTER: f64 = 0.7;
 /// Share of the cost of the contour before above which no finer one is tried.
 const SETTLED_LEVEL: f64 = 0.9999;
-/// Most steps before the smoothness is estimated anew. The fits of the tests take up to 55.
+/// Most steps before the smoothness is estimated anew. Larger: more time where the cost is not smooth.
 const STEPS: usize = 60;
-/// Relative decrease of the cost at which the iteration has settled: some tenths of chi squared.
+/// Relative decrease of the cost at which the iteration has settled: some hundredths of chi squared.
 const SETTLED: f64 = 1e-5;
-/// Initial standard deviation of the change of curvature, L^-1.5: the contour of O2 in the tests comes out at 12 to 18.
+/// Initial standard deviation of the change of curvature, L^-1.5.
 const BEND: f64 = 30.0;
 /// Smallest and largest one, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
 const BENDS: (f64, f64) = (1.0, 1e3);
@@ -122,7 +122,7 @@ fn finer<R: PhysicalRod>(solved: &Solved, fit: &Fit<'_, R>) -> Option<Curve> {
     if cut.is_empty() && sharp.is_empty() {
         return None;
     }
-    curve.refined(|k| 1 + usize::from(cut.contains(&k)), |k| sharp.contains(&k))
+    curve.refined(&cut, &sharp)
 }
 
 /// A fit at one contour.
@@ -163,7 +163,7 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<
     let off = |(i, k): (usize, &usize)| (Source::ALL[*k], x[count + i]);
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let goodness = Goodness::of(&explained, &samples, determined, farthest);
-    (fit.states, fit.curve) = (states, curve.clone());
+    fit.states = states;
     Some(Solved { x, curve, cost: equations.cost, covariance, explained, goodness })
 }
 

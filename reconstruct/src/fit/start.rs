@@ -41,35 +41,36 @@ pub(super) struct Start {
     pub chains: Vec<Vec<Node>>,
 }
 
-/// Where the fit of a recording may start, the most likely first; `given` is a uniform rod of its length and stiffness at the clamp, `errors` are those of the local answer.
+/// Where the fit of a recording may start, the most likely first. `given` is a uniform rod of the length and the stiffness at the clamp of `rod`;
+/// `errors` are those of the local answer.
 pub(super) fn starts<R: PhysicalRod>(
     rod: &R,
     given: &Rod,
     local: &Reconstruction,
     blocks: Blocks,
-    errors: &Errors,
-) -> Vec<Start> {
-    let mut points = touched(local, given);
+    errors: Errors,
+) -> impl Iterator<Item = Start> {
+    let points = touched(local, given);
     let answers = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
-    let mut starts: Vec<Start> = Vec::new();
-    let mut add = |blocks: &Blocks, points: &[Touched], reading: Interpretation| {
-        let chains = outline(points, reading);
-        if !chains.is_empty() && starts.iter().all(|start| start.chains != chains) {
-            starts.push(Start { blocks: blocks.clone(), chains });
-        }
-    };
-    add(&blocks, &points, answers);
-    add(&blocks, &points, Interpretation { is_joined: true, ..answers });
-    add(&blocks, &points, Interpretation { is_sharp: true, ..answers });
-    let mut filled = blocks;
-    let singles = singles(rod, local, &mut filled, errors);
-    if !singles.is_empty() {
+    let guesses = Interpretation { is_sure: false, ..answers };
+    let joined = |reading| Interpretation { is_joined: true, ..reading };
+    let of_answers = [answers, joined(answers), Interpretation { is_sharp: true, ..answers }];
+    let (filled, answered) = (blocks.clone(), points.clone());
+    let with_singles = move || {
+        let (mut blocks, mut points) = (filled, answered);
+        let singles = singles(rod, local, &mut blocks, &errors);
+        let readings = if singles.is_empty() { Vec::new() } else { vec![guesses, joined(guesses)] };
         points.extend(singles);
-        let guesses = Interpretation { is_sure: false, ..answers };
-        add(&filled, &points, guesses);
-        add(&filled, &points, Interpretation { is_joined: true, ..guesses });
-    }
-    starts
+        readings.into_iter().map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading) })
+    };
+    let of_answers =
+        of_answers.into_iter().map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading) });
+    let mut tried: Vec<Vec<Vec<Node>>> = Vec::new();
+    of_answers.chain(std::iter::once_with(with_singles).flatten()).filter(move |start| {
+        let is_new = !start.chains.is_empty() && !tried.contains(&start.chains);
+        tried.push(start.chains.clone());
+        is_new
+    })
 }
 
 /// The contact points of the local answer, in lengths of its rod. Between two kinks, each contact of the rod is one trace.

@@ -4,6 +4,7 @@ use super::judge::{Tallies, Tally, judge, wrong};
 use super::run::{CLEAN, LEVELS, readings, samples};
 use super::scene::{Scan, Scene, nine_teeth, of_parabolas};
 use rod_reconstruct::{Budget, Label, Settings, fit_contour, reconstruct};
+use std::ops::Range;
 
 fn print(title: &str, tallies: &Tallies) {
     println!(
@@ -22,6 +23,13 @@ fn print(title: &str, tallies: &Tallies) {
 /// No errors that all samples share: they would hide what noise does.
 fn noise_alone() -> Settings {
     Settings { budget: Some(Budget::NONE), ..Settings::default() }
+}
+
+/// Those of the environment's `SEEDS`, or else these.
+fn seeds(otherwise: Range<u64>) -> Range<u64> {
+    let Ok(seeds) = std::env::var("SEEDS") else { return otherwise };
+    let (from, to) = seeds.split_once("..").unwrap();
+    from.parse().unwrap()..to.parse().unwrap()
 }
 
 /// All levels of noise for these scans.
@@ -47,10 +55,7 @@ fn table(scans: impl Iterator<Item = (u64, Scan)>) -> Vec<Tallies> {
 #[test]
 #[ignore = "tables of many random scenes"]
 fn random_scenes() {
-    let seeds = std::env::var("SEEDS").unwrap_or("0..40".into());
-    let (from, to) = seeds.split_once("..").unwrap();
-    let seeds = from.parse::<u64>().unwrap()..to.parse().unwrap();
-    let all = table(seeds.filter_map(|seed| Some((seed, Scene::of(seed)?.scan()))));
+    let all = table(seeds(0..40).filter_map(|seed| Some((seed, Scene::of(seed)?.scan()))));
     for (level, tallies) in LEVELS.iter().zip(all) {
         print(level.name, &tallies);
     }
@@ -64,10 +69,10 @@ fn random_scenes() {
 fn fits_of_random_scenes() {
     const THINNED: usize = 5;
     const NEAR: usize = 8;
-    let seeds = std::env::var("SEEDS").unwrap_or("0..24".into());
-    let (from, to) = seeds.split_once("..").unwrap();
     let (mut explained, mut all) = (0, 0);
-    for seed in from.parse::<u64>().unwrap()..to.parse().unwrap() {
+    // of the recordings that are explained, samples with several contacts: all, with a first contact of the local answer, and so labelled by the fit
+    let mut several = [0; 3];
+    for seed in seeds(0..24) {
         let Some(scan) = Scene::of(seed).map(Scene::scan) else { continue };
         let states: Vec<_> = scan.states.iter().step_by(THINNED).cloned().collect();
         let samples = samples(&states, &LEVELS[4], seed);
@@ -88,7 +93,15 @@ fn fits_of_random_scenes() {
                 let mut labels = vec![None; samples.len()];
                 fit.blocks.iter().for_each(|block| labels[block.samples.clone()].fill(block.label));
                 let ratio = fit.goodness.chi_squared / fit.goodness.degrees_of_freedom;
-                explained += usize::from(fit.goodness.explains);
+                if fit.goodness.explains {
+                    explained += 1;
+                    let is_local = |k: usize| local.readings[k].label.several() && local.readings[k].touch.is_ok();
+                    for k in (0..truth.len()).filter(|k| truth[*k].several()) {
+                        several[0] += 1;
+                        several[1] += usize::from(is_local(k));
+                        several[2] += usize::from(labels[k].is_some_and(Label::several));
+                    }
+                }
                 println!(
                     "{}: explained {}, chi squared {ratio:.2}, unreached {:.3}, labels right {before:.1} % -> {:.1} %",
                     scan.scene.name,
@@ -100,7 +113,8 @@ fn fits_of_random_scenes() {
             Err(error) => println!("{}: {error}", scan.scene.name),
         }
     }
-    println!("{explained} of {all} explained");
+    println!("{explained} of {all} explained; of their {} samples with several contacts,", several[0]);
+    println!("{} have a first contact in the local answer, {} that label in the fit", several[1], several[2]);
 }
 
 /// `cargo test -p rod-reconstruct --test suite three_contacts -- --ignored --nocapture`
