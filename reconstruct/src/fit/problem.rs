@@ -9,7 +9,7 @@ use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source, still};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use rod_contact::{ContactKind, Derivatives, State};
+use rod_contact::{Derivatives, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Rod, SupportRate};
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,9 +23,6 @@ const VERTEX: f64 = 3.0;
 const UNREACHED: f64 = OUTLYING * OUTLYING;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
-/// Force of a contact in standard deviations of the force of a block from which on it counts for the label. Smaller: ripples of the contour make
-/// contacts; larger: contacts are told of later after they begin.
-const TOLD: f64 = 2.0;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
 const FAR: f64 = 1e-5;
 
@@ -205,7 +202,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         for (k, block) in self.blocks.blocks.iter().enumerate() {
             let state = states[k].as_ref();
             let is_known = state.is_some() || self.is_free(k, states);
-            let label = state.map_or(Label::Free, |state| self.label(state, block));
+            let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
             let model = self.mean_reactions(&forward, states, k).unwrap_or_else(|| self.reactions(state));
             let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
@@ -214,16 +211,6 @@ impl<R: PhysicalRod> Fit<'_, R> {
             explained.unreached += usize::from(!is_known && !block.is_by_jump);
         }
         explained
-    }
-
-    /// The phase that a block can tell of: without contacts that press less than its noise, but for the strongest one.
-    fn label(&self, state: &State, block: &Block) -> Label {
-        let least = TOLD * block.sigma.xy().norm() * self.rod.units().force;
-        let strongest = state.contacts.iter().map(|contact| contact.force).fold(0.0, f64::max);
-        let told = state.contacts.iter().filter(|contact| contact.force >= least.min(strongest));
-        let (mut count, mut tip) = (0, false);
-        told.for_each(|contact| (count, tip) = (count + 1, contact.kind == ContactKind::Tip));
-        Label::of(count, tip)
     }
 
     /// Derivatives of the reactions of a state by the pose; none at a fold count as 0.
