@@ -9,6 +9,9 @@ use rod_core::SupportRate;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+/// Share of the largest rate of a change of curvature below which a rate is left out: they fall to a fourth from knot to knot.
+const FAR: f64 = 1e-6;
+
 /// A point of a contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {
@@ -22,6 +25,11 @@ pub(super) struct Node {
 impl Node {
     pub fn smooth(at: Vector2<f64>, sigma: f64) -> Self {
         Self { at, is_vertex: false, sigma }
+    }
+
+    /// In another unit of length.
+    pub fn scaled(self, unit: f64) -> Self {
+        Self { at: self.at * unit, sigma: self.sigma * unit, ..self }
     }
 }
 
@@ -82,6 +90,9 @@ impl Curve {
 
     /// With other offsets of its nodes.
     pub fn moved(&self, offsets: DVector<f64>) -> Option<Self> {
+        if offsets == self.offsets {
+            return Some(self.clone());
+        }
         let point = |(node, (own, first)): (&Node, &(Vec<Vector2<f64>>, usize))| {
             own.iter().enumerate().fold(node.at, |at, (i, way)| at + way * offsets[first + i])
         };
@@ -147,10 +158,13 @@ impl Curve {
         }
     }
 
-    /// The piece closest to (x, y), and the parameter there.
-    fn nearest(&self, x: f64, y: f64) -> Option<(&Piece, f64)> {
-        let places = self.pieces.iter().map(|piece| (piece, piece.closest(x, y)));
-        let distance = |closest: &rod_contours::Closest| (closest.frame.x - x).hypot(closest.frame.y - y);
+    /// The piece closest to a contact that has about its direction, and the parameter there.
+    fn nearest(&self, contact: &Contact) -> Option<(&Piece, f64)> {
+        let places = self.pieces.iter().map(|piece| (piece, piece.closest(contact.x, contact.y)));
+        let distance = |closest: &rod_contours::Closest| {
+            let Frame { x, y, alpha, .. } = closest.frame;
+            (x - contact.x).hypot(y - contact.y) * (1.0 + 3.0 * wrap_angle(alpha - contact.alpha).abs())
+        };
         places.min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1))).map(|(piece, closest)| (piece, closest.t))
     }
 
@@ -162,7 +176,7 @@ impl Curve {
             let kind = ContactKind::Corner;
             return Some(Contact { object: piece.object, piece: piece.number, kind, x: at.x, y: at.y, ..*contact });
         }
-        let (piece, t) = self.nearest(contact.x, contact.y)?;
+        let (piece, t) = self.nearest(contact)?;
         let Frame { x, y, alpha, .. } = piece.spline.frame(t);
         let kind = if contact.kind == ContactKind::Tip { ContactKind::Tip } else { ContactKind::Tangent };
         Some(Contact { object: piece.object, piece: piece.number, kind, x, y, alpha, ..*contact })
@@ -186,6 +200,16 @@ impl Curve {
         let t = piece.closest(contact.x, contact.y).t;
         let intervals = piece.knots().len() - 1;
         Some(piece.first + piece.knots().partition_point(|knot| *knot <= t).clamp(1, intervals) - 1)
+    }
+
+    /// The nodes between which a contact of a state lies, or those around its vertex.
+    pub fn nodes_at(&self, contact: &Contact) -> Option<Range<usize>> {
+        if let Some(first) = self.interval(contact) {
+            return Some(first..first + 2);
+        }
+        let piece = self.piece_of(contact)?;
+        let vertex = piece.first + piece.knots().len() - 1;
+        Some(vertex - 1..(vertex + 2).min(self.nodes.len()))
     }
 
     fn piece_of(&self, contact: &Contact) -> Option<&Piece> {
@@ -222,7 +246,10 @@ impl Curve {
             let at: Vec<Dependent> = piece.knots().iter().map(|t| self.curvature(piece, *t)).collect();
             for (pair, knots) in at.windows(2).zip(piece.knots().windows(2)) {
                 let root = (knots[1] - knots[0]).sqrt();
-                let rates = pair[0].1.iter().zip(&pair[1].1).map(|(a, b)| (a.0, (b.1 - a.1) / root)).collect();
+                let mut rates: Vec<_> =
+                    pair[0].1.iter().zip(&pair[1].1).map(|(a, b)| (a.0, (b.1 - a.1) / root)).collect();
+                let most = rates.iter().map(|(_, rate): &(usize, f64)| rate.abs()).fold(0.0, f64::max);
+                rates.retain(|(_, rate)| rate.abs() > FAR * most);
                 bends.push(((pair[1].0 - pair[0].0) / root, rates));
             }
         }

@@ -8,6 +8,8 @@ use rod_core::{PhysicalRod, Pose, Reactions};
 
 /// Equilibria from which a segment is followed, at most: each reaches up to where the rod snaps.
 const ANCHORS: usize = 6;
+/// Part of a segment in which none is tried after one has failed.
+const SPREAD: usize = 16;
 /// Poses on either side of the middle of a block at which its mean is taken.
 const PARTS: usize = 3;
 /// Most steps from block to block: as many as a dozen transitions take. Larger: more time at contours along which the rod cannot be followed.
@@ -47,7 +49,10 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 let state =
                     guesses.filter(|guess| !guess.is_empty()).find_map(|guess| self.equilibrium(poses[anchor], guess));
                 let Some(state) = state else {
-                    failed[anchor - segment.start] = true;
+                    // what is wrong there is wrong near by
+                    let near = segment.len() / SPREAD;
+                    let at = anchor - segment.start;
+                    failed[at.saturating_sub(near)..(at + near + 1).min(segment.len())].fill(true);
                     continue;
                 };
                 self.follow(&state, anchor + 1..segment.end, poses, &mut found);

@@ -8,14 +8,19 @@
 mod blocks;
 mod curve;
 mod forward;
+mod grow;
 mod order;
 mod outline;
+mod pair;
 mod piece;
 mod problem;
+mod propose;
 mod solve;
 mod start;
+mod swept;
 #[cfg(test)]
 mod tests;
+mod trim;
 mod verdict;
 
 pub use verdict::{Goodness, WorstWindow};

@@ -94,7 +94,11 @@ pub(super) fn cells(touched: &[Touched], spacing: f64) -> Vec<Cell> {
 
 /// Chains of places by greedy ordering: joins the cheapest pairs first, without branching or closing. A step from one place to another costs its length, and
 /// more where it does not go the way of the contour.
-pub(super) fn in_order(cells: &[Cell], apart: f64) -> Vec<Vec<Touched>> {
+pub(super) fn in_order(
+    cells: &[Cell],
+    apart: f64,
+    is_barred: impl Fn(Vector2<f64>, Vector2<f64>) -> bool,
+) -> Vec<Vec<Touched>> {
     let count = cells.len();
     let cost = |i: usize, j: usize| {
         let (from, to) = (&cells[i], &cells[j]);
@@ -111,7 +115,11 @@ pub(super) fn in_order(cells: &[Cell], apart: f64) -> Vec<Vec<Touched>> {
     // the path that each place belongs to
     let mut path: Vec<usize> = (0..count).collect();
     for (_, i, j) in steps {
-        if next[i].is_none() && before[j].is_none() && path[i] != path[j] {
+        if next[i].is_none()
+            && before[j].is_none()
+            && path[i] != path[j]
+            && !is_barred(cells[i].place.at, cells[j].place.at)
+        {
             (next[i], before[j]) = (Some(j), Some(i));
             let (from, to) = (path[j], path[i]);
             path.iter_mut().filter(|path| **path == from).for_each(|path| *path = to);

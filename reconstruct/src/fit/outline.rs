@@ -5,6 +5,7 @@ use super::order::{
     LONGEST, NO_WAY, SHARPLY, SURE, Touched, cells, dearness, in_order, mean, merged, sure_enough, weight,
     without_doubles,
 };
+use super::swept::Swept;
 use crate::numeric::wrap_angle;
 use nalgebra::Vector2;
 
@@ -29,12 +30,14 @@ const VERTEX_TURN: f64 = 0.3;
 const TOUCHED: f64 = 0.03;
 const BETWEEN: f64 = 0.3;
 /// A contour goes on beyond its first and last contact, by so much (rod lengths), but by no more than this share of the way to another chain.
-const BEYOND: f64 = 0.12;
-const TO_OTHERS: f64 = 0.4;
+pub(super) const BEYOND: f64 = 0.12;
+pub(super) const TO_OTHERS: f64 = 0.4;
 /// It turns there towards its solid, out of the way of the rod: by so much in all (radians) where it goes on that far, and where another chain
 /// ends it before; in so many steps.
 const CURLS: (f64, f64) = (0.4, 0.8);
 const STEPS: usize = 4;
+/// By so much more (radians), and over such a share of that way, where the rod was in its way.
+const MORE_CURLED: [(f64, f64); 6] = [(0.0, 1.0), (0.4, 1.0), (0.8, 1.0), (1.2, 0.6), (1.6, 0.4), (1.6, 0.2)];
 /// Standard deviation of these nodes over the way, where another chain ends it.
 const OFF: f64 = 0.3;
 
@@ -50,12 +53,15 @@ pub(super) struct Interpretation {
 }
 
 /// Chains of nodes along the contours, in their direction, with the solid on the left.
-pub(super) fn outline(touched: &[Touched], reading: Interpretation) -> Vec<Vec<Node>> {
+pub(super) fn outline(touched: &[Touched], reading: Interpretation, swept: &Swept) -> Vec<Vec<Node>> {
     let touched = sure_enough(touched, if reading.is_sharp { SHARPLY } else { SURE });
     // in order of their sigmas
     let Some(median) = touched.get(touched.len() / 2) else { return Vec::new() };
     let spacing = (PER_SIGMA * median.sigma).clamp(SPACINGS.0, SPACINGS.1);
-    let mut chains = in_order(&cells(&touched, spacing), if reading.is_joined { LONGEST } else { APART * spacing });
+    let mut chains =
+        in_order(&cells(&touched, spacing), if reading.is_joined { LONGEST } else { APART * spacing }, |from, to| {
+            (to - from).norm() > APART * spacing && swept.forbids(from, to)
+        });
     without_doubles(&mut chains, spacing);
     if !reading.is_sure {
         let all: f64 = chains.iter().map(|chain| weight(chain)).sum();
@@ -70,12 +76,18 @@ pub(super) fn outline(touched: &[Touched], reading: Interpretation) -> Vec<Vec<N
     let beyond = |k: usize, place: Option<&Touched>| BEYOND.min(TO_OTHERS * place.map_or(0.0, |place| apart(k, place)));
     let ends = |(k, chain): (usize, &Vec<Touched>)| [beyond(k, chain.first()), beyond(k, chain.last())];
     let ends: Vec<[f64; 2]> = chains.iter().enumerate().map(ends).collect();
-    chains.into_iter().zip(ends).flat_map(|(chain, ends)| simple(chain, ends, spacing, reading)).collect()
+    chains.into_iter().zip(ends).flat_map(|(chain, ends)| simple(chain, ends, spacing, reading, swept)).collect()
 }
 
 /// A chain as nodes, with its ends so far beyond; one that crosses itself is cut at its dearest step until no part does.
-fn simple(mut chain: Vec<Touched>, ends: [f64; 2], spacing: f64, reading: Interpretation) -> Vec<Vec<Node>> {
-    let nodes = nodes(&chain, ends, spacing, reading);
+fn simple(
+    mut chain: Vec<Touched>,
+    ends: [f64; 2],
+    spacing: f64,
+    reading: Interpretation,
+    swept: &Swept,
+) -> Vec<Vec<Node>> {
+    let nodes = nodes(&chain, ends, spacing, reading, swept);
     if Curve::through(std::slice::from_ref(&nodes)).and_then(|curve| curve.objects()).is_some() {
         return vec![nodes];
     }
@@ -83,35 +95,48 @@ fn simple(mut chain: Vec<Touched>, ends: [f64; 2], spacing: f64, reading: Interp
     let Some(cut) = (1..chain.len()).max_by(|a, b| dear(a).total_cmp(&dear(b))) else { return Vec::new() };
     let at_cut = BEYOND.min(TO_OTHERS * (chain[cut].at - chain[cut - 1].at).norm());
     let rest = chain.split_off(cut);
-    [simple(chain, [ends[0], at_cut], spacing, reading), simple(rest, [at_cut, ends[1]], spacing, reading)].concat()
+    [
+        simple(chain, [ends[0], at_cut], spacing, reading, swept),
+        simple(rest, [at_cut, ends[1]], spacing, reading, swept),
+    ]
+    .concat()
 }
 
 /// A chain of nodes through places, with its ends beyond them.
-fn nodes(chain: &[Touched], ends: [f64; 2], spacing: f64, reading: Interpretation) -> Vec<Node> {
+fn nodes(chain: &[Touched], ends: [f64; 2], spacing: f64, reading: Interpretation, swept: &Swept) -> Vec<Node> {
     let (Some(first), Some(last)) = (chain.first(), chain.last()) else { return Vec::new() };
     let mut points = with_vertices(chain, reading.is_sharp);
     if !reading.is_sure {
         smooth(&mut points);
     }
-    let mut nodes = beyond(first, -ends[0]);
+    let mut nodes = beyond(first, -ends[0], swept);
     nodes.reverse();
     nodes.extend(filled(&points, spacing));
-    nodes.extend(beyond(last, ends[1]));
+    nodes.extend(beyond(last, ends[1], swept));
     nodes
 }
 
-/// Nodes with which a contour goes on from a place, `way` rod lengths forwards, or backwards where that is negative.
-fn beyond(from: &Touched, way: f64) -> Vec<Node> {
+/// Nodes with which a contour goes on from a place, `way` rod lengths forwards, or backwards where that is negative: in as wide a bend as leaves
+/// free where the rod was.
+pub(super) fn beyond(from: &Touched, way: f64, swept: &Swept) -> Vec<Node> {
     let is_cut = way.abs() < BEYOND;
     let (curl, sigma) = if is_cut { (CURLS.1, OFF * way.abs()) } else { (CURLS.0, BETWEEN) };
-    let mut at = from.at;
-    (0..STEPS)
-        .map(|k| {
+    let arc = |curl: f64, way: f64| {
+        let mut at = from.at;
+        let node = |k: usize| {
             let alpha = from.alpha() + way.signum() * curl * (k as f64 + 0.5) / STEPS as f64;
             at += Vector2::new(alpha.cos(), alpha.sin()) * (way / STEPS as f64);
-            Node::smooth(at, sigma)
-        })
-        .collect()
+            at
+        };
+        (0..STEPS).map(node).collect::<Vec<_>>()
+    };
+    let is_free = |arc: &[Vector2<f64>]| {
+        let starts = std::iter::once(&from.at).chain(arc);
+        !starts.zip(arc).any(|(a, b)| if way > 0.0 { swept.forbids(*a, *b) } else { swept.forbids(*b, *a) })
+    };
+    let arcs = MORE_CURLED.map(|(more, less)| arc(curl + more, way * less));
+    let chosen = arcs.iter().find(|arc| is_free(arc)).unwrap_or(&arcs[arcs.len() - 1]);
+    chosen.iter().map(|at| Node::smooth(*at, sigma)).collect()
 }
 
 /// The places as nodes; those that turn within a small radius are one vertex.
@@ -186,7 +211,7 @@ mod tests {
         let mut touched: Vec<Touched> = (0..100).map(|k| side(x(k), 0.0, 1.0)).collect();
         touched.extend((0..100).map(|k| side(x(k), 0.01, -1.0)));
         let reading = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
-        let chains = outline(&touched, reading);
+        let chains = outline(&touched, reading, &Swept::default());
         let ordered: Vec<Vector2<f64>> = chains.concat().iter().map(|node| node.at).collect();
         let inner = &ordered[STEPS..ordered.len() - STEPS];
         assert!(inner.iter().map(|point| point.y).is_sorted(), "{inner:?}");

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, Vector2};
 use rod_contours::{Closest, Contour, Frame, Spline, SplineEnd};
+use std::cell::OnceCell;
 
 /// A natural spline through the nodes of a curve from `first` on.
 #[derive(Clone, Debug)]
@@ -14,8 +15,8 @@ pub(super) struct Piece {
     pub spline: Spline,
     points: Vec<Vector2<f64>>,
     knots: Vec<f64>,
-    /// Column j: second derivatives at all knots of the natural spline that is 1 at knot j and 0 at the others.
-    second: DMatrix<f64>,
+    /// Row j: second derivatives at all knots of the natural spline that is 1 at knot j and 0 at the others; not before it is asked for.
+    second: OnceCell<DMatrix<f64>>,
 }
 
 /// How a place of a piece changes with the coordinates of one of its nodes: the point in proportion to `value`, its derivatives by the
@@ -32,7 +33,7 @@ impl Piece {
         let coordinates: Vec<[f64; 2]> = points.iter().map(|point| (*point).into()).collect();
         let spline = Spline::through(&coordinates, SplineEnd::Natural).ok()?;
         let knots: Vec<f64> = spline.knots().collect();
-        let second = second_derivatives(&knots);
+        let second = OnceCell::new();
         Some(Self { object, number, first, spline, points: points.to_vec(), knots, second })
     }
 
@@ -64,8 +65,9 @@ impl Piece {
         let h = self.knots[j + 1] - self.knots[j];
         let b = (t - self.knots[j]) / h;
         let a = 1.0 - b;
+        let second = self.second.get_or_init(|| second_derivatives(&self.knots));
         (0..n).map(move |i| {
-            let (lower, upper) = (self.second[(j, i)], self.second[(j + 1, i)]);
+            let (lower, upper) = (second[(i, j)], second[(i, j + 1)]);
             let [here, next] = [f64::from(u8::from(i == j)), f64::from(u8::from(i == j + 1))];
             Cardinal {
                 node: self.first + i,
@@ -85,18 +87,28 @@ impl Piece {
     }
 }
 
-/// The second derivatives at the knots of the natural cubic splines that are 1 at one knot and 0 at the others, a column each.
+/// The second derivatives at the knots of the natural cubic splines that are 1 at one knot and 0 at the others: a row for each, by elimination in
+/// its tridiagonal equations.
 fn second_derivatives(knots: &[f64]) -> DMatrix<f64> {
     let n = knots.len();
     let h: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
-    let (mut matrix, mut right) = (DMatrix::identity(n, n), DMatrix::zeros(n, n));
+    let mut second = DMatrix::zeros(n, n);
+    let mut pivot = vec![1.0; n];
     for i in 1..n - 1 {
-        matrix[(i, i - 1)] = h[i - 1] / 6.0;
-        matrix[(i, i)] = (h[i - 1] + h[i]) / 3.0;
-        matrix[(i, i + 1)] = h[i] / 6.0;
-        right[(i, i - 1)] = 1.0 / h[i - 1];
-        right[(i, i)] = -1.0 / h[i - 1] - 1.0 / h[i];
-        right[(i, i + 1)] = 1.0 / h[i];
+        second[(i - 1, i)] = 1.0 / h[i - 1];
+        second[(i, i)] = -1.0 / h[i - 1] - 1.0 / h[i];
+        second[(i + 1, i)] = 1.0 / h[i];
+        // the first equation has no other unknown
+        let (below, above) = (h[i - 1] / 6.0, if i > 1 { h[i - 1] / 6.0 } else { 0.0 });
+        let factor = below / pivot[i - 1];
+        pivot[i] = (h[i - 1] + h[i]) / 3.0 - factor * above;
+        let (before, mut rest) = second.columns_range_pair_mut(i - 1, i..);
+        rest.column_mut(0).axpy(-factor, &before, 1.0);
     }
-    matrix.lu().solve(&right).unwrap_or(right)
+    for i in (1..n - 1).rev() {
+        let (mut here, after) = second.columns_range_pair_mut(i, i + 1);
+        here.axpy(-h[i] / 6.0, &after, 1.0);
+        here /= pivot[i];
+    }
+    second
 }

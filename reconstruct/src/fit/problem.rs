@@ -16,11 +16,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
 /// off converges slowly.
-const OUTLYING: f64 = 6.0;
+pub(super) const OUTLYING: f64 = 6.0;
 /// The same for changes of curvature. Larger: vertices are rounded; smaller: noise makes vertices.
 const VERTEX: f64 = 3.0;
-/// Cost of a block that no branch of the model reaches. Larger: contours win that reach everything; smaller: those that lose bad blocks.
-const UNREACHED: f64 = OUTLYING * OUTLYING;
+/// Cost of a block that no branch of the model reaches: that of a residual of 1000 standard deviations. Smaller: contours win that lose bad
+/// blocks.
+pub(super) const LOST: f64 = 368.0;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
@@ -88,10 +89,10 @@ pub(super) struct Explained {
 }
 
 /// A block without the errors.
-struct Corrected {
+pub(super) struct Corrected {
     /// m, rad.
-    pose: Pose,
-    reactions: Vector3<f64>,
+    pub pose: Pose,
+    pub reactions: Vector3<f64>,
     /// Derivatives of the reactions and of the pose by the measured reactions.
     by_reactions: Matrix3<f64>,
     pose_by_reactions: Matrix3<f64>,
@@ -129,13 +130,21 @@ struct Row {
     by: [Vec<(usize, f64)>; 3],
 }
 
+impl<'a, R: PhysicalRod> Fit<'a, R> {
+    /// Of a contour of which no states are known.
+    pub fn new(rod: &'a R, curve: Curve, blocks: &'a Blocks, sources: &'a Sources, bend: f64) -> Self {
+        let states = vec![None; blocks.blocks.len()];
+        Self { rod, curve, blocks, sources, bend, states, least: f64::INFINITY, evaluations: 0 }
+    }
+}
+
 impl<R: PhysicalRod> Fit<'_, R> {
     fn errors(&self, x: &DVector<f64>) -> Errors {
         self.sources.errors(x.iter().skip(self.curve.count()))
     }
 
     /// The blocks without the errors.
-    fn corrected(&self, errors: &Errors) -> Option<Vec<Corrected>> {
+    pub fn corrected(&self, errors: &Errors) -> Option<Vec<Corrected>> {
         let (correction, length) = (Correction::new(self.blocks.frame, errors)?, self.rod.units().length);
         let of = |block: &Block| {
             let apply = |clamp: &Clamp| {
@@ -333,7 +342,7 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
         for (block, row) in self.blocks.blocks.iter().zip(&rows) {
             match row {
                 _ if block.is_by_jump => {}
-                None => normal.cost += UNREACHED,
+                None => normal.cost += LOST,
                 Some(Row { residual, by }) => {
                     let z = residual.norm();
                     (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], loss.weight(1.0, z)));

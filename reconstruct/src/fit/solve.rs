@@ -2,8 +2,12 @@
 
 use super::blocks::{Block, Blocks};
 use super::curve::{Curve, Node};
+use super::grow::{Grown, grown};
 use super::problem::{Explained, Fit, Model, Sources};
+use super::propose::Space;
 use super::start::Start;
+use super::swept::Swept;
+use super::trim::touched;
 use super::verdict::Goodness;
 use super::{ContourFit, FittedBlock, FittedObject};
 use crate::least_squares::{Damped, Iterate, iterate};
@@ -14,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Contours, each with more nodes than the one before where the recording asks for them.
-const LEVELS: usize = 6;
+const LEVELS: usize = 10;
 /// Mean square of the residuals of the blocks that touch an interval from which on it is cut in two, and the shortest one that is (rod lengths).
 /// Smaller: more unknowns than the recording asks for.
 const ASKS: f64 = 1.3;
@@ -22,12 +26,8 @@ const SHORTEST: f64 = 2e-3;
 /// Radius (rod lengths) and angle (radians) of a bend from which on, smaller and larger, it becomes a vertex.
 const SHARP: f64 = 6e-3;
 const VERTEX_TURN: f64 = 0.4;
-/// Chi squared over its degrees of freedom above which, and share of that of the contour before, no finer contour is tried. Larger: more time on
-/// recordings that nothing explains.
-const HOPELESS: f64 = 30.0;
-const NO_BETTER: f64 = 0.7;
-/// Share of the cost of the contour before above which no finer one is tried.
-const SETTLED_LEVEL: f64 = 0.9999;
+/// Decrease of the cost, which is that of chi squared, for which a finer contour is taken. Smaller: nodes for noise.
+const WORTH: f64 = 5.0;
 /// Most steps before the smoothness is estimated anew. Larger: more time where the cost is not smooth.
 const STEPS: usize = 60;
 /// Relative decrease of the cost at which the iteration has settled: some hundredths of chi squared.
@@ -59,39 +59,83 @@ impl<R: PhysicalRod> Search<'_, R> {
             (node.at, node.sigma) = (node.at * units.length, node.sigma * units.length);
         }
         let curve = Curve::through(&chains)?;
-        let states = vec![None; blocks.blocks.len()];
-        let mut fit = Fit {
-            rod,
-            curve,
-            blocks,
-            sources,
-            bend: BEND * units.length.powf(-1.5),
-            states,
-            least: f64::INFINITY,
-            evaluations: 0,
-        };
-        let mut best: Option<Solved> = None;
-        let mut errors = self.errors.clone();
-        let mut before = (f64::INFINITY, f64::INFINITY);
+        let mut fit = Fit::new(rod, curve, blocks, sources, BEND * units.length.powf(-1.5));
+        let mut best = self.solved(&mut fit, self.errors)?;
         for _ in 0..LEVELS {
-            let solved = solve(&mut fit, &errors);
-            self.evaluations = self.evaluations.saturating_sub(std::mem::take(&mut fit.evaluations));
-            let Some(solved) = solved else { break };
-            errors = solved.x.rows(fit.curve.count(), errors.len()).into_owned();
-            let (explains, cost) = (solved.goodness.explains, solved.cost);
-            let ratio = solved.goodness.chi_squared / solved.goodness.degrees_of_freedom;
-            let finer = finer(&solved, &fit);
-            if best.as_ref().is_none_or(|best| solved.is_better_than(best)) {
-                best = Some(solved);
+            let changes = Change::ALL.into_iter().filter(|change| change.is_for(&best));
+            let mut better = None;
+            for change in changes {
+                if self.evaluations == 0 {
+                    break;
+                }
+                let (states, bend) = (fit.states.clone(), fit.bend);
+                let errors = best.x.rows(best.curve.count(), self.errors.len()).into_owned();
+                better = self.changed(change, &best, &mut fit).and_then(|()| self.solved(&mut fit, &errors));
+                better = better.filter(|solved| solved.is_worth(change, &best));
+                if better.is_some() {
+                    break;
+                }
+                (fit.curve, fit.states, fit.bend) = (best.curve.clone(), states, bend);
             }
-            let is_hopeless = ratio > HOPELESS && ratio > NO_BETTER * before.0;
-            if explains || is_hopeless || self.evaluations == 0 || cost > SETTLED_LEVEL * before.1 {
-                break;
-            }
-            let Some(finer) = finer else { break };
-            (fit.curve, before) = (finer, (ratio, cost));
+            let Some(solved) = better else { break };
+            best = solved;
         }
-        best
+        Some(best)
+    }
+
+    fn solved(&mut self, fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<Solved> {
+        let solved = solve(fit, errors);
+        self.evaluations = self.evaluations.saturating_sub(std::mem::take(&mut fit.evaluations));
+        solved
+    }
+
+    /// Gives the fit, which has the contour and the states of `best`, another contour; none where there is none.
+    fn changed(&mut self, change: Change, best: &Solved, fit: &mut Fit<'_, R>) -> Option<()> {
+        let length = self.rod.units().length;
+        match change {
+            Change::Grown => {
+                let errors = self.sources.errors(best.x.iter().skip(best.curve.count()));
+                let (found, evaluations) = grown(fit, errors, &best.curve, &best.explained);
+                self.evaluations = self.evaluations.saturating_sub(evaluations);
+                let Grown { chains, states } = found?;
+                (fit.curve, fit.states) = (Curve::through(&chains)?, states);
+            }
+            Change::Finer => fit.curve = finer(best, fit)?,
+            Change::Joined => {
+                let chains: Vec<Vec<Node>> =
+                    best.curve.chains().map(|chain| chain.map(|(_, node)| node).collect()).collect();
+                let swept = Swept::of_states(self.rod, fit.states.iter().flatten());
+                let space = Space { length, swept: &swept };
+                let joined = space.joined(&chains, &touched(&chains, &fit.states, length));
+                fit.curve = Curve::through(joined.first()?)?;
+            }
+        }
+        Some(())
+    }
+}
+
+/// What may be changed of a contour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Change {
+    /// What nothing touches goes, and what explains more of the recording comes.
+    Grown,
+    /// More nodes, and vertices, where the recording asks for them.
+    Finer,
+    /// Two parts are one.
+    Joined,
+}
+
+impl Change {
+    /// In the order in which they are tried.
+    const ALL: [Self; 3] = [Self::Grown, Self::Finer, Self::Joined];
+
+    /// Whether it may make a fit better. A contour that explains its recording may be known better.
+    fn is_for(self, best: &Solved) -> bool {
+        match self {
+            Self::Grown => !best.goodness.explains,
+            Self::Finer => true,
+            Self::Joined => best.goodness.explains,
+        }
     }
 }
 
@@ -170,6 +214,16 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<
 impl Solved {
     pub fn is_better_than(&self, other: &Self) -> bool {
         self.goodness.explains || !other.goodness.explains && self.cost < other.cost
+    }
+
+    /// Whether this is to be preferred to what it was changed from.
+    fn is_worth(&self, change: Change, before: &Self) -> bool {
+        let (now, then) = (self.goodness.explains, before.goodness.explains);
+        match change {
+            // one part has fewer unknowns than two
+            Change::Joined => now && self.cost < before.cost + WORTH,
+            Change::Grown | Change::Finer => now && !then || now == then && self.cost < before.cost - WORTH,
+        }
     }
 
     pub fn result(self, blocks: &Blocks, sources: &Sources, rod: &Rod) -> ContourFit {

@@ -4,6 +4,7 @@ use super::blocks::Blocks;
 use super::curve::Node;
 use super::order::Touched;
 use super::outline::{Interpretation, outline};
+use super::swept::Swept;
 use crate::pipeline::Reconstruction;
 use crate::point::{OneSample, Touch, one_sample};
 use crate::systematic::{Correction, Errors, still};
@@ -55,16 +56,21 @@ pub(super) fn starts<R: PhysicalRod>(
     let guesses = Interpretation { is_sure: false, ..answers };
     let joined = |reading| Interpretation { is_joined: true, ..reading };
     let of_answers = [answers, joined(answers), Interpretation { is_sharp: true, ..answers }];
+    let swept = Swept::of(rod, &blocks, &errors);
     let (filled, answered) = (blocks.clone(), points.clone());
     let with_singles = move || {
         let (mut blocks, mut points) = (filled, answered);
         let singles = singles(rod, local, &mut blocks, &errors);
+        let swept = Swept::of(rod, &blocks, &errors);
         let readings = if singles.is_empty() { Vec::new() } else { vec![guesses, joined(guesses)] };
         points.extend(singles);
-        readings.into_iter().map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading) })
+        readings
+            .into_iter()
+            .map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading, &swept) })
     };
-    let of_answers =
-        of_answers.into_iter().map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading) });
+    let of_answers = of_answers
+        .into_iter()
+        .map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading, &swept) });
     let mut tried: Vec<Vec<Vec<Node>>> = Vec::new();
     of_answers.chain(std::iter::once_with(with_singles).flatten()).filter(move |start| {
         let is_new = !start.chains.is_empty() && !tried.contains(&start.chains);

@@ -176,17 +176,7 @@ fn derivatives_of_the_cost_are_its_differences() {
         ];
         let curve = Curve::through(&[chain.to_vec()]).unwrap();
         let unknowns = curve.count();
-        let known = vec![None; blocks.blocks.len()];
-        let mut fit = Fit {
-            rod: &rod,
-            curve,
-            blocks: &blocks,
-            sources: &sources,
-            bend: 1e3,
-            states: known,
-            least: f64::INFINITY,
-            evaluations: 0,
-        };
+        let mut fit = Fit::new(&rod, curve, &blocks, &sources, 1e3);
         let at = DVector::zeros(unknowns);
         let here = fit.equations(&at);
         let reached = fit.states.iter().flatten().count();

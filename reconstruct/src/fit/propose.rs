@@ -1,0 +1,164 @@
+//! Contours that might explain what the contour so far does not.
+
+use super::curve::Node;
+use super::swept::Swept;
+use nalgebra::{Rotation2, Vector2};
+use rod_core::{Elastica, RodModel};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Distance of the nodes of new contour, rod lengths, and how many there are to either side of a new contact.
+pub(super) const SPACING: f64 = 0.02;
+const ARM: usize = 4;
+/// Standard deviation of such a node, rod lengths.
+pub(super) const NEW: f64 = 0.03;
+/// Places along the rod at which a new contact is tried.
+const PLACES: usize = 24;
+/// Curvatures of the contour there, 1/L; infinite: a vertex.
+const BENDS: [f64; 3] = [5.0, 40.0, f64::INFINITY];
+/// The same where the tip touches, which may be in a hollow; and the angles between the rod and the contour there, radians.
+pub(super) const TIP_BENDS: [f64; 5] = [0.0, 5.0, -5.0, -20.0, 40.0];
+const TIP_TURNS: [f64; 7] = [0.15, 0.5, 1.0, FRAC_PI_2, 2.1, 2.6, 3.0];
+/// Largest angle by which the contour turns from one of these nodes to the next, and from the vertex on (radians).
+const TURN: f64 = 0.35;
+const VERTEX_TURN: f64 = 0.8;
+/// Shares of its length to which an arm is shortened until it leaves free where the rod was.
+const SHORTER: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
+/// How far behind the rod new contour begins, rod lengths: contacts of a state leave no gap.
+const BEHIND: f64 = 1e-5;
+/// Longest way over which two parts are joined, rod lengths; and the most nodes on it.
+const LONGEST: f64 = 0.36;
+const MOST_BETWEEN: usize = 12;
+/// Cosine of the angle between that way and the contour at its ends, at least.
+const AHEAD: f64 = -0.2;
+/// Angles from node to node by which an end may go on (radians), and how many.
+const END_TURNS: [f64; 6] = [-0.2, -0.05, 0.0, 0.05, 0.2, 0.5];
+const END: usize = 6;
+
+/// Where new contour may be.
+pub(super) struct Space<'a> {
+    pub length: f64,
+    pub swept: &'a Swept,
+}
+
+impl Space<'_> {
+    /// New contours at places along a rod, on either side of it, and at its tip.
+    pub fn on_rod<M: RodModel>(&self, rod: &Elastica<M>) -> Vec<Vec<Node>> {
+        let mut found = Vec::new();
+        for i in 1..PLACES {
+            let at = rod.at(self.length * i as f64 / PLACES as f64);
+            for (bend, alpha) in BENDS.into_iter().flat_map(|bend| [(bend, at.phi), (bend, at.phi + PI)]) {
+                found.push(self.through(Vector2::new(at.x, at.y), alpha, bend));
+            }
+        }
+        let tip = rod.at(self.length);
+        for (bend, turn) in TIP_BENDS.into_iter().flat_map(|bend| TIP_TURNS.map(|turn| (bend, turn))) {
+            found.push(self.through(Vector2::new(tip.x, tip.y), tip.phi - turn, bend));
+        }
+        found
+    }
+
+    /// Contour of about this curvature (1/L) through a place (m), with the solid on its left.
+    pub fn through(&self, place: Vector2<f64>, alpha: f64, bend: f64) -> Vec<Node> {
+        let at = place + Vector2::new(-alpha.sin(), alpha.cos()) * (BEHIND * self.length);
+        let is_vertex = bend.is_infinite();
+        let node = |at: Vector2<f64>| Node::smooth(at, NEW * self.length);
+        let arm = |sense: f64| {
+            let long = SPACING.min(TURN / bend.abs().max(1.0)).max(if is_vertex { SPACING } else { 0.0 });
+            let shortened = |share: f64| {
+                let (mut at, step) = (at, long * share);
+                let next = |k: usize| {
+                    let turn = if is_vertex { VERTEX_TURN } else { bend * step * (k as f64 + 0.5) };
+                    let (sin, cos) = (alpha + sense * turn).sin_cos();
+                    at += Vector2::new(cos, sin) * (sense * step * self.length);
+                    at
+                };
+                (0..ARM).map(next).collect::<Vec<_>>()
+            };
+            let free = SHORTER.into_iter().map(shortened).find(|arm| self.is_free(at, arm, sense));
+            free.unwrap_or_else(|| shortened(SHORTER[SHORTER.len() - 1])).into_iter().map(node)
+        };
+        let middle = Node { is_vertex, ..node(at) };
+        arm(-1.0).rev().chain([middle]).chain(arm(1.0)).collect()
+    }
+
+    fn is_free(&self, from: Vector2<f64>, arm: &[Vector2<f64>], sense: f64) -> bool {
+        let mut steps = std::iter::once(&from).chain(arm).zip(arm).map(|(a, b)| (a / self.length, b / self.length));
+        steps.all(|(a, b)| !if sense > 0.0 { self.swept.forbids(a, b) } else { self.swept.forbids(b, a) })
+    }
+
+    /// Contours of which two parts are one, the closest first, and of which an end goes on otherwise. What is `touched` stays.
+    pub fn changed(&self, chains: &[Vec<Node>], touched: &[Vec<bool>]) -> impl Iterator<Item = Vec<Vec<Node>>> {
+        self.joined(chains, touched).into_iter().chain(self.with_other_ends(chains, touched))
+    }
+
+    /// Contours of which two parts are one, the closest first.
+    pub fn joined(&self, chains: &[Vec<Node>], touched: &[Vec<bool>]) -> Vec<Vec<Vec<Node>>> {
+        let mut found: Vec<(f64, Vec<Vec<Node>>)> = Vec::new();
+        for (i, (_, last)) in cores(touched) {
+            for (j, (next, _)) in cores(touched).filter(|(j, _)| *j != i) {
+                let (one, other) = (&chains[i][..=last], &chains[j][next..]);
+                let Some(between) = self.between(one, other) else { continue };
+                let whole = [one, &between, other].concat();
+                let rest = (0..chains.len()).filter(|k| *k != i && *k != j).map(|k| chains[k].clone());
+                found.push(((other[0].at - one[last].at).norm(), std::iter::once(whole).chain(rest).collect()));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.into_iter().map(|(_, chains)| chains).collect()
+    }
+
+    fn with_other_ends(&self, chains: &[Vec<Node>], touched: &[Vec<bool>]) -> Vec<Vec<Vec<Node>>> {
+        let mut found = Vec::new();
+        for (i, (first, last)) in cores(touched) {
+            let chain = &chains[i];
+            for turn in END_TURNS {
+                let after = self.end(chain[last].at, chain[last - 1].at, turn);
+                let mut before = self.end(chain[first].at, chain[first + 1].at, -turn);
+                before.reverse();
+                for changed in [[&chain[..=last], &after].concat(), [&before, &chain[first..]].concat()] {
+                    let mut chains = chains.to_vec();
+                    chains[i] = changed;
+                    found.push(chains);
+                }
+            }
+        }
+        found
+    }
+
+    /// Nodes with which a contour goes on from a place, coming from another one.
+    fn end(&self, mut at: Vector2<f64>, from: Vector2<f64>, turn: f64) -> Vec<Node> {
+        let mut step = (at - from).normalize() * (SPACING * self.length);
+        let next = |_| {
+            step = Rotation2::new(turn) * step;
+            at += step;
+            Node::smooth(at, NEW * self.length)
+        };
+        (0..END).map(next).collect()
+    }
+
+    /// Nodes on a cubic from the end of one chain to the start of another; none where the way is long or turns back.
+    fn between(&self, one: &[Node], other: &[Node]) -> Option<Vec<Node>> {
+        let (from, to) = (one.last()?.at, other.first()?.at);
+        let [along, on] = [from - one[one.len() - 2].at, other[1].at - to].map(|along| along.normalize());
+        let way = (to - from).norm();
+        let is_ahead = |along: &Vector2<f64>| (to - from).dot(along) >= AHEAD * way;
+        if !(way > BEHIND * self.length && way <= LONGEST * self.length && is_ahead(&along) && is_ahead(&on)) {
+            return None;
+        }
+        let count = ((way / (SPACING * self.length)).ceil() as usize).min(MOST_BETWEEN);
+        let node = |k: usize| {
+            let t = k as f64 / count as f64;
+            let (u, v) = (t * t, t * t * t);
+            let at = from * (2.0 * v - 3.0 * u + 1.0) + to * (3.0 * u - 2.0 * v);
+            Node::smooth(at + (along * (v - 2.0 * u + t) + on * (v - u)) * way, NEW * self.length)
+        };
+        Some((1..count).map(node).collect())
+    }
+}
+
+/// The chains that are touched at two nodes or more, with the first and the last of these.
+fn cores(touched: &[Vec<bool>]) -> impl Iterator<Item = (usize, (usize, usize))> {
+    let ends = |of: &Vec<bool>| of.iter().position(|is| *is).zip(of.iter().rposition(|is| *is));
+    let all = touched.iter().map(ends).enumerate();
+    all.filter_map(|(k, ends)| Some((k, ends?))).filter(|(_, (first, last))| first < last)
+}

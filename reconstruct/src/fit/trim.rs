@@ -1,0 +1,78 @@
+//! A contour without what no state touches: there nothing is known of it.
+
+use super::curve::{Curve, Node};
+use super::order::Touched;
+use super::outline::{BEYOND, TO_OTHERS, beyond};
+use super::swept::Swept;
+use nalgebra::Vector2;
+use rod_contact::State;
+
+/// Longest way between two places that are touched along which a contour goes on, rod lengths.
+const GAP: f64 = 0.05;
+/// Distance from a vertex, rod lengths, within which a contact is one at the vertex.
+const AT_VERTEX: f64 = 0.02;
+
+/// Which nodes of each chain the contacts of states lie between, or at.
+pub(super) fn touched(chains: &[Vec<Node>], states: &[Option<State>], length: f64) -> Vec<Vec<bool>> {
+    let mut flat = vec![false; chains.iter().map(Vec::len).sum()];
+    let Some(curve) = Curve::through(chains) else {
+        return chains.iter().map(|chain| vec![false; chain.len()]).collect();
+    };
+    for contact in states.iter().flatten().flat_map(|state| &state.contacts) {
+        let nodes = curve.place(contact, AT_VERTEX * length).and_then(|contact| curve.nodes_at(&contact));
+        if let Some(nodes) = nodes {
+            flat[nodes].fill(true);
+        }
+    }
+    let mut rest = flat.as_slice();
+    let of = |chain: &Vec<Node>| {
+        let (own, others) = rest.split_at(chain.len());
+        rest = others;
+        own.to_vec()
+    };
+    chains.iter().map(of).collect()
+}
+
+/// The parts of chains that are touched, each with ends that leave free where the rod was. None where nothing is touched.
+pub(super) fn trimmed(
+    chains: &[Vec<Node>],
+    touched: &[Vec<bool>],
+    swept: &Swept,
+    length: f64,
+) -> Option<Vec<Vec<Node>>> {
+    let parts: Vec<Vec<Node>> =
+        chains.iter().zip(touched).flat_map(|(chain, touched)| parts(chain, touched, GAP * length)).collect();
+    let apart = |k: usize, at: Vector2<f64>| {
+        let others = parts.iter().enumerate().filter(|other| other.0 != k).flat_map(|other| other.1);
+        others.map(|node| (node.at - at).norm()).fold(f64::INFINITY, f64::min)
+    };
+    let with_ends = |(k, part): (usize, &Vec<Node>)| {
+        let last = part.len() - 1;
+        let end = |at: Vector2<f64>, along: Vector2<f64>, sense: f64| {
+            let from = Touched { at: at / length, along: along.normalize(), sigma: 0.0, weight: 1.0, trace: 0 };
+            let way = BEYOND.min(TO_OTHERS * apart(k, at) / length);
+            beyond(&from, sense * way, swept).into_iter().map(|node| node.scaled(length))
+        };
+        let before = end(part[0].at, part[1].at - part[0].at, -1.0).rev();
+        let after = end(part[last].at, part[last].at - part[last - 1].at, 1.0);
+        before.chain(part.iter().copied()).chain(after).collect()
+    };
+    (!parts.is_empty()).then(|| parts.iter().enumerate().map(with_ends).collect())
+}
+
+/// Runs of touched nodes, and of others between them where the way is short.
+fn parts(chain: &[Node], touched: &[bool], gap: f64) -> Vec<Vec<Node>> {
+    let mut parts: Vec<Vec<Node>> = Vec::new();
+    let mut last: Option<usize> = None;
+    for k in (0..chain.len()).filter(|k| touched[*k]) {
+        match (last, parts.last_mut()) {
+            (Some(last), Some(part)) if k == last + 1 || (chain[k].at - chain[last].at).norm() <= gap => {
+                part.extend_from_slice(&chain[last + 1..=k]);
+            }
+            _ => parts.push(vec![chain[k]]),
+        }
+        last = Some(k);
+    }
+    parts.retain(|part| part.len() > 1);
+    parts
+}
