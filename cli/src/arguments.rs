@@ -29,7 +29,8 @@ Turn a recording of clamp reactions back into contact points, phases and the con
 
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
-labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout.
+labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout. With --fit, fitted.csv is the contour that
+explains the whole recording.
 
 Several recordings are of one object, with one rod in one frame. Each is reconstructed on its own, into a folder of its name, and
 contour.csv, contour.svg and merged.json beside the folders are of all of them together.";

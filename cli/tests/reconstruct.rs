@@ -464,6 +464,16 @@ fn one_contour_explains_a_recording_or_the_place_is_named_where_none_does() {
     assert_eq!((labels.first(), labels.last()), (Some(&"free"), Some(&"free")), "{labels:?}");
     let printed = String::from_utf8(output.stdout).unwrap();
     assert!(printed.contains("fit: one contour explains the recording, chi squared"), "{printed}");
+    let table = fs::read_to_string(directory.path().join("out/r/fitted.csv")).unwrap();
+    let points: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let off = |row: &&Vec<&str>| {
+        let [x, y, sigma] = [1, 2, 3].map(|column| row[column].parse::<f64>().unwrap());
+        // of the parabola that is lower there
+        let (x, slope) = if x < 0.015 { (x, 100.0 * x) } else { (x - 0.03, 100.0 * (x - 0.03)) };
+        (y - 50.0 * x * x).abs() / slope.hypot(1.0) / sigma
+    };
+    let touched: Vec<f64> = points.iter().filter(|row| row[5] == "true").map(|row| off(&row)).collect();
+    assert!(touched.len() > 5 && touched.len() < points.len() && touched.iter().all(|off| *off < 5.0), "{touched:?}");
 
     // somebody leans on the rod for a while
     edit(directory.path(), |k, mut row| {

@@ -1,5 +1,6 @@
 //! The files of a reconstruction.
 
+use super::fit::FITTED_COLUMNS;
 use super::points::PointRecord;
 use super::report::ReportRecord;
 use super::result::Reconstructed;
@@ -12,13 +13,16 @@ use std::path::Path;
 pub const COLUMNS: [&str; 7] = ["stretch", "kind", "x", "y", "alpha", "sigma", "sigma_systematic"];
 
 impl Reconstructed {
-    /// Writes points.jsonl, contour.csv and report.json into `folder` of the staged directory.
+    /// Writes points.jsonl, contour.csv and report.json, and fitted.csv where there is a fit, into `folder` of the staged directory.
     ///
     /// # Errors
     /// [`OutputError`].
     pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), OutputError> {
         staged.write(&folder.join("points.jsonl"), |file| self.write_points(file))?;
         staged.write(&folder.join("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
+        if let Some(points) = self.fitted_contour() {
+            staged.write(&folder.join("fitted.csv"), |file| write_csv(file, &FITTED_COLUMNS, points))?;
+        }
         staged.write(&folder.join("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;
         Ok(())
     }

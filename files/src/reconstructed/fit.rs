@@ -12,7 +12,9 @@ impl Reconstructed {
     pub(super) fn tell_fit(&self, text: &mut String) -> std::fmt::Result {
         let Some(Ok(fit)) = &self.fit else { return Ok(()) };
         let goodness = &fit.goodness;
-        let labels: Vec<String> = fit.runs().iter().filter_map(|run| run.1).map(|label| label.to_string()).collect();
+        let label =
+            |run: &(Range<usize>, Option<Label>)| run.1.map_or_else(|| "?".to_owned(), |label| label.to_string());
+        let labels: Vec<String> = fit.runs().iter().map(label).collect();
         writeln!(
             text,
             "fit: {} the recording, chi squared {:.0} of {:.0} degrees of freedom; phases: {}",
@@ -26,6 +28,22 @@ impl Reconstructed {
     /// Whether one contour explains the recording; false where that was not looked at.
     pub fn is_explained(&self) -> bool {
         self.fit.as_ref().is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.explains))
+    }
+
+    /// The rows of fitted.csv; none where there is no fit.
+    pub(super) fn fitted_contour(&self) -> Option<impl Iterator<Item = FittedPoint>> {
+        let fit = self.fit.as_ref()?.as_ref().ok()?;
+        Some(fit.objects.iter().enumerate().flat_map(|(object, fitted)| {
+            let point = move |k: usize| FittedPoint {
+                object: object + 1,
+                x: fitted.points[k][0],
+                y: fitted.points[k][1],
+                sigma: fitted.sigmas[k],
+                vertex: fitted.vertices.contains(&k),
+                touched: fitted.touched[k],
+            };
+            (0..fitted.points.len()).map(point)
+        }))
     }
 
     /// First and last row of some samples.
@@ -58,6 +76,20 @@ impl Reconstructed {
                    labels in phases.svg with `fit.runs` in report.json",
         )
     }
+}
+
+/// Columns of fitted.csv.
+pub(super) const FITTED_COLUMNS: [&str; 6] = ["object", "x", "y", "sigma", "vertex", "touched"];
+
+/// A point of the contour of a fit.
+#[derive(Serialize)]
+pub(super) struct FittedPoint {
+    object: usize,
+    x: f64,
+    y: f64,
+    sigma: f64,
+    vertex: bool,
+    touched: bool,
 }
 
 /// The fit of one contour to the whole recording.

@@ -140,6 +140,11 @@ impl Curve {
         self.chains.iter().map(|chain| chain.clone().map(|k| (k, Node { at: self.points[k], ..self.nodes[k] })))
     }
 
+    /// The nodes of each object where they are.
+    pub fn nodes_of_chains(&self) -> Vec<Vec<Node>> {
+        self.chains().map(|chain| chain.map(|(_, node)| node).collect()).collect()
+    }
+
     /// How far each unknown may be off 0, as a standard deviation.
     pub fn sigmas(&self) -> impl Iterator<Item = f64> {
         self.nodes.iter().zip(&self.ways).flat_map(|(node, (own, _))| own.iter().map(|_| node.sigma))

@@ -99,8 +99,7 @@ pub(super) fn grown<R: PhysicalRod>(
     curve: &Curve,
     explained: &Explained,
 ) -> (Option<Grown>, usize) {
-    let chains = curve.chains().map(|chain| chain.map(|(_, node)| node).collect()).collect();
-    let mut now = Grown { chains, states: fit.states.clone() };
+    let mut now = Grown { chains: curve.nodes_of_chains(), states: fit.states.clone() };
     let mut growth = Growth {
         fit,
         sources: Sources { known: errors, ..Sources::default() },

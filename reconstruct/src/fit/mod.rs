@@ -78,6 +78,8 @@ pub struct FittedObject {
     pub sigmas: Vec<f64>,
     /// Numbers of the points at which smooth pieces meet at an angle.
     pub vertices: Vec<usize>,
+    /// Whether the rod touches the contour at a point, or between it and the next. Of the others nothing is known but that the rod passed them.
+    pub touched: Vec<bool>,
 }
 
 impl FittedObject {

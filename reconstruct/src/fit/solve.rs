@@ -13,6 +13,7 @@ use super::{ContourFit, FittedBlock, FittedObject};
 use crate::least_squares::{Damped, Iterate, iterate};
 use crate::systematic::Source;
 use nalgebra::{DMatrix, DVector};
+use rod_contact::State;
 use rod_core::{PhysicalRod, Rod};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -102,8 +103,7 @@ impl<R: PhysicalRod> Search<'_, R> {
             }
             Change::Finer => fit.curve = finer(best, fit)?,
             Change::Joined => {
-                let chains: Vec<Vec<Node>> =
-                    best.curve.chains().map(|chain| chain.map(|(_, node)| node).collect()).collect();
+                let chains = best.curve.nodes_of_chains();
                 let swept = Swept::of_states(self.rod, fit.states.iter().flatten());
                 let space = Space { length, swept: &swept };
                 let joined = space.joined(&chains, &touched(&chains, &fit.states, length));
@@ -176,6 +176,7 @@ pub(super) struct Solved {
     pub cost: f64,
     covariance: DMatrix<f64>,
     explained: Explained,
+    states: Vec<Option<State>>,
     pub goodness: Goodness,
 }
 
@@ -207,8 +208,8 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<
     let off = |(i, k): (usize, &usize)| (Source::ALL[*k], x[count + i]);
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let goodness = Goodness::of(&explained, &samples, determined, farthest);
-    fit.states = states;
-    Some(Solved { x, curve, cost: equations.cost, covariance, explained, goodness })
+    fit.states.clone_from(&states);
+    Some(Solved { x, curve, cost: equations.cost, covariance, explained, states, goodness })
 }
 
 impl Solved {
@@ -227,7 +228,7 @@ impl Solved {
     }
 
     pub fn result(self, blocks: &Blocks, sources: &Sources, rod: &Rod) -> ContourFit {
-        let Self { x, curve, covariance, explained, goodness, .. } = self;
+        let Self { x, curve, covariance, explained, goodness, states, .. } = self;
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
@@ -242,13 +243,16 @@ impl Solved {
             label: explained.labels[k],
             residuals: explained.residuals[k].map(Into::into),
         };
-        let object = |nodes: Vec<(usize, Node)>| FittedObject {
+        let chains: Vec<Vec<Node>> = curve.nodes_of_chains();
+        let touched = touched(&chains, &states, rod.length());
+        let object = |(nodes, touched): (Vec<(usize, Node)>, Vec<bool>)| FittedObject {
             points: nodes.iter().map(|(_, node)| [node.at.x * length, node.at.y * length]).collect(),
             sigmas: nodes.iter().map(|(k, _)| curve.variance(*k, &covariance).max(0.0).sqrt() * length).collect(),
             vertices: (0..nodes.len()).filter(|i| nodes[*i].1.is_vertex).collect(),
+            touched,
         };
         ContourFit {
-            objects: curve.chains().map(|chain| object(chain.collect())).collect(),
+            objects: curve.chains().map(Iterator::collect).zip(touched).map(object).collect(),
             errors,
             goodness,
             blocks: blocks.blocks.iter().enumerate().map(block).collect(),
