@@ -41,6 +41,8 @@ const STEPS: usize = 20;
 const STEPS_ON: usize = 15;
 /// Relative decrease of the cost at which these fits have settled.
 const SETTLED: f64 = 1e-3;
+/// Least share of an evaluation of the whole recording that a window takes: the contour is made anew, and its equilibrium looked for.
+const LEAST: f64 = 0.05;
 /// Initial standard deviation of the change of curvature, L^-1.5, at least.
 const BEND: f64 = 30.0;
 /// Distance (rod lengths) and angle (radians) up to which a contact may be one of the contour that is there.
@@ -48,7 +50,7 @@ const CLOSE: f64 = 0.015;
 const CLOSE_TURN: f64 = 0.5;
 /// Places along a segment of which nothing is explained where its contacts are looked for, as shares of it; arc lengths that are tried there.
 const PLACES: [f64; 3] = [0.5, 0.2, 0.8];
-const ARC_LENGTHS: usize = 96;
+const ARC_LENGTHS: usize = 48;
 /// Cost up to which a contour may lose by being trimmed: what noise does to some blocks.
 const TRIMMED: f64 = 20.0;
 /// Nodes by which an end that is touched goes on, each turned by so much (radians) towards the solid.
@@ -204,7 +206,7 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         let model = fit.model(&x)?;
         let explained = fit.explained(&model);
         let share = window.range.len() as f64 / self.fit.blocks.blocks.len() as f64;
-        self.evaluations.set(self.evaluations.get() + share * (fit.evaluations + 1) as f64);
+        self.evaluations.set(self.evaluations.get() + share.max(LEAST) * (fit.evaluations + 1) as f64);
         let counted = explained.residuals.iter().zip(&window.blocks.blocks).filter(|(_, block)| !block.is_by_jump);
         let squares: Vec<Option<f64>> = counted.map(|(residual, _)| residual.map(|r| r.norm_squared())).collect();
         let loss = Loss::Cauchy(OUTLYING);

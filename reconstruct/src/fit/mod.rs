@@ -40,6 +40,9 @@ use std::ops::Range;
 /// those with many contacts are given up.
 const MOST_EVALUATIONS: usize = 1000;
 
+/// The part of the evaluations that are left which is kept for the starts after this one: half of them.
+const KEPT: usize = 2;
+
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -147,18 +150,29 @@ pub fn fit_contour<R: PhysicalRod>(
     let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
     let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: MOST_EVALUATIONS };
-    let (mut best, mut is_started): (Option<(Solved, Start)>, _) = (None, false);
-    for start in starts(rod, &uniform, local, blocks, sources.errors(&errors)) {
-        is_started = true;
-        let found = search.fitted(&start);
-        let is_better = |found: &Solved| best.as_ref().is_none_or(|best| found.is_better_than(&best.0));
-        if let Some(found) = found.filter(is_better) {
-            best = Some((found, start));
-        }
-        if search.evaluations == 0 || best.as_ref().is_some_and(|best| best.0.goodness.explains) {
+    let starts: Vec<Start> = starts(rod, &uniform, local, blocks, sources.errors(&errors)).collect();
+    let mut begun = Vec::new();
+    for start in &starts {
+        begun.extend(search.begun(start));
+        if begun.last().is_some_and(|begun| begun.solved.goodness.explains) {
             break;
         }
     }
-    let (solved, start) = best.ok_or(if is_started { FitError::NoStart } else { FitError::NoContacts })?;
-    Ok(solved.result(&start.blocks, &sources, &uniform))
+    begun.sort_by(|a, b| a.solved.preferred(&b.solved));
+    let mut best: Option<(Solved, &Blocks)> = None;
+    for begun in begun {
+        // what one start takes is not left for the others
+        let kept = search.evaluations / KEPT;
+        search.evaluations -= kept;
+        let (blocks, found) = (begun.fit.blocks, search.improved(begun));
+        search.evaluations += kept;
+        if best.as_ref().is_none_or(|best| found.preferred(&best.0).is_lt()) {
+            best = Some((found, blocks));
+        }
+        if best.as_ref().is_some_and(|best| best.0.goodness.explains) {
+            break;
+        }
+    }
+    let (solved, blocks) = best.ok_or(if starts.is_empty() { FitError::NoContacts } else { FitError::NoStart })?;
+    Ok(solved.result(blocks, &sources, &uniform))
 }

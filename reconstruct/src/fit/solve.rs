@@ -15,6 +15,7 @@ use crate::systematic::Source;
 use nalgebra::{DMatrix, DVector};
 use rod_contact::State;
 use rod_core::{PhysicalRod, Rod};
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -50,18 +51,19 @@ pub(super) struct Search<'a, R> {
     pub evaluations: usize,
 }
 
-impl<R: PhysicalRod> Search<'_, R> {
-    /// The fit from a start on, at finer and finer contours until one explains the recording.
-    pub fn fitted(&mut self, start: &Start) -> Option<Solved> {
-        let (rod, sources, blocks) = (self.rod, self.sources, &start.blocks);
-        let units = rod.units();
-        let mut chains = start.chains.clone();
-        for node in chains.iter_mut().flatten() {
-            (node.at, node.sigma) = (node.at * units.length, node.sigma * units.length);
-        }
-        let curve = Curve::through(&chains)?;
-        let mut fit = Fit::new(rod, curve, blocks, sources, BEND * units.length.powf(-1.5));
-        let mut best = self.solved(&mut fit, self.errors)?;
+impl<'a, R: PhysicalRod> Search<'a, R> {
+    /// The fit at the contour of a start.
+    pub fn begun(&mut self, start: &'a Start) -> Option<Begun<'a, R>> {
+        let length = self.rod.units().length;
+        let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(length)).collect();
+        let curve = Curve::through(&start.chains.iter().map(scaled).collect::<Vec<_>>())?;
+        let mut fit = Fit::new(self.rod, curve, &start.blocks, self.sources, BEND * length.powf(-1.5));
+        let solved = self.solved(&mut fit, self.errors)?;
+        Some(Begun { fit, solved })
+    }
+
+    /// The fit at contours that are changed as long as that makes it better.
+    pub fn improved(&mut self, Begun { mut fit, solved: mut best }: Begun<'_, R>) -> Solved {
         for _ in 0..LEVELS {
             let changes = Change::ALL.into_iter().filter(|change| change.is_for(&best));
             let mut better = None;
@@ -81,7 +83,7 @@ impl<R: PhysicalRod> Search<'_, R> {
             let Some(solved) = better else { break };
             best = solved;
         }
-        Some(best)
+        best
     }
 
     fn solved(&mut self, fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<Solved> {
@@ -112,6 +114,12 @@ impl<R: PhysicalRod> Search<'_, R> {
         }
         Some(())
     }
+}
+
+/// A fit that has begun, and what it came to.
+pub(super) struct Begun<'a, R> {
+    pub fit: Fit<'a, R>,
+    pub solved: Solved,
 }
 
 /// What may be changed of a contour.
@@ -213,8 +221,11 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<
 }
 
 impl Solved {
-    pub fn is_better_than(&self, other: &Self) -> bool {
-        self.goodness.explains || !other.goodness.explains && self.cost < other.cost
+    /// The order in which fits from different starts are preferred: those that explain, then by their cost.
+    pub fn preferred(&self, other: &Self) -> Ordering {
+        let key = |solved: &Self| (!solved.goodness.explains, solved.cost);
+        let ((a, cost), (b, of_other)) = (key(self), key(other));
+        a.cmp(&b).then(cost.total_cmp(&of_other))
     }
 
     /// Whether this is to be preferred to what it was changed from.

@@ -10,6 +10,7 @@ mod smooth;
 
 use std::f64::consts::PI;
 use std::ops::Range as Span;
+use std::sync::OnceLock;
 
 pub use end::SplineEnd;
 
@@ -18,7 +19,7 @@ use crate::point::{SMOOTH, cross, dot, nearest_turn};
 use crate::proof::limits;
 use crate::shapes::cubic::nearest;
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Point, Range, Vector, check};
-use arc_length::{length_to, lengths};
+use arc_length::{length_to, lengths, rough_length};
 use chords::Chords;
 use keys::Keys;
 
@@ -57,8 +58,8 @@ pub struct Spline {
     keys: Keys,
     /// Tangent angle at the start of each cubic, without jumps along the spline.
     angles: Vec<f64>,
-    /// Arc length up to each point.
-    lengths: Vec<f64>,
+    /// Arc length up to each point, not before it is asked for: near a cusp it takes thousands of evaluations.
+    lengths: OnceLock<Vec<f64>>,
     chords: Chords,
     bounds: Bounds,
 }
@@ -91,7 +92,8 @@ impl Spline {
 
     /// The length of the whole spline, exact to 1e-13 relative.
     pub fn length(&self) -> f64 {
-        self.lengths[self.lengths.len() - 1]
+        let lengths = self.lengths();
+        lengths[lengths.len() - 1]
     }
 
     /// The length of the spline from its start to the parameter `t`, exact to 1e-13 relative to the whole; beyond the ends
@@ -108,10 +110,10 @@ impl Spline {
     pub fn arc_length(&self, t: f64) -> f64 {
         let index = self.keys.cubic_at(t);
         if t == self.keys.knot(index + 1) {
-            return self.lengths[index + 1];
+            return self.lengths()[index + 1];
         }
         let cubic = self.keys.cubic(index);
-        self.lengths[index] + length_to(&cubic, cubic.fraction(t))
+        self.lengths()[index] + length_to(&cubic, cubic.fraction(t))
     }
 
     /// The spline of keys that may come from anywhere.
@@ -119,12 +121,15 @@ impl Spline {
         keys.check()?;
         let count = keys.len() - 1;
         let angles = angles(&keys)?;
-        let lengths = lengths((0..count).map(|index| keys.cubic(index)));
-        check::finite([("the length of the spline", lengths[count])])?;
+        check::finite([("the length of the spline", rough_length((0..count).map(|index| keys.cubic(index))))])?;
         let chords = Chords::new(count, |index| keys.cubic(index));
         let boxes = (0..count).map(|index| keys.cubic(index).bounds(0.0, 1.0));
         let bounds = boxes.fold(Bounds::EMPTY, |bounds, one| bounds.union(one));
-        Ok(Self { keys, angles, lengths, chords, bounds })
+        Ok(Self { keys, angles, lengths: OnceLock::new(), chords, bounds })
+    }
+
+    fn lengths(&self) -> &[f64] {
+        self.lengths.get_or_init(|| lengths((0..self.keys.len() - 1).map(|index| self.keys.cubic(index))))
     }
 
     /// The cubics that share more than an end with the range, at least one.
