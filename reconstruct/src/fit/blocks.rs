@@ -96,6 +96,14 @@ impl Blocks {
     }
 }
 
+impl Blocks {
+    /// The segment of a block.
+    pub fn segment_of(&self, block: usize) -> Range<usize> {
+        let segment = self.segments.iter().find(|segment| segment.contains(&block));
+        segment.cloned().unwrap_or(block..block + 1)
+    }
+}
+
 impl Cut<'_> {
     /// Adds the blocks and segments of the pass with these samples. The clamp has gone `before` until then.
     fn pass(

@@ -12,6 +12,9 @@ use std::ops::Range;
 /// Share of the largest rate of a change of curvature below which a rate is left out: they fall to a fourth from knot to knot.
 const FAR: f64 = 1e-6;
 
+/// What an angle of one radian between a contact and the contour adds to their distance, as a share of it: two sides of a thin object are near.
+const OTHER_SIDE: f64 = 3.0;
+
 /// A point of a contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {
@@ -168,7 +171,7 @@ impl Curve {
         let places = self.pieces.iter().map(|piece| (piece, piece.closest(contact.x, contact.y)));
         let distance = |closest: &rod_contours::Closest| {
             let Frame { x, y, alpha, .. } = closest.frame;
-            (x - contact.x).hypot(y - contact.y) * (1.0 + 3.0 * wrap_angle(alpha - contact.alpha).abs())
+            (x - contact.x).hypot(y - contact.y) * (1.0 + OTHER_SIDE * wrap_angle(alpha - contact.alpha).abs())
         };
         places.min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1))).map(|(piece, closest)| (piece, closest.t))
     }

@@ -14,8 +14,8 @@ const SPREAD: usize = 16;
 const PARTS: usize = 3;
 /// Most steps from block to block: as many as a dozen transitions take. Larger: more time at contours along which the rod cannot be followed.
 const MOST_STEPS: u64 = 60;
-/// Distance from a vertex, rod lengths, within which the guess of a contact may be one at the vertex: points are known to so much at the start.
-const NEAR_VERTEX: f64 = 0.02;
+/// Distance from a vertex, rod lengths, within which a contact may be one at the vertex: points are known to so much at the start.
+pub(super) const NEAR_VERTEX: f64 = 0.02;
 
 /// A rod past a contour, both in units in which the given rod has its own length and stiffness.
 pub(super) struct Forward<'a, R> {

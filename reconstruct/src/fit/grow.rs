@@ -1,21 +1,20 @@
 //! Contour where the recording asks for some and there is none.
 //!
-//! Where a run of blocks that are explained ends, a new contact begins somewhere along the rod, or the contour goes on otherwise than was guessed. The
-//! shape of the rod is known there, so few numbers are not. Every such contour is tried on the next blocks, the best ones are fitted to these,
-//! and one that explains them is followed to the end of the run. What takes more from the rest of the recording than it gives is not
-//! taken.
+//! Where a run of explained blocks ends, either a new contact begins somewhere along the rod, or the contour goes on in another direction than was
+//! guessed. The shape of the rod is known there, so a new contact has few unknowns. Each such contour is tried on the next blocks. The best
+//! are fitted to these, and one that explains them is followed to the end of the run. It is kept only if the cost of the whole recording falls.
 
 use super::blocks::Blocks;
 use super::curve::{Curve, Node};
 use super::pair::with_tip;
-use super::problem::{Explained, Fit, LOST, OUTLYING, Sources};
-use super::propose::{NEW, Space, TIP_BENDS};
+use super::problem::{Explained, Fit, Sources, cost_of};
+use super::propose::{NEW, Space, TIP_BENDS, joined, onwards, with_other_ends};
 use super::swept::Swept;
 use super::trim::{touched, trimmed};
-use crate::least_squares::{Damped, Loss, iterate};
+use crate::least_squares::{Damped, iterate};
 use crate::numeric::wrap_angle;
 use crate::systematic::Errors;
-use nalgebra::{Rotation2, Vector2};
+use nalgebra::Vector2;
 use rod_contact::{Contact, ContactKind, State};
 use rod_core::{PhysicalRod, Reactions};
 use std::cell::Cell;
@@ -26,11 +25,13 @@ const RUNS: usize = 8;
 /// Blocks on which new contour is tried, and from one such window to the next: their ratio.
 const WINDOW: usize = 12;
 const WIDER: f64 = 1.7;
-/// Mean square of residuals up to which blocks are explained; a single one of more than the other is not.
+/// Mean square of residuals up to which blocks are explained, and up to which no other contour is tried.
 const GOOD: f64 = 3.0;
-/// The same from which on no other contour is tried.
 const WELL: f64 = 1.3;
+/// Sum of the squares of the residuals of a block that is explained, at most.
 const OUTLIER: f64 = 30.0;
+/// Sum of the squares of the residuals that a block counts with which is not reached.
+const MISSED: f64 = 368.0;
 /// Blocks to either side of one over which that mean is taken.
 const NEAR: usize = 2;
 /// Standard deviation of what is known of the contour while new contour is fitted to a window, rod lengths.
@@ -43,8 +44,6 @@ const STEPS_ON: usize = 15;
 const SETTLED: f64 = 1e-3;
 /// Least share of an evaluation of the whole recording that a window takes: the contour is made anew, and its equilibrium looked for.
 const LEAST: f64 = 0.05;
-/// Initial standard deviation of the change of curvature, L^-1.5, at least.
-const BEND: f64 = 30.0;
 /// Distance (rod lengths) and angle (radians) up to which a contact may be one of the contour that is there.
 const CLOSE: f64 = 0.015;
 const CLOSE_TURN: f64 = 0.5;
@@ -93,8 +92,8 @@ struct Growth<'a, 'b, R> {
     evaluations: Cell<f64>,
 }
 
-/// A contour with what explains more of a recording than `curve` does, of which the fit has the states; none if none is found. With the number
-/// of evaluations of the model that this took.
+/// A contour that explains more of a recording than `curve`, of which the fit has the states; none if none is found. And the number of evaluations
+/// of the model that this took.
 pub(super) fn grown<R: PhysicalRod>(
     fit: &Fit<'_, R>,
     errors: Errors,
@@ -135,8 +134,7 @@ pub(super) fn grown<R: PhysicalRod>(
 
 /// Whether a block is explained, together with those around it.
 fn is_good(k: usize, blocks: &Blocks, explained: &Explained) -> bool {
-    let segment = blocks.segments.iter().find(|segment| segment.contains(&k));
-    let Some(segment) = segment else { return false };
+    let segment = blocks.segment_of(k);
     let near = k.saturating_sub(NEAR).max(segment.start)..(k + NEAR + 1).min(segment.end);
     let squares: Vec<f64> = near.filter_map(|j| Some(explained.residuals[j]?.norm_squared())).collect();
     let is_own = blocks.blocks[k].is_by_jump || explained.residuals[k].is_some_and(|r| r.norm_squared() < OUTLIER);
@@ -197,9 +195,10 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         }
         let curve = Curve::through(&nodes)?;
         let mut x = curve.offsets.clone();
-        let bend = self.fit.bend.max(BEND * self.length.powf(-1.5));
-        let states = window.states.clone();
-        let mut fit = Fit { states, ..Fit::new(self.fit.rod, curve, &window.blocks, &self.sources, bend) };
+        let mut fit = Fit::new(self.fit.rod, curve, &window.blocks, &self.sources);
+        fit.states.clone_from(&window.states);
+        // new contour may bend more than what is known
+        fit.bend = fit.bend.max(self.fit.bend);
         if steps > 0 {
             x = iterate(&mut fit, x, Damped::until(SETTLED), steps).0.x;
         }
@@ -209,11 +208,14 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         self.evaluations.set(self.evaluations.get() + share.max(LEAST) * (fit.evaluations + 1) as f64);
         let counted = explained.residuals.iter().zip(&window.blocks.blocks).filter(|(_, block)| !block.is_by_jump);
         let squares: Vec<Option<f64>> = counted.map(|(residual, _)| residual.map(|r| r.norm_squared())).collect();
-        let loss = Loss::Cauchy(OUTLYING);
-        let cost = squares.iter().map(|square| square.map_or(LOST, |square| loss.excess(square.sqrt()))).sum();
-        let mean = squares.iter().map(|square| square.unwrap_or(LOST)).sum::<f64>() / (3 * squares.len().max(1)) as f64;
-        let given = |(moved, given): ((usize, Node), &Node)| Node { sigma: given.sigma, ..moved.1 };
-        let chains = model.curve.chains().zip(chains).map(|(moved, old)| moved.zip(old).map(given).collect()).collect();
+        let cost = squares.iter().map(|square| cost_of(square.map(f64::sqrt))).sum();
+        let mean =
+            squares.iter().map(|square| square.unwrap_or(MISSED)).sum::<f64>() / (3 * squares.len().max(1)) as f64;
+        let mut moved = model.curve.nodes_of_chains();
+        for (node, given) in moved.iter_mut().flatten().zip(chains.iter().flatten()) {
+            node.sigma = given.sigma;
+        }
+        let chains = moved;
         Some(Tried { cost, mean, chains, window: Window { states: model.states, ..window.clone() } })
     }
 
@@ -263,7 +265,8 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         let with = |chain: Vec<Node>| [now.chains.as_slice(), &[chain]].concat();
         let contours = std::iter::once(now.chains.clone())
             .chain(space.on_rod(&shape).into_iter().map(with))
-            .chain(space.changed(&now.chains, &touched));
+            .chain(joined(&now.chains, &touched, self.length))
+            .chain(with_other_ends(&now.chains, &touched, self.length));
         let tried = |chains: Vec<Vec<Node>>| Some((self.tried(&chains, &window, &held, 0)?.cost, chains, &window));
         self.best_of(contours.filter_map(tried).collect(), &held)
     }
@@ -355,18 +358,11 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
     /// The contour of a window, which goes on beyond ends that are touched.
     fn with_ends(&self, at: &Tried) -> Vec<Vec<Node>> {
         let touched = touched(&at.chains, &at.window.states, self.length);
-        let more = |from: Vector2<f64>, mut at: Vector2<f64>, turn: f64| {
-            let mut step = at - from;
-            let next = move |_| {
-                step = Rotation2::new(turn) * step;
-                at += step;
-                Node::smooth(at, NEW * self.length)
-            };
-            (0..END).map(next).collect::<Vec<_>>()
-        };
+        let more =
+            |from: Vector2<f64>, at: Vector2<f64>, turn: f64| onwards(at, at - from, turn, END, NEW * self.length);
         let with_ends = |(chain, touched): (&Vec<Node>, &Vec<bool>)| {
             let (mut all, last) = (Vec::new(), chain.len() - 1);
-            // the second node from an end: its interval is the last but one
+            // the second node from an end: its interval is one of the last two
             if touched[1.min(last)] {
                 all = more(chain[1].at, chain[0].at, -END_TURN);
                 all.reverse();

@@ -5,8 +5,10 @@
 //! (multiple shooting, Bock and Plitt 1984), so that a snap of the model at another pose than that of the recording spoils nothing beyond
 //! it. Inside a segment contacts form and let go as the model says: labels of the local answer are where the fit starts, no more.
 
+mod bent;
 mod blocks;
 mod curve;
+mod ends;
 mod forward;
 mod grow;
 mod order;
@@ -33,7 +35,7 @@ use problem::Sources;
 use rod_contours::{Composite, Contour, ContourError, Spline, SplineEnd};
 use rod_core::{PhysicalRod, Rod, Sample};
 use solve::{Search, Solved};
-use start::{Start, starts};
+use start::starts;
 use std::ops::Range;
 
 /// Most evaluations of the model at all poses of a recording, each of milliseconds. Larger: more time on recordings that nothing explains; smaller:
@@ -150,7 +152,7 @@ pub fn fit_contour<R: PhysicalRod>(
     let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
     let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: MOST_EVALUATIONS };
-    let starts: Vec<Start> = starts(rod, &uniform, local, blocks, sources.errors(&errors)).collect();
+    let starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
     let mut begun = Vec::new();
     for start in &starts {
         begun.extend(search.begun(start));

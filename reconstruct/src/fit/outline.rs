@@ -1,13 +1,13 @@
 //! From contact points in order to a contour that a fit can start from.
 
 use super::curve::{Curve, Node};
+use super::ends::{GUESSED, beyond, way_beyond, ways_beyond};
 use super::order::{
     LONGEST, NO_WAY, SHARPLY, SURE, Touched, cells, dearness, in_order, mean, merged, sure_enough, weight,
     without_doubles,
 };
 use super::swept::Swept;
 use crate::numeric::wrap_angle;
-use nalgebra::Vector2;
 
 /// Distance of the nodes of the start in standard deviations of the points, and the smallest and the largest one, rod lengths. Smaller: noise
 /// comes into the order; larger: the start is coarser than what is known.
@@ -25,21 +25,9 @@ const WIDE: f64 = 1.5;
 /// Radius (rod lengths) and angle (radians) of a bend that is a vertex: smaller, and larger.
 const SHARP: f64 = 4e-3;
 const VERTEX_TURN: f64 = 0.3;
-/// Standard deviation of a node about its start, rod lengths, where the rod touched about there, and where it is a guess between such places.
-/// Smaller: the start shows in the result; larger: places that no state touches yet are drawn away by the smoothness of their neighbours.
+/// Standard deviation of a node about its start, rod lengths, where the rod touched about there. Smaller: the start shows in the result; larger:
+/// places that no state touches yet are drawn away by the smoothness of their neighbours.
 const TOUCHED: f64 = 0.03;
-const BETWEEN: f64 = 0.3;
-/// A contour goes on beyond its first and last contact, by so much (rod lengths), but by no more than this share of the way to another chain.
-pub(super) const BEYOND: f64 = 0.12;
-pub(super) const TO_OTHERS: f64 = 0.4;
-/// It turns there towards its solid, out of the way of the rod: by so much in all (radians) where it goes on that far, and where another chain
-/// ends it before; in so many steps.
-const CURLS: (f64, f64) = (0.4, 0.8);
-const STEPS: usize = 4;
-/// By so much more (radians), and over such a share of that way, where the rod was in its way.
-const MORE_CURLED: [(f64, f64); 6] = [(0.0, 1.0), (0.4, 1.0), (0.8, 1.0), (1.2, 0.6), (1.6, 0.4), (1.6, 0.2)];
-/// Standard deviation of these nodes over the way, where another chain ends it.
-const OFF: f64 = 0.3;
 
 /// What an outline takes its points for. Different ones lead to different contours, and the recording tells which of them is right.
 #[derive(Clone, Copy, Debug)]
@@ -68,14 +56,8 @@ pub(super) fn outline(touched: &[Touched], reading: Interpretation, swept: &Swep
         chains.retain(|chain| weight(chain) > STRAY * all);
     }
     let chains: Vec<Vec<Touched>> = chains.into_iter().map(|chain| merged(chain, spacing)).collect();
-    // the way from a place to the nearest one of another chain
-    let apart = |k: usize, place: &Touched| {
-        let others = chains.iter().enumerate().filter(|other| other.0 != k).flat_map(|other| other.1);
-        others.map(|other| (other.at - place.at).norm()).fold(f64::INFINITY, f64::min)
-    };
-    let beyond = |k: usize, place: Option<&Touched>| BEYOND.min(TO_OTHERS * place.map_or(0.0, |place| apart(k, place)));
-    let ends = |(k, chain): (usize, &Vec<Touched>)| [beyond(k, chain.first()), beyond(k, chain.last())];
-    let ends: Vec<[f64; 2]> = chains.iter().enumerate().map(ends).collect();
+    let places: Vec<Vec<_>> = chains.iter().map(|chain| chain.iter().map(|place| place.at).collect()).collect();
+    let ends = ways_beyond(&places);
     chains.into_iter().zip(ends).flat_map(|(chain, ends)| simple(chain, ends, spacing, reading, swept)).collect()
 }
 
@@ -93,7 +75,7 @@ fn simple(
     }
     let dear = |k: &usize| dearness(&chain[*k - 1], &chain[*k]);
     let Some(cut) = (1..chain.len()).max_by(|a, b| dear(a).total_cmp(&dear(b))) else { return Vec::new() };
-    let at_cut = BEYOND.min(TO_OTHERS * (chain[cut].at - chain[cut - 1].at).norm());
+    let at_cut = way_beyond((chain[cut].at - chain[cut - 1].at).norm());
     let rest = chain.split_off(cut);
     [
         simple(chain, [ends[0], at_cut], spacing, reading, swept),
@@ -109,34 +91,11 @@ fn nodes(chain: &[Touched], ends: [f64; 2], spacing: f64, reading: Interpretatio
     if !reading.is_sure {
         smooth(&mut points);
     }
-    let mut nodes = beyond(first, -ends[0], swept);
+    let mut nodes = beyond(first.at, first.alpha(), -ends[0], swept);
     nodes.reverse();
     nodes.extend(filled(&points, spacing));
-    nodes.extend(beyond(last, ends[1], swept));
+    nodes.extend(beyond(last.at, last.alpha(), ends[1], swept));
     nodes
-}
-
-/// Nodes with which a contour goes on from a place, `way` rod lengths forwards, or backwards where that is negative: in as wide a bend as leaves
-/// free where the rod was.
-pub(super) fn beyond(from: &Touched, way: f64, swept: &Swept) -> Vec<Node> {
-    let is_cut = way.abs() < BEYOND;
-    let (curl, sigma) = if is_cut { (CURLS.1, OFF * way.abs()) } else { (CURLS.0, BETWEEN) };
-    let arc = |curl: f64, way: f64| {
-        let mut at = from.at;
-        let node = |k: usize| {
-            let alpha = from.alpha() + way.signum() * curl * (k as f64 + 0.5) / STEPS as f64;
-            at += Vector2::new(alpha.cos(), alpha.sin()) * (way / STEPS as f64);
-            at
-        };
-        (0..STEPS).map(node).collect::<Vec<_>>()
-    };
-    let is_free = |arc: &[Vector2<f64>]| {
-        let starts = std::iter::once(&from.at).chain(arc);
-        !starts.zip(arc).any(|(a, b)| if way > 0.0 { swept.forbids(*a, *b) } else { swept.forbids(*b, *a) })
-    };
-    let arcs = MORE_CURLED.map(|(more, less)| arc(curl + more, way * less));
-    let chosen = arcs.iter().find(|arc| is_free(arc)).unwrap_or(&arcs[arcs.len() - 1]);
-    chosen.iter().map(|at| Node::smooth(*at, sigma)).collect()
 }
 
 /// The places as nodes; those that turn within a small radius are one vertex.
@@ -186,7 +145,7 @@ fn filled(nodes: &[Node], spacing: f64) -> Vec<Node> {
         let parts = (step.norm() / (WIDE * spacing)).ceil().max(1.0);
         filled.push(pair[0]);
         filled.extend(
-            (1..parts as usize).map(|k| Node::smooth(pair[0].at + step * (k as f64 / parts), BETWEEN.min(step.norm()))),
+            (1..parts as usize).map(|k| Node::smooth(pair[0].at + step * (k as f64 / parts), GUESSED.min(step.norm()))),
         );
     }
     filled.extend(nodes.last());
@@ -195,7 +154,9 @@ fn filled(nodes: &[Node], spacing: f64) -> Vec<Node> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::ends::STEPS;
     use super::*;
+    use nalgebra::Vector2;
 
     #[test]
     fn both_sides_of_a_thin_plate_are_passed_in_order() {

@@ -1,8 +1,9 @@
 //! A contact of the side and one of the tip.
 
+use super::bent::{alpha_of, bent, push, whole};
 use nalgebra::Vector2;
 use rod_contact::{Contact, ContactKind};
-use rod_core::{Elastica, Load, PhysicalRod, Pose, Reactions};
+use rod_core::{PhysicalRod, Pose, Reactions};
 use std::f64::consts::PI;
 
 /// Most steps of the secant method, and the moment at the tip at which it has converged, EI/L.
@@ -15,18 +16,12 @@ const LARGEST: f64 = 1e3;
 /// The contacts at arc length `s` (m) and at the tip that give these reactions (N, N m): of the force at `s`, that for which the moment vanishes
 /// at the tip. None where there is none, or where the tip would be pulled.
 pub(super) fn with_tip<R: PhysicalRod>(rod: &R, pose: Pose, reactions: Reactions, s: f64) -> Option<[Contact; 2]> {
-    let (base, units) = (rod.base(pose, &reactions), rod.units());
-    let whole = Vector2::new(-reactions.f0x, -reactions.f0y);
-    let alpha_of = |force: Vector2<f64>| force.x.atan2(-force.y);
-    let bent = |forces: &[(f64, Vector2<f64>)]| {
-        let loads: Vec<Load> =
-            forces.iter().map(|(s, force)| Load { s: *s, force: force.norm(), alpha: alpha_of(*force) }).collect();
-        Elastica::of_rod(rod.model().clone(), units, base, reactions.m0z, &loads).ok()
-    };
+    let units = rod.units();
+    let whole = whole(&reactions);
     // up to there the shape depends on the reactions alone
-    let at = bent(&[(units.length, whole)])?.at(s);
-    let normal = Vector2::new(at.phi.sin(), -at.phi.cos());
-    let with = |force: f64| bent(&[(s, normal * force), (units.length, whole - normal * force)]);
+    let at = bent(rod, pose, &reactions, &[(units.length, whole)])?.at(s);
+    let normal = push(at.phi);
+    let with = |force: f64| bent(rod, pose, &reactions, &[(s, normal * force), (units.length, whole - normal * force)]);
     let (mut before, mut force) = (0.0, FIRST * whole.norm());
     let mut moment_before = with(before)?.moment(units.length);
     for _ in 0..STEPS {

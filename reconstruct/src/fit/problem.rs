@@ -16,16 +16,24 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
 /// off converges slowly.
-pub(super) const OUTLYING: f64 = 6.0;
+const LOSS: Loss = Loss::Cauchy(6.0);
 /// The same for changes of curvature. Larger: vertices are rounded; smaller: noise makes vertices.
 const VERTEX: f64 = 3.0;
 /// Cost of a block that no branch of the model reaches: that of a residual of 1000 standard deviations. Smaller: contours win that lose bad
 /// blocks.
-pub(super) const LOST: f64 = 368.0;
+const LOST: f64 = 368.0;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
 const FAR: f64 = 1e-5;
+
+/// Initial standard deviation of the change of curvature, L^-1.5.
+const BEND: f64 = 30.0;
+
+/// What a block costs that has this residual, or is not reached.
+pub(super) fn cost_of(residual: Option<f64>) -> f64 {
+    residual.map_or(LOST, |residual| LOSS.excess(residual))
+}
 
 /// What is known of the shared errors before: their sources and standard deviations.
 #[derive(Clone, Debug, Default)]
@@ -131,9 +139,10 @@ struct Row {
 }
 
 impl<'a, R: PhysicalRod> Fit<'a, R> {
-    /// Of a contour of which no states are known.
-    pub fn new(rod: &'a R, curve: Curve, blocks: &'a Blocks, sources: &'a Sources, bend: f64) -> Self {
+    /// Of a contour of which no states are known, at the initial smoothness.
+    pub fn new(rod: &'a R, curve: Curve, blocks: &'a Blocks, sources: &'a Sources) -> Self {
         let states = vec![None; blocks.blocks.len()];
+        let bend = BEND * rod.units().length.powf(-1.5);
         Self { rod, curve, blocks, sources, bend, states, least: f64::INFINITY, evaluations: 0 }
     }
 }
@@ -198,10 +207,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// Whether a block without a state is explained by a free rod: nothing in its segment tells of a contact.
     fn is_free(&self, block: usize, states: &[Option<State>]) -> bool {
-        let segment = self.blocks.segments.iter().find(|segment| segment.contains(&block));
-        segment.is_some_and(|segment| {
-            segment.clone().all(|k| states[k].is_none() && self.blocks.blocks[k].label == Label::Free)
-        })
+        let mut segment = self.blocks.segment_of(block);
+        segment.all(|k| states[k].is_none() && self.blocks.blocks[k].label == Label::Free)
     }
 
     /// The recording against the model.
@@ -338,17 +345,12 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
             return NormalMatrix { cost: f64::INFINITY, ..NormalMatrix::empty(x.len()) };
         };
         let mut normal = self.prior(x, &curve);
-        let loss = Loss::Cauchy(OUTLYING);
-        for (block, row) in self.blocks.blocks.iter().zip(&rows) {
-            match row {
-                _ if block.is_by_jump => {}
-                None => normal.cost += LOST,
-                Some(Row { residual, by }) => {
-                    let z = residual.norm();
-                    (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], loss.weight(1.0, z)));
-                    normal.cost += loss.excess(z);
-                }
+        for (_, row) in self.blocks.blocks.iter().zip(&rows).filter(|(block, _)| !block.is_by_jump) {
+            if let Some(Row { residual, by }) = row {
+                let weight = LOSS.weight(1.0, residual.norm());
+                (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], weight));
             }
+            normal.cost += cost_of(row.as_ref().map(|row| row.residual.norm()));
         }
         // a step that is rejected may have lost states
         if normal.cost <= self.least {

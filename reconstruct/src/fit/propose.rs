@@ -1,13 +1,15 @@
 //! Contours that might explain what the contour so far does not.
 
 use super::curve::Node;
+use super::ends::arc;
+use super::order::LONGEST;
 use super::swept::Swept;
 use nalgebra::{Rotation2, Vector2};
 use rod_core::{Elastica, RodModel};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Distance of the nodes of new contour, rod lengths, and how many there are to either side of a new contact.
-pub(super) const SPACING: f64 = 0.02;
+const SPACING: f64 = 0.02;
 const ARM: usize = 4;
 /// Standard deviation of such a node, rod lengths.
 pub(super) const NEW: f64 = 0.03;
@@ -25,8 +27,7 @@ const VERTEX_TURN: f64 = 0.8;
 const SHORTER: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
 /// How far behind the rod new contour begins, rod lengths: contacts of a state leave no gap.
 const BEHIND: f64 = 1e-5;
-/// Longest way over which two parts are joined, rod lengths; and the most nodes on it.
-const LONGEST: f64 = 0.36;
+/// Most nodes on the way over which two parts are joined.
 const MOST_BETWEEN: usize = 12;
 /// Cosine of the angle between that way and the contour at its ends, at least.
 const AHEAD: f64 = -0.2;
@@ -59,101 +60,83 @@ impl Space<'_> {
 
     /// Contour of about this curvature (1/L) through a place (m), with the solid on its left.
     pub fn through(&self, place: Vector2<f64>, alpha: f64, bend: f64) -> Vec<Node> {
-        let at = place + Vector2::new(-alpha.sin(), alpha.cos()) * (BEHIND * self.length);
+        let at = place / self.length + Vector2::new(-alpha.sin(), alpha.cos()) * BEHIND;
         let is_vertex = bend.is_infinite();
-        let node = |at: Vector2<f64>| Node::smooth(at, NEW * self.length);
+        let long = if is_vertex { SPACING } else { SPACING.min(TURN / bend.abs().max(1.0)) };
         let arm = |sense: f64| {
-            let long = SPACING.min(TURN / bend.abs().max(1.0)).max(if is_vertex { SPACING } else { 0.0 });
             let shortened = |share: f64| {
-                let (mut at, step) = (at, long * share);
-                let next = |k: usize| {
-                    let turn = if is_vertex { VERTEX_TURN } else { bend * step * (k as f64 + 0.5) };
-                    let (sin, cos) = (alpha + sense * turn).sin_cos();
-                    at += Vector2::new(cos, sin) * (sense * step * self.length);
-                    at
-                };
-                (0..ARM).map(next).collect::<Vec<_>>()
+                let turn = if is_vertex { 0.0 } else { sense * bend * long * share };
+                let first = alpha + if is_vertex { sense * VERTEX_TURN } else { 0.5 * turn };
+                arc(at, Vector2::new(first.cos(), first.sin()) * (sense * long * share), turn, ARM)
             };
-            let free = SHORTER.into_iter().map(shortened).find(|arm| self.is_free(at, arm, sense));
-            free.unwrap_or_else(|| shortened(SHORTER[SHORTER.len() - 1])).into_iter().map(node)
+            self.swept.first_free(at, SHORTER.map(shortened), sense > 0.0).into_iter().map(|at| Node::smooth(at, NEW))
         };
-        let middle = Node { is_vertex, ..node(at) };
-        arm(-1.0).rev().chain([middle]).chain(arm(1.0)).collect()
+        let middle = Node { is_vertex, ..Node::smooth(at, NEW) };
+        arm(-1.0).rev().chain([middle]).chain(arm(1.0)).map(|node| node.scaled(self.length)).collect()
     }
+}
 
-    fn is_free(&self, from: Vector2<f64>, arm: &[Vector2<f64>], sense: f64) -> bool {
-        let mut steps = std::iter::once(&from).chain(arm).zip(arm).map(|(a, b)| (a / self.length, b / self.length));
-        steps.all(|(a, b)| !if sense > 0.0 { self.swept.forbids(a, b) } else { self.swept.forbids(b, a) })
+/// Contours of which two parts are one, the closest first. What is `touched` stays.
+pub(super) fn joined(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64) -> Vec<Vec<Vec<Node>>> {
+    let mut found: Vec<(f64, Vec<Vec<Node>>)> = Vec::new();
+    for (i, (_, last)) in cores(touched) {
+        for (j, (next, _)) in cores(touched).filter(|(j, _)| *j != i) {
+            let (one, other) = (&chains[i][..=last], &chains[j][next..]);
+            let Some(between) = between(one, other, length) else { continue };
+            let whole = [one, &between, other].concat();
+            let rest = (0..chains.len()).filter(|k| *k != i && *k != j).map(|k| chains[k].clone());
+            found.push(((other[0].at - one[last].at).norm(), std::iter::once(whole).chain(rest).collect()));
+        }
     }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().map(|(_, chains)| chains).collect()
+}
 
-    /// Contours of which two parts are one, the closest first, and of which an end goes on otherwise. What is `touched` stays.
-    pub fn changed(&self, chains: &[Vec<Node>], touched: &[Vec<bool>]) -> impl Iterator<Item = Vec<Vec<Node>>> {
-        self.joined(chains, touched).into_iter().chain(self.with_other_ends(chains, touched))
-    }
-
-    /// Contours of which two parts are one, the closest first.
-    pub fn joined(&self, chains: &[Vec<Node>], touched: &[Vec<bool>]) -> Vec<Vec<Vec<Node>>> {
-        let mut found: Vec<(f64, Vec<Vec<Node>>)> = Vec::new();
-        for (i, (_, last)) in cores(touched) {
-            for (j, (next, _)) in cores(touched).filter(|(j, _)| *j != i) {
-                let (one, other) = (&chains[i][..=last], &chains[j][next..]);
-                let Some(between) = self.between(one, other) else { continue };
-                let whole = [one, &between, other].concat();
-                let rest = (0..chains.len()).filter(|k| *k != i && *k != j).map(|k| chains[k].clone());
-                found.push(((other[0].at - one[last].at).norm(), std::iter::once(whole).chain(rest).collect()));
+/// Contours of which an end goes on otherwise. What is `touched` stays.
+pub(super) fn with_other_ends(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64) -> Vec<Vec<Vec<Node>>> {
+    let mut found = Vec::new();
+    for (i, (first, last)) in cores(touched) {
+        let chain = &chains[i];
+        for turn in END_TURNS {
+            let end = |at: Vector2<f64>, from: Vector2<f64>, turn: f64| {
+                onwards(at, (at - from).normalize() * (SPACING * length), turn, END, NEW * length)
+            };
+            let after = end(chain[last].at, chain[last - 1].at, turn);
+            let mut before = end(chain[first].at, chain[first + 1].at, -turn);
+            before.reverse();
+            for changed in [[&chain[..=last], &after].concat(), [&before, &chain[first..]].concat()] {
+                let mut chains = chains.to_vec();
+                chains[i] = changed;
+                found.push(chains);
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.into_iter().map(|(_, chains)| chains).collect()
     }
+    found
+}
 
-    fn with_other_ends(&self, chains: &[Vec<Node>], touched: &[Vec<bool>]) -> Vec<Vec<Vec<Node>>> {
-        let mut found = Vec::new();
-        for (i, (first, last)) in cores(touched) {
-            let chain = &chains[i];
-            for turn in END_TURNS {
-                let after = self.end(chain[last].at, chain[last - 1].at, turn);
-                let mut before = self.end(chain[first].at, chain[first + 1].at, -turn);
-                before.reverse();
-                for changed in [[&chain[..=last], &after].concat(), [&before, &chain[first..]].concat()] {
-                    let mut chains = chains.to_vec();
-                    chains[i] = changed;
-                    found.push(chains);
-                }
-            }
-        }
-        found
-    }
+/// So many nodes with which a contour goes on from a place, each a step from the one before that is turned by so much.
+pub(super) fn onwards(at: Vector2<f64>, step: Vector2<f64>, turn: f64, count: usize, sigma: f64) -> Vec<Node> {
+    let turned = Rotation2::new(turn) * step;
+    arc(at, turned, turn, count).into_iter().map(|at| Node::smooth(at, sigma)).collect()
+}
 
-    /// Nodes with which a contour goes on from a place, coming from another one.
-    fn end(&self, mut at: Vector2<f64>, from: Vector2<f64>, turn: f64) -> Vec<Node> {
-        let mut step = (at - from).normalize() * (SPACING * self.length);
-        let next = |_| {
-            step = Rotation2::new(turn) * step;
-            at += step;
-            Node::smooth(at, NEW * self.length)
-        };
-        (0..END).map(next).collect()
+/// Nodes on a cubic from the end of one chain to the start of another; none where the way is long or turns back.
+fn between(one: &[Node], other: &[Node], length: f64) -> Option<Vec<Node>> {
+    let (from, to) = (one.last()?.at, other.first()?.at);
+    let [along, on] = [from - one[one.len() - 2].at, other[1].at - to].map(|along| along.normalize());
+    let way = (to - from).norm();
+    let is_ahead = |along: &Vector2<f64>| (to - from).dot(along) >= AHEAD * way;
+    if !(way > BEHIND * length && way <= LONGEST * length && is_ahead(&along) && is_ahead(&on)) {
+        return None;
     }
-
-    /// Nodes on a cubic from the end of one chain to the start of another; none where the way is long or turns back.
-    fn between(&self, one: &[Node], other: &[Node]) -> Option<Vec<Node>> {
-        let (from, to) = (one.last()?.at, other.first()?.at);
-        let [along, on] = [from - one[one.len() - 2].at, other[1].at - to].map(|along| along.normalize());
-        let way = (to - from).norm();
-        let is_ahead = |along: &Vector2<f64>| (to - from).dot(along) >= AHEAD * way;
-        if !(way > BEHIND * self.length && way <= LONGEST * self.length && is_ahead(&along) && is_ahead(&on)) {
-            return None;
-        }
-        let count = ((way / (SPACING * self.length)).ceil() as usize).min(MOST_BETWEEN);
-        let node = |k: usize| {
-            let t = k as f64 / count as f64;
-            let (u, v) = (t * t, t * t * t);
-            let at = from * (2.0 * v - 3.0 * u + 1.0) + to * (3.0 * u - 2.0 * v);
-            Node::smooth(at + (along * (v - 2.0 * u + t) + on * (v - u)) * way, NEW * self.length)
-        };
-        Some((1..count).map(node).collect())
-    }
+    let count = ((way / (SPACING * length)).ceil() as usize).min(MOST_BETWEEN);
+    let node = |k: usize| {
+        let t = k as f64 / count as f64;
+        let (u, v) = (t * t, t * t * t);
+        let at = from * (2.0 * v - 3.0 * u + 1.0) + to * (3.0 * u - 2.0 * v);
+        Node::smooth(at + (along * (v - 2.0 * u + t) + on * (v - u)) * way, NEW * length)
+    };
+    Some((1..count).map(node).collect())
 }
 
 /// The chains that are touched at two nodes or more, with the first and the last of these.

@@ -4,9 +4,8 @@ use super::blocks::{Block, Blocks};
 use super::curve::{Curve, Node};
 use super::grow::{Grown, grown};
 use super::problem::{Explained, Fit, Model, Sources};
-use super::propose::Space;
+use super::propose::joined;
 use super::start::Start;
-use super::swept::Swept;
 use super::trim::touched;
 use super::verdict::Goodness;
 use super::{ContourFit, FittedBlock, FittedObject};
@@ -19,8 +18,8 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// Contours, each with more nodes than the one before where the recording asks for them.
-const LEVELS: usize = 10;
+/// Most changes of a contour, one after the other.
+const CHANGES: usize = 10;
 /// Mean square of the residuals of the blocks that touch an interval from which on it is cut in two, and the shortest one that is (rod lengths).
 /// Smaller: more unknowns than the recording asks for.
 const ASKS: f64 = 1.3;
@@ -34,9 +33,7 @@ const WORTH: f64 = 5.0;
 const STEPS: usize = 60;
 /// Relative decrease of the cost at which the iteration has settled: some hundredths of chi squared.
 const SETTLED: f64 = 1e-5;
-/// Initial standard deviation of the change of curvature, L^-1.5.
-const BEND: f64 = 30.0;
-/// Smallest and largest one, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
+/// Smallest and largest standard deviation of the change of curvature, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
 const BENDS: (f64, f64) = (1.0, 1e3);
 /// How often it is estimated anew at each contour. More: more time.
 const ESTIMATES: usize = 2;
@@ -57,28 +54,28 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         let length = self.rod.units().length;
         let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(length)).collect();
         let curve = Curve::through(&start.chains.iter().map(scaled).collect::<Vec<_>>())?;
-        let mut fit = Fit::new(self.rod, curve, &start.blocks, self.sources, BEND * length.powf(-1.5));
+        let mut fit = Fit::new(self.rod, curve, &start.blocks, self.sources);
         let solved = self.solved(&mut fit, self.errors)?;
         Some(Begun { fit, solved })
     }
 
     /// The fit at contours that are changed as long as that makes it better.
     pub fn improved(&mut self, Begun { mut fit, solved: mut best }: Begun<'_, R>) -> Solved {
-        for _ in 0..LEVELS {
+        for _ in 0..CHANGES {
             let changes = Change::ALL.into_iter().filter(|change| change.is_for(&best));
             let mut better = None;
             for change in changes {
                 if self.evaluations == 0 {
                     break;
                 }
-                let (states, bend) = (fit.states.clone(), fit.bend);
+                let bend = fit.bend;
                 let errors = best.x.rows(best.curve.count(), self.errors.len()).into_owned();
                 better = self.changed(change, &best, &mut fit).and_then(|()| self.solved(&mut fit, &errors));
                 better = better.filter(|solved| solved.is_worth(change, &best));
                 if better.is_some() {
                     break;
                 }
-                (fit.curve, fit.states, fit.bend) = (best.curve.clone(), states, bend);
+                (fit.curve, fit.states, fit.bend) = (best.curve.clone(), best.states.clone(), bend);
             }
             let Some(solved) = better else { break };
             best = solved;
@@ -103,13 +100,11 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                 let Grown { chains, states } = found?;
                 (fit.curve, fit.states) = (Curve::through(&chains)?, states);
             }
-            Change::Finer => fit.curve = finer(best, fit)?,
+            Change::Finer => fit.curve = finer(best, length)?,
             Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
-                let swept = Swept::of_states(self.rod, fit.states.iter().flatten());
-                let space = Space { length, swept: &swept };
-                let joined = space.joined(&chains, &touched(&chains, &fit.states, length));
-                fit.curve = Curve::through(joined.first()?)?;
+                let touched = touched(&chains, &best.states, length);
+                fit.curve = Curve::through(joined(&chains, &touched, length).first()?)?;
             }
         }
         Some(())
@@ -147,12 +142,12 @@ impl Change {
     }
 }
 
-/// The contour of a fit with more nodes where the recording asks for them; none where it asks for none.
-fn finer<R: PhysicalRod>(solved: &Solved, fit: &Fit<'_, R>) -> Option<Curve> {
-    let (curve, length) = (&solved.curve, fit.rod.units().length);
+/// The contour of a fit, for a rod of this length, with more nodes where the recording asks for them; none where it asks for none.
+fn finer(solved: &Solved, length: f64) -> Option<Curve> {
+    let curve = &solved.curve;
     // by interval, the sum of the squares of the residuals of the blocks that touch it, and their number
     let mut asking: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
-    for (state, residual) in fit.states.iter().zip(&solved.explained.residuals) {
+    for (state, residual) in solved.states.iter().zip(&solved.explained.residuals) {
         let Some((state, residual)) = state.as_ref().zip(*residual) else { continue };
         for interval in state.contacts.iter().filter_map(|contact| curve.interval(contact)) {
             let (sum, count) = asking.entry(interval).or_default();

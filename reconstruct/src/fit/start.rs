@@ -48,35 +48,32 @@ pub(super) fn starts<R: PhysicalRod>(
     rod: &R,
     given: &Rod,
     local: &Reconstruction,
-    blocks: Blocks,
+    mut blocks: Blocks,
     errors: Errors,
-) -> impl Iterator<Item = Start> {
-    let points = touched(local, given);
+) -> Vec<Start> {
+    let mut points = touched(local, given);
     let answers = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
     let guesses = Interpretation { is_sure: false, ..answers };
     let joined = |reading| Interpretation { is_joined: true, ..reading };
-    let of_answers = [answers, joined(answers), Interpretation { is_sharp: true, ..answers }];
-    let swept = Swept::of(rod, &blocks, &errors);
-    let (filled, answered) = (blocks.clone(), points.clone());
-    let with_singles = move || {
-        let (mut blocks, mut points) = (filled, answered);
-        let singles = singles(rod, local, &mut blocks, &errors);
-        let swept = Swept::of(rod, &blocks, &errors);
-        let readings = if singles.is_empty() { Vec::new() } else { vec![guesses, joined(guesses)] };
-        points.extend(singles);
-        readings
-            .into_iter()
-            .map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading, &swept) })
+    let of = |blocks: &Blocks, points: &[Touched], readings: &[Interpretation]| {
+        let swept = Swept::of(rod, blocks, &errors);
+        let start =
+            |reading: &Interpretation| Start { blocks: blocks.clone(), chains: outline(points, *reading, &swept) };
+        readings.iter().map(start).collect::<Vec<_>>()
     };
-    let of_answers = of_answers
-        .into_iter()
-        .map(move |reading| Start { blocks: blocks.clone(), chains: outline(&points, reading, &swept) });
+    let mut starts = of(&blocks, &points, &[answers, joined(answers), Interpretation { is_sharp: true, ..answers }]);
+    let singles = singles(rod, local, &mut blocks, &errors);
+    if !singles.is_empty() {
+        points.extend(singles);
+        starts.extend(of(&blocks, &points, &[guesses, joined(guesses)]));
+    }
     let mut tried: Vec<Vec<Vec<Node>>> = Vec::new();
-    of_answers.chain(std::iter::once_with(with_singles).flatten()).filter(move |start| {
+    starts.retain(|start| {
         let is_new = !start.chains.is_empty() && !tried.contains(&start.chains);
         tried.push(start.chains.clone());
         is_new
-    })
+    });
+    starts
 }
 
 /// The contact points of the local answer, in lengths of its rod. Between two kinks, each contact of the rod is one trace.

@@ -1,10 +1,11 @@
 //! Where the rod was, no object is.
 
-use super::blocks::Blocks;
+use super::bent::{bent, push, whole};
+use super::blocks::{Block, Blocks};
 use crate::systematic::{Correction, Errors, still};
 use nalgebra::Vector2;
-use rod_contact::{Contact, State};
-use rod_core::{Elastica, Load, PhysicalRod};
+use rod_contact::State;
+use rod_core::{Elastica, PhysicalRod, RodModel};
 
 /// Shapes of the rod that are looked at, and points of each. More: more time.
 const SHAPES: usize = 200;
@@ -25,32 +26,24 @@ impl Swept {
         let Some(correction) = Correction::new(blocks.frame, errors) else { return Self::default() };
         let units = rod.units();
         let known: Vec<_> = blocks.blocks.iter().filter(|block| !block.contacts.is_empty()).collect();
-        let shape = |block: &&super::blocks::Block| {
+        let shape = |block: &&Block| {
             let clamp = correction.apply(block.tau, &block.clamp, &still(block.motion)).0;
             let (pose, reactions) = clamp.in_units(units);
             let (last, others) = block.contacts.split_last()?;
-            let mut rest = Vector2::new(-reactions.f0x, -reactions.f0y);
-            let mut loads = Vec::with_capacity(block.contacts.len());
-            for Contact { s, force, alpha, .. } in others {
-                rest -= Vector2::new(alpha.sin(), -alpha.cos()) * *force;
-                loads.push(Load { s: *s, force: *force, alpha: *alpha });
-            }
-            loads.push(Load { s: last.s, force: rest.norm(), alpha: rest.x.atan2(-rest.y) });
-            let base = rod.base(pose, &reactions);
-            let bent = Elastica::of_rod(rod.model().clone(), units, base, reactions.m0z, &loads).ok()?;
-            Some(bent.sample(POINTS).map(|at| Vector2::new(at.x, at.y) / units.length).collect())
+            let mut forces: Vec<_> =
+                others.iter().map(|contact| (contact.s, push(contact.alpha) * contact.force)).collect();
+            // what the others leave, whatever noise did to it
+            let rest = forces.iter().fold(whole(&reactions), |rest, (_, force)| rest - force);
+            forces.push((last.s, rest));
+            Some(places(&bent(rod, pose, &reactions, &forces)?))
         };
         Self { shapes: known.iter().step_by(known.len().div_ceil(SHAPES).max(1)).filter_map(shape).collect() }
     }
 
     /// Of states of the rod.
     pub fn of_states<'a, R: PhysicalRod>(rod: &R, states: impl Iterator<Item = &'a State>) -> Self {
-        let length = rod.units().length;
         let states: Vec<&State> = states.collect();
-        let shape = |state: &&State| {
-            let bent = state.elastica(rod).ok()?;
-            Some(bent.sample(POINTS).map(|at| Vector2::new(at.x, at.y) / length).collect())
-        };
+        let shape = |state: &&State| Some(places(&state.elastica(rod).ok()?));
         Self { shapes: states.iter().step_by(states.len().div_ceil(SHAPES).max(1)).filter_map(shape).collect() }
     }
 
@@ -58,6 +51,22 @@ impl Swept {
     pub fn and(mut self, other: Self) -> Self {
         self.shapes.extend(other.shapes);
         self
+    }
+
+    /// The first of some ways on from a place, rod lengths, that a contour can go because the rod was not there; else the last. Backwards the contour
+    /// comes from there.
+    pub fn first_free<const N: usize>(
+        &self,
+        from: Vector2<f64>,
+        mut ways: [Vec<Vector2<f64>>; N],
+        is_forwards: bool,
+    ) -> Vec<Vector2<f64>> {
+        let is_free = |way: &Vec<Vector2<f64>>| {
+            let mut steps = std::iter::once(&from).chain(way).zip(way);
+            steps.all(|(a, b)| if is_forwards { !self.forbids(*a, *b) } else { !self.forbids(*b, *a) })
+        };
+        let chosen = ways.iter().position(is_free).unwrap_or(N - 1);
+        std::mem::take(&mut ways[chosen])
     }
 
     /// Whether the rod was where a contour from one place to another would be, with the solid on its left.
@@ -68,6 +77,11 @@ impl Swept {
         let crosses = |shape: &&Vec<Vector2<f64>>| shape.windows(2).any(|pair| cross(from, to, pair[0], pair[1]));
         self.shapes.iter().filter(crosses).take(OFTEN).count() == OFTEN
     }
+}
+
+/// Points of a rod, rod lengths.
+fn places<M: RodModel>(bent: &Elastica<M>) -> Vec<Vector2<f64>> {
+    bent.sample(POINTS).map(|at| Vector2::new(at.x, at.y) / bent.length()).collect()
 }
 
 /// Whether two line segments cross.

@@ -176,7 +176,8 @@ fn derivatives_of_the_cost_are_its_differences() {
         ];
         let curve = Curve::through(&[chain.to_vec()]).unwrap();
         let unknowns = curve.count();
-        let mut fit = Fit::new(&rod, curve, &blocks, &sources, 1e3);
+        let mut fit = Fit::new(&rod, curve, &blocks, &sources);
+        fit.bend = 1e3;
         let at = DVector::zeros(unknowns);
         let here = fit.equations(&at);
         let reached = fit.states.iter().flatten().count();

@@ -1,16 +1,14 @@
 //! A contour without what no state touches: there nothing is known of it.
 
 use super::curve::{Curve, Node};
-use super::order::Touched;
-use super::outline::{BEYOND, TO_OTHERS, beyond};
+use super::ends::{beyond, ways_beyond};
+use super::forward::NEAR_VERTEX;
 use super::swept::Swept;
 use nalgebra::Vector2;
 use rod_contact::State;
 
 /// Longest way between two places that are touched along which a contour goes on, rod lengths.
 const GAP: f64 = 0.05;
-/// Distance from a vertex, rod lengths, within which a contact is one at the vertex.
-const AT_VERTEX: f64 = 0.02;
 
 /// Which nodes of each chain the contacts of states lie between, or at.
 pub(super) fn touched(chains: &[Vec<Node>], states: &[Option<State>], length: f64) -> Vec<Vec<bool>> {
@@ -19,7 +17,7 @@ pub(super) fn touched(chains: &[Vec<Node>], states: &[Option<State>], length: f6
         return chains.iter().map(|chain| vec![false; chain.len()]).collect();
     };
     for contact in states.iter().flatten().flat_map(|state| &state.contacts) {
-        let nodes = curve.place(contact, AT_VERTEX * length).and_then(|contact| curve.nodes_at(&contact));
+        let nodes = curve.place(contact, NEAR_VERTEX * length).and_then(|contact| curve.nodes_at(&contact));
         if let Some(nodes) = nodes {
             flat[nodes].fill(true);
         }
@@ -42,22 +40,17 @@ pub(super) fn trimmed(
 ) -> Option<Vec<Vec<Node>>> {
     let parts: Vec<Vec<Node>> =
         chains.iter().zip(touched).flat_map(|(chain, touched)| parts(chain, touched, GAP * length)).collect();
-    let apart = |k: usize, at: Vector2<f64>| {
-        let others = parts.iter().enumerate().filter(|other| other.0 != k).flat_map(|other| other.1);
-        others.map(|node| (node.at - at).norm()).fold(f64::INFINITY, f64::min)
-    };
-    let with_ends = |(k, part): (usize, &Vec<Node>)| {
+    let places: Vec<Vec<_>> = parts.iter().map(|part| part.iter().map(|node| node.at / length).collect()).collect();
+    let with_ends = |(part, ways): (&Vec<Node>, [f64; 2])| {
         let last = part.len() - 1;
-        let end = |at: Vector2<f64>, along: Vector2<f64>, sense: f64| {
-            let from = Touched { at: at / length, along: along.normalize(), sigma: 0.0, weight: 1.0, trace: 0 };
-            let way = BEYOND.min(TO_OTHERS * apart(k, at) / length);
-            beyond(&from, sense * way, swept).into_iter().map(|node| node.scaled(length))
+        let end = |at: Vector2<f64>, along: Vector2<f64>, way: f64| {
+            beyond(at / length, along.y.atan2(along.x), way, swept).into_iter().map(|node| node.scaled(length))
         };
-        let before = end(part[0].at, part[1].at - part[0].at, -1.0).rev();
-        let after = end(part[last].at, part[last].at - part[last - 1].at, 1.0);
+        let before = end(part[0].at, part[1].at - part[0].at, -ways[0]).rev();
+        let after = end(part[last].at, part[last].at - part[last - 1].at, ways[1]);
         before.chain(part.iter().copied()).chain(after).collect()
     };
-    (!parts.is_empty()).then(|| parts.iter().enumerate().map(with_ends).collect())
+    (!parts.is_empty()).then(|| parts.iter().zip(ways_beyond(&places)).map(with_ends).collect())
 }
 
 /// Runs of touched nodes, and of others between them where the way is short.
