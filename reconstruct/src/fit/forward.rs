@@ -5,6 +5,7 @@ use super::curve::Curve;
 use rod_contact::{Contact, Follower, State, equilibrium};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Reactions};
+use std::ops::Range;
 
 /// Equilibria from which a segment is followed, at most: each reaches up to where the rod snaps.
 const ANCHORS: usize = 6;
@@ -59,6 +60,18 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 self.follow(&state, (segment.start..anchor).rev(), poses, &mut found);
                 found[anchor] = Some(state);
             }
+            let is_touching = |k: &usize| !blocks.blocks[*k].contacts.is_empty() || known[*k].is_some();
+            if segment.start > 0
+                && found[segment.clone()].iter().all(Option::is_none)
+                && segment.clone().any(|k| is_touching(&k))
+                && let Some(before) = found[segment.start - 1].clone()
+            {
+                let landed = self.landed(&before, segment.clone(), poses);
+                if let Some((k, state)) = landed {
+                    self.follow(&state, k + 1..segment.end, poses, &mut found);
+                    found[k] = Some(state);
+                }
+            }
         }
         found
     }
@@ -95,6 +108,21 @@ impl<R: PhysicalRod> Forward<'_, R> {
     fn follower(&self, from: &State) -> Option<Follower<'_, R>> {
         let follower = Follower::from_state(self.rod, self.objects, from).ok()?;
         Some(follower.without_jumps().with_most_steps(MOST_STEPS))
+    }
+
+    /// Where the rod lands that jumps on its way from a state: the first block after the jump, and the state there.
+    fn landed(&self, from: &State, way: Range<usize>, poses: &[Pose]) -> Option<(usize, State)> {
+        let mut follower = self.follower(from)?;
+        for k in way {
+            let before = follower.state().clone();
+            if follower.to(poses[k]).is_err() {
+                let mut jumping =
+                    Follower::from_state(self.rod, self.objects, &before).ok()?.with_most_steps(MOST_STEPS);
+                jumping.to(poses[k]).ok()?;
+                return Some((k, jumping.state().clone()));
+            }
+        }
+        None
     }
 
     /// Follows the rod from a state until it jumps, cannot be followed, or comes to a pose whose state is known.

@@ -42,9 +42,6 @@ use std::ops::Range;
 /// those with many contacts are given up.
 const MOST_EVALUATIONS: usize = 1000;
 
-/// The part of the evaluations that are left which is kept for the starts after this one: half of them.
-const KEPT: usize = 2;
-
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -153,27 +150,24 @@ pub fn fit_contour<R: PhysicalRod>(
     let (sources, errors) = Sources::of(&uniform, local);
     let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: MOST_EVALUATIONS };
     let starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
+    let is_done = |best: &Option<(Solved, &Blocks)>| best.as_ref().is_some_and(|best| best.0.goodness.explains);
+    let mut best: Option<(Solved, &Blocks)> = None;
     let mut begun = Vec::new();
     for start in &starts {
-        begun.extend(search.begun(start));
-        if begun.last().is_some_and(|begun| begun.solved.goodness.explains) {
+        match search.begun(start) {
+            Some(one) if one.solved.is_near() => search.improve(one, &mut best),
+            one => begun.extend(one),
+        }
+        if is_done(&best) {
             break;
         }
     }
     begun.sort_by(|a, b| a.solved.preferred(&b.solved));
-    let mut best: Option<(Solved, &Blocks)> = None;
-    for begun in begun {
-        // what one start takes is not left for the others
-        let kept = search.evaluations / KEPT;
-        search.evaluations -= kept;
-        let (blocks, found) = (begun.fit.blocks, search.improved(begun));
-        search.evaluations += kept;
-        if best.as_ref().is_none_or(|best| found.preferred(&best.0).is_lt()) {
-            best = Some((found, blocks));
-        }
-        if best.as_ref().is_some_and(|best| best.0.goodness.explains) {
+    for one in begun {
+        if is_done(&best) {
             break;
         }
+        search.improve(one, &mut best);
     }
     let (solved, blocks) = best.ok_or(if starts.is_empty() { FitError::NoContacts } else { FitError::NoStart })?;
     Ok(solved.result(blocks, &sources, &uniform))

@@ -19,7 +19,7 @@ const DIRECTIONS: f64 = 12.0;
 const TURNING: f64 = 0.01;
 /// How much more it adds where the contour is concave.
 const CONCAVE: f64 = 3.0;
-/// Distance of two places, rod lengths, up to which the way from one to the other has no direction.
+/// Largest distance of two places, rod lengths, at which the way from one to the other may have no direction: if noise alone might part them.
 pub(super) const NO_WAY: f64 = 0.01;
 /// Cosine between a step and the tangents at its ends below which it is dearer, and by how much.
 const AHEAD: f64 = 0.3;
@@ -136,7 +136,8 @@ pub(super) fn dearness(from: &Touched, to: &Touched) -> f64 {
     let astray = |along: &Vector2<f64>| (AHEAD - step.dot(along) / length.max(1e-12)).max(0.0);
     let turn = wrap_angle(to.alpha() - from.alpha());
     // the way between places that noise alone might part has no direction; a rod that lies there tells of convex bends
-    let known = (length - NO_WAY).max(0.0);
+    let by_noise = (WITHIN * from.sigma.hypot(to.sigma)).min(NO_WAY);
+    let known = (length - by_noise).max(0.0);
     let turning = if turn < 0.0 { -CONCAVE * turn } else { turn };
     length + known * ASTRAY * (astray(&from.along) + astray(&to.along)) + TURNING * turning
 }

@@ -179,4 +179,19 @@ mod tests {
         let on = |y: f64| inner.iter().filter(|point| point.y == y).map(|point| point.x).collect::<Vec<_>>();
         assert!(on(0.0).is_sorted() && on(0.01).iter().rev().is_sorted(), "{inner:?}");
     }
+
+    #[test]
+    fn a_hollow_is_passed_in_the_direction_of_its_points() {
+        // an arc of radius 0.2 that the rod touches from inside, with the solid on the left of its direction
+        let place = |k: usize| {
+            let (sin, cos) = (0.03 * k as f64).sin_cos();
+            let (at, along) = (Vector2::new(0.2 * sin, 0.2 * cos), Vector2::new(cos, -sin));
+            Touched { at, along, sigma: 1e-5, weight: 1.0, trace: 0 }
+        };
+        let touched: Vec<Touched> = (0..40).map(place).collect();
+        let reading = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
+        let chains = outline(&touched, reading, &Swept::default());
+        let [chain] = &chains[..] else { panic!("{} chains", chains.len()) };
+        assert!(chain[STEPS..chain.len() - STEPS].iter().map(|node| node.at.x).is_sorted(), "{chain:?}");
+    }
 }

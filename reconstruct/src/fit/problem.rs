@@ -22,6 +22,9 @@ const VERTEX: f64 = 3.0;
 /// Cost of a block that no branch of the model reaches: that of a residual of 1000 standard deviations. Smaller: contours win that lose bad
 /// blocks.
 const LOST: f64 = 368.0;
+/// Residual of a block, standard deviations, from which on the model is on another branch than the rod. Smaller: what is not explained counts as
+/// not reached.
+const BRANCH: f64 = 20.0;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
@@ -94,6 +97,19 @@ pub(super) struct Explained {
     pub labels: Vec<Option<Label>>,
     /// Blocks, not beside jumps, that no branch reaches.
     pub unreached: usize,
+}
+
+impl Explained {
+    /// Without the blocks from a jump on along which the model is on the other side of it: those are not reached.
+    fn without_branch(&mut self, from_jump: impl Iterator<Item = usize>) {
+        for k in from_jump.skip_while(|k| self.residuals[*k].is_none()).collect::<Vec<_>>() {
+            if self.residuals[k].is_none_or(|residual| residual.norm() < BRANCH) {
+                return;
+            }
+            (self.residuals[k], self.labels[k]) = (None, None);
+            self.unreached += 1;
+        }
+    }
 }
 
 /// A block without the errors.
@@ -225,6 +241,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let residual = corrected[k].residual(&model, &by_pose, block);
             explained.residuals.push((is_known && !block.is_by_jump).then_some(residual));
             explained.unreached += usize::from(!is_known && !block.is_by_jump);
+        }
+        let jumps = self.blocks.segments.iter().zip(self.blocks.segments.iter().skip(1));
+        for (before, after) in jumps {
+            explained.without_branch(before.clone().rev());
+            explained.without_branch(after.clone());
         }
         explained
     }

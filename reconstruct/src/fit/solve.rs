@@ -20,6 +20,8 @@ use std::ops::Range;
 
 /// Most changes of a contour, one after the other.
 const CHANGES: usize = 10;
+/// The part of the evaluations that are left which is kept for the starts after this one: half of them.
+const KEPT: usize = 2;
 /// Mean square of the residuals of the blocks that touch an interval from which on it is cut in two, and the shortest one that is (rod lengths).
 /// Smaller: more unknowns than the recording asks for.
 const ASKS: f64 = 1.3;
@@ -29,15 +31,12 @@ const SHARP: f64 = 6e-3;
 const VERTEX_TURN: f64 = 0.4;
 /// Decrease of the cost, which is that of chi squared, for which a finer contour is taken. Smaller: nodes for noise.
 const WORTH: f64 = 5.0;
-/// Most steps before the smoothness is estimated anew. Larger: more time where the cost is not smooth.
-const STEPS: usize = 60;
-/// Relative decrease of the cost at which the iteration has settled: some hundredths of chi squared.
-const SETTLED: f64 = 1e-5;
+/// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit.
+const HOPEFUL: f64 = 2.0;
+/// Chi squared per degree of freedom of a rough fit up to which it may soon explain the recording.
+const NEAR: f64 = 3.0;
 /// Smallest and largest standard deviation of the change of curvature, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
 const BENDS: (f64, f64) = (1.0, 1e3);
-/// How often it is estimated anew at each contour. More: more time.
-const ESTIMATES: usize = 2;
-
 /// The search for the contour of a recording, from several starts.
 pub(super) struct Search<'a, R> {
     pub rod: &'a R,
@@ -55,12 +54,15 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(length)).collect();
         let curve = Curve::through(&start.chains.iter().map(scaled).collect::<Vec<_>>())?;
         let mut fit = Fit::new(self.rod, curve, &start.blocks, self.sources);
-        let solved = self.solved(&mut fit, self.errors)?;
+        let solved = self.solved(&mut fit, self.errors, ROUGHLY)?;
         Some(Begun { fit, solved })
     }
 
     /// The fit at contours that are changed as long as that makes it better.
-    pub fn improved(&mut self, Begun { mut fit, solved: mut best }: Begun<'_, R>) -> Solved {
+    fn improved(&mut self, Begun { mut fit, solved: mut best }: Begun<'_, R>) -> Solved {
+        if let Some(solved) = self.refined(&mut fit, &best) {
+            best = solved;
+        }
         for _ in 0..CHANGES {
             let changes = Change::ALL.into_iter().filter(|change| change.is_for(&best));
             let mut better = None;
@@ -69,8 +71,10 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                     break;
                 }
                 let bend = fit.bend;
-                let errors = best.x.rows(best.curve.count(), self.errors.len()).into_owned();
-                better = self.changed(change, &best, &mut fit).and_then(|()| self.solved(&mut fit, &errors));
+                let errors = self.errors_of(&best);
+                better = self.changed(change, &best, &mut fit).and_then(|()| self.solved(&mut fit, &errors, ROUGHLY));
+                better = better.filter(|rough| rough.cost < HOPEFUL * best.cost);
+                better = better.and_then(|rough| self.refined(&mut fit, &rough));
                 better = better.filter(|solved| solved.is_worth(change, &best));
                 if better.is_some() {
                     break;
@@ -83,8 +87,31 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         best
     }
 
-    fn solved(&mut self, fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<Solved> {
-        let solved = solve(fit, errors);
+    /// Improves a fit that has begun, and keeps it if it is to be preferred to the best one.
+    pub fn improve(&mut self, begun: Begun<'a, R>, best: &mut Option<(Solved, &'a Blocks)>) {
+        // what one start takes is not left for the others
+        let kept = self.evaluations / KEPT;
+        self.evaluations -= kept;
+        let (blocks, found) = (begun.fit.blocks, self.improved(begun));
+        self.evaluations += kept;
+        if best.as_ref().is_none_or(|best| found.preferred(&best.0).is_lt()) {
+            *best = Some((found, blocks));
+        }
+    }
+
+    /// The fit from one that is known roughly.
+    fn refined(&mut self, fit: &mut Fit<'_, R>, rough: &Solved) -> Option<Solved> {
+        fit.curve = rough.curve.clone();
+        self.solved(fit, &self.errors_of(rough), WELL)
+    }
+
+    /// Errors of a fit less what is known of them, in standard deviations of their budget.
+    fn errors_of(&self, solved: &Solved) -> DVector<f64> {
+        solved.x.rows(solved.curve.count(), self.errors.len()).into_owned()
+    }
+
+    fn solved(&mut self, fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Effort) -> Option<Solved> {
+        let solved = solve(fit, errors, effort);
         self.evaluations = self.evaluations.saturating_sub(std::mem::take(&mut fit.evaluations));
         solved
     }
@@ -172,6 +199,22 @@ fn finer(solved: &Solved, length: f64) -> Option<Curve> {
     curve.refined(&cut, &sharp)
 }
 
+/// How well a contour is to be known.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// Relative decrease of the cost at which the iteration has settled.
+    settled: f64,
+    /// Most steps before the smoothness is estimated anew: the cost is not smooth everywhere.
+    steps: usize,
+    /// How often it is.
+    estimates: usize,
+}
+
+/// As well as the choice among contours needs.
+const ROUGHLY: Effort = Effort { settled: 1e-2, steps: 20, estimates: 1 };
+/// To some hundredths of chi squared.
+const WELL: Effort = Effort { settled: 1e-5, steps: 60, estimates: 2 };
+
 /// A fit at one contour.
 pub(super) struct Solved {
     x: DVector<f64>,
@@ -184,22 +227,22 @@ pub(super) struct Solved {
 }
 
 /// The best offsets and errors at the contour of `fit`, with the smoothness that the recording asks for.
-fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>) -> Option<Solved> {
+fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Effort) -> Option<Solved> {
     let (count, free) = (fit.curve.count(), errors.len());
     let mut x = DVector::zeros(count + free);
     x.rows_mut(0, count).copy_from(&fit.curve.offsets);
     x.rows_mut(count, free).copy_from(errors);
     let bends = [BENDS.0, BENDS.1].map(|bend| bend * fit.rod.units().length.powf(-1.5));
-    for _ in 0..ESTIMATES {
+    for _ in 0..effort.estimates {
         fit.least = f64::INFINITY;
-        let (at, _) = iterate(fit, x.clone(), Damped::until(SETTLED), STEPS);
+        let (at, _) = iterate(fit, x.clone(), Damped::until(effort.settled), effort.steps);
         x = at.x;
         if let Some(covariance) = at.equations.covariance() {
             fit.bend = fit.bend_of(&x, &covariance).clamp(bends[0], bends[1]);
         }
     }
     fit.least = f64::INFINITY;
-    let (Iterate { x, equations }, _) = iterate(fit, x, Damped::until(SETTLED), STEPS);
+    let (Iterate { x, equations }, _) = iterate(fit, x, Damped::until(effort.settled), effort.steps);
     let covariance = equations.covariance()?;
     let model = fit.model(&x)?;
     let explained = fit.explained(&model);
@@ -221,6 +264,12 @@ impl Solved {
         let key = |solved: &Self| (!solved.goodness.explains, solved.cost);
         let ((a, cost), (b, of_other)) = (key(self), key(other));
         a.cmp(&b).then(cost.total_cmp(&of_other))
+    }
+
+    /// Whether some more steps may explain the recording.
+    pub fn is_near(&self) -> bool {
+        let goodness = &self.goodness;
+        !goodness.is_unreached() && goodness.chi_squared < NEAR * goodness.degrees_of_freedom
     }
 
     /// Whether this is to be preferred to what it was changed from.

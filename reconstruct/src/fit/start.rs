@@ -11,12 +11,18 @@ use crate::systematic::{Correction, Errors, still};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{PhysicalRod, Rod};
+use std::collections::BTreeMap;
 
 /// Standard deviation of a contact point, rod lengths, up to which all count the same.
 const EQUAL: f64 = 1e-3;
 /// Largest standard deviation (rod lengths) of the point that a single contact would have where there is no answer. Larger: points that noise
 /// throws anywhere enter the order along the contour.
 const UNSURE: f64 = 0.05;
+/// Way between two points of a trace from which on it has a direction, rod lengths, and in standard deviations; and the cosine of its angle to the
+/// tangents, at least. Smaller: single contacts that samples with several would have go into the contour.
+const MOVED: f64 = 2e-3;
+const WITHIN: f64 = 3.0;
+const ALONG: f64 = 0.7;
 /// Smallest force of such a contact over its noise. Smaller: blocks of a free rod get contacts.
 const CERTAIN: f64 = 6.0;
 
@@ -56,6 +62,7 @@ pub(super) fn starts<R: PhysicalRod>(
     let guesses = Interpretation { is_sure: false, ..answers };
     let joined = |reading| Interpretation { is_joined: true, ..reading };
     let of = |blocks: &Blocks, points: &[Touched], readings: &[Interpretation]| {
+        let points = &along_contours(points);
         let swept = Swept::of(rod, blocks, &errors);
         let start =
             |reading: &Interpretation| Start { blocks: blocks.clone(), chains: outline(points, *reading, &swept) };
@@ -89,6 +96,31 @@ fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
     points
 }
 
+/// The points without those that move across their own tangents, which no contact does on a contour: the single contact of samples that have
+/// several. The points of a trace are in the order of time.
+fn along_contours(points: &[Touched]) -> Vec<Touched> {
+    let mut traces: BTreeMap<usize, Vec<Touched>> = BTreeMap::new();
+    points.iter().for_each(|point| traces.entry(point.trace).or_default().push(*point));
+    let agrees = |one: &Touched, other: &Touched| {
+        let way = other.at - one.at;
+        let far = (WITHIN * one.sigma.hypot(other.sigma)).max(MOVED);
+        (way.norm() > far).then(|| [one, other].iter().any(|at| way.dot(&at.along).abs() > ALONG * way.norm()))
+    };
+    let of_trace = |points: &Vec<Touched>| {
+        let is_along = |k: &usize| {
+            // farther away by a quarter each time: a contact at a vertex stays for long
+            let away =
+                || std::iter::successors(Some(1), |way| Some(way + 1 + way / 4)).take_while(|way| *way < points.len());
+            let after = away().filter_map(|way| points.get(k + way)).find_map(|other| agrees(&points[*k], other));
+            let before =
+                away().filter_map(|way| points.get(k.checked_sub(way)?)).find_map(|other| agrees(&points[*k], other));
+            before != Some(false) && after != Some(false)
+        };
+        (0..points.len()).filter(is_along).map(|k| points[k]).collect::<Vec<_>>()
+    };
+    traces.values().flat_map(of_trace).collect()
+}
+
 fn kinks_before(local: &Reconstruction, sample: usize) -> usize {
     local.kinks.partition_point(|kink| kink.next <= sample)
 }
@@ -116,4 +148,30 @@ fn singles<R: PhysicalRod>(rod: &R, local: &Reconstruction, blocks: &mut Blocks,
         found.push(Touched { weight: point.weight * block.samples.len() as f64, ..point });
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_that_move_across_their_tangents_are_left_out() {
+        // along a line, at a vertex, and away from it across the tangents
+        let at = |x: f64, y: f64, angle: f64| Touched {
+            at: Vector2::new(x, y),
+            along: Vector2::new(angle.cos(), angle.sin()),
+            sigma: 1e-5,
+            weight: 1.0,
+            trace: 0,
+        };
+        let line = (0..100).map(|k| at(1e-3 * f64::from(k), 0.0, 0.0));
+        let vertex = (0..1000).map(|k| at(0.1, 0.0, 1e-3 * f64::from(k)));
+        let onwards = (0..100).map(|k| at(0.1 + 5e-4 * f64::from(k), 8e-4 * f64::from(k), 1.0));
+        let contour: Vec<Touched> = line.chain(vertex).chain(onwards).collect();
+        assert_eq!(along_contours(&contour).len(), contour.len());
+        let across = (0..100).map(|k| at(0.15 + 1e-3 * f64::from(k), 0.08, 1.4));
+        let whole: Vec<Touched> = contour.iter().copied().chain(across).collect();
+        let kept = along_contours(&whole).len();
+        assert!(kept <= contour.len() && kept > contour.len() - 10, "{kept}");
+    }
 }
