@@ -111,7 +111,7 @@ fn one(
     }
     if fit {
         stage(&format!("{name}: fitting one contour to the whole recording"));
-        found.fit();
+        found.fit(settings);
     }
     if let Some(scene) = truth {
         stage(&format!("{name}: comparing with the scene"));

@@ -90,16 +90,24 @@ impl Reconstructed {
         })
     }
 
-    /// Fits a contour to the whole recording, from the result on: whether a rod past one contour gives these reactions. Nothing is fitted where
-    /// signs, units or rod are wrong.
-    pub fn fit(&mut self) {
+    /// Fits a contour to the whole recording, from the result on: whether a rod past one contour gives these reactions. Where one does, labels,
+    /// points and shared errors are its own from now on. Nothing is fitted where signs, units or rod are wrong. `settings` are those of the
+    /// reconstruction.
+    pub fn fit(&mut self, settings: &Settings) {
         if self.check.findings.iter().any(Finding::is_gross) {
             return;
         }
-        self.fit = Some(match self.rod.uniform() {
+        let fit = match self.rod.uniform() {
             Some(rod) => fit_contour(rod, &self.samples, &self.found),
             None => fit_contour(&self.rod, &self.samples, &self.found),
-        });
+        };
+        if let Ok(fit) = &fit
+            && fit.goodness.explains
+        {
+            self.found.adopt(fit, settings);
+            self.contour = self.found.contour(&Assembly::default());
+        }
+        self.fit = Some(fit);
     }
 
     /// What is not there because the rod is not uniform or not straight at rest, in words; none for one that is.

@@ -18,6 +18,11 @@ const INDEPENDENT: f64 = 2.0;
 /// Standard deviation of a block over the largest reaction, at least: what the contour of a fit, a cubic spline, and the mean of a block
 /// leave of noise-free samples.
 const LEAST_NOISE: f64 = 3e-4;
+/// Free blocks whose scatter about their mean is looked at; independent blocks that would tell the noise as well as the model of it does (its variance to
+/// 15 %); and the largest ratio of the variances: more is no noise.
+const FEW: usize = 10;
+const KNOWN_AS: f64 = 100.0;
+const MOST_SCATTER: f64 = 2.0;
 /// Blocks on either side of a jump that are left out: its place is known to a sample, and a real rod rings after it.
 const BESIDE_JUMP: usize = 1;
 
@@ -91,9 +96,25 @@ impl Blocks {
             cut.pass(pass.samples.clone(), before, (&track, &indices), &mut blocks, &mut segments);
             before += to - from;
         }
+        as_scattered(&mut blocks);
         let (first, last) = (blocks.first().map(|block: &Block| block.tau)?, blocks.last()?.tau);
         Some(Self { blocks, segments, frame: frame?.on_way(last - first) })
     }
+}
+
+/// Makes the standard deviations larger where the means of free blocks scatter by more about the mean of each few of them: of short recordings the
+/// correlation of the noise is hardly known.
+fn as_scattered(blocks: &mut [Block]) {
+    let (mut sum, mut count) = (Vector3::zeros(), 0.0);
+    for few in blocks.chunks_exact(FEW).filter(|few| few.iter().all(|one| one.label == Label::Free && !one.is_by_jump))
+    {
+        let z: Vec<Vector3<f64>> = few.iter().map(|block| block.clamp.reactions.component_div(&block.sigma)).collect();
+        let mean = z.iter().sum::<Vector3<f64>>() / FEW as f64;
+        sum += z.iter().map(|z| (z - mean).component_mul(&(z - mean))).sum::<Vector3<f64>>();
+        count += (FEW - 1) as f64;
+    }
+    let factor = sum.map(|sum| ((sum + KNOWN_AS) / (count + KNOWN_AS)).clamp(1.0, MOST_SCATTER).sqrt());
+    blocks.iter_mut().for_each(|block| block.sigma.component_mul_assign(&factor));
 }
 
 impl Blocks {

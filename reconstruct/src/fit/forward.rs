@@ -126,7 +126,7 @@ impl<R: PhysicalRod> Forward<'_, R> {
     }
 
     /// Follows the rod from a state until it jumps, cannot be followed, or comes to a pose whose state is known.
-    fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
+    pub fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
         let Some(mut follower) = self.follower(from) else { return };
         for k in way {
             if follower.to(poses[k]).is_err() || found[k].is_some() {

@@ -5,6 +5,7 @@
 //! (multiple shooting, Bock and Plitt 1984), so that a snap of the model at another pose than that of the recording spoils nothing beyond
 //! it. Inside a segment contacts form and let go as the model says: labels of the local answer are where the fit starts, no more.
 
+mod answers;
 mod bent;
 mod blocks;
 mod curve;
@@ -28,7 +29,7 @@ mod verdict;
 pub use verdict::{Goodness, WorstWindow};
 
 use crate::phase::Label;
-use crate::pipeline::Reconstruction;
+use crate::pipeline::{Reading, Reconstruction};
 use crate::systematic::Source;
 use blocks::Blocks;
 use problem::Sources;
@@ -112,6 +113,12 @@ pub struct ContourFit {
     pub goodness: Goodness,
     /// The recording in blocks.
     pub blocks: Vec<FittedBlock>,
+    /// The answer to each sample by the states of the rod past the contour; none where it is not reached, and where the contour does not explain
+    /// the recording. They are not a part of serialised data.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub readings: Vec<Option<Reading>>,
+    /// Length of the given rod, m.
+    pub length: f64,
 }
 
 impl ContourFit {
@@ -170,5 +177,5 @@ pub fn fit_contour<R: PhysicalRod>(
         search.improve(one, &mut best);
     }
     let (solved, blocks) = best.ok_or(if starts.is_empty() { FitError::NoContacts } else { FitError::NoStart })?;
-    Ok(solved.result(blocks, &sources, &uniform))
+    Ok(solved.result(rod, samples, blocks, &sources, &uniform))
 }

@@ -8,10 +8,10 @@ use crate::phase::Label;
 use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source, still};
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use rod_contact::{Derivatives, State};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
+use rod_contact::{Contact, Derivatives, Quantity, State};
 use rod_contours::Composite;
-use rod_core::{PhysicalRod, Pose, Rod, SupportRate};
+use rod_core::{PhysicalRod, Pose, Response, Rod, SupportRate};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
@@ -135,7 +135,7 @@ impl Corrected {
 /// The model with some unknowns.
 pub(super) struct Model {
     pub curve: Curve,
-    objects: Vec<Composite>,
+    pub objects: Vec<Composite>,
     corrected: Vec<Corrected>,
     pub states: Vec<Option<State>>,
 }
@@ -197,16 +197,19 @@ impl<R: PhysicalRod> Fit<'_, R> {
         state.map_or(Vector3::zeros(), of)
     }
 
-    /// The mean reactions of a block whose contacts are not those of its neighbours, dimensionless: they change inside it. None of others.
-    fn mean_reactions(&self, forward: &Forward<'_, R>, states: &[Option<State>], block: usize) -> Option<Vector3<f64>> {
-        let (state, units) = (states[block].as_ref()?, self.rod.units());
+    /// Whether the contacts of a block are not those of its neighbours: they change inside it.
+    fn changes_inside(states: &[Option<State>], block: usize) -> bool {
         let contacts = |state: &State| (state.contacts.len(), state.phase().tip);
         let neighbours = [block.checked_sub(1), Some(block + 1)];
         let mut others = neighbours.into_iter().flatten().filter_map(|k| states.get(k)?.as_ref());
-        let half = self.blocks.blocks[block].half;
-        let half = [half.x * units.length, half.y * units.length, half.z];
-        let mean =
-            others.any(|other| contacts(other) != contacts(state)).then(|| forward.mean_reactions(state, half))??;
+        states[block].as_ref().is_some_and(|state| others.any(|other| contacts(other) != contacts(state)))
+    }
+
+    /// The mean reactions of a block around a state, dimensionless; none where the rod jumps inside it.
+    fn mean_reactions(&self, forward: &Forward<'_, R>, state: &State, block: &Block) -> Option<Vector3<f64>> {
+        let units = self.rod.units();
+        let half = [block.half.x * units.length, block.half.y * units.length, block.half.z];
+        let mean = forward.mean_reactions(state, half)?;
         Some(Clamp::new(units, state.pose, mean).reactions)
     }
 
@@ -236,7 +239,10 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let is_known = state.is_some() || self.is_free(k, states);
             let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
-            let model = self.mean_reactions(&forward, states, k).unwrap_or_else(|| self.reactions(state));
+            let mean = state.filter(|_| Self::changes_inside(states, k));
+            let model =
+                mean.map_or_else(|| Some(self.reactions(state)), |state| self.mean_reactions(&forward, state, block));
+            let (is_known, model) = (is_known && model.is_some(), model.unwrap_or_default());
             let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
             let residual = corrected[k].residual(&model, &by_pose, block);
             explained.residuals.push((is_known && !block.is_by_jump).then_some(residual));
@@ -279,20 +285,74 @@ impl<R: PhysicalRod> Fit<'_, R> {
         Some(Rates { by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]), by_offsets })
     }
 
+    /// The blocks without errors of which each is a step larger.
+    pub fn stepped(&self, x: &DVector<f64>) -> Option<Vec<Vec<Corrected>>> {
+        let errors = self.errors(x);
+        let with_step = |k: &usize| {
+            let mut other = errors;
+            other[*k] += STEP * self.sources.sigmas[*k];
+            self.corrected(&other)
+        };
+        self.sources.free.iter().map(with_step).collect()
+    }
+
+    /// The length and the bending stiffness of the rod over the given ones.
+    pub fn rod_over_given(&self, x: &DVector<f64>) -> (f64, f64) {
+        let errors = self.errors(x);
+        (1.0 + errors[Source::Length as usize], 1.0 + errors[Source::Stiffness as usize])
+    }
+
+    /// Covariances of the contact points of a block, m^2, by that of the unknowns; zero at a fold.
+    pub fn covariances(
+        &self,
+        x: &DVector<f64>,
+        Model { curve, objects, corrected, states }: &Model,
+        block: usize,
+        stepped: &[Vec<Corrected>],
+        covariance: &DMatrix<f64>,
+    ) -> Vec<Matrix2<f64>> {
+        let Some(state) = &states[block] else { return Vec::new() };
+        let mut by: Vec<Vec<(usize, Vector2<f64>)>> = vec![Vec::new(); state.contacts.len()];
+        let mut add = |i: usize, response: &Response, share: f64| {
+            for (by, rate) in by.iter_mut().zip(&response.contacts) {
+                by.push((i, Vector2::new(rate.x, rate.y) * share));
+            }
+        };
+        if let Ok(derivatives) = Derivatives::new(self.rod, objects, state) {
+            let at: Vec<BTreeMap<usize, SupportRate>> =
+                state.contacts.iter().map(|contact| curve.rates(contact).into_iter().collect()).collect();
+            for i in at.iter().flat_map(|rates| rates.keys().copied()).collect::<BTreeSet<usize>>() {
+                let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
+                derivatives.by_contours(of_contact).iter().for_each(|response| add(i, response, 1.0));
+            }
+            let moves = [Quantity::ClampX, Quantity::ClampY, Quantity::ClampAngle];
+            let by_pose: Vec<Response> = moves.into_iter().filter_map(|by| derivatives.by(by).ok()).collect();
+            for (i, other) in stepped.iter().enumerate() {
+                let (from, to) = (corrected[block].pose, other[block].pose);
+                for (response, moved) in by_pose.iter().zip([to.x - from.x, to.y - from.y, to.phi - from.phi]) {
+                    add(curve.count() + i, response, moved / STEP);
+                }
+            }
+        }
+        let (longer, _) = self.rod_over_given(x);
+        let length = self.sources.free.iter().position(|k| *k == Source::Length as usize);
+        let sized = |(contact, by): (&Contact, &Vec<(usize, Vector2<f64>)>)| {
+            let mut by: Vec<(usize, Vector2<f64>)> = by.iter().map(|(i, rate)| (*i, rate * longer)).collect();
+            let of_length = length.map(|i| {
+                let sigma = self.sources.sigmas[Source::Length as usize];
+                (curve.count() + i, Vector2::new(contact.x, contact.y) * sigma)
+            });
+            by.extend(of_length);
+            let pairs = by.iter().flat_map(|one| by.iter().map(move |other| (one, other)));
+            pairs.map(|((i, one), (j, other))| one * other.transpose() * covariance[(*i, *j)]).sum()
+        };
+        state.contacts.iter().zip(&by).map(sized).collect()
+    }
+
     /// The rows of all blocks; none of those that the model does not reach.
     fn rows(&self, x: &DVector<f64>, at: &Model) -> Option<Vec<Option<Row>>> {
         let Model { corrected, states, .. } = at;
-        let (first, errors) = (self.curve.count(), self.errors(x));
-        let stepped: Vec<Vec<Corrected>> = self
-            .sources
-            .free
-            .iter()
-            .map(|k| {
-                let mut other = errors;
-                other[*k] += STEP * self.sources.sigmas[*k];
-                self.corrected(&other)
-            })
-            .collect::<Option<_>>()?;
+        let (first, stepped) = (self.curve.count(), self.stepped(x)?);
         let row = |k: usize| {
             let (block, state) = (&self.blocks.blocks[k], states[k].as_ref());
             if state.is_none() && !self.is_free(k, states) {

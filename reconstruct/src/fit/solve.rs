@@ -13,7 +13,7 @@ use crate::least_squares::{Damped, Iterate, iterate};
 use crate::systematic::Source;
 use nalgebra::{DMatrix, DVector};
 use rod_contact::State;
-use rod_core::{PhysicalRod, Rod};
+use rod_core::{PhysicalRod, Rod, Sample};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -282,8 +282,21 @@ impl Solved {
         }
     }
 
-    pub fn result(self, blocks: &Blocks, sources: &Sources, rod: &Rod) -> ContourFit {
+    /// The fit to `samples`; `given` is a uniform rod of the length and the stiffness at the clamp of `rod`.
+    pub fn result<R: PhysicalRod>(
+        self,
+        rod: &R,
+        samples: &[Sample],
+        blocks: &Blocks,
+        sources: &Sources,
+        given: &Rod,
+    ) -> ContourFit {
         let Self { x, curve, covariance, explained, goodness, states, .. } = self;
+        let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
+        fit.states.clone_from(&states);
+        let model = goodness.explains.then(|| fit.model(&x)).flatten();
+        let readings = model.and_then(|model| fit.answers(&x, &model, &covariance, &explained.labels, samples));
+        let rod = given;
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
@@ -308,6 +321,8 @@ impl Solved {
         };
         ContourFit {
             objects: curve.chains().map(Iterator::collect).zip(touched).map(object).collect(),
+            readings: readings.unwrap_or_default(),
+            length: rod.length(),
             errors,
             goodness,
             blocks: blocks.blocks.iter().enumerate().map(block).collect(),

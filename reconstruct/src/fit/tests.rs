@@ -1,7 +1,7 @@
 #![expect(clippy::print_stdout, reason = "prints the numbers that the page on reconstruction names")]
 
 use super::{ContourFit, FitError, fit_contour};
-use crate::{Ar1, Budget, Label, NoiseModel, Settings, Source, disturb, reconstruct_passes};
+use crate::{Ar1, Budget, Label, NoiseModel, Reconstruction, Settings, Source, disturb, reconstruct_passes};
 use rod_contact::{ClampPath, State, Sweep};
 use rod_contours::{Composite, Contour, Parabola};
 use rod_core::{Pose, Reactions, Rod, Sample};
@@ -66,6 +66,41 @@ fn several(fit: &ContourFit, states: &[State]) -> (usize, usize) {
     (several.len(), several.iter().filter(|(k, label)| *label == Some(truth(*k))).count())
 }
 
+/// Labels but for those next to a transition, points within their standard deviations, and forces.
+fn answers_are_true(found: &Reconstruction, states: &[State]) {
+    let truth = |k: usize| Label::of(states[k].phase().contacts, states[k].phase().tip);
+    let (mut wrong, mut expected, mut ratios) = (0, 0.0, Vec::new());
+    for (k, (reading, state)) in found.readings.iter().zip(states).enumerate() {
+        expected += 1.0 - reading.probability;
+        if reading.label != truth(k) {
+            wrong += 1;
+            continue;
+        }
+        let second = reading.second.and_then(Result::ok);
+        for (touch, contact) in reading.touch.ok().into_iter().chain(second).zip(&state.contacts) {
+            let (sin, cos) = touch.alpha.sin_cos();
+            let off = ((touch.x - contact.x) * sin - (touch.y - contact.y) * cos).abs();
+            ratios.push(off / touch.sigma_normal());
+            assert!((touch.force - contact.force).abs() < 0.02, "sample {k}: {} N for {}", touch.force, contact.force);
+        }
+    }
+    let share = |most: f64| ratios.iter().filter(|ratio| **ratio < most).count() as f64 / ratios.len() as f64;
+    println!(
+        "{wrong} labels of {} wrong, {expected:.0} expected; {:.2}, {:.2} and {:.3} of the points within 1, 2 and 3 standard deviations",
+        states.len(),
+        share(1.0),
+        share(2.0),
+        share(3.0)
+    );
+    assert!(
+        f64::from(wrong) < 1.5 * expected && share(2.0) > 0.85 && share(4.0) > 0.99,
+        "{wrong} {} {}",
+        share(2.0),
+        share(4.0)
+    );
+    assert_eq!(found.runs.first(), Some(&(0, truth(0))));
+}
+
 #[test]
 fn a_contour_explains_its_recording_in_noise() {
     let rod = steel();
@@ -73,8 +108,11 @@ fn a_contour_explains_its_recording_in_noise() {
     for seed in [0, 1] {
         let mut samples = samples(&states);
         noisy(&mut samples, seed);
-        let fit = fitted(&rod, &samples, &AS_IS).unwrap();
+        let mut local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
+        let fit = fit_contour(&rod, &samples, &local).unwrap();
         assert!(fit.goodness.explains, "{:?}", fit.goodness);
+        local.adopt(&fit, &AS_IS);
+        answers_are_true(&local, &states);
         let ratio = fit.goodness.chi_squared / fit.goodness.degrees_of_freedom;
         assert!((0.8..1.2).contains(&ratio), "{ratio}");
         let distances = distances(&fit, &states);

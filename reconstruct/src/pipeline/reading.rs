@@ -64,6 +64,14 @@ impl Reading {
     pub(super) fn without(label: Label, reason: Reason) -> Self {
         Self { label, probability: 0.0, touch: Err(reason), second: None, place: PlaceNumber::NONE }
     }
+
+    /// A sample of which a model gives the contacts, from the clamp to the tip.
+    #[cfg(feature = "contact")]
+    pub(crate) fn of_model(label: Label, probability: f64, touches: &[Touch]) -> Self {
+        let touch = touches.first().copied().ok_or(Reason::Free);
+        let second = touches.get(1).copied().map(Ok);
+        Self { label, probability, touch, second, place: PlaceNumber::NONE }
+    }
 }
 
 /// The point in SI units, if it is known well enough. Of clean samples only the noise counts: a contact that has just begun is exact,

@@ -1,7 +1,11 @@
 //! The result of a reconstruction.
 
+#[cfg(feature = "contact")]
+use super::Settings;
 use super::reading::{Reading, Reason};
 use crate::contour::{Assembly, ContourEstimate, Gap, Measured, Trace, TraceKind};
+#[cfg(feature = "contact")]
+use crate::fit::ContourFit;
 use crate::friction::FrictionEstimate;
 use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
@@ -51,6 +55,19 @@ pub struct Reconstruction {
     pub(super) windows: Vec<usize>,
 }
 
+/// Runs of samples that can be used with one label.
+#[cfg(feature = "contact")]
+fn runs(readings: &[Reading]) -> Vec<(usize, Label)> {
+    let mut runs: Vec<(usize, Label)> = Vec::new();
+    for (number, reading) in readings.iter().enumerate() {
+        let is_used = !matches!(reading.touch, Err(Reason::Fault(_)));
+        if is_used && runs.last().is_none_or(|run| run.1 != reading.label) {
+            runs.push((number, reading.label));
+        }
+    }
+    runs
+}
+
 impl Reconstruction {
     /// What was found of the errors that all samples share, in the first pass that says something of them.
     pub fn calibration(&self) -> Option<&Calibration> {
@@ -70,6 +87,34 @@ impl Reconstruction {
         };
         let corrected = self.calibration().map_or(*rod, |calibration| calibration.rod(rod));
         (corrected, self.passes.iter().flat_map(of).collect())
+    }
+
+    /// Takes over the labels, contact points and shared errors of a contour that explains the recording, wherever it gives some; nothing changes
+    /// where it does not explain it. `settings` are those of the reconstruction.
+    #[cfg(feature = "contact")]
+    pub fn adopt(&mut self, fit: &ContourFit, settings: &Settings) {
+        if !fit.goodness.explains {
+            return;
+        }
+        let largest = settings.largest_sigma * fit.length;
+        let known = |touch: Touch| {
+            let sigma = touch.sigma_normal();
+            if sigma <= largest { Ok(touch) } else { Err(Reason::TooNoisy { sigma }) }
+        };
+        for (reading, answer) in self.readings.iter_mut().zip(&fit.readings) {
+            if let (Some(answer), false) = (answer, matches!(reading.touch, Err(Reason::Fault(_)))) {
+                let second = answer.second.map(|second| second.and_then(known));
+                *reading = Reading { touch: answer.touch.and_then(known), second, ..*answer };
+            }
+        }
+        self.runs = runs(&self.readings);
+        let sources =
+            self.passes.iter_mut().filter_map(|pass| pass.calibration.as_mut()).flat_map(|one| &mut one.sources);
+        for estimate in sources {
+            if let Some((_, value, sigma)) = fit.errors.iter().find(|error| error.0 == estimate.source) {
+                (estimate.value, estimate.taken, estimate.sigma) = (*value, *value, *sigma);
+            }
+        }
     }
 
     /// The contour: contact points assembled into stretches, and the gaps between them.

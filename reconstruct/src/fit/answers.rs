@@ -1,0 +1,78 @@
+//! The answers to the samples that a contour gives: the states of the rod past it.
+
+use super::forward::Forward;
+use super::problem::{Fit, Model};
+use crate::phase::Label;
+use crate::pipeline::Reading;
+use crate::point::Touch;
+use nalgebra::{DMatrix, DVector, Matrix2};
+use rod_contact::State;
+use rod_core::{PhysicalRod, Pose, Sample};
+
+/// Probability of a label of the model, and next to a transition of the model: shares of the samples of random scenes that were explained for which
+/// it is true.
+const SURE: f64 = 0.99;
+const NEXT_TO: f64 = 0.75;
+
+impl<R: PhysicalRod> Fit<'_, R> {
+    /// The answers to samples, by the states of a model with the unknowns `x` of this covariance. `labels` are those of the blocks; none where the
+    /// model is not reached, and there is no answer.
+    pub fn answers(
+        &self,
+        x: &DVector<f64>,
+        model: &Model,
+        covariance: &DMatrix<f64>,
+        labels: &[Option<Label>],
+        samples: &[Sample],
+    ) -> Option<Vec<Option<Reading>>> {
+        let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
+        let stepped = self.stepped(x)?;
+        let mut answers = vec![None; samples.len()];
+        for (k, block) in self.blocks.blocks.iter().enumerate().filter(|(k, _)| labels[*k].is_some()) {
+            let is_sure = (k.saturating_sub(1)..=k + 1).all(|j| labels.get(j).is_none_or(|label| *label == labels[k]));
+            let probability = if is_sure { SURE } else { NEXT_TO };
+            let Some(state) = &model.states[k] else {
+                answers[block.samples.clone()].fill_with(|| Some(Reading::of_model(Label::Free, probability, &[])));
+                continue;
+            };
+            let covariances = self.covariances(x, model, k, &stepped, covariance);
+            // the errors of the samples of a block are about those of its mean
+            let (mean, length) = (block.clamp.pose, self.rod.units().length);
+            let pose = |sample: &Sample| Pose {
+                x: state.pose.x + sample.pose.x - mean.x * length,
+                y: state.pose.y + sample.pose.y - mean.y * length,
+                phi: state.pose.phi + sample.pose.phi - mean.z,
+            };
+            let poses: Vec<Pose> = samples[block.samples.clone()].iter().map(pose).collect();
+            let mut found = vec![None; poses.len()];
+            let middle = poses.len() / 2;
+            forward.follow(state, middle..poses.len(), &poses, &mut found);
+            forward.follow(state, (0..middle).rev(), &poses, &mut found);
+            for (answer, state) in answers[block.samples.clone()].iter_mut().zip(&found) {
+                *answer = state.as_ref().map(|state| self.answer(x, state, &covariances, probability));
+            }
+        }
+        Some(answers)
+    }
+
+    /// The answer of a state. The errors of its points are those of the block, whose contacts these are.
+    fn answer(&self, x: &DVector<f64>, state: &State, covariances: &[Matrix2<f64>], probability: f64) -> Reading {
+        // the model has the length of the given rod, and its bending stiffness
+        let (longer, stiffer) = self.rod_over_given(x);
+        let touch = |(i, contact): (usize, &rod_contact::Contact)| {
+            let covariance = covariances.get(i).or(covariances.last()).copied().unwrap_or_default();
+            Touch {
+                s: contact.s * longer,
+                x: contact.x * longer,
+                y: contact.y * longer,
+                alpha: contact.alpha,
+                force: contact.force * stiffer / (longer * longer),
+                covariance,
+                // the contour is one for all samples
+                systematic: covariance,
+            }
+        };
+        let touches: Vec<Touch> = state.contacts.iter().enumerate().map(touch).collect();
+        Reading::of_model(Label::of(state.phase().contacts, state.phase().tip), probability, &touches)
+    }
+}
