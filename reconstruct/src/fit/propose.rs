@@ -7,6 +7,7 @@ use super::swept::Swept;
 use nalgebra::{Rotation2, Vector2};
 use rod_core::{Elastica, RodModel};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
 
 /// Distance of the nodes of new contour, rod lengths, and how many there are to either side of a new contact.
 const SPACING: f64 = 0.02;
@@ -31,6 +32,9 @@ const BEHIND: f64 = 1e-5;
 const MOST_BETWEEN: usize = 12;
 /// Cosine of the angle between that way and the contour at its ends, at least.
 const AHEAD: f64 = -0.2;
+/// Longest way of a bend that may be a vertex, rod lengths, and its smallest turn, radians.
+const SHARP_WITHIN: f64 = 0.05;
+const SHARP_TURN: f64 = 0.3;
 /// Angles from node to node by which an end may go on (radians), and how many.
 const END_TURNS: [f64; 6] = [-0.2, -0.05, 0.0, 0.05, 0.2, 0.5];
 const END: usize = 6;
@@ -92,6 +96,63 @@ pub(super) fn joined(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64) -
     found.into_iter().map(|(_, chains)| chains).collect()
 }
 
+/// Contours of which a bend is a vertex, the sharpest first: one that is touched, and turns enough within a short way.
+pub(super) fn sharpened(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64) -> Vec<Vec<Vec<Node>>> {
+    let mut found: Vec<(f64, Vec<Vec<Node>>)> = Vec::new();
+    for (i, (chain, touched)) in chains.iter().zip(touched).enumerate() {
+        for (sharpness, bend) in bends(chain, touched, length) {
+            let [before, first, last, after] =
+                [bend.start - 1, bend.start, bend.end - 1, bend.end].map(|k| chain[k].at);
+            let Some(at) = crossing(first, first - before, last, after - last) else { continue };
+            let vertex = Node { is_vertex: true, ..Node::smooth(at, NEW * length) };
+            let mut chains = chains.to_vec();
+            chains[i] = [&chain[..bend.start], &[vertex], &chain[bend.end..]].concat();
+            found.push((sharpness, chains));
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.into_iter().map(|(_, chains)| chains).collect()
+}
+
+/// Nodes of a chain that are touched and bend around the solid, and by how much they turn more than a gentle bend of their way: the sharpest ones
+/// that have no node in common.
+fn bends(chain: &[Node], touched: &[bool], length: f64) -> Vec<(f64, Range<usize>)> {
+    let step = |k: usize| chain[k + 1].at - chain[k].at;
+    let mut found: Vec<(f64, Range<usize>)> = Vec::new();
+    for first in 1..chain.len().saturating_sub(2) {
+        let (mut turn, mut way) = (turn_of(step(first - 1), step(first)), 0.0);
+        for last in first + 1..chain.len() - 1 {
+            let is_part = (first..=last).all(|k| touched[k] && !chain[k].is_vertex);
+            (way, turn) = (way + step(last - 1).norm() / length, turn + turn_of(step(last - 1), step(last)));
+            if !is_part || way > SHARP_WITHIN {
+                break;
+            }
+            if turn > SHARP_TURN {
+                found.push((turn - way * SHARP_TURN / SHARP_WITHIN, first..last + 1));
+            }
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut kept: Vec<(f64, Range<usize>)> = Vec::new();
+    for one in found {
+        if kept.iter().all(|other| one.1.end <= other.1.start || other.1.end <= one.1.start) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+fn turn_of(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+    from.perp(&to).atan2(from.dot(&to))
+}
+
+/// Where a line from a place on meets another line on its way to a place; none where it does behind them.
+fn crossing(from: Vector2<f64>, along: Vector2<f64>, to: Vector2<f64>, on: Vector2<f64>) -> Option<Vector2<f64>> {
+    let sine = along.perp(&on);
+    let (ahead, back) = ((to - from).perp(&on) / sine, (to - from).perp(&along) / sine);
+    (ahead >= 0.0 && back <= 0.0 && ahead.is_finite()).then(|| from + along * ahead)
+}
+
 /// Contours of which an end goes on otherwise. What is `touched` stays.
 pub(super) fn with_other_ends(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64) -> Vec<Vec<Vec<Node>>> {
     let mut found = Vec::new();
@@ -144,4 +205,26 @@ fn cores(touched: &[Vec<bool>]) -> impl Iterator<Item = (usize, (usize, usize))>
     let ends = |of: &Vec<bool>| of.iter().position(|is| *is).zip(of.iter().rposition(|is| *is));
     let all = touched.iter().map(ends).enumerate();
     all.filter_map(|(k, ends)| Some((k, ends?))).filter(|(_, (first, last))| first < last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bend_between_two_straight_parts_becomes_the_vertex_where_they_meet() {
+        // along x to (1, 0) and on at 45 degrees, with the corner rounded
+        let (along, on) = (Vector2::new(0.02, 0.0), Vector2::new(0.0142, 0.0142));
+        let corner = Vector2::new(1.0, 0.0);
+        let before = (1..8).rev().map(|k| corner - along * f64::from(k));
+        let rounded = [corner - along * 0.4, corner + Vector2::new(-0.0015, 0.002), corner + on * 0.4];
+        let after = (1..8).map(|k| corner + on * f64::from(k));
+        let chain: Vec<Node> = before.chain(rounded).chain(after).map(|at| Node::smooth(at, NEW)).collect();
+        let touched = vec![vec![true; chain.len()]];
+        let found = sharpened(std::slice::from_ref(&chain), &touched, 1.0);
+        let vertex = found[0][0].iter().find(|node| node.is_vertex).unwrap();
+        assert!((vertex.at - corner).norm() < 3e-3, "{vertex:?}");
+        // what nothing touches stays a bend
+        assert!(sharpened(std::slice::from_ref(&chain), &[vec![false; chain.len()]], 1.0).is_empty());
+    }
 }

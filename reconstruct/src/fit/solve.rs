@@ -4,7 +4,7 @@ use super::blocks::{Block, Blocks};
 use super::curve::{Curve, Node};
 use super::grow::{Grown, grown};
 use super::problem::{Explained, Fit, Model, Sources};
-use super::propose::joined;
+use super::propose::{joined, sharpened};
 use super::start::Start;
 use super::trim::touched;
 use super::verdict::Goodness;
@@ -128,10 +128,11 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                 (fit.curve, fit.states) = (Curve::through(&chains)?, states);
             }
             Change::Finer => fit.curve = finer(best, length)?,
-            Change::Joined => {
+            Change::Sharper | Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
-                fit.curve = Curve::through(joined(&chains, &touched, length).first()?)?;
+                let changed = if change == Change::Joined { joined } else { sharpened };
+                fit.curve = Curve::through(changed(&chains, &touched, length).first()?)?;
             }
         }
         Some(())
@@ -151,20 +152,22 @@ enum Change {
     Grown,
     /// More nodes, and vertices, where the recording asks for them.
     Finer,
+    /// A bend is a vertex.
+    Sharper,
     /// Two parts are one.
     Joined,
 }
 
 impl Change {
     /// In the order in which they are tried.
-    const ALL: [Self; 3] = [Self::Grown, Self::Finer, Self::Joined];
+    const ALL: [Self; 4] = [Self::Grown, Self::Finer, Self::Sharper, Self::Joined];
 
     /// Whether it may make a fit better. A contour that explains its recording may be known better.
     fn is_for(self, best: &Solved) -> bool {
         match self {
             Self::Grown => !best.goodness.explains,
             Self::Finer => true,
-            Self::Joined => best.goodness.explains,
+            Self::Sharper | Self::Joined => best.goodness.explains,
         }
     }
 }
@@ -276,8 +279,8 @@ impl Solved {
     fn is_worth(&self, change: Change, before: &Self) -> bool {
         let (now, then) = (self.goodness.explains, before.goodness.explains);
         match change {
-            // one part has fewer unknowns than two
-            Change::Joined => now && self.cost < before.cost + WORTH,
+            // a vertex has fewer unknowns than a bend, and one part than two
+            Change::Sharper | Change::Joined => now && self.cost < before.cost + WORTH,
             Change::Grown | Change::Finer => now && !then || now == then && self.cost < before.cost - WORTH,
         }
     }
