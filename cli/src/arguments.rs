@@ -30,7 +30,7 @@ Turn a recording of clamp reactions back into contact points, phases and the con
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
 labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout. With --fit, fitted.csv is the contour that
-explains the whole recording.
+explains the whole recording; where there is one, labels, points and errors are those of the rod past it.
 
 Several recordings are of one object, with one rod in one frame. Each is reconstructed on its own, into a folder of its name, and
 contour.csv, contour.svg and merged.json beside the folders are of all of them together.";
@@ -203,8 +203,8 @@ pub struct Reconstruct {
     /// [default: none is moved]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
     pub align: Option<f64>,
-    /// Fit one contour, and the errors that all samples share, to each whole recording: whether a rod past one contour gives these reactions,
-    /// and where it does not (status 2). Takes seconds
+    /// Fit one contour, and the errors that all samples share, to each whole recording. If one explains it, labels and points are those of the rod
+    /// past it; if none does, the place where it fails is named (status 2). Takes seconds, or a minute where none does
     #[arg(long)]
     pub fit: bool,
     #[command(flatten)]

@@ -64,7 +64,7 @@ impl Merged {
     /// along it onto each other; otherwise their poses are in one frame. Scans that do not fit their rod do not count.
     pub fn of(found: &mut [Reconstructed], direction: Option<f64>) -> Self {
         distinct(found);
-        let fitting = || found.iter().filter(|one| one.check.fits());
+        let fitting = || found.iter().filter(|one| one.fits());
         let contours: Vec<ContourEstimate> = fitting().map(|one| one.contour.clone()).collect();
         let offsets: Vec<Offset> = direction.map_or_else(Vec::new, |direction| align(&contours, direction));
         let contours = match direction {
@@ -78,7 +78,7 @@ impl Merged {
             passes.filter_map(|(k, pass)| Some((k, pass.calibration.clone()?))).collect();
         let mut offsets = offsets.into_iter();
         let scan = |one: &Reconstructed| {
-            let fits = one.check.fits();
+            let fits = one.fits();
             let offset = if fits { offsets.next() } else { None };
             MergedScan {
                 recording: one.recording.file.clone(),

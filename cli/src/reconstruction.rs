@@ -132,22 +132,32 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for found in found {
         let file = found.recording.file.display();
-        // kinks within a run are those of contacts that the fit knows
+        // kinks within a run are those of contacts that the fit knows, and labels are its own; where it needs no errors, the rod fits
+        let is_of_labels =
+            |finding: &Finding| matches!(finding, Finding::KinksWithin { .. } | Finding::Uncertain { .. });
         let is_told = |finding: &&Finding| {
-            finding.is_misfit()
-                || finding.is_warning() && !(found.is_explained() && matches!(finding, Finding::KinksWithin { .. }))
+            let is_answered = found.is_explained() && (is_of_labels(finding) || found.fits() && finding.is_misfit());
+            (finding.is_misfit() || finding.is_warning()) && !is_answered
         };
         for finding in found.check.findings.iter().filter(is_told) {
             warn(&format!("warning: {file}: {finding}\n"));
+        }
+        if let Some(doubt) = found.doubt() {
+            warn(&format!("warning: {file}: {doubt}\n"));
         }
         if let Some(why) = found.contradiction() {
             warn(&format!("warning: {file}: {why}\n"));
             code = ExitCode::from(UNFINISHED);
         }
-        if found.check.fits() {
+        if found.fits() {
             continue;
         }
-        if let Some(causes) = found.explained().filter(|_| !found.is_explained()) {
+        // where the fit names an error that is too large, other causes contradict it
+        let is_named = found
+            .fit
+            .as_ref()
+            .is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.error_beyond_budget().is_some()));
+        if let Some(causes) = found.explained().filter(|_| !found.is_explained() && !is_named) {
             warn(&format!("warning: {file}: {causes}\n"));
         }
         code = ExitCode::from(UNFINISHED);

@@ -472,6 +472,7 @@ fn one_contour_explains_a_recording_or_the_place_is_named_where_none_does() {
         let (x, slope) = if x < 0.015 { (x, 100.0 * x) } else { (x - 0.03, 100.0 * (x - 0.03)) };
         (y - 50.0 * x * x).abs() / slope.hypot(1.0) / sigma
     };
+    assert!(points.iter().all(|row| row[3].is_empty() == (row[5] == "false")), "{table}");
     let touched: Vec<f64> = points.iter().filter(|row| row[5] == "true").map(|row| off(&row)).collect();
     assert!(touched.len() > 5 && touched.len() < points.len() && touched.iter().all(|off| *off < 5.0), "{touched:?}");
 

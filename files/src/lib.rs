@@ -36,7 +36,8 @@ pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
 pub use reconstructed::{
-    CONTOUR_COLUMNS, Comparison, Reconstructed, ReconstructionError, Transition, TruthError, hardly_told, naive_touch,
+    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError, hardly_told,
+    naive_touch,
 };
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;

@@ -11,7 +11,7 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
-use rod_files::{Reconstructed, Recording};
+use rod_files::{FittedPoint, Reconstructed, ReconstructionError, Recording};
 use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
@@ -36,6 +36,15 @@ const KINK: &[Column<Kink>] = &[
     },
     Column { name: "sigma", get: Get::Float(|kink| kink.sigma_tau) },
     Column { name: "score", get: Get::Float(|kink| kink.score) },
+];
+
+const FITTED: &[Column<FittedPoint>] = &[
+    Column { name: "object", get: Get::Int(|row| row.object as i64) },
+    Column { name: "x", get: Get::Float(|row| row.x) },
+    Column { name: "y", get: Get::Float(|row| row.y) },
+    Column { name: "sigma", get: Get::Float(|row| row.sigma.unwrap_or(f64::NAN)) },
+    Column { name: "vertex", get: Get::Flag(|row| row.vertex) },
+    Column { name: "touched", get: Get::Flag(|row| row.touched) },
 ];
 
 const ESTIMATE: &[Column<SourceEstimate>] = &[
@@ -158,13 +167,36 @@ impl PyReconstruction {
     /// Whether recording, units and rod fit together.
     #[getter]
     fn fits(&self) -> bool {
-        self.found.check.fits()
+        self.found.fits()
     }
 
     /// What the check by the physics found, in words.
     #[getter]
     fn findings(&self) -> Vec<String> {
         self.found.check.findings.iter().map(Finding::to_string).collect()
+    }
+
+    /// Whether one contour explains the whole recording; None without ``fit``, and where signs, units or rod are wrong. Where it does, labels,
+    /// points, contour and errors are its own.
+    #[getter]
+    fn is_explained(&self) -> Option<bool> {
+        self.found.fit.is_some().then(|| self.found.is_explained())
+    }
+
+    /// Why one contour does not explain the whole recording, and where, in words; None where it does, and without ``fit``.
+    #[getter]
+    fn contradiction(&self) -> Option<String> {
+        self.found.contradiction()
+    }
+
+    /// The contour that explains the whole recording best, as a structured array; empty without ``fit``.
+    ///
+    /// Fields: ``object``, counted from 1; points ``x``, ``y`` (m); ``sigma``: standard deviation across the contour (m), NaN where it is not touched; ``vertex``: whether
+    /// smooth pieces meet at an angle there; ``touched``: whether the rod touches there, or between it and the next point.
+    #[getter]
+    fn fitted<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let rows: Vec<FittedPoint> = self.found.fitted_contour().into_iter().flatten().collect();
+        structured(py, FITTED, rows.iter())
     }
 
     /// What explains a recording that does not fit.
@@ -289,6 +321,9 @@ fn recording(samples: Samples) -> Recording {
 /// friction : float, tuple of two floats or str, optional
 ///     Coulomb friction of rod and object: its coefficient, the coefficient and its standard deviation, or "estimate". Without it there
 ///     is none.
+/// fit : bool, optional
+///     Fit one contour to the whole recording, which takes seconds, or a minute where none explains it. Where one does, labels, points,
+///     contour and errors are its own; else a warning says where it fails.
 ///
 /// Returns
 /// -------
@@ -299,7 +334,7 @@ fn recording(samples: Samples) -> Recording {
 /// ValueError
 ///     Too few samples can be used, or an argument is not possible.
 #[pyfunction]
-#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None))]
+#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None, fit=false))]
 #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
 pub fn reconstruct(
     py: Python<'_>,
@@ -310,6 +345,7 @@ pub fn reconstruct(
     largest_sigma: Option<f64>,
     as_is: bool,
     friction: Option<&Bound<'_, PyAny>>,
+    fit: bool,
 ) -> PyResult<PyReconstruction> {
     let default = Settings::default();
     let settings = Settings {
@@ -325,11 +361,21 @@ pub fn reconstruct(
         Err(_) => recording(samples.extract()?),
     };
     let given = rod.rod.clone();
-    let reconstructed = || Reconstructed::new(recording, given, &settings);
-    let found = running::run(py, reconstructed)?.map_err(errors::value)?;
-    if !found.check.fits() {
+    let reconstructed = || {
+        let mut found = Reconstructed::new(recording, given, &settings)?;
+        if fit {
+            found.fit(&settings);
+        }
+        Ok(found)
+    };
+    let found = running::run(py, reconstructed)?.map_err(|error: ReconstructionError| errors::value(error))?;
+    let mut doubts: Vec<String> = Vec::new();
+    if !found.fits() {
         let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();
-        let text = format!("recording, units and rod do not fit: {}", findings.join("; "));
+        doubts.push(format!("recording, units and rod do not fit: {}", findings.join("; ")));
+    }
+    doubts.extend(found.contradiction().into_iter().chain(found.doubt()));
+    for text in doubts {
         let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }

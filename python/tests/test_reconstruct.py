@@ -45,6 +45,23 @@ def test_a_clean_scan_gives_its_contacts_back(scene: vibrissa.Scene) -> None:
         np.testing.assert_array_equal(again.readings["x"], readings["x"])
 
 
+def test_one_contour_explains_a_recording(scene: vibrissa.Scene, tmp_path: Path) -> None:
+    noise = tmp_path / "noise.toml"
+    noise.write_text(NOISE_FILE)
+    samples = vibrissa.simulate(scene, rate=20, speed=1e-3, noise=noise)
+    plain = vibrissa.reconstruct(scene.rod, samples, as_is=True)
+    assert plain.is_explained is None and plain.contradiction is None and len(plain.fitted) == 0
+    found = vibrissa.reconstruct(scene.rod, samples, as_is=True, fit=True)
+    assert found.is_explained and found.contradiction is None
+    touched = found.fitted[found.fitted["touched"]]
+    gaps = scene.objects[0].gap(touched["x"], touched["y"])
+    assert len(touched) > 5 and np.all(np.abs(gaps) < 5 * touched["sigma"])
+    # its points lie on it
+    points = found.readings[~np.isnan(found.readings["x"])]
+    off = np.abs(scene.objects[0].gap(points["x"], points["y"]))
+    assert np.mean(off < 3 * np.hypot(points["sigma_x"], points["sigma_y"])) > 0.95
+
+
 def test_simulated_and_reconstructed_as_by_the_command(
     scene: vibrissa.Scene, command: list[str], tmp_path: Path
 ) -> None:

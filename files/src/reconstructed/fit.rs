@@ -5,24 +5,24 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::Source;
+use vibrissa::reconstruct::{Goodness, Source};
 
 impl Reconstructed {
     /// Adds whether one contour explains the recording; nothing where that was not looked at.
     pub(super) fn tell_fit(&self, text: &mut String) -> std::fmt::Result {
         let Some(Ok(fit)) = &self.fit else { return Ok(()) };
-        let goodness = &fit.goodness;
+        let Goodness { chi_squared, degrees_of_freedom, explains, .. } = &fit.goodness;
+        let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
+        if *explains {
+            return writeln!(
+                text,
+                "fit: one contour explains the recording, {of}; labels, points and errors are its own"
+            );
+        }
         let label =
             |run: &(Range<usize>, Option<Label>)| run.1.map_or_else(|| "?".to_owned(), |label| label.to_string());
         let labels: Vec<String> = fit.runs().iter().map(label).collect();
-        writeln!(
-            text,
-            "fit: {} the recording, chi squared {:.0} of {:.0} degrees of freedom; phases: {}",
-            if goodness.explains { "one contour explains" } else { "no contour explains" },
-            goodness.chi_squared,
-            goodness.degrees_of_freedom,
-            labels.join(" ")
-        )
+        writeln!(text, "fit: no contour explains the recording, {of}; its phases: {}", labels.join(" "))
     }
 
     /// Whether one contour explains the recording; false where that was not looked at.
@@ -30,15 +30,33 @@ impl Reconstructed {
         self.fit.as_ref().is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.explains))
     }
 
-    /// The rows of fitted.csv; none where there is no fit.
-    pub(super) fn fitted_contour(&self) -> Option<impl Iterator<Item = FittedPoint>> {
+    /// Where the contour of the fit has several contacts though each sample alone was answered by one, in words: a contact that passes fast along a
+    /// flank looks like two. None where there is no such place.
+    pub fn doubt(&self) -> Option<String> {
+        let count: usize = self.several_for_one.iter().map(Range::len).sum();
+        let [from, to] = self.rows_of(self.several_for_one.iter().max_by_key(|run| run.len())?);
+        Some(format!(
+            "the contour of the fit has several contacts in {count} samples, as rows {from} to {to}, where each alone was answered by one: a contact that \
+             passes fast along a flank looks like two at its ends; if the object is convex, its points there are wrong"
+        ))
+    }
+
+    /// Whether recording, units and rod fit together: by the physics, or because one contour explains the recording with all errors as they are
+    /// known. What the physics find is of the local answer.
+    pub fn fits(&self) -> bool {
+        let fit = self.fit.as_ref().and_then(|fit| fit.as_ref().ok());
+        self.check.fits() || fit.is_some_and(|fit| fit.goodness.explains && fit.errors.is_empty())
+    }
+
+    /// The points of the contour of the fit, as in fitted.csv; none where there is no fit.
+    pub fn fitted_contour(&self) -> Option<impl Iterator<Item = FittedPoint>> {
         let fit = self.fit.as_ref()?.as_ref().ok()?;
         Some(fit.objects.iter().enumerate().flat_map(|(object, fitted)| {
             let point = move |k: usize| FittedPoint {
                 object: object + 1,
                 x: fitted.points[k][0],
                 y: fitted.points[k][1],
-                sigma: fitted.sigmas[k],
+                sigma: fitted.touched[k].then_some(fitted.sigmas[k]),
                 vertex: fitted.vertices.contains(&k),
                 touched: fitted.touched[k],
             };
@@ -69,7 +87,7 @@ impl Reconstructed {
             why += &format!("; at {share:.0} % of the samples, as rows {from} to {to}, the rod cannot be on it");
         }
         if let Some((source, off)) = fit.goodness.error_beyond_budget() {
-            why += &format!("; its {source} is {off:.0} standard deviations off what is known");
+            why += &format!("; its {source} is off what is known by {:.0} standard deviations of that", off.abs());
         }
         Some(
             why + ": the points there may be wrong, the object, the rod or the sensor changed, or the fit had no good start; compare the \
@@ -82,21 +100,27 @@ impl Reconstructed {
 pub(super) const FITTED_COLUMNS: [&str; 6] = ["object", "x", "y", "sigma", "vertex", "touched"];
 
 /// A point of the contour of a fit.
-#[derive(Serialize)]
-pub(super) struct FittedPoint {
-    object: usize,
-    x: f64,
-    y: f64,
-    sigma: f64,
-    vertex: bool,
-    touched: bool,
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct FittedPoint {
+    /// Number of the object, from 1.
+    pub object: usize,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Standard deviation across the contour, m; none where it is not touched.
+    pub sigma: Option<f64>,
+    /// Whether smooth pieces meet at an angle there.
+    pub vertex: bool,
+    /// Whether the rod touches the contour there, or between it and the next point.
+    pub touched: bool,
 }
 
 /// The fit of one contour to the whole recording.
 #[derive(Default, Serialize)]
 pub(super) struct FitRecord {
-    /// Whether the contour explains the recording; false where there is no fit.
-    explains: bool,
+    /// Whether the contour explains the recording; none where there is no fit.
+    explains: Option<bool>,
     /// Why there is no fit.
     missing: Option<String>,
     chi_squared: Option<f64>,
@@ -104,9 +128,13 @@ pub(super) struct FitRecord {
     p_value: Option<f64>,
     /// Share of the blocks of samples at whose poses the model has no state.
     unreached: Option<f64>,
+    /// Samples that are left out because the free rod rings after a jump.
+    ringing: Option<usize>,
     /// The error that is farthest off what is known of it.
     farthest_error: Option<FarthestErrorRecord>,
     worst: Option<WorstRecord>,
+    /// First and last rows of several contacts where each row alone was answered by one.
+    several_for_one: Vec<[usize; 2]>,
     runs: Vec<FittedRunRecord>,
     errors: Vec<FittedErrorRecord>,
 }
@@ -156,12 +184,13 @@ impl FitRecord {
             FittedRunRecord { label, from, to }
         };
         Some(Self {
-            explains: goodness.explains,
+            explains: Some(goodness.explains),
             missing: None,
             chi_squared: Some(goodness.chi_squared),
             degrees_of_freedom: Some(goodness.degrees_of_freedom),
             p_value: Some(goodness.p_value),
             unreached: Some(goodness.unreached),
+            ringing: Some(fit.ringing),
             farthest_error: goodness
                 .farthest_error
                 .map(|(source, off)| FarthestErrorRecord { source, standard_deviations: off }),
@@ -172,6 +201,7 @@ impl FitRecord {
                 residuals: worst.residuals,
                 p_value: worst.p_value,
             }),
+            several_for_one: found.several_for_one.iter().map(|run| found.rows_of(run)).collect(),
             runs: fit.runs().into_iter().map(run).collect(),
             errors: fit
                 .errors

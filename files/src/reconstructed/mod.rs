@@ -14,6 +14,7 @@ mod truth;
 
 pub use comparison::{Comparison, Transition, TruthError};
 pub use files::COLUMNS as CONTOUR_COLUMNS;
+pub use fit::FittedPoint;
 pub(crate) use points::PointRecord;
 pub use result::{Reconstructed, ReconstructionError};
 pub use summary::hardly_told;

@@ -194,7 +194,7 @@ impl PhysicsRecord {
         let cause =
             |(what, likelihood): &(Explanation, f64)| CauseRecord { cause: what.to_string(), likelihood: *likelihood };
         let causes = found.explanations.iter().map(cause).collect();
-        Self { fits: check.fits(), line, explained, beyond_tip, pulling, no_moment_zero, findings, causes }
+        Self { fits: found.fits(), line, explained, beyond_tip, pulling, no_moment_zero, findings, causes }
     }
 }
 

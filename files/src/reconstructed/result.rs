@@ -51,6 +51,8 @@ pub struct Reconstructed {
     pub explanations: Vec<(Explanation, f64)>,
     /// The contour that explains the whole recording best, or why there is none; none where it was not looked for.
     pub fit: Option<Result<ContourFit, FitError>>,
+    /// Runs of samples with several contacts of that contour in which each sample alone was answered by one.
+    pub several_for_one: Vec<Range<usize>>,
     /// The comparison with the truth, where that is known.
     pub comparison: Option<Comparison>,
 }
@@ -86,6 +88,7 @@ impl Reconstructed {
             check,
             explanations: Vec::new(),
             fit: None,
+            several_for_one: Vec::new(),
             comparison: None,
         })
     }
@@ -104,7 +107,20 @@ impl Reconstructed {
         if let Ok(fit) = &fit
             && fit.goodness.explains
         {
+            let before: Vec<Label> = self.found.readings.iter().map(|reading| reading.label).collect();
             self.found.adopt(fit, settings);
+            let after = self.found.readings.iter().map(|reading| reading.label);
+            for (k, _) in before
+                .iter()
+                .zip(after)
+                .enumerate()
+                .filter(|(_, (before, after))| after.several() && !before.several() && **before != Label::Free)
+            {
+                match self.several_for_one.last_mut().filter(|run| run.end == k) {
+                    Some(run) => run.end = k + 1,
+                    None => self.several_for_one.push(k..k + 1),
+                }
+            }
             self.contour = self.found.contour(&Assembly::default());
         }
         self.fit = Some(fit);

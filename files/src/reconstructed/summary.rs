@@ -80,7 +80,7 @@ impl Reconstructed {
             return writeln!(
                 text,
                 "corrections: {}",
-                if self.check.fits() { "none, as is" } else { "none, because the recording does not fit its rod" }
+                if self.fits() { "none, as is" } else { "none, because the recording does not fit its rod" }
             );
         };
         let taken: Vec<_> = calibration
@@ -89,8 +89,7 @@ impl Reconstructed {
             .filter(|estimate| estimate.taken != 0.0 && estimate.source != Source::Friction)
             .collect();
         if taken.is_empty() {
-            let why =
-                if self.check.fits() { "none needed" } else { "none, because the recording does not fit its rod" };
+            let why = if self.fits() { "none needed" } else { "none, because the recording does not fit its rod" };
             writeln!(text, "corrections: {why}")?;
         }
         for &SourceEstimate { source, taken, sigma, .. } in taken {

@@ -26,8 +26,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
         samples: &[Sample],
     ) -> Option<Vec<Option<Reading>>> {
         let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
-        let stepped = self.stepped(x)?;
-        let mut answers = vec![None; samples.len()];
+        let (stepped, shared) = (self.stepped(x)?, self.by_errors(covariance)?);
+        let (mut answers, mut covariances) = (vec![None; samples.len()], Vec::new());
         for (k, block) in self.blocks.blocks.iter().enumerate().filter(|(k, _)| labels[*k].is_some()) {
             let is_sure = (k.saturating_sub(1)..=k + 1).all(|j| labels.get(j).is_none_or(|label| *label == labels[k]));
             let probability = if is_sure { SURE } else { NEXT_TO };
@@ -35,7 +35,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 answers[block.samples.clone()].fill_with(|| Some(Reading::of_model(Label::Free, probability, &[])));
                 continue;
             };
-            let covariances = self.covariances(x, model, k, &stepped, covariance);
+            // at a fold those of the block before hold
+            covariances = self.covariances(x, model, k, &stepped, [covariance, &shared]).unwrap_or(covariances);
+            if covariances.is_empty() && !state.contacts.is_empty() {
+                continue;
+            }
             // the errors of the samples of a block are about those of its mean
             let (mean, length) = (block.clamp.pose, self.rod.units().length);
             let pose = |sample: &Sample| Pose {
@@ -55,12 +59,20 @@ impl<R: PhysicalRod> Fit<'_, R> {
         Some(answers)
     }
 
+    /// The part of a covariance of the unknowns that the errors cause which all samples share; none where it is singular.
+    fn by_errors(&self, covariance: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let (first, count) = (self.curve.count(), self.sources.free.len());
+        let rows = covariance.columns(first, count);
+        let own = covariance.view((first, first), (count, count)).into_owned();
+        if count == 0 { Some(covariance * 0.0) } else { Some(rows * own.cholesky()?.solve(&rows.transpose())) }
+    }
+
     /// The answer of a state. The errors of its points are those of the block, whose contacts these are.
-    fn answer(&self, x: &DVector<f64>, state: &State, covariances: &[Matrix2<f64>], probability: f64) -> Reading {
+    fn answer(&self, x: &DVector<f64>, state: &State, covariances: &[[Matrix2<f64>; 2]], probability: f64) -> Reading {
         // the model has the length of the given rod, and its bending stiffness
         let (longer, stiffer) = self.rod_over_given(x);
         let touch = |(i, contact): (usize, &rod_contact::Contact)| {
-            let covariance = covariances.get(i).or(covariances.last()).copied().unwrap_or_default();
+            let [covariance, systematic] = covariances.get(i).or(covariances.last()).copied().unwrap_or_default();
             Touch {
                 s: contact.s * longer,
                 x: contact.x * longer,
@@ -68,8 +80,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 alpha: contact.alpha,
                 force: contact.force * stiffer / (longer * longer),
                 covariance,
-                // the contour is one for all samples
-                systematic: covariance,
+                systematic,
             }
         };
         let touches: Vec<Touch> = state.contacts.iter().enumerate().map(touch).collect();

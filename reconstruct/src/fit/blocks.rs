@@ -23,6 +23,11 @@ const LEAST_NOISE: f64 = 3e-4;
 const FEW: usize = 10;
 const KNOWN_AS: f64 = 100.0;
 const MOST_SCATTER: f64 = 2.0;
+/// Force of the last block in contact, standard deviations, from which on a free block after it tells of a jump.
+const RELEASED: f64 = 100.0;
+/// Distance of the reactions of a free block from those at rest, standard deviations, at which the rod rings, and the least number of blocks at rest.
+const RINGS: f64 = 6.0;
+const QUIET: usize = 4;
 /// Blocks on either side of a jump that are left out: its place is known to a sample, and a real rod rings after it.
 const BESIDE_JUMP: usize = 1;
 
@@ -43,7 +48,7 @@ pub(super) struct Block {
     pub label: Label,
     /// The contacts that it gives, SI units of the given rod; empty where they are not known.
     pub contacts: Vec<Contact>,
-    /// Whether it is beside a jump.
+    /// Whether it is left out: it is beside a jump, or the rod rings after one.
     pub is_by_jump: bool,
 }
 
@@ -55,6 +60,8 @@ pub(super) struct Blocks {
     pub segments: Vec<Range<usize>>,
     /// Of the whole recording.
     pub frame: Frame,
+    /// Samples that are left out because the free rod rings.
+    pub ringing: usize,
 }
 
 /// What all blocks of a recording are made with.
@@ -97,9 +104,54 @@ impl Blocks {
             before += to - from;
         }
         as_scattered(&mut blocks);
+        let segments = cut_at_releases(&mut blocks, segments);
+        let ringing = leave_out_ringing(&mut blocks, &segments);
         let (first, last) = (blocks.first().map(|block: &Block| block.tau)?, blocks.last()?.tau);
-        Some(Self { blocks, segments, frame: frame?.on_way(last - first) })
+        Some(Self { blocks, segments, frame: frame?.on_way(last - first), ringing })
     }
+}
+
+impl Block {
+    /// Size of its reactions less others, in standard deviations.
+    fn off(&self, reactions: &Vector3<f64>) -> f64 {
+        (self.clamp.reactions - reactions).component_div(&self.sigma).norm()
+    }
+}
+
+/// Cuts segments where a rod under force is free from one block to the next: it has jumped, though ringing may hide the jump.
+fn cut_at_releases(blocks: &mut [Block], segments: Vec<Range<usize>>) -> Vec<Range<usize>> {
+    let mut cut = Vec::with_capacity(segments.len());
+    for Range { mut start, end } in segments {
+        for k in start + 1..end {
+            let is_released = blocks[k].label == Label::Free && blocks[k - 1].label != Label::Free;
+            if is_released && blocks[k - 1].off(&Vector3::zeros()) > RELEASED {
+                blocks[k - 1..=k].iter_mut().for_each(|block| block.is_by_jump = true);
+                cut.push(start..k);
+                start = k;
+            }
+        }
+        cut.push(start..end);
+    }
+    cut
+}
+
+/// Leaves out blocks after a jump, where a free rod rings: until its reactions stay what they are at the end of the segment. How many samples these are.
+fn leave_out_ringing(blocks: &mut [Block], segments: &[Range<usize>]) -> usize {
+    let mut count = 0;
+    for segment in segments.iter().skip(1).filter(|segment| segment.len() > 2 * QUIET) {
+        let own = &mut blocks[segment.clone()];
+        if own.iter().any(|block| block.label != Label::Free) {
+            continue;
+        }
+        let half = &own[own.len() / 2..];
+        let rest = half.iter().map(|block| block.clamp.reactions).sum::<Vector3<f64>>() / half.len() as f64;
+        let Some(last) = own.iter().rposition(|block| block.off(&rest) > RINGS) else { continue };
+        for block in own[..=last].iter_mut().filter(|_| last + QUIET < segment.len()) {
+            block.is_by_jump = true;
+            count += block.samples.len();
+        }
+    }
+    count
 }
 
 /// Makes the standard deviations larger where the means of free blocks scatter by more about the mean of each few of them: of short recordings the

@@ -32,16 +32,19 @@ use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
 use crate::systematic::Source;
 use blocks::Blocks;
+use nalgebra::DVector;
 use problem::Sources;
 use rod_contours::{Composite, Contour, ContourError, Spline, SplineEnd};
 use rod_core::{PhysicalRod, Rod, Sample};
 use solve::{Search, Solved};
-use start::starts;
+use start::{Start, starts};
 use std::ops::Range;
 
 /// Most evaluations of the model at all poses of a recording, each of milliseconds. Larger: more time on recordings that nothing explains; smaller:
 /// those with many contacts are given up.
 const MOST_EVALUATIONS: usize = 1000;
+/// The same without errors that all samples share, where these may not be needed.
+const WITHOUT_ERRORS: usize = 500;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -113,6 +116,8 @@ pub struct ContourFit {
     pub goodness: Goodness,
     /// The recording in blocks.
     pub blocks: Vec<FittedBlock>,
+    /// Number of samples that are left out because the free rod rings after a jump.
+    pub ringing: usize,
     /// The answer to each sample by the states of the rod past the contour; none where it is not reached, and where the contour does not explain
     /// the recording. They are not a part of serialised data.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -135,8 +140,9 @@ impl ContourFit {
     }
 }
 
-/// Fits contour and shared errors to the `samples` of a recording, from its local answers `local` on. Of a rod that is not uniform no errors
-/// are estimated, and of a uniform one none of its natural curvature.
+/// Fits contour and shared errors to the `samples` of a recording, from its local answers `local` on. Errors are estimated if the local answer
+/// corrects some, or no contour explains the recording without; of a rod that is not uniform never, and of a uniform one none of its natural
+/// curvature.
 ///
 /// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
 /// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.
@@ -155,12 +161,30 @@ pub fn fit_contour<R: PhysicalRod>(
     let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
     let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
-    let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: MOST_EVALUATIONS };
     let starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
+    if starts.is_empty() {
+        return Err(FitError::NoContacts);
+    }
+    let fitted = |sources: &Sources, errors: &DVector<f64>, evaluations: usize| {
+        let (solved, blocks) = best_of(&starts, Search { rod, sources, errors, evaluations })?;
+        Some(solved.result(rod, samples, blocks, sources, &uniform))
+    };
+    // errors that the recording does not ask for would move its contour as far as they are uncertain
+    if !local.is_corrected() && !sources.free.is_empty() {
+        let found = fitted(&sources.exact(), &DVector::zeros(0), WITHOUT_ERRORS);
+        if let Some(found) = found.filter(|fit| fit.goodness.explains) {
+            return Ok(found);
+        }
+    }
+    fitted(&sources, &errors, MOST_EVALUATIONS).ok_or(FitError::NoStart)
+}
+
+/// The best fit from some starts: the first that explains the recording, else the one of lowest cost.
+fn best_of<'a, R: PhysicalRod>(starts: &'a [Start], mut search: Search<'a, R>) -> Option<(Solved, &'a Blocks)> {
     let is_done = |best: &Option<(Solved, &Blocks)>| best.as_ref().is_some_and(|best| best.0.goodness.explains);
     let mut best: Option<(Solved, &Blocks)> = None;
     let mut begun = Vec::new();
-    for start in &starts {
+    for start in starts {
         match search.begun(start) {
             Some(one) if one.solved.is_near() => search.improve(one, &mut best),
             one => begun.extend(one),
@@ -176,6 +200,5 @@ pub fn fit_contour<R: PhysicalRod>(
         }
         search.improve(one, &mut best);
     }
-    let (solved, blocks) = best.ok_or(if starts.is_empty() { FitError::NoContacts } else { FitError::NoStart })?;
-    Ok(solved.result(rod, samples, blocks, &sources, &uniform))
+    best
 }

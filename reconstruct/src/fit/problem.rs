@@ -65,6 +65,11 @@ impl Sources {
         (Self { sigmas, known, free }, start)
     }
 
+    /// The same, with all errors as they are known.
+    pub fn exact(&self) -> Self {
+        Self { free: Vec::new(), ..self.clone() }
+    }
+
     /// The errors that are so many standard deviations of their budget off what is known.
     pub fn errors<'a>(&self, off: impl IntoIterator<Item = &'a f64>) -> Errors {
         let mut errors = self.known;
@@ -302,36 +307,35 @@ impl<R: PhysicalRod> Fit<'_, R> {
         (1.0 + errors[Source::Length as usize], 1.0 + errors[Source::Stiffness as usize])
     }
 
-    /// Covariances of the contact points of a block, m^2, by that of the unknowns; zero at a fold.
+    /// Covariances of the contact points of a block, m^2, by each of some of the unknowns; none at a fold.
     pub fn covariances(
         &self,
         x: &DVector<f64>,
         Model { curve, objects, corrected, states }: &Model,
         block: usize,
         stepped: &[Vec<Corrected>],
-        covariance: &DMatrix<f64>,
-    ) -> Vec<Matrix2<f64>> {
-        let Some(state) = &states[block] else { return Vec::new() };
+        covariances: [&DMatrix<f64>; 2],
+    ) -> Option<Vec<[Matrix2<f64>; 2]>> {
+        let state = states[block].as_ref()?;
         let mut by: Vec<Vec<(usize, Vector2<f64>)>> = vec![Vec::new(); state.contacts.len()];
         let mut add = |i: usize, response: &Response, share: f64| {
             for (by, rate) in by.iter_mut().zip(&response.contacts) {
                 by.push((i, Vector2::new(rate.x, rate.y) * share));
             }
         };
-        if let Ok(derivatives) = Derivatives::new(self.rod, objects, state) {
-            let at: Vec<BTreeMap<usize, SupportRate>> =
-                state.contacts.iter().map(|contact| curve.rates(contact).into_iter().collect()).collect();
-            for i in at.iter().flat_map(|rates| rates.keys().copied()).collect::<BTreeSet<usize>>() {
-                let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
-                derivatives.by_contours(of_contact).iter().for_each(|response| add(i, response, 1.0));
-            }
-            let moves = [Quantity::ClampX, Quantity::ClampY, Quantity::ClampAngle];
-            let by_pose: Vec<Response> = moves.into_iter().filter_map(|by| derivatives.by(by).ok()).collect();
-            for (i, other) in stepped.iter().enumerate() {
-                let (from, to) = (corrected[block].pose, other[block].pose);
-                for (response, moved) in by_pose.iter().zip([to.x - from.x, to.y - from.y, to.phi - from.phi]) {
-                    add(curve.count() + i, response, moved / STEP);
-                }
+        let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
+        let at: Vec<BTreeMap<usize, SupportRate>> =
+            state.contacts.iter().map(|contact| curve.rates(contact).into_iter().collect()).collect();
+        for i in at.iter().flat_map(|rates| rates.keys().copied()).collect::<BTreeSet<usize>>() {
+            let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
+            derivatives.by_contours(of_contact).iter().for_each(|response| add(i, response, 1.0));
+        }
+        let moves = [Quantity::ClampX, Quantity::ClampY, Quantity::ClampAngle];
+        let by_pose: Vec<Response> = moves.into_iter().filter_map(|by| derivatives.by(by).ok()).collect();
+        for (i, other) in stepped.iter().enumerate() {
+            let (from, to) = (corrected[block].pose, other[block].pose);
+            for (response, moved) in by_pose.iter().zip([to.x - from.x, to.y - from.y, to.phi - from.phi]) {
+                add(curve.count() + i, response, moved / STEP);
             }
         }
         let (longer, _) = self.rod_over_given(x);
@@ -343,10 +347,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 (curve.count() + i, Vector2::new(contact.x, contact.y) * sigma)
             });
             by.extend(of_length);
-            let pairs = by.iter().flat_map(|one| by.iter().map(move |other| (one, other)));
-            pairs.map(|((i, one), (j, other))| one * other.transpose() * covariance[(*i, *j)]).sum()
+            covariances.map(|covariance| {
+                let pairs = by.iter().flat_map(|one| by.iter().map(move |other| (one, other)));
+                pairs.map(|((i, one), (j, other))| one * other.transpose() * covariance[(*i, *j)]).sum()
+            })
         };
-        state.contacts.iter().zip(&by).map(sized).collect()
+        Some(state.contacts.iter().zip(&by).map(sized).collect())
     }
 
     /// The rows of all blocks; none of those that the model does not reach.

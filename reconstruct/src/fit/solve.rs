@@ -60,31 +60,43 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
 
     /// The fit at contours that are changed as long as that makes it better.
     fn improved(&mut self, Begun { mut fit, solved: mut best }: Begun<'_, R>) -> Solved {
-        if let Some(solved) = self.refined(&mut fit, &best) {
-            best = solved;
-        }
+        // what is far off is changed before it is known well
+        let mut is_rough = true;
         for _ in 0..CHANGES {
-            let changes = Change::ALL.into_iter().filter(|change| change.is_for(&best));
-            let mut better = None;
-            for change in changes {
-                if self.evaluations == 0 {
-                    break;
-                }
-                let bend = fit.bend;
-                let errors = self.errors_of(&best);
-                better = self.changed(change, &best, &mut fit).and_then(|()| self.solved(&mut fit, &errors, ROUGHLY));
-                better = better.filter(|rough| rough.cost < HOPEFUL * best.cost);
-                better = better.and_then(|rough| self.refined(&mut fit, &rough));
-                better = better.filter(|solved| solved.is_worth(change, &best));
-                if better.is_some() {
-                    break;
-                }
-                (fit.curve, fit.states, fit.bend) = (best.curve.clone(), best.states.clone(), bend);
+            if is_rough && best.is_near() {
+                best = self.refined(&mut fit, &best).unwrap_or(best);
+                is_rough = false;
             }
-            let Some(solved) = better else { break };
-            best = solved;
+            match self.changed(&best, &mut fit) {
+                Some(solved) => (is_rough, best) = (!solved.is_near(), solved),
+                None if is_rough && self.evaluations > 0 => {
+                    best = self.refined(&mut fit, &best).unwrap_or(best);
+                    is_rough = false;
+                }
+                None => break,
+            }
         }
         best
+    }
+
+    /// The first change that makes a fit better; roughly, where it is still far off. The fit is left as it is if none does.
+    fn changed(&mut self, best: &Solved, fit: &mut Fit<'_, R>) -> Option<Solved> {
+        for change in Change::ALL.into_iter().filter(|change| change.is_for(best)) {
+            if self.evaluations == 0 {
+                break;
+            }
+            (fit.curve, fit.states) = (best.curve.clone(), best.states.clone());
+            let (bend, errors) = (fit.bend, self.errors_of(best));
+            let rough = self.change(change, best, fit).and_then(|()| self.solved(fit, &errors, ROUGHLY));
+            let rough = rough.filter(|rough| rough.cost < HOPEFUL * best.cost);
+            let found = rough.and_then(|rough| if rough.is_near() { self.refined(fit, &rough) } else { Some(rough) });
+            if let Some(found) = found.filter(|found| found.is_worth(change, best)) {
+                return Some(found);
+            }
+            fit.bend = bend;
+        }
+        (fit.curve, fit.states) = (best.curve.clone(), best.states.clone());
+        None
     }
 
     /// Improves a fit that has begun, and keeps it if it is to be preferred to the best one.
@@ -117,7 +129,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     }
 
     /// Gives the fit, which has the contour and the states of `best`, another contour; none where there is none.
-    fn changed(&mut self, change: Change, best: &Solved, fit: &mut Fit<'_, R>) -> Option<()> {
+    fn change(&mut self, change: Change, best: &Solved, fit: &mut Fit<'_, R>) -> Option<()> {
         let length = self.rod.units().length;
         match change {
             Change::Grown => {
@@ -279,8 +291,10 @@ impl Solved {
     fn is_worth(&self, change: Change, before: &Self) -> bool {
         let (now, then) = (self.goodness.explains, before.goodness.explains);
         match change {
-            // a vertex has fewer unknowns than a bend, and one part than two
-            Change::Sharper | Change::Joined => now && self.cost < before.cost + WORTH,
+            // one part has fewer unknowns than two
+            Change::Joined => now && self.cost < before.cost + WORTH,
+            // a vertex has fewer unknowns than a bend
+            Change::Sharper => now && self.cost < before.cost,
             Change::Grown | Change::Finer => now && !then || now == then && self.cost < before.cost - WORTH,
         }
     }
@@ -326,6 +340,7 @@ impl Solved {
             objects: curve.chains().map(Iterator::collect).zip(touched).map(object).collect(),
             readings: readings.unwrap_or_default(),
             length: rod.length(),
+            ringing: blocks.ringing,
             errors,
             goodness,
             blocks: blocks.blocks.iter().enumerate().map(block).collect(),

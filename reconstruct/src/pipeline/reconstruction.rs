@@ -12,6 +12,8 @@ use crate::phase::{Evidence, Label};
 use crate::point::Touch;
 use crate::scan::noise_estimate::ChannelNoise;
 use crate::systematic::Calibration;
+#[cfg(feature = "contact")]
+use nalgebra::Matrix2;
 use rod_core::{Rod, Sample};
 use std::ops::Range;
 
@@ -101,10 +103,22 @@ impl Reconstruction {
             let sigma = touch.sigma_normal();
             if sigma <= largest { Ok(touch) } else { Err(Reason::TooNoisy { sigma }) }
         };
+        // the fit may have found another contour with other errors: what the local answer does not know of these stays unknown
+        let mut shared = self
+            .readings
+            .iter()
+            .find_map(|reading| reading.touch.ok())
+            .map_or_else(Matrix2::zeros, |touch| touch.systematic);
         for (reading, answer) in self.readings.iter_mut().zip(&fit.readings) {
+            if let Ok(touch) = reading.touch {
+                shared = touch.systematic;
+            }
+            let with_shared = |touch: Touch| {
+                known(Touch { covariance: touch.covariance + shared, systematic: touch.systematic + shared, ..touch })
+            };
             if let (Some(answer), false) = (answer, matches!(reading.touch, Err(Reason::Fault(_)))) {
-                let second = answer.second.map(|second| second.and_then(known));
-                *reading = Reading { touch: answer.touch.and_then(known), second, ..*answer };
+                let second = answer.second.map(|second| second.and_then(with_shared));
+                *reading = Reading { touch: answer.touch.and_then(with_shared), second, ..*answer };
             }
         }
         self.runs = runs(&self.readings);
@@ -112,7 +126,7 @@ impl Reconstruction {
             self.passes.iter_mut().filter_map(|pass| pass.calibration.as_mut()).flat_map(|one| &mut one.sources);
         for estimate in sources {
             if let Some((_, value, sigma)) = fit.errors.iter().find(|error| error.0 == estimate.source) {
-                (estimate.value, estimate.taken, estimate.sigma) = (*value, *value, *sigma);
+                (estimate.value, estimate.taken, estimate.sigma) = (*value, *value, estimate.sigma.max(*sigma));
             }
         }
     }
@@ -151,7 +165,11 @@ impl Reconstruction {
                 }
                 let window = match reading.second {
                     Some(_) => run.map_or(1, |(_, length)| length / SERIES),
-                    None => self.windows.get(reading.place.0).copied().unwrap_or(1),
+                    // the points of a model share its noise as those of a stretch do
+                    None => {
+                        let of_model = || run.map_or(1, |(_, length)| length / SERIES);
+                        self.windows.get(reading.place.0).copied().unwrap_or_else(of_model)
+                    }
                 };
                 // the second contact is used with the first one only
                 let second = reading.second.filter(|_| reading.touch.is_ok());
