@@ -7,6 +7,9 @@ use std::ops::Range;
 use vibrissa::Label;
 use vibrissa::reconstruct::{Goodness, Source};
 
+/// Share of the samples in contact from which on such places are told: fewer are next to a transition.
+const DOUBTED: f64 = 0.01;
+
 impl Reconstructed {
     /// Adds whether one contour explains the recording; nothing where that was not looked at.
     pub(super) fn tell_fit(&self, text: &mut String) -> std::fmt::Result {
@@ -34,6 +37,10 @@ impl Reconstructed {
     /// flank looks like two. None where there is no such place.
     pub fn doubt(&self) -> Option<String> {
         let count: usize = self.several_for_one.iter().map(Range::len).sum();
+        let in_contact = self.found.readings.iter().filter(|reading| reading.label != Label::Free).count();
+        if (count as f64) < DOUBTED * in_contact as f64 {
+            return None;
+        }
         let [from, to] = self.rows_of(self.several_for_one.iter().max_by_key(|run| run.len())?);
         Some(format!(
             "the contour of the fit has several contacts in {count} samples, as rows {from} to {to}, where each alone was answered by one: a contact that \
