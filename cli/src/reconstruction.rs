@@ -105,13 +105,13 @@ fn one(
     let recording = read(file, scan)?;
     stage(&format!("{name}: kinks, phases, errors and contact points of {} samples", recording.samples().count()));
     let mut found = Reconstructed::new(recording, rod.clone(), settings)?;
-    if !found.check.fits() {
-        stage(&format!("{name}: looking for what explains it"));
-        found.explain(settings);
-    }
     if fit {
         stage(&format!("{name}: fitting one contour to the whole recording"));
         found.fit(settings);
+    }
+    if !found.fits() {
+        stage(&format!("{name}: looking for what explains it"));
+        found.explain(settings);
     }
     if let Some(scene) = truth {
         stage(&format!("{name}: comparing with the scene"));
@@ -153,10 +153,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
             continue;
         }
         // where the fit names an error that is too large, other causes contradict it
-        let is_named = found
-            .fit
-            .as_ref()
-            .is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.error_beyond_budget().is_some()));
+        let is_named = found.fitted().is_some_and(|fit| fit.goodness.error_beyond_budget().is_some());
         if let Some(causes) = found.explained().filter(|_| !found.is_explained() && !is_named) {
             warn(&format!("warning: {file}: {causes}\n"));
         }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::{Goodness, Source};
+use vibrissa::reconstruct::{ContourFit, Goodness, Source};
 
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
@@ -13,7 +13,7 @@ const DOUBTED: f64 = 0.01;
 impl Reconstructed {
     /// Adds whether one contour explains the recording; nothing where that was not looked at.
     pub(super) fn tell_fit(&self, text: &mut String) -> std::fmt::Result {
-        let Some(Ok(fit)) = &self.fit else { return Ok(()) };
+        let Some(fit) = self.fitted() else { return Ok(()) };
         let Goodness { chi_squared, degrees_of_freedom, explains, .. } = &fit.goodness;
         let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
         if *explains {
@@ -30,7 +30,12 @@ impl Reconstructed {
 
     /// Whether one contour explains the recording; false where that was not looked at.
     pub fn is_explained(&self) -> bool {
-        self.fit.as_ref().is_some_and(|fit| fit.as_ref().is_ok_and(|fit| fit.goodness.explains))
+        self.fitted().is_some_and(|fit| fit.goodness.explains)
+    }
+
+    /// The contour that was fitted; none where there is none.
+    pub fn fitted(&self) -> Option<&ContourFit> {
+        self.fit.as_ref()?.as_ref().ok()
     }
 
     /// Where the contour of the fit has several contacts though each sample alone was answered by one, in words: a contact that passes fast along a
@@ -51,13 +56,12 @@ impl Reconstructed {
     /// Whether recording, units and rod fit together: by the physics, or because one contour explains the recording with all errors as they are
     /// known. What the physics find is of the local answer.
     pub fn fits(&self) -> bool {
-        let fit = self.fit.as_ref().and_then(|fit| fit.as_ref().ok());
-        self.check.fits() || fit.is_some_and(|fit| fit.goodness.explains && fit.errors.is_empty())
+        self.check.fits() || self.fitted().is_some_and(|fit| fit.goodness.explains && fit.errors.is_empty())
     }
 
     /// The points of the contour of the fit, as in fitted.csv; none where there is no fit.
     pub fn fitted_contour(&self) -> Option<impl Iterator<Item = FittedPoint>> {
-        let fit = self.fit.as_ref()?.as_ref().ok()?;
+        let fit = self.fitted()?;
         Some(fit.objects.iter().enumerate().flat_map(|(object, fitted)| {
             let point = move |k: usize| FittedPoint {
                 object: object + 1,

@@ -110,12 +110,11 @@ impl Reconstructed {
             let before: Vec<Label> = self.found.readings.iter().map(|reading| reading.label).collect();
             self.found.adopt(fit, settings);
             let after = self.found.readings.iter().map(|reading| reading.label);
-            for (k, _) in before
-                .iter()
-                .zip(after)
-                .enumerate()
-                .filter(|(_, (before, after))| after.several() && !before.several() && **before != Label::Free)
-            {
+            let is_one = |label: Label| !label.several() && label != Label::Free;
+            for (k, (before, after)) in before.into_iter().zip(after).enumerate() {
+                if !(is_one(before) && after.several()) {
+                    continue;
+                }
                 match self.several_for_one.last_mut().filter(|run| run.end == k) {
                     Some(run) => run.end = k + 1,
                     None => self.several_for_one.push(k..k + 1),

@@ -49,7 +49,7 @@ pub(super) struct Block {
     /// The contacts that it gives, SI units of the given rod; empty where they are not known.
     pub contacts: Vec<Contact>,
     /// Whether it is left out: it is beside a jump, or the rod rings after one.
-    pub is_by_jump: bool,
+    pub is_left_out: bool,
 }
 
 /// The blocks of a recording.
@@ -125,7 +125,7 @@ fn cut_at_releases(blocks: &mut [Block], segments: Vec<Range<usize>>) -> Vec<Ran
         for k in start + 1..end {
             let is_released = blocks[k].label == Label::Free && blocks[k - 1].label != Label::Free;
             if is_released && blocks[k - 1].off(&Vector3::zeros()) > RELEASED {
-                blocks[k - 1..=k].iter_mut().for_each(|block| block.is_by_jump = true);
+                blocks[k - 1..=k].iter_mut().for_each(|block| block.is_left_out = true);
                 cut.push(start..k);
                 start = k;
             }
@@ -145,10 +145,10 @@ fn leave_out_ringing(blocks: &mut [Block], segments: &[Range<usize>]) -> usize {
         }
         let half = &own[own.len() / 2..];
         let rest = half.iter().map(|block| block.clamp.reactions).sum::<Vector3<f64>>() / half.len() as f64;
-        let Some(last) = own.iter().rposition(|block| block.off(&rest) > RINGS) else { continue };
-        for block in own[..=last].iter_mut().filter(|_| last + QUIET < segment.len()) {
-            block.is_by_jump = true;
-            count += block.samples.len();
+        let rings = own.iter().rposition(|block| block.off(&rest) > RINGS).map_or(0, |last| last + 1);
+        if rings + QUIET <= own.len() {
+            own[..rings].iter_mut().for_each(|block| block.is_left_out = true);
+            count += own[..rings].iter().map(|block| block.samples.len()).sum::<usize>();
         }
     }
     count
@@ -158,7 +158,7 @@ fn leave_out_ringing(blocks: &mut [Block], segments: &[Range<usize>]) -> usize {
 /// correlation of the noise is hardly known.
 fn as_scattered(blocks: &mut [Block]) {
     let (mut sum, mut count) = (Vector3::zeros(), 0.0);
-    for few in blocks.chunks_exact(FEW).filter(|few| few.iter().all(|one| one.label == Label::Free && !one.is_by_jump))
+    for few in blocks.chunks_exact(FEW).filter(|few| few.iter().all(|one| one.label == Label::Free && !one.is_left_out))
     {
         let z: Vec<Vector3<f64>> = few.iter().map(|block| block.clamp.reactions.component_div(&block.sigma)).collect();
         let mean = z.iter().sum::<Vector3<f64>>() / FEW as f64;
@@ -212,7 +212,7 @@ impl Cut<'_> {
             if is_jump || end == samples.end {
                 let segment = start..blocks.len();
                 for k in segment.clone() {
-                    blocks[k].is_by_jump =
+                    blocks[k].is_left_out =
                         after_jump && k < segment.start + BESIDE_JUMP || is_jump && k + BESIDE_JUMP >= segment.end;
                 }
                 if !segment.is_empty() {
@@ -247,7 +247,7 @@ impl Cut<'_> {
             sigma,
             label: middle.label,
             contacts: self.contacts(middle),
-            is_by_jump: false,
+            is_left_out: false,
             samples,
         }
     }

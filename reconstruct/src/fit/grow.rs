@@ -137,7 +137,7 @@ fn is_good(k: usize, blocks: &Blocks, explained: &Explained) -> bool {
     let segment = blocks.segment_of(k);
     let near = k.saturating_sub(NEAR).max(segment.start)..(k + NEAR + 1).min(segment.end);
     let squares: Vec<f64> = near.filter_map(|j| Some(explained.residuals[j]?.norm_squared())).collect();
-    let is_own = blocks.blocks[k].is_by_jump || explained.residuals[k].is_some_and(|r| r.norm_squared() < OUTLIER);
+    let is_own = blocks.blocks[k].is_left_out || explained.residuals[k].is_some_and(|r| r.norm_squared() < OUTLIER);
     is_own && !squares.is_empty() && squares.iter().sum::<f64>() < 3.0 * GOOD * squares.len() as f64
 }
 
@@ -148,7 +148,7 @@ fn longest_run(blocks: &Blocks, good: &[bool], seen: &[Range<usize>]) -> Option<
         let mut first = segment.start;
         while first < segment.end {
             let end = (first..segment.end).find(|k| good[*k] != good[first]).unwrap_or(segment.end);
-            let counted = (first..end).filter(|k| !blocks.blocks[*k].is_by_jump).count();
+            let counted = (first..end).filter(|k| !blocks.blocks[*k].is_left_out).count();
             if !good[first] && counted > 1 && !seen.contains(&(first..end)) {
                 runs.push((first..end, segment.clone()));
             }
@@ -206,7 +206,7 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         let explained = fit.explained(&model);
         let share = window.range.len() as f64 / self.fit.blocks.blocks.len() as f64;
         self.evaluations.set(self.evaluations.get() + share.max(LEAST) * (fit.evaluations + 1) as f64);
-        let counted = explained.residuals.iter().zip(&window.blocks.blocks).filter(|(_, block)| !block.is_by_jump);
+        let counted = explained.residuals.iter().zip(&window.blocks.blocks).filter(|(_, block)| !block.is_left_out);
         let squares: Vec<Option<f64>> = counted.map(|(residual, _)| residual.map(|r| r.norm_squared())).collect();
         let cost = squares.iter().map(|square| cost_of(square.map(f64::sqrt))).sum();
         let mean =

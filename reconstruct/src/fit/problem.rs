@@ -152,6 +152,23 @@ struct Rates {
     by_offsets: Vec<(usize, Vector3<f64>)>,
 }
 
+/// How a state changes with each offset of the contour by which its contacts move at a rate that `is_felt`.
+fn by_offsets(
+    derivatives: &Derivatives<'_>,
+    curve: &Curve,
+    state: &State,
+    is_felt: impl Fn(&SupportRate) -> bool,
+) -> Vec<(usize, Response)> {
+    let felt = |contact| curve.rates(contact).into_iter().filter(|(_, rate)| is_felt(rate)).collect();
+    let at: Vec<BTreeMap<usize, SupportRate>> = state.contacts.iter().map(felt).collect();
+    let unknowns: BTreeSet<usize> = at.iter().flat_map(|rates| rates.keys().copied()).collect();
+    let response = |i: usize| {
+        let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
+        Some((i, derivatives.by_contours(of_contact).ok()?))
+    };
+    unknowns.into_iter().filter_map(response).collect()
+}
+
 /// A block against the model.
 struct Row {
     residual: Vector3<f64>,
@@ -221,11 +238,16 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// The model with these unknowns; none where its contour is no curve.
     pub fn model(&self, x: &DVector<f64>) -> Option<Model> {
         let curve = self.curve.moved(x.rows(0, self.curve.count()).into_owned())?;
-        let objects = curve.objects()?;
-        let corrected = self.corrected(&self.errors(x))?;
-        let poses: Vec<Pose> = corrected.iter().map(|one| one.pose).collect();
-        let forward = Forward { rod: self.rod, curve: &curve, objects: &objects };
-        let states = forward.states(self.blocks, &poses, &self.states);
+        let mut model = self.model_with(x, curve, Vec::new())?;
+        let poses: Vec<Pose> = model.corrected.iter().map(|one| one.pose).collect();
+        let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
+        model.states = forward.states(self.blocks, &poses, &self.states);
+        Some(model)
+    }
+
+    /// The model with these unknowns, whose contour and states are known.
+    pub fn model_with(&self, x: &DVector<f64>, curve: Curve, states: Vec<Option<State>>) -> Option<Model> {
+        let (objects, corrected) = (curve.objects()?, self.corrected(&self.errors(x))?);
         Some(Model { curve, objects, corrected, states })
     }
 
@@ -250,8 +272,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let (is_known, model) = (is_known && model.is_some(), model.unwrap_or_default());
             let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
             let residual = corrected[k].residual(&model, &by_pose, block);
-            explained.residuals.push((is_known && !block.is_by_jump).then_some(residual));
-            explained.unreached += usize::from(!is_known && !block.is_by_jump);
+            explained.residuals.push((is_known && !block.is_left_out).then_some(residual));
+            explained.unreached += usize::from(!is_known && !block.is_left_out);
         }
         let jumps = self.blocks.segments.iter().zip(self.blocks.segments.iter().skip(1));
         for (before, after) in jumps {
@@ -276,17 +298,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let stiffness = derivatives.stiffness().ok()?;
         let size = Vector3::new(units.force, units.force, units.moment);
         let is_near = |rate: &SupportRate| rate.x.hypot(rate.y) > FAR || rate.alpha.abs() * units.length > FAR;
-        let near = |contact| curve.rates(contact).into_iter().filter(|(_, rate)| is_near(rate)).collect();
-        let at: Vec<BTreeMap<usize, SupportRate>> = state.contacts.iter().map(near).collect();
-        let unknowns: BTreeSet<usize> = at.iter().flat_map(|rates| rates.keys().copied()).collect();
-        let by_offsets = unknowns
-            .into_iter()
-            .filter_map(|i| {
-                let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
-                let by = derivatives.by_contours(of_contact).ok()?.reactions;
-                Some((i, Vector3::new(by.f0x, by.f0y, by.m0z).component_div(&size)))
-            })
-            .collect();
+        let by_offsets = by_offsets(&derivatives, curve, state, is_near).into_iter().map(|(i, response)| {
+            let by = response.reactions;
+            (i, Vector3::new(by.f0x, by.f0y, by.m0z).component_div(&size))
+        });
+        let by_offsets = by_offsets.collect();
         Some(Rates { by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]), by_offsets })
     }
 
@@ -324,12 +340,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
             }
         };
         let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
-        let at: Vec<BTreeMap<usize, SupportRate>> =
-            state.contacts.iter().map(|contact| curve.rates(contact).into_iter().collect()).collect();
-        for i in at.iter().flat_map(|rates| rates.keys().copied()).collect::<BTreeSet<usize>>() {
-            let of_contact = |contact: usize| at[contact].get(&i).copied().unwrap_or_default();
-            derivatives.by_contours(of_contact).iter().for_each(|response| add(i, response, 1.0));
-        }
+        by_offsets(&derivatives, curve, state, |_| true).iter().for_each(|(i, response)| add(*i, response, 1.0));
         let moves = [Quantity::ClampX, Quantity::ClampY, Quantity::ClampAngle];
         let by_pose: Vec<Response> = moves.into_iter().filter_map(|by| derivatives.by(by).ok()).collect();
         for (i, other) in stepped.iter().enumerate() {
@@ -432,7 +443,7 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
             return NormalMatrix { cost: f64::INFINITY, ..NormalMatrix::empty(x.len()) };
         };
         let mut normal = self.prior(x, &curve);
-        for (_, row) in self.blocks.blocks.iter().zip(&rows).filter(|(block, _)| !block.is_by_jump) {
+        for (_, row) in self.blocks.blocks.iter().zip(&rows).filter(|(block, _)| !block.is_left_out) {
             if let Some(Row { residual, by }) = row {
                 let weight = LOSS.weight(1.0, residual.norm());
                 (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], weight));

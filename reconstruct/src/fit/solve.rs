@@ -37,6 +37,7 @@ const HOPEFUL: f64 = 2.0;
 const NEAR: f64 = 3.0;
 /// Smallest and largest standard deviation of the change of curvature, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
 const BENDS: (f64, f64) = (1.0, 1e3);
+
 /// The search for the contour of a recording, from several starts.
 pub(super) struct Search<'a, R> {
     pub rod: &'a R,
@@ -309,16 +310,14 @@ impl Solved {
         given: &Rod,
     ) -> ContourFit {
         let Self { x, curve, covariance, explained, goodness, states, .. } = self;
-        let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
-        fit.states.clone_from(&states);
-        let model = goodness.explains.then(|| fit.model(&x)).flatten();
+        let fit = Fit::new(rod, curve.clone(), blocks, sources);
+        let model = goodness.explains.then(|| fit.model_with(&x, curve.clone(), states.clone())).flatten();
         let readings = model.and_then(|model| fit.answers(&x, &model, &covariance, &explained.labels, samples));
-        let rod = given;
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
-            let (source, unit, given) = (Source::ALL[*k], Source::ALL[*k].unit(rod), sources.sigmas[*k]);
-            (source, (sources.known[*k] + x[count + i] * given) * unit, sigma(count + i) * given * unit)
+            let (source, unit, budget) = (Source::ALL[*k], Source::ALL[*k].unit(given), sources.sigmas[*k]);
+            (source, (sources.known[*k] + x[count + i] * budget) * unit, sigma(count + i) * budget * unit)
         };
         let errors: Vec<(Source, f64, f64)> = sources.free.iter().enumerate().map(of_source).collect();
         // the model has the length of the given rod; the true one may have another
@@ -329,7 +328,7 @@ impl Solved {
             residuals: explained.residuals[k].map(Into::into),
         };
         let chains: Vec<Vec<Node>> = curve.nodes_of_chains();
-        let touched = touched(&chains, &states, rod.length());
+        let touched = touched(&chains, &states, given.length());
         let object = |(nodes, touched): (Vec<(usize, Node)>, Vec<bool>)| FittedObject {
             points: nodes.iter().map(|(_, node)| [node.at.x * length, node.at.y * length]).collect(),
             sigmas: nodes.iter().map(|(k, _)| curve.variance(*k, &covariance).max(0.0).sqrt() * length).collect(),
@@ -339,7 +338,7 @@ impl Solved {
         ContourFit {
             objects: curve.chains().map(Iterator::collect).zip(touched).map(object).collect(),
             readings: readings.unwrap_or_default(),
-            length: rod.length(),
+            length: given.length(),
             ringing: blocks.ringing,
             errors,
             goodness,

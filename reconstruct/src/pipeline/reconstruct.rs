@@ -3,7 +3,7 @@
 use super::answers::Answers;
 use super::calibrated::Calibrated;
 use super::reading::{Reading, Reason};
-use super::reconstruction::{Pass, Reconstruction};
+use super::reconstruction::{Pass, Reconstruction, runs};
 use super::settings::{ReconstructError, Settings};
 use crate::kink::{Kink, KinkKind};
 use crate::phase::{Label, identify_phases};
@@ -75,12 +75,7 @@ pub(super) fn reconstruct_calibrated<I: Inverse>(
             }
         }
     }
-    let mut runs: Vec<(usize, Label)> = Vec::new();
-    for (reading, number) in usable.iter().zip(&numbers) {
-        if runs.last().is_none_or(|run| run.1 != reading.label) {
-            runs.push((number.0, reading.label));
-        }
-    }
+    let runs = runs(numbers.iter().zip(&usable).map(|(number, reading)| (number.0, reading.label)));
     let size = [given.force, given.force, given.moment];
     let slope = |kink: &Kink, c: usize| if kink.kind == KinkKind::Kink { size[c] / units.length } else { size[c] };
     let in_units = |kink: &Kink| Kink {

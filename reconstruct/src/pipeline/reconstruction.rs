@@ -57,14 +57,12 @@ pub struct Reconstruction {
     pub(super) windows: Vec<usize>,
 }
 
-/// Runs of samples that can be used with one label.
-#[cfg(feature = "contact")]
-fn runs(readings: &[Reading]) -> Vec<(usize, Label)> {
+/// Runs of samples with one label, from the numbers of those that can be used and their labels.
+pub(super) fn runs(labels: impl Iterator<Item = (usize, Label)>) -> Vec<(usize, Label)> {
     let mut runs: Vec<(usize, Label)> = Vec::new();
-    for (number, reading) in readings.iter().enumerate() {
-        let is_used = !matches!(reading.touch, Err(Reason::Fault(_)));
-        if is_used && runs.last().is_none_or(|run| run.1 != reading.label) {
-            runs.push((number, reading.label));
+    for (number, label) in labels {
+        if runs.last().is_none_or(|run| run.1 != label) {
+            runs.push((number, label));
         }
     }
     runs
@@ -121,7 +119,8 @@ impl Reconstruction {
                 *reading = Reading { touch: answer.touch.and_then(with_shared), second, ..*answer };
             }
         }
-        self.runs = runs(&self.readings);
+        let used = self.readings.iter().enumerate().filter(|(_, one)| !matches!(one.touch, Err(Reason::Fault(_))));
+        self.runs = runs(used.map(|(number, one)| (number, one.label)));
         let sources =
             self.passes.iter_mut().filter_map(|pass| pass.calibration.as_mut()).flat_map(|one| &mut one.sources);
         for estimate in sources {

@@ -72,6 +72,8 @@ fn fits_of_random_scenes() {
     let (mut explained, mut all) = (0, 0);
     // of the recordings that are explained, samples with several contacts: all, with a first contact of the local answer, and so labelled by the fit
     let mut several = [0; 3];
+    // samples whose label the fit is sure of, and others, by whether it is right
+    let (mut sure, mut next) = ([0; 2], [0; 2]);
     for seed in seeds(0..24) {
         let Some(scan) = Scene::of(seed).map(Scene::scan) else { continue };
         let states: Vec<_> = scan.states.iter().step_by(THINNED).cloned().collect();
@@ -101,6 +103,11 @@ fn fits_of_random_scenes() {
                         several[1] += usize::from(is_local(k));
                         several[2] += usize::from(labels[k].is_some_and(Label::several));
                     }
+                    for (k, reading) in fit.readings.iter().enumerate() {
+                        let Some(reading) = reading else { continue };
+                        let counted = if reading.probability > 0.9 { &mut sure } else { &mut next };
+                        counted[usize::from(reading.label == truth[k])] += 1;
+                    }
                 }
                 println!(
                     "{}: explained {}, chi squared {ratio:.2}, unreached {:.3}, labels right {before:.1} % -> {:.1} %",
@@ -115,6 +122,10 @@ fn fits_of_random_scenes() {
     }
     println!("{explained} of {all} explained; of their {} samples with several contacts,", several[0]);
     println!("{} have a first contact in the local answer, {} that label in the fit", several[1], several[2]);
+    println!(
+        "labels of the fit that are right and wrong: sure {} {}, next to a transition {} {}",
+        sure[1], sure[0], next[1], next[0]
+    );
 }
 
 /// `cargo test -p rod-reconstruct --test suite three_contacts -- --ignored --nocapture`
