@@ -4,7 +4,7 @@ use super::piece::Piece;
 use crate::numeric::wrap_angle;
 use nalgebra::{DMatrix, DVector, Vector2};
 use rod_contact::{Contact, ContactKind};
-use rod_contours::{Composite, Contour, Frame};
+use rod_contours::{Composite, Contour as _, Frame};
 use rod_core::SupportRate;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -134,8 +134,8 @@ impl Curve {
 
     pub fn objects(&self) -> Option<Vec<Composite>> {
         let pieces_of = |object: usize| self.pieces.iter().filter(move |piece| piece.object == object);
-        let boxed = |piece: &Piece| Box::new(piece.spline.clone()) as Box<dyn Contour>;
-        (0..self.chains.len()).map(|object| Composite::new(pieces_of(object).map(boxed).collect()).ok()).collect()
+        let whole = |object: usize| Composite::new(pieces_of(object).map(Piece::contour).collect::<Option<_>>()?).ok();
+        (0..self.chains.len()).map(whole).collect()
     }
 
     /// The nodes of each object: where they are, and whether they are vertices.

@@ -2,7 +2,7 @@
 
 use super::blocks::Blocks;
 use super::curve::Curve;
-use rod_contact::{Contact, Follower, State, equilibrium};
+use rod_contact::{Contact, ContactKind, Follower, State, equilibrium};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Reactions};
 use std::ops::Range;
@@ -46,9 +46,11 @@ impl<R: PhysicalRod> Forward<'_, R> {
                     break;
                 };
                 let local = &blocks.blocks[anchor].contacts;
-                let guesses = known[anchor].iter().map(|state| &state.contacts).chain([local]);
-                let state =
-                    guesses.filter(|guess| !guess.is_empty()).find_map(|guess| self.equilibrium(poses[anchor], guess));
+                let known = known[anchor].as_ref().map(|state| &state.contacts[..]).unwrap_or_default();
+                // where a hollow has gone, one contact does what several did
+                let whole = resultant(known);
+                let guesses = [known, local, whole.as_slice()].into_iter().filter(|guess| !guess.is_empty());
+                let state = guesses.into_iter().find_map(|guess| self.equilibrium(poses[anchor], guess));
                 let Some(state) = state else {
                     // what is wrong there is wrong near by
                     let near = segment.len() / SPREAD;
@@ -135,4 +137,14 @@ impl<R: PhysicalRod> Forward<'_, R> {
             found[k] = Some(follower.state().clone());
         }
     }
+}
+
+/// The contact that has the force and the moment of several on one side of the rod, and lies between them; none of fewer.
+fn resultant(contacts: &[Contact]) -> Option<Contact> {
+    let [first, .., _] = contacts else { return None };
+    let force: f64 = contacts.iter().map(|contact| contact.force).sum();
+    let mean =
+        |of: fn(&Contact) -> f64| contacts.iter().map(|contact| contact.force * of(contact)).sum::<f64>() / force;
+    let (s, x, y) = (mean(|contact| contact.s), mean(|contact| contact.x), mean(|contact| contact.y));
+    Some(Contact { kind: ContactKind::Tangent, s, x, y, force, ..*first })
 }

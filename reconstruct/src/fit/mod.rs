@@ -10,6 +10,7 @@ mod bent;
 mod blocks;
 mod curve;
 mod ends;
+mod flatten;
 mod forward;
 mod grow;
 mod order;
@@ -34,7 +35,7 @@ use crate::systematic::Source;
 use blocks::Blocks;
 use nalgebra::DVector;
 use problem::Sources;
-use rod_contours::{Composite, Contour, ContourError, Spline, SplineEnd};
+use rod_contours::{Composite, Contour, ContourError, Line, Spline, SplineEnd};
 use rod_core::{PhysicalRod, Rod, Sample};
 use solve::{Search, Solved};
 use start::{Start, starts};
@@ -98,7 +99,10 @@ impl FittedObject {
         let ends = self.vertices.iter().copied().chain([self.points.len().saturating_sub(1)]);
         let piece = |(from, to): (usize, usize)| {
             let points = self.points.get(from..=to).unwrap_or_default();
-            Ok(Box::new(Spline::through(points, SplineEnd::Natural)?) as Box<dyn Contour>)
+            Ok(match *points {
+                [from, to] => Box::new(Line::new(from, to)?) as Box<dyn Contour>,
+                _ => Box::new(Spline::through(points, SplineEnd::Natural)?),
+            })
         };
         Composite::new(cuts.zip(ends).map(piece).collect::<Result<_, ContourError>>()?)
     }

@@ -1,7 +1,7 @@
 //! A smooth piece of the contour of a fit: a natural cubic spline and what changes with its points.
 
 use nalgebra::{DMatrix, Vector2};
-use rod_contours::{Closest, Contour, Frame, Spline, SplineEnd};
+use rod_contours::{Closest, Contour, Frame, Line, Spline, SplineEnd};
 use std::cell::OnceCell;
 
 /// A natural spline through the nodes of a curve from `first` on.
@@ -35,6 +35,15 @@ impl Piece {
         let knots: Vec<f64> = spline.knots().collect();
         let second = OnceCell::new();
         Some(Self { object, number, first, spline, points: points.to_vec(), knots, second })
+    }
+
+    /// The piece as a contour; none where it has no length.
+    pub fn contour(&self) -> Option<Box<dyn Contour>> {
+        match self.points[..] {
+            // exactly straight: a rod may lie along it
+            [from, to] => Some(Box::new(Line::new(from.into(), to.into()).ok()?)),
+            _ => Some(Box::new(self.spline.clone())),
+        }
     }
 
     pub fn knots(&self) -> &[f64] {

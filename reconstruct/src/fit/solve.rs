@@ -2,6 +2,7 @@
 
 use super::blocks::{Block, Blocks};
 use super::curve::{Curve, Node};
+use super::flatten::flattened;
 use super::grow::{Grown, grown};
 use super::problem::{Explained, Fit, Model, Sources};
 use super::propose::{joined, sharpened};
@@ -31,6 +32,8 @@ const SHARP: f64 = 6e-3;
 const VERTEX_TURN: f64 = 0.4;
 /// Decrease of the cost, which is that of chi squared, for which a finer contour is taken. Smaller: nodes for noise.
 const WORTH: f64 = 5.0;
+/// Most contours of which a hollow is straight that are tried at a time.
+const HOLLOWS: usize = 6;
 /// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit.
 const HOPEFUL: f64 = 2.0;
 /// Chi squared per degree of freedom of a rough fit up to which it may soon explain the recording.
@@ -60,18 +63,18 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     }
 
     /// The fit at contours that are changed as long as that makes it better.
-    fn improved(&mut self, Begun { mut fit, solved: mut best }: Begun<'_, R>) -> Solved {
+    fn improved(&mut self, fit: &mut Fit<'_, R>, mut best: Solved) -> Solved {
         // what is far off is changed before it is known well
         let mut is_rough = true;
         for _ in 0..CHANGES {
             if is_rough && best.is_near() {
-                best = self.refined(&mut fit, &best).unwrap_or(best);
+                best = self.refined(fit, &best).unwrap_or(best);
                 is_rough = false;
             }
-            match self.changed(&best, &mut fit) {
+            match self.changed(&best, fit) {
                 Some(solved) => (is_rough, best) = (!solved.is_near(), solved),
                 None if is_rough && self.evaluations > 0 => {
-                    best = self.refined(&mut fit, &best).unwrap_or(best);
+                    best = self.refined(fit, &best).unwrap_or(best);
                     is_rough = false;
                 }
                 None => break,
@@ -82,21 +85,23 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
 
     /// The first change that makes a fit better; roughly, where it is still far off. The fit is left as it is if none does.
     fn changed(&mut self, best: &Solved, fit: &mut Fit<'_, R>) -> Option<Solved> {
+        let (bend, errors) = (fit.bend, self.errors_of(best));
         for change in Change::ALL.into_iter().filter(|change| change.is_for(best)) {
             if self.evaluations == 0 {
                 break;
             }
             (fit.curve, fit.states) = (best.curve.clone(), best.states.clone());
-            let (bend, errors) = (fit.bend, self.errors_of(best));
-            let rough = self.change(change, best, fit).and_then(|()| self.solved(fit, &errors, ROUGHLY));
-            let rough = rough.filter(|rough| rough.cost < HOPEFUL * best.cost);
-            let found = rough.and_then(|rough| if rough.is_near() { self.refined(fit, &rough) } else { Some(rough) });
-            if let Some(found) = found.filter(|found| found.is_worth(change, best)) {
-                return Some(found);
+            for (curve, states) in self.change(change, best, fit) {
+                (fit.curve, fit.states, fit.bend) = (curve, states, bend);
+                let rough = self.solved(fit, &errors, ROUGHLY).filter(|rough| rough.cost < HOPEFUL * best.cost);
+                let found =
+                    rough.and_then(|rough| if rough.is_near() { self.refined(fit, &rough) } else { Some(rough) });
+                if let Some(found) = found.filter(|found| found.is_worth(change, best)) {
+                    return Some(found);
+                }
             }
-            fit.bend = bend;
         }
-        (fit.curve, fit.states) = (best.curve.clone(), best.states.clone());
+        (fit.curve, fit.states, fit.bend) = (best.curve.clone(), best.states.clone(), bend);
         None
     }
 
@@ -105,8 +110,14 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         // what one start takes is not left for the others
         let kept = self.evaluations / KEPT;
         self.evaluations -= kept;
-        let (blocks, found) = (begun.fit.blocks, self.improved(begun));
+        let Begun { mut fit, solved } = begun;
+        let blocks = fit.blocks;
+        let mut found = self.improved(&mut fit, solved);
         self.evaluations += kept;
+        if found.goodness.explains {
+            // no other start is needed
+            found = self.improved(&mut fit, found);
+        }
         if best.as_ref().is_none_or(|best| found.preferred(&best.0).is_lt()) {
             *best = Some((found, blocks));
         }
@@ -129,26 +140,32 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         solved
     }
 
-    /// Gives the fit, which has the contour and the states of `best`, another contour; none where there is none.
-    fn change(&mut self, change: Change, best: &Solved, fit: &mut Fit<'_, R>) -> Option<()> {
+    /// Contours that a change gives, with states of a contour near by, for a fit that has the contour and the states of `best`.
+    fn change(&mut self, change: Change, best: &Solved, fit: &Fit<'_, R>) -> Vec<(Curve, Vec<Option<State>>)> {
         let length = self.rod.units().length;
+        let with_states = |curve: Curve| (curve, best.states.clone());
+        let through = |chains: Vec<Vec<Vec<Node>>>, most: usize| {
+            chains.iter().take(most).filter_map(|chains| Curve::through(chains)).map(with_states).collect()
+        };
         match change {
             Change::Grown => {
                 let errors = self.sources.errors(best.x.iter().skip(best.curve.count()));
                 let (found, evaluations) = grown(fit, errors, &best.curve, &best.explained);
                 self.evaluations = self.evaluations.saturating_sub(evaluations);
-                let Grown { chains, states } = found?;
-                (fit.curve, fit.states) = (Curve::through(&chains)?, states);
+                found
+                    .and_then(|Grown { chains, states }| Some((Curve::through(&chains)?, states)))
+                    .into_iter()
+                    .collect()
             }
-            Change::Finer => fit.curve = finer(best, length)?,
+            Change::Flatter => through(flattened(&best.curve, &best.states, length), HOLLOWS),
+            Change::Finer => finer(best, length).map(with_states).into_iter().collect(),
             Change::Sharper | Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
                 let changed = if change == Change::Joined { joined } else { sharpened };
-                fit.curve = Curve::through(changed(&chains, &touched, length).first()?)?;
+                through(changed(&chains, &touched, length), 1)
             }
         }
-        Some(())
     }
 }
 
@@ -163,6 +180,8 @@ pub(super) struct Begun<'a, R> {
 enum Change {
     /// What nothing touches goes, and what explains more of the recording comes.
     Grown,
+    /// No hollow is bridged by several contacts.
+    Flatter,
     /// More nodes, and vertices, where the recording asks for them.
     Finer,
     /// A bend is a vertex.
@@ -173,13 +192,13 @@ enum Change {
 
 impl Change {
     /// In the order in which they are tried.
-    const ALL: [Self; 4] = [Self::Grown, Self::Finer, Self::Sharper, Self::Joined];
+    const ALL: [Self; 5] = [Self::Grown, Self::Flatter, Self::Finer, Self::Sharper, Self::Joined];
 
     /// Whether it may make a fit better. A contour that explains its recording may be known better.
     fn is_for(self, best: &Solved) -> bool {
         match self {
             Self::Grown => !best.goodness.explains,
-            Self::Finer => true,
+            Self::Finer | Self::Flatter => true,
             Self::Sharper | Self::Joined => best.goodness.explains,
         }
     }
@@ -288,10 +307,20 @@ impl Solved {
         !goodness.is_unreached() && goodness.chi_squared < NEAR * goodness.degrees_of_freedom
     }
 
+    /// Number of blocks with several contacts.
+    fn several(&self) -> usize {
+        self.explained.labels.iter().flatten().filter(|label| label.several()).count()
+    }
+
     /// Whether this is to be preferred to what it was changed from.
     fn is_worth(&self, change: Change, before: &Self) -> bool {
         let (now, then) = (self.goodness.explains, before.goodness.explains);
         match change {
+            // fewer contacts explain it as well
+            Change::Flatter => {
+                let fewer = before.x.len().saturating_sub(self.x.len()) as f64;
+                now >= then && self.several() < before.several() && self.cost < before.cost + WORTH + fewer
+            }
             // one part has fewer unknowns than two
             Change::Joined => now && self.cost < before.cost + WORTH,
             // a vertex has fewer unknowns than a bend

@@ -66,8 +66,8 @@ fn several(fit: &ContourFit, states: &[State]) -> (usize, usize) {
     (several.len(), several.iter().filter(|(k, label)| *label == Some(truth(*k))).count())
 }
 
-/// Labels but for those next to a transition, points within their standard deviations, and forces.
-fn answers_are_true(found: &Reconstruction, states: &[State]) {
+/// Labels but for those next to a transition, points within their standard deviations, at least `within_two` of them within two, and forces.
+fn answers_are_true(found: &Reconstruction, states: &[State], within_two: f64) {
     let truth = |k: usize| Label::of(states[k].phase().contacts, states[k].phase().tip);
     let (mut wrong, mut expected, mut ratios) = (0, 0.0, Vec::new());
     for (k, (reading, state)) in found.readings.iter().zip(states).enumerate() {
@@ -93,7 +93,7 @@ fn answers_are_true(found: &Reconstruction, states: &[State]) {
         share(3.0)
     );
     assert!(
-        f64::from(wrong) < 1.5 * expected && share(2.0) > 0.85 && share(4.0) > 0.99,
+        f64::from(wrong) < 1.5 * expected && share(2.0) > within_two && share(4.0) > 0.99,
         "{wrong} {} {}",
         share(2.0),
         share(4.0)
@@ -112,7 +112,7 @@ fn a_contour_explains_its_recording_in_noise() {
         let fit = fit_contour(&rod, &samples, &local).unwrap();
         assert!(fit.goodness.explains, "{:?}", fit.goodness);
         local.adopt(&fit, &AS_IS);
-        answers_are_true(&local, &states);
+        answers_are_true(&local, &states, 0.85);
         let ratio = fit.goodness.chi_squared / fit.goodness.degrees_of_freedom;
         assert!((0.8..1.2).contains(&ratio), "{ratio}");
         let distances = distances(&fit, &states);
@@ -125,6 +125,37 @@ fn a_contour_explains_its_recording_in_noise() {
         let (all, right) = several(&fit, &states);
         println!("seed {seed}: {right} of {all} samples with two contacts");
         assert!(all > 200 && right * 100 > 95 * all, "{right} of {all}");
+    }
+}
+
+/// A flank that a contact passes within some samples, and another along which it rolls slowly. Two contacts at the ends of a shallow hollow have
+/// nearly the reactions of one that passes a flank.
+#[test]
+fn one_contact_passes_a_straight_flank() {
+    let rod = steel();
+    let corners = [
+        [0.02677, 0.012],
+        [0.00998, 0.025],
+        [-0.00299, 0.02645],
+        [-0.0236, 0.02412],
+        [-0.01281, 0.00289],
+        [-0.00594, -0.01207],
+        [0.01736, -0.01079],
+    ];
+    let polygon = Composite::polygon(&corners).unwrap();
+    let clamp = |x, y, phi: f64| Pose { x, y, phi: phi.to_radians() };
+    let way = ClampPath::new(clamp(0.09, -0.05711, 84.5576), clamp(-0.1, -0.04711, 100.5449)).unwrap();
+    let states = Sweep::new(&rod, &polygon, way, 2e-4).unwrap().run().states;
+    for seed in [0, 1] {
+        let mut samples = samples(&states);
+        noisy(&mut samples, seed);
+        let mut local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
+        let fit = fit_contour(&rod, &samples, &local).unwrap();
+        assert!(fit.goodness.explains, "{:?}", fit.goodness);
+        assert!(fit.blocks.iter().all(|block| block.label.is_none_or(|label| !label.several())), "{:?}", fit.runs());
+        local.adopt(&fit, &AS_IS);
+        // most contacts are at two corners, whose errors they share
+        answers_are_true(&local, &states, 0.3);
     }
 }
 
