@@ -45,7 +45,7 @@ use std::ops::Range;
 /// those with many contacts are given up.
 const MOST_EVALUATIONS: usize = 1000;
 /// The same without errors that all samples share, where these may not be needed.
-const WITHOUT_ERRORS: usize = 500;
+const WITHOUT_ERRORS: usize = 800;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -86,17 +86,17 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     /// The first change that makes a fit better; roughly, where it is still far off. The fit is left as it is if none does.
     fn changed(&mut self, best: &Solved, fit: &mut Fit<'_, R>) -> Option<Solved> {
         let (bend, errors) = (fit.bend, self.errors_of(best));
-        for change in Change::ALL.into_iter().filter(|change| change.is_for(best)) {
+        for change in Change::of(best) {
             if self.evaluations == 0 {
                 break;
             }
             (fit.curve, fit.states) = (best.curve.clone(), best.states.clone());
-            for (curve, states) in self.change(change, best, fit) {
+            for (curve, states) in self.change(*change, best, fit) {
                 (fit.curve, fit.states, fit.bend) = (curve, states, bend);
                 let rough = self.solved(fit, &errors, ROUGHLY).filter(|rough| rough.cost < HOPEFUL * best.cost);
                 let found =
                     rough.and_then(|rough| if rough.is_near() { self.refined(fit, &rough) } else { Some(rough) });
-                if let Some(found) = found.filter(|found| found.is_worth(change, best)) {
+                if let Some(found) = found.filter(|found| found.is_worth(*change, best)) {
                     return Some(found);
                 }
             }
@@ -191,15 +191,12 @@ enum Change {
 }
 
 impl Change {
-    /// In the order in which they are tried.
-    const ALL: [Self; 5] = [Self::Grown, Self::Flatter, Self::Finer, Self::Sharper, Self::Joined];
-
-    /// Whether it may make a fit better. A contour that explains its recording may be known better.
-    fn is_for(self, best: &Solved) -> bool {
-        match self {
-            Self::Grown => !best.goodness.explains,
-            Self::Finer | Self::Flatter => true,
-            Self::Sharper | Self::Joined => best.goodness.explains,
+    /// Those that may make a fit better, in the order in which they are tried. A contour that explains its recording may have fewer contacts, and be
+    /// known better.
+    fn of(best: &Solved) -> &'static [Self] {
+        match best.goodness.explains {
+            true => &[Self::Flatter, Self::Finer, Self::Sharper, Self::Joined],
+            false => &[Self::Grown, Self::Flatter, Self::Finer],
         }
     }
 }
