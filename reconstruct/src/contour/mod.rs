@@ -23,5 +23,7 @@ pub use assembly::Assembly;
 pub use estimate::{ContourEstimate, TraceRow};
 pub use gap::{Gap, GapReason};
 pub use measured::Measured;
+#[cfg(feature = "contact")]
+pub(crate) use simplify::corners;
 pub(crate) use simplify::simplify;
 pub use trace::{Trace, TraceCurve, TraceKind, TracePoint};

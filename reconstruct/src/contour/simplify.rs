@@ -8,22 +8,30 @@ const SMALLEST: f64 = 1e-100;
 /// The points without those that depart from the chords between the others by no more than a share of their standard deviation, or
 /// the tolerance (m) where that is larger.
 pub(crate) fn simplify(points: &[TracePoint], share: f64, tolerance: f64) -> Vec<TracePoint> {
-    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
-    let mut keep = vec![false; points.len()];
+    let allowed = |k: usize| (share * points[k].sigma).max(tolerance);
+    let keep = corners(points.len(), |k| [points[k].x, points[k].y], allowed);
+    points.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
+}
+
+/// Which of so many points depart from the chords between the others by more than is `allowed` of each, m; the first and the last always.
+pub(crate) fn corners(count: usize, at: impl Fn(usize) -> [f64; 2], allowed: impl Fn(usize) -> f64) -> Vec<bool> {
+    let Some(last) = count.checked_sub(1) else { return Vec::new() };
+    let mut keep = vec![false; count];
     keep[0] = true;
     keep[last] = true;
     let mut spans = vec![(0, last)];
     while let Some((from, to)) = spans.pop() {
-        let (a, b) = (&points[from], &points[to]);
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let ([ax, ay], [bx, by]) = (at(from), at(to));
+        let (dx, dy) = (bx - ax, by - ay);
         let square = dx * dx + dy * dy;
         let mut worst = (1.0, 0);
-        for (k, p) in points.iter().enumerate().take(to).skip(from + 1) {
-            let (px, py) = (p.x - a.x, p.y - a.y);
+        for k in from + 1..to {
+            let [x, y] = at(k);
+            let (px, py) = (x - ax, y - ay);
             let t = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
             let (u, v) = (px - t * dx, py - t * dy);
-            let allowed = (share * p.sigma).max(tolerance).max(SMALLEST);
-            let departure = (u * u + v * v) / (allowed * allowed);
+            let most = allowed(k).max(SMALLEST);
+            let departure = (u * u + v * v) / (most * most);
             if departure > worst.0 {
                 worst = (departure, k);
             }
@@ -33,7 +41,7 @@ pub(crate) fn simplify(points: &[TracePoint], share: f64, tolerance: f64) -> Vec
             spans.extend([(from, worst.1), (worst.1, to)]);
         }
     }
-    points.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
+    keep
 }
 
 #[cfg(test)]

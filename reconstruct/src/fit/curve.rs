@@ -83,7 +83,7 @@ impl Curve {
             let (mut first, mut number) = (chain.start, 0);
             for k in chain.start + 1..chain.end {
                 if self.nodes[k].is_vertex || k + 1 == chain.end {
-                    self.pieces.push(Piece::through(&self.points[first..=k], first, object, number)?);
+                    self.pieces.push(Piece::through(&self.points[first..=k], first, object, number).ok()?);
                     (first, number) = (k, number + 1);
                 }
             }
@@ -134,8 +134,9 @@ impl Curve {
 
     pub fn objects(&self) -> Option<Vec<Composite>> {
         let pieces_of = |object: usize| self.pieces.iter().filter(move |piece| piece.object == object);
-        let whole = |object: usize| Composite::new(pieces_of(object).map(Piece::contour).collect::<Option<_>>()?).ok();
-        (0..self.chains.len()).map(whole).collect()
+        let pieces = |object: usize| pieces_of(object).map(Piece::contour).collect::<Result<_, _>>();
+        let whole = |object: usize| Composite::new(pieces(object)?);
+        (0..self.chains.len()).map(whole).collect::<Result<_, _>>().ok()
     }
 
     /// The nodes of each object: where they are, and whether they are vertices.
@@ -146,6 +147,12 @@ impl Curve {
     /// The nodes of each object where they are.
     pub fn nodes_of_chains(&self) -> Vec<Vec<Node>> {
         self.chains().map(|chain| chain.map(|(_, node)| node).collect()).collect()
+    }
+
+    /// The chain of a node, and its number there.
+    pub fn in_chain(&self, node: usize) -> Option<(usize, usize)> {
+        let chain = self.chains.iter().position(|chain| chain.contains(&node))?;
+        Some((chain, node - self.chains[chain].start))
     }
 
     /// How far each unknown may be off 0, as a standard deviation.

@@ -3,6 +3,7 @@
 //! While a contact passes fast along a straight part, a recording hardly tells it from two at the ends of a hollow.
 
 use super::curve::{Curve, Node};
+use crate::contour::corners;
 use nalgebra::Vector2;
 use rod_contact::{Contact, ContactKind, State};
 
@@ -23,7 +24,7 @@ struct Bridge {
 /// states alone.
 pub(super) fn flattened(curve: &Curve, states: &[Option<State>], length: f64) -> Vec<Vec<Vec<Node>>> {
     let chains = curve.nodes_of_chains();
-    let of_state = |state: &Option<State>| state.iter().flat_map(|state| bridges(curve, &chains, state)).collect();
+    let of_state = |state: &Option<State>| state.iter().flat_map(|state| bridges(curve, state)).collect();
     let by_state: Vec<Vec<Bridge>> = states.iter().map(of_state).collect();
     let runs: Vec<Vec<Bridge>> =
         by_state.split(Vec::is_empty).filter(|run| !run.is_empty()).map(<[_]>::concat).collect();
@@ -33,17 +34,7 @@ pub(super) fn flattened(curve: &Curve, states: &[Option<State>], length: f64) ->
 }
 
 /// The hollows between neighbouring contacts of a state that are on the same side of the rod.
-fn bridges(curve: &Curve, chains: &[Vec<Node>], state: &State) -> Vec<Bridge> {
-    let place = |node: usize| {
-        let mut first = 0;
-        let is_before = |chain: &&Vec<Node>| {
-            let is_before = first + chain.len() <= node;
-            first += if is_before { chain.len() } else { 0 };
-            is_before
-        };
-        let chain = chains.iter().take_while(is_before).count();
-        (chain, node - first)
-    };
+fn bridges(curve: &Curve, state: &State) -> Vec<Bridge> {
     let of_pair = |pair: &[Contact]| {
         let [one, other] = pair else { return None };
         let way = Vector2::new(other.x - one.x, other.y - one.y);
@@ -52,7 +43,8 @@ fn bridges(curve: &Curve, chains: &[Vec<Node>], state: &State) -> Vec<Bridge> {
             return None;
         }
         let (first, second) = if a > 0.0 { (one, other) } else { (other, one) };
-        let (from, to) = (place(curve.nodes_at(first)?.start), place(curve.nodes_at(second)?.end - 1));
+        let (from, to) =
+            (curve.in_chain(curve.nodes_at(first)?.start)?, curve.in_chain(curve.nodes_at(second)?.end - 1)?);
         (from.0 != to.0 || from.1 < to.1).then_some(Bridge { from, to })
     };
     state.contacts.windows(2).filter_map(of_pair).collect()
@@ -113,19 +105,8 @@ fn straight(nodes: &[Node], flat: f64) -> Vec<Node> {
         }
         hull.push(Node { is_vertex: true, ..*node });
     }
-    corners(&hull, flat)
-}
-
-/// The ends of some nodes, and the corners between them (Ramer 1972, Douglas and Peucker 1973).
-fn corners(nodes: &[Node], flat: f64) -> Vec<Node> {
-    let [first, .., last] = nodes else { return nodes.to_vec() };
-    let along = (last.at - first.at).normalize();
-    let depth = |k: &usize| along.perp(&(nodes[*k].at - first.at)).abs();
-    let deepest = (1..nodes.len() - 1).max_by(|a, b| depth(a).total_cmp(&depth(b))).filter(|k| depth(k) > flat);
-    let Some(deepest) = deepest else { return vec![*first, *last] };
-    let mut found = corners(&nodes[..=deepest], flat);
-    found.extend(&corners(&nodes[deepest..], flat)[1..]);
-    found
+    let is_corner = corners(hull.len(), |k| hull[k].at.into(), |_| flat);
+    hull.into_iter().zip(is_corner).filter_map(|(node, is_corner)| is_corner.then_some(node)).collect()
 }
 
 #[cfg(test)]

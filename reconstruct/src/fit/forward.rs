@@ -49,8 +49,8 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 let known = known[anchor].as_ref().map(|state| &state.contacts[..]).unwrap_or_default();
                 // where a hollow has gone, one contact does what several did
                 let whole = resultant(known);
-                let guesses = [known, local, whole.as_slice()].into_iter().filter(|guess| !guess.is_empty());
-                let state = guesses.into_iter().find_map(|guess| self.equilibrium(poses[anchor], guess));
+                let mut guesses = [known, local, whole.as_slice()].into_iter().filter(|guess| !guess.is_empty());
+                let state = guesses.find_map(|guess| self.equilibrium(poses[anchor], guess));
                 let Some(state) = state else {
                     // what is wrong there is wrong near by
                     let near = segment.len() / SPREAD;

@@ -33,9 +33,10 @@ use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
 use crate::systematic::Source;
 use blocks::Blocks;
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector2};
+use piece::Piece;
 use problem::Sources;
-use rod_contours::{Composite, Contour, ContourError, Line, Spline, SplineEnd};
+use rod_contours::{Composite, ContourError};
 use rod_core::{PhysicalRod, Rod, Sample};
 use solve::{Search, Solved};
 use start::{Start, starts};
@@ -97,12 +98,9 @@ impl FittedObject {
     pub fn contour(&self) -> Result<Composite, ContourError> {
         let cuts = std::iter::once(0).chain(self.vertices.iter().copied());
         let ends = self.vertices.iter().copied().chain([self.points.len().saturating_sub(1)]);
+        let points: Vec<Vector2<f64>> = self.points.iter().map(|point| (*point).into()).collect();
         let piece = |(from, to): (usize, usize)| {
-            let points = self.points.get(from..=to).unwrap_or_default();
-            Ok(match *points {
-                [from, to] => Box::new(Line::new(from, to)?) as Box<dyn Contour>,
-                _ => Box::new(Spline::through(points, SplineEnd::Natural)?),
-            })
+            Piece::through(points.get(from..=to).unwrap_or_default(), from, 0, 0)?.contour()
         };
         Composite::new(cuts.zip(ends).map(piece).collect::<Result<_, ContourError>>()?)
     }

@@ -1,7 +1,7 @@
 //! A smooth piece of the contour of a fit: a natural cubic spline and what changes with its points.
 
 use nalgebra::{DMatrix, Vector2};
-use rod_contours::{Closest, Contour, Frame, Line, Spline, SplineEnd};
+use rod_contours::{Closest, Contour, ContourError, Frame, Line, Spline, SplineEnd};
 use std::cell::OnceCell;
 
 /// A natural spline through the nodes of a curve from `first` on.
@@ -29,21 +29,21 @@ pub(super) struct Cardinal {
 }
 
 impl Piece {
-    pub fn through(points: &[Vector2<f64>], first: usize, object: usize, number: usize) -> Option<Self> {
+    pub fn through(points: &[Vector2<f64>], first: usize, object: usize, number: usize) -> Result<Self, ContourError> {
         let coordinates: Vec<[f64; 2]> = points.iter().map(|point| (*point).into()).collect();
-        let spline = Spline::through(&coordinates, SplineEnd::Natural).ok()?;
+        let spline = Spline::through(&coordinates, SplineEnd::Natural)?;
         let knots: Vec<f64> = spline.knots().collect();
         let second = OnceCell::new();
-        Some(Self { object, number, first, spline, points: points.to_vec(), knots, second })
+        Ok(Self { object, number, first, spline, points: points.to_vec(), knots, second })
     }
 
-    /// The piece as a contour; none where it has no length.
-    pub fn contour(&self) -> Option<Box<dyn Contour>> {
-        match self.points[..] {
+    /// The piece as a contour.
+    pub fn contour(&self) -> Result<Box<dyn Contour>, ContourError> {
+        Ok(match self.points[..] {
             // exactly straight: a rod may lie along it
-            [from, to] => Some(Box::new(Line::new(from.into(), to.into()).ok()?)),
-            _ => Some(Box::new(self.spline.clone())),
-        }
+            [from, to] => Box::new(Line::new(from.into(), to.into())?),
+            _ => Box::new(self.spline.clone()),
+        })
     }
 
     pub fn knots(&self) -> &[f64] {

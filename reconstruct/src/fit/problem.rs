@@ -222,10 +222,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// Whether the contacts of a block, or the pieces of the contour on which they are, are not those of its neighbours: they change inside it.
     fn changes_inside(states: &[Option<State>], block: usize) -> bool {
         let place = |contact: &Contact| (contact.object, contact.piece, contact.kind);
-        let contacts = |state: &State| state.contacts.iter().map(place).collect::<Vec<_>>();
         let neighbours = [block.checked_sub(1), Some(block + 1)];
         let mut others = neighbours.into_iter().flatten().filter_map(|k| states.get(k)?.as_ref());
-        states[block].as_ref().is_some_and(|state| others.any(|other| contacts(other) != contacts(state)))
+        states[block].as_ref().is_some_and(|state| {
+            others.any(|other| other.contacts.iter().map(place).ne(state.contacts.iter().map(place)))
+        })
     }
 
     /// The mean reactions of a block around a state, dimensionless; none where the rod jumps inside it.

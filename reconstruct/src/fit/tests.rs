@@ -48,6 +48,17 @@ fn fitted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<ContourF
     fit_contour(rod, samples, &reconstruct_passes(rod, samples, settings).unwrap())
 }
 
+/// The fit that explains the recording of some states with noise, and the answers that it gives.
+fn explained(rod: &Rod, states: &[State], seed: u64) -> (ContourFit, Reconstruction) {
+    let mut samples = samples(states);
+    noisy(&mut samples, seed);
+    let mut found = reconstruct_passes(rod, &samples, &AS_IS).unwrap();
+    let fit = fit_contour(rod, &samples, &found).unwrap();
+    assert!(fit.goodness.explains, "{:?}", fit.goodness);
+    found.adopt(&fit, &AS_IS);
+    (fit, found)
+}
+
 /// Distances of the true contacts from the contour, m, in order of size.
 fn distances(fit: &ContourFit, states: &[State]) -> Vec<f64> {
     let contours: Vec<Composite> = fit.objects.iter().map(|object| object.contour().unwrap()).collect();
@@ -106,13 +117,8 @@ fn a_contour_explains_its_recording_in_noise() {
     let rod = steel();
     let states = states(&rod);
     for seed in [0, 1] {
-        let mut samples = samples(&states);
-        noisy(&mut samples, seed);
-        let mut local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
-        let fit = fit_contour(&rod, &samples, &local).unwrap();
-        assert!(fit.goodness.explains, "{:?}", fit.goodness);
-        local.adopt(&fit, &AS_IS);
-        answers_are_true(&local, &states, 0.85);
+        let (fit, found) = explained(&rod, &states, seed);
+        answers_are_true(&found, &states, 0.85);
         let ratio = fit.goodness.chi_squared / fit.goodness.degrees_of_freedom;
         assert!((0.8..1.2).contains(&ratio), "{ratio}");
         let distances = distances(&fit, &states);
@@ -147,15 +153,10 @@ fn one_contact_passes_a_straight_flank() {
     let way = ClampPath::new(clamp(0.09, -0.05711, 84.5576), clamp(-0.1, -0.04711, 100.5449)).unwrap();
     let states = Sweep::new(&rod, &polygon, way, 2e-4).unwrap().run().states;
     for seed in [0, 1] {
-        let mut samples = samples(&states);
-        noisy(&mut samples, seed);
-        let mut local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
-        let fit = fit_contour(&rod, &samples, &local).unwrap();
-        assert!(fit.goodness.explains, "{:?}", fit.goodness);
+        let (fit, found) = explained(&rod, &states, seed);
         assert!(fit.blocks.iter().all(|block| block.label.is_none_or(|label| !label.several())), "{:?}", fit.runs());
-        local.adopt(&fit, &AS_IS);
         // most contacts are at two corners, whose errors they share
-        answers_are_true(&local, &states, 0.3);
+        answers_are_true(&found, &states, 0.3);
     }
 }
 
