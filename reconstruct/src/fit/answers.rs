@@ -1,12 +1,13 @@
 //! The answers to the samples that a contour gives: the states of the rod past it.
 
+use super::distinct::Distinct;
 use super::forward::Forward;
 use super::problem::{Fit, Model};
 use crate::phase::Label;
 use crate::pipeline::Reading;
 use crate::point::Touch;
 use nalgebra::{DMatrix, DVector, Matrix2};
-use rod_contact::State;
+use rod_contact::{ContactKind, State};
 use rod_core::{PhysicalRod, Pose, Sample};
 
 /// Probability of a label of the model, and next to a transition of the model: shares of the samples of random scenes that were explained for which
@@ -53,7 +54,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
             forward.follow(state, middle..poses.len(), &poses, &mut found);
             forward.follow(state, (0..middle).rev(), &poses, &mut found);
             for (answer, state) in answers[block.samples.clone()].iter_mut().zip(&found) {
-                *answer = state.as_ref().map(|state| self.answer(x, state, &covariances, probability));
+                let told = |state: &State| {
+                    let distinct = model.curve.distinct(&state.contacts, covariance, self.rod.units().length);
+                    self.answer(x, &distinct, &covariances, probability)
+                };
+                *answer = state.as_ref().map(told);
             }
         }
         Some(answers)
@@ -67,23 +72,30 @@ impl<R: PhysicalRod> Fit<'_, R> {
         if count == 0 { Some(covariance * 0.0) } else { Some(rows * own.cholesky()?.solve(&rows.transpose())) }
     }
 
-    /// The answer of a state. The errors of its points are those of the block, whose contacts these are.
-    fn answer(&self, x: &DVector<f64>, state: &State, covariances: &[[Matrix2<f64>; 2]], probability: f64) -> Reading {
+    /// The answer of the contacts of a state that are told. The errors of their points are those of the block, whose contacts these are.
+    fn answer(
+        &self,
+        x: &DVector<f64>,
+        distinct: &[Distinct],
+        covariances: &[[Matrix2<f64>; 2]],
+        probability: f64,
+    ) -> Reading {
         // the model has the length of the given rod, and its bending stiffness
         let (longer, stiffer) = self.rod_over_given(x);
-        let touch = |(i, contact): (usize, &rod_contact::Contact)| {
-            let [covariance, systematic] = covariances.get(i).or(covariances.last()).copied().unwrap_or_default();
+        let touch = |Distinct { like, contact, spread }: &Distinct| {
+            let [covariance, systematic] = covariances.get(*like).or(covariances.last()).copied().unwrap_or_default();
             Touch {
                 s: contact.s * longer,
                 x: contact.x * longer,
                 y: contact.y * longer,
                 alpha: contact.alpha,
                 force: contact.force * stiffer / (longer * longer),
-                covariance,
+                covariance: covariance + spread,
                 systematic,
             }
         };
-        let touches: Vec<Touch> = state.contacts.iter().enumerate().map(touch).collect();
-        Reading::of_model(Label::of(state.phase().contacts, state.phase().tip), probability, &touches)
+        let touches: Vec<Touch> = distinct.iter().map(touch).collect();
+        let is_at_tip = distinct.last().is_some_and(|last| last.contact.kind == ContactKind::Tip);
+        Reading::of_model(Label::of(distinct.len(), is_at_tip), probability, &touches)
     }
 }

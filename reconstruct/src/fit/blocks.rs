@@ -18,6 +18,8 @@ const INDEPENDENT: f64 = 2.0;
 /// Standard deviation of a block over the largest reaction, at least: what the contour of a fit, a cubic spline, and the mean of a block
 /// leave of noise-free samples.
 const LEAST_NOISE: f64 = 3e-4;
+/// Noise of a sample over the largest reaction up to which a recording is exact: its points need no mean over samples. What simulations print.
+const EXACT: f64 = 1e-6;
 /// Free blocks whose scatter about their mean is looked at; independent blocks that would tell the noise as well as the model of it does (its variance to
 /// 15 %); and the largest ratio of the variances: more is no noise.
 const FEW: usize = 10;
@@ -77,15 +79,26 @@ struct Cut<'a> {
     least: Vector3<f64>,
 }
 
+/// The largest reactions of a recording, dimensionless: forces in any direction count alike.
+fn largest(units: Units, samples: &[Sample]) -> Vector3<f64> {
+    let most = |of: fn(&Sample) -> f64| {
+        samples.iter().map(|sample| of(sample).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
+    };
+    let force = most(|s| s.reactions.f0x).max(most(|s| s.reactions.f0y)) / units.force;
+    Vector3::new(force, force, most(|s| s.reactions.m0z) / units.moment)
+}
+
+/// Whether the samples of a recording have no noise that a fit could average out.
+pub(super) fn is_exact(units: Units, samples: &[Sample], local: &Reconstruction) -> bool {
+    let (noise, largest) = (dimensionless(&local.noise, units), largest(units, samples));
+    (0..3).all(|c| noise[c].sigma <= EXACT * largest[c])
+}
+
 impl Blocks {
     /// Of a recording with its local answers, of which `rod` has the units; none where no sample can be used.
     pub fn of(rod: &Rod, samples: &[Sample], local: &Reconstruction) -> Option<Self> {
         let long_run = local.noise.iter().fold(1.0, |most: f64, channel| most.max(channel.long_run));
-        let most = |of: fn(&Sample) -> f64| {
-            samples.iter().map(|sample| of(sample).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
-        };
-        let force = most(|s| s.reactions.f0x).max(most(|s| s.reactions.f0y)) / rod.units().force;
-        let largest = Vector3::new(force, force, most(|s| s.reactions.m0z) / rod.units().moment);
+        let largest = largest(rod.units(), samples);
         let cut = Cut {
             rod,
             local,

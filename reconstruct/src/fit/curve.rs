@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use rod_contact::{Contact, ContactKind};
 use rod_contours::{Composite, Contour as _, Frame};
 use rod_core::SupportRate;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Share of the largest rate of a change of curvature below which a rate is left out: they fall to a fourth from knot to knot.
@@ -109,8 +109,8 @@ impl Curve {
         self.offsets.len()
     }
 
-    /// The same contour with a node in the middle of the interval after each node of `cut`, and with vertices at the nodes of `sharp`.
-    pub fn refined(&self, cut: &BTreeSet<usize>, sharp: &BTreeSet<usize>) -> Option<Self> {
+    /// The same contour with another node in the interval after each node of `cut`, at this share of it, and with vertices at the nodes of `sharp`.
+    pub fn refined(&self, cut: &BTreeMap<usize, f64>, sharp: &BTreeSet<usize>) -> Option<Self> {
         let mut chains: Vec<Vec<Node>> = Vec::new();
         for (object, chain) in self.chains.iter().enumerate() {
             let mut nodes = Vec::new();
@@ -119,8 +119,8 @@ impl Curve {
                     let k = piece.first + i;
                     let node = self.nodes[k];
                     nodes.push(Node { at: self.points[k], is_vertex: node.is_vertex || sharp.contains(&k), ..node });
-                    if cut.contains(&k) {
-                        let frame = piece.spline.frame(knots[0] + (knots[1] - knots[0]) / 2.0);
+                    if let Some(share) = cut.get(&k) {
+                        let frame = piece.spline.frame(knots[0] + (knots[1] - knots[0]) * share);
                         let sigma = node.sigma.max(self.nodes[k + 1].sigma);
                         nodes.push(Node::smooth(Vector2::new(frame.x, frame.y), sigma));
                     }
@@ -209,17 +209,17 @@ impl Curve {
         pairs.min_by(|a, b| distance(&a[1].points()[0]).total_cmp(&distance(&b[1].points()[0]))).map(|pair| &pair[0])
     }
 
-    /// The node at which the interval of a contact of a state begins; none for a contact at a vertex.
-    pub fn interval(&self, contact: &Contact) -> Option<usize> {
+    /// The node at which the interval of a contact of a state begins, and the share of it at which the contact is; none for a contact at a vertex.
+    pub fn interval(&self, contact: &Contact) -> Option<(usize, f64)> {
         let piece = self.piece_of(contact).filter(|_| !is_at_vertex(contact))?;
-        let t = piece.closest(contact.x, contact.y).t;
-        let intervals = piece.knots().len() - 1;
-        Some(piece.first + piece.knots().partition_point(|knot| *knot <= t).clamp(1, intervals) - 1)
+        let (t, knots) = (piece.closest(contact.x, contact.y).t, piece.knots());
+        let i = knots.partition_point(|knot| *knot <= t).clamp(1, knots.len() - 1) - 1;
+        Some((piece.first + i, (t - knots[i]) / (knots[i + 1] - knots[i])))
     }
 
     /// The nodes between which a contact of a state lies, or those around its vertex.
     pub fn nodes_at(&self, contact: &Contact) -> Option<Range<usize>> {
-        if let Some(first) = self.interval(contact) {
+        if let Some((first, _)) = self.interval(contact) {
             return Some(first..first + 2);
         }
         let piece = self.piece_of(contact)?;
@@ -239,7 +239,11 @@ impl Curve {
             let rate = |(i, way): (usize, &Vector2<f64>)| (first + i, SupportRate { x: way.x, y: way.y, alpha: 0.0 });
             return own.iter().enumerate().map(rate).collect();
         }
-        let t = piece.closest(contact.x, contact.y).t;
+        self.rates_at(piece, piece.closest(contact.x, contact.y).t)
+    }
+
+    /// The same at the parameter `t` of a piece.
+    fn rates_at(&self, piece: &Piece, t: f64) -> Vec<(usize, SupportRate)> {
         let tangent = piece.derivatives(t).0;
         let speed = tangent.norm();
         let mut rates = Vec::new();
@@ -252,6 +256,54 @@ impl Curve {
             }));
         }
         rates
+    }
+
+    /// How deep the contour is behind the chord between two contacts on one object, at some places of the way; none on different ones.
+    pub fn hollow(&self, one: &Contact, other: &Contact) -> Option<Vec<Dependent>> {
+        let place = |contact: &Contact| {
+            let k =
+                self.pieces.iter().position(|piece| (piece.object, piece.number) == (contact.object, contact.piece))?;
+            let piece = &self.pieces[k];
+            let end = piece.knots()[piece.knots().len() - 1];
+            Some((k, if is_at_vertex(contact) { end } else { piece.closest(contact.x, contact.y).t }))
+        };
+        let [mut from, mut to] = [place(one)?, place(other)?];
+        if one.object != other.object {
+            return None;
+        }
+        if (to.0, to.1) < (from.0, from.1) {
+            (from, to) = (to, from);
+        }
+        let at = |(k, t): (usize, f64)| {
+            let frame = self.pieces[k].spline.frame(t);
+            (Vector2::new(frame.x, frame.y), self.rates_at(&self.pieces[k], t))
+        };
+        let ((start, of_start), (end, of_end)) = (at(from), at(to));
+        let way = end - start;
+        let along = way.try_normalize(1e-12)?;
+        // the solid is on the left
+        let inwards = Vector2::new(-along.y, along.x);
+        let depth = |place: (usize, f64)| {
+            let (point, of_point) = at(place);
+            let share = ((point - start).dot(&along) / way.norm()).clamp(0.0, 1.0);
+            let scaled = |rates: &[(usize, SupportRate)], factor: f64| {
+                let rate = |(i, rate): &(usize, SupportRate)| (*i, factor * (inwards.x * rate.x + inwards.y * rate.y));
+                rates.iter().map(rate).collect::<Vec<_>>()
+            };
+            let rates = [scaled(&of_point, 1.0), scaled(&of_start, share - 1.0), scaled(&of_end, -share)].concat();
+            ((point - start).dot(&inwards), rates)
+        };
+        let places = (from.0..=to.0).flat_map(|k| {
+            let knots = self.pieces[k].knots();
+            let [first, last] = [(from, knots[0]), (to, knots[knots.len() - 1])]
+                .map(|(end, of_piece)| if end.0 == k { end.1 } else { of_piece });
+            let inner = knots.iter().copied().filter(move |t| *t > first && *t < last);
+            let ends: Vec<f64> = std::iter::once(first).chain(inner).chain([last]).collect();
+            // on the contacts themselves it is 0
+            let at_ends = ends.iter().copied().skip(usize::from(k == from.0)).filter(move |t| k != to.0 || *t < last);
+            ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).chain(at_ends).map(|t| (k, t)).collect::<Vec<_>>()
+        });
+        Some(places.map(depth).collect())
     }
 
     /// Change of the curvature from each node of a piece to the next over the root of their distance.

@@ -9,6 +9,7 @@ mod answers;
 mod bent;
 mod blocks;
 mod curve;
+mod distinct;
 mod ends;
 mod flatten;
 mod forward;
@@ -45,8 +46,9 @@ use std::ops::Range;
 /// Most evaluations of the model at all poses of a recording, each of milliseconds. Larger: more time on recordings that nothing explains; smaller:
 /// those with many contacts are given up.
 const MOST_EVALUATIONS: usize = 1000;
-/// The same without errors that all samples share, where these may not be needed.
+/// The same without errors that all samples share, where these may not be needed; and once more from the contour that was found.
 const WITHOUT_ERRORS: usize = 800;
+const AGAIN: usize = 300;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -58,6 +60,9 @@ pub enum FitError {
     /// With friction the states of a rod depend on the whole way of the clamp.
     #[error("recordings with friction cannot be fitted")]
     Friction,
+    /// Each sample tells its contact point more exactly than the points of a spline can.
+    #[error("without noise the answers to the samples are more exact than a fit")]
+    Exact,
     /// The contact points give no curve that the fit could change.
     #[error("the contact points are in no order that gives a contour to start from")]
     NoStart,
@@ -159,26 +164,45 @@ pub fn fit_contour<R: PhysicalRod>(
     if local.passes.iter().any(|pass| pass.used_friction != 0.0) {
         return Err(FitError::Friction);
     }
+    if blocks::is_exact(rod.units(), samples, local) {
+        return Err(FitError::Exact);
+    }
     let units = rod.units();
     let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
     let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
-    let starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
+    let mut starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
     if starts.is_empty() {
         return Err(FitError::NoContacts);
     }
-    let fitted = |sources: &Sources, errors: &DVector<f64>, evaluations: usize| {
-        let (solved, blocks) = best_of(&starts, Search { rod, sources, errors, evaluations })?;
-        Some(solved.result(rod, samples, blocks, sources, &uniform))
-    };
+    let exact = sources.exact();
     // errors that the recording does not ask for would move its contour as far as they are uncertain
-    if !local.is_corrected() && !sources.free.is_empty() {
-        let found = fitted(&sources.exact(), &DVector::zeros(0), WITHOUT_ERRORS);
-        if let Some(found) = found.filter(|fit| fit.goodness.explains) {
-            return Ok(found);
+    let rounds = match local.is_corrected() || sources.free.is_empty() {
+        true => vec![(&sources, MOST_EVALUATIONS), (&sources, AGAIN)],
+        false => vec![(&exact, WITHOUT_ERRORS), (&exact, AGAIN), (&sources, AGAIN)],
+    };
+    let mut best: Option<(Solved, Blocks, &Sources)> = None;
+    for (sources, evaluations) in rounds {
+        let errors = match &best {
+            // of the last round, or what the local answer says
+            Some((solved, _, before)) if before.free == sources.free => solved.errors(),
+            _ if sources.free.is_empty() => DVector::zeros(0),
+            _ => errors.clone(),
+        };
+        match &best {
+            Some((solved, ..)) if solved.goodness.explains => break,
+            // another round of the same is for what is nearly explained
+            Some((solved, _, before)) if before.free == sources.free && !solved.is_near() => continue,
+            Some((solved, blocks, _)) => {
+                starts = vec![Start { blocks: blocks.clone(), chains: solved.chains(units.length) }]
+            }
+            None => {}
         }
+        let found = best_of(&starts, Search { rod, sources, errors: &errors, evaluations });
+        best = found.map(|(solved, blocks)| (solved, blocks.clone(), sources)).or(best);
     }
-    fitted(&sources, &errors, MOST_EVALUATIONS).ok_or(FitError::NoStart)
+    let (solved, blocks, sources) = best.ok_or(FitError::NoStart)?;
+    Ok(solved.result(rod, samples, &blocks, sources, &uniform))
 }
 
 /// The best fit from some starts: the first that explains the recording, else the one of lowest cost.

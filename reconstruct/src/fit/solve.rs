@@ -11,6 +11,8 @@ use super::trim::touched;
 use super::verdict::Goodness;
 use super::{ContourFit, FittedBlock, FittedObject};
 use crate::least_squares::{Damped, Iterate, iterate};
+use crate::numeric::chi_squared::upper_tail;
+use crate::phase::Label;
 use crate::systematic::Source;
 use nalgebra::{DMatrix, DVector};
 use rod_contact::State;
@@ -23,9 +25,9 @@ use std::ops::Range;
 const CHANGES: usize = 10;
 /// The part of the evaluations that are left which is kept for the starts after this one: half of them.
 const KEPT: usize = 2;
-/// Mean square of the residuals of the blocks that touch an interval from which on it is cut in two, and the shortest one that is (rod lengths).
-/// Smaller: more unknowns than the recording asks for.
-const ASKS: f64 = 1.3;
+/// Probability of the residuals of the blocks that touch an interval below which it is cut in two, and the shortest one that is (rod lengths). Larger,
+/// and shorter: nodes for noise.
+const ASKS: f64 = 1e-3;
 const SHORTEST: f64 = 2e-3;
 /// Radius (rod lengths) and angle (radians) of a bend from which on, smaller and larger, it becomes a vertex.
 const SHARP: f64 = 6e-3;
@@ -37,7 +39,7 @@ const HOLLOWS: usize = 6;
 /// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit.
 const HOPEFUL: f64 = 2.0;
 /// Chi squared per degree of freedom of a rough fit up to which it may soon explain the recording.
-const NEAR: f64 = 3.0;
+const NEAR: f64 = 1.5;
 /// Smallest and largest standard deviation of the change of curvature, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
 const BENDS: (f64, f64) = (1.0, 1e3);
 
@@ -85,7 +87,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
 
     /// The first change that makes a fit better; roughly, where it is still far off. The fit is left as it is if none does.
     fn changed(&mut self, best: &Solved, fit: &mut Fit<'_, R>) -> Option<Solved> {
-        let (bend, errors) = (fit.bend, self.errors_of(best));
+        let (bend, errors) = (fit.bend, best.errors());
         for change in Change::of(best) {
             if self.evaluations == 0 {
                 break;
@@ -126,12 +128,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     /// The fit from one that is known roughly.
     fn refined(&mut self, fit: &mut Fit<'_, R>, rough: &Solved) -> Option<Solved> {
         fit.curve = rough.curve.clone();
-        self.solved(fit, &self.errors_of(rough), WELL)
-    }
-
-    /// Errors of a fit less what is known of them, in standard deviations of their budget.
-    fn errors_of(&self, solved: &Solved) -> DVector<f64> {
-        solved.x.rows(solved.curve.count(), self.errors.len()).into_owned()
+        self.solved(fit, &rough.errors(), WELL)
     }
 
     fn solved(&mut self, fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Effort) -> Option<Solved> {
@@ -158,7 +155,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                     .collect()
             }
             Change::Flatter => through(flattened(&best.curve, &best.states, length), HOLLOWS),
-            Change::Finer => finer(best, length).map(with_states).into_iter().collect(),
+            Change::Finer => finer(best, fit.blocks, length).map(with_states).into_iter().collect(),
             Change::Sharper | Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
@@ -196,27 +193,29 @@ impl Change {
     fn of(best: &Solved) -> &'static [Self] {
         match best.goodness.explains {
             true => &[Self::Flatter, Self::Finer, Self::Sharper, Self::Joined],
-            false => &[Self::Grown, Self::Flatter, Self::Finer],
+            false => &[Self::Grown, Self::Finer, Self::Flatter],
         }
     }
 }
 
 /// The contour of a fit, for a rod of this length, with more nodes where the recording asks for them; none where it asks for none.
-fn finer(solved: &Solved, length: f64) -> Option<Curve> {
+fn finer(solved: &Solved, blocks: &Blocks, length: f64) -> Option<Curve> {
     let curve = &solved.curve;
-    // by interval, the sum of the squares of the residuals of the blocks that touch it, and their number
-    let mut asking: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
-    for (state, residual) in solved.states.iter().zip(&solved.explained.residuals) {
+    let worst = solved.goodness.unlikely_window().map_or(0..0, |worst| worst.samples.clone());
+    let mut asking: BTreeMap<usize, Asking> = BTreeMap::new();
+    for (block, (state, residual)) in blocks.blocks.iter().zip(solved.states.iter().zip(&solved.explained.residuals)) {
         let Some((state, residual)) = state.as_ref().zip(*residual) else { continue };
-        for interval in state.contacts.iter().filter_map(|contact| curve.interval(contact)) {
-            let (sum, count) = asking.entry(interval).or_default();
-            (*sum, *count) = (*sum + residual.norm_squared(), *count + 3.0);
+        for (interval, share) in state.contacts.iter().filter_map(|contact| curve.interval(contact)) {
+            let asking = asking.entry(interval).or_default();
+            asking.add(share, residual.norm_squared());
+            asking.is_worst |= worst.contains(&block.samples.start);
         }
     }
     let turns = curve.turns();
-    let asks = |interval: &usize| asking.get(interval).is_some_and(|(sum, count)| *sum > ASKS * count);
-    let is_cut = |(interval, long, _): &(usize, f64, f64)| *long > 2.0 * SHORTEST * length && asks(interval);
-    let cut: BTreeSet<usize> = turns.iter().filter(|turn| is_cut(turn)).map(|turn| turn.0).collect();
+    let asks = |interval: &usize| asking.get(interval).is_some_and(Asking::is_unlikely);
+    let is_cut = |(interval, long, _): &&(usize, f64, f64)| *long > 2.0 * SHORTEST * length && asks(interval);
+    let at = |(interval, long, _): &(usize, f64, f64)| (*interval, asking[interval].cut(SHORTEST * length / long));
+    let cut: BTreeMap<usize, f64> = turns.iter().filter(is_cut).map(at).collect();
     let sharp = turns.windows(2).filter(|pair| {
         let (turn, long) = (0.5 * (pair[0].2 + pair[1].2), 0.5 * (pair[0].1 + pair[1].1));
         pair[1].0 == pair[0].0 + 1
@@ -229,6 +228,47 @@ fn finer(solved: &Solved, length: f64) -> Option<Curve> {
         return None;
     }
     curve.refined(&cut, &sharp)
+}
+
+/// An interval of a contour, as the blocks see it that touch it.
+struct Asking {
+    /// Sum of the squares of their residuals, and number of these.
+    sum: f64,
+    count: f64,
+    /// The part of the interval that they touch.
+    touched: [f64; 2],
+    /// Whether they are where the recording is explained worst: a long interval may hide that.
+    is_worst: bool,
+}
+
+impl Default for Asking {
+    fn default() -> Self {
+        Self { sum: 0.0, count: 0.0, touched: [1.0, 0.0], is_worst: false }
+    }
+}
+
+impl Asking {
+    fn add(&mut self, share: f64, squares: f64) {
+        (self.sum, self.count) = (self.sum + squares, self.count + 3.0);
+        self.touched = [self.touched[0].min(share), self.touched[1].max(share)];
+    }
+
+    fn is_unlikely(&self) -> bool {
+        self.is_worst || upper_tail(self.sum, self.count) < ASKS
+    }
+
+    /// Where a node parts the touched half of it from the rest; in the middle, if both are touched. No part is smaller than `least`.
+    fn cut(&self, least: f64) -> f64 {
+        let [from, to] = self.touched;
+        let share = if to < 0.5 {
+            to
+        } else if from > 0.5 {
+            from
+        } else {
+            0.5
+        };
+        share.clamp(least, 1.0 - least)
+    }
 }
 
 /// How well a contour is to be known.
@@ -304,6 +344,18 @@ impl Solved {
         !goodness.is_unreached() && goodness.chi_squared < NEAR * goodness.degrees_of_freedom
     }
 
+    /// Errors less what is known of them, in standard deviations of their budget.
+    pub fn errors(&self) -> DVector<f64> {
+        let count = self.curve.count();
+        self.x.rows(count, self.x.len() - count).into_owned()
+    }
+
+    /// The contour, for a rod of this length; in rod lengths.
+    pub fn chains(&self, length: f64) -> Vec<Vec<Node>> {
+        let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(1.0 / length)).collect();
+        self.curve.nodes_of_chains().iter().map(scaled).collect()
+    }
+
     /// Number of blocks with several contacts.
     fn several(&self) -> usize {
         self.explained.labels.iter().flatten().filter(|label| label.several()).count()
@@ -338,7 +390,12 @@ impl Solved {
         let Self { x, curve, covariance, explained, goodness, states, .. } = self;
         let fit = Fit::new(rod, curve.clone(), blocks, sources);
         let model = goodness.explains.then(|| fit.model_with(&x, curve.clone(), states.clone())).flatten();
-        let readings = model.and_then(|model| fit.answers(&x, &model, &covariance, &explained.labels, samples));
+        let told = |(label, state): (&Option<Label>, &Option<State>)| match state {
+            Some(state) => label.map(|_| curve.label(&state.contacts, &covariance, given.length())),
+            None => *label,
+        };
+        let labels: Vec<Option<Label>> = explained.labels.iter().zip(&states).map(told).collect();
+        let readings = model.and_then(|model| fit.answers(&x, &model, &covariance, &labels, samples));
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
@@ -350,7 +407,7 @@ impl Solved {
         let length = errors.iter().find(|one| one.0 == Source::Length).map_or(1.0, |one| 1.0 + one.1);
         let block = |(k, block): (usize, &Block)| FittedBlock {
             samples: block.samples.clone(),
-            label: explained.labels[k],
+            label: labels[k],
             residuals: explained.residuals[k].map(Into::into),
         };
         let chains: Vec<Vec<Node>> = curve.nodes_of_chains();

@@ -5,13 +5,15 @@ use super::curve::Node;
 use super::order::Touched;
 use super::outline::{Interpretation, outline};
 use super::swept::Swept;
+use crate::kink::KinkKind;
+use crate::phase::Label;
 use crate::pipeline::Reconstruction;
 use crate::point::{OneSample, Touch, one_sample};
 use crate::systematic::{Correction, Errors, still};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{PhysicalRod, Rod};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Standard deviation of a contact point, rod lengths, up to which all count the same.
 const EQUAL: f64 = 1e-3;
@@ -69,6 +71,11 @@ pub(super) fn starts<R: PhysicalRod>(
         readings.iter().map(start).collect::<Vec<_>>()
     };
     let mut starts = of(&blocks, &points, &[answers, joined(answers), Interpretation { is_sharp: true, ..answers }]);
+    let doubtful = doubtful(local);
+    let certain: Vec<Touched> = points.iter().filter(|point| !doubtful.contains(&point.trace)).copied().collect();
+    if certain.len() < points.len() {
+        starts.extend(of(&blocks, &certain, &[answers]));
+    }
     let singles = singles(rod, local, &mut blocks, &errors);
     if !singles.is_empty() {
         points.extend(singles);
@@ -94,6 +101,22 @@ fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
         points.extend(second.map(|touch| Touched::by(&touch, length, first + 1)));
     }
     points
+}
+
+/// The traces of a phase of one contact that a kink parts from a longer one of the same phase: a second contact may come or go there, which noise hides
+/// from the local answer.
+fn doubtful(local: &Reconstruction) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    let ends = local.runs.iter().skip(1).map(|run| run.0).chain([local.readings.len()]);
+    for ((start, label), end) in local.runs.iter().zip(ends).filter(|((_, label), _)| !label.several()) {
+        let inner =
+            local.kinks.iter().filter(|kink| kink.kind == KinkKind::Kink && kink.next > *start && kink.next < end);
+        let cuts: Vec<usize> = std::iter::once(*start).chain(inner.map(|kink| kink.next)).chain([end]).collect();
+        let longest = cuts.windows(2).max_by_key(|cut| cut[1] - cut[0]).map(|cut| cut[0]);
+        let others = cuts[..cuts.len() - 1].iter().filter(|from| *label != Label::Free && Some(**from) != longest);
+        found.extend(others.map(|from| 2 * kinks_before(local, *from)));
+    }
+    found
 }
 
 /// The points without those that move across their own tangents, which no contact does on a contour: the single contact of samples that have
