@@ -29,8 +29,9 @@ Turn a recording of clamp reactions back into contact points, phases and the con
 
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
-labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout. With --fit, fitted.csv is the contour that
-explains the whole recording; where there is one, labels, points and errors are those of the rod past it.
+labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout. One contour is fitted to the whole
+recording (fitted.csv). If it explains the recording, labels and points are those of the rod past it; if none does, the place where
+the fit fails is named (status 2). With friction, and without noise, nothing is fitted.
 
 Several recordings are of one object, with one rod in one frame. Each is reconstructed on its own, into a folder of its name, and
 contour.csv, contour.svg and merged.json beside the folders are of all of them together.";
@@ -203,10 +204,10 @@ pub struct Reconstruct {
     /// [default: none is moved]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
     pub align: Option<f64>,
-    /// Fit one contour, and the errors that all samples share, to each whole recording. If one explains it, labels and points are those of the rod
-    /// past it; if none does, the place where it fails is named (status 2). Takes seconds, or a minute where none does
+    /// Answer samples from their neighbours alone, in a fraction of a second. No contour is fitted to the whole recording, which takes seconds, or a
+    /// minute where none explains it: what contradicts the rest of the recording is not seen
     #[arg(long)]
-    pub fit: bool,
+    pub local: bool,
     #[command(flatten)]
     pub moved: Moved,
     #[command(flatten)]

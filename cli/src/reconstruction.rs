@@ -15,7 +15,7 @@ use vibrissa::{Rod, Settings};
 use vibrissa_cli::{Merged, write_reconstruction};
 
 pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
-    let Reconstruct { recordings, rod, truth, out, align, fit, moved, trust, written } = arguments;
+    let Reconstruct { recordings, rod, truth, out, align, local, moved, trust, written } = arguments;
     signals::end();
     let given = read_calibrated_rod(&rod)?;
     let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
@@ -36,7 +36,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let mut found = Vec::with_capacity(recordings.len());
     let mut left_out = Vec::new();
     for file in &recordings {
-        match one(file, &scan, &given.rod, &settings, truth.as_deref(), fit) {
+        match one(file, &scan, &given.rod, &settings, truth.as_deref(), !local) {
             Ok(one) => found.push(one),
             Err(error) => left_out.push(error),
         }
@@ -136,7 +136,10 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
         let is_of_labels =
             |finding: &Finding| matches!(finding, Finding::KinksWithin { .. } | Finding::Uncertain { .. });
         let is_told = |finding: &&Finding| {
-            let is_answered = found.is_explained() && (is_of_labels(finding) || found.fits() && finding.is_misfit());
+            // samples that are left out are neither
+            let is_of_samples = matches!(finding, Finding::Frozen { .. });
+            let is_answered = found.is_explained()
+                && (is_of_labels(finding) || found.fits() && finding.is_misfit() && !is_of_samples);
             (finding.is_misfit() || finding.is_warning()) && !is_answered
         };
         for finding in found.check.findings.iter().filter(is_told) {

@@ -185,8 +185,8 @@ fn a_noisy_one_gives_it_within_its_noise() {
         assert!((noise["lag1"].as_f64().unwrap() - 0.45).abs() < 0.05, "{noise}");
     }
     let truth = &report["truth"];
-    assert!(truth["accuracy"].as_f64().unwrap() > 0.9, "{}", truth["accuracy"]);
-    assert!(truth["single"]["median"].as_f64().unwrap() < 2e-5, "{}", truth["single"]);
+    assert!(truth["accuracy"].as_f64().unwrap() > 0.998, "{}", truth["accuracy"]);
+    assert!(truth["single"]["median"].as_f64().unwrap() < 2e-6, "{}", truth["single"]);
     assert!(truth["kinks"]["recall"].as_f64().unwrap() > 0.8, "{}", truth["kinks"]);
     assert!((report["physics"]["line"]["slope_by_bending_stiffness"].as_f64().unwrap() - 1.0).abs() < 5e-3);
     let lines = lines(directory.path());
@@ -223,7 +223,8 @@ fn kinks_within_a_phase_are_told() {
     }
     let simulate = "simulate scene.toml --noise noise.toml --rate 100 --speed 0.005 --seed 3 --out r.csv";
     assert!(vibrissa(directory.path(), &simulate.split(' ').collect::<Vec<_>>()).status.success());
-    let output = vibrissa(directory.path(), &["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml"]);
+    let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml"];
+    let output = vibrissa(directory.path(), &[&reconstruct[..], &["--local"]].concat());
     assert!(
         complaint(&output).contains("2 kinks within phase B, the first before sample 2126"),
         "{}",
@@ -232,6 +233,14 @@ fn kinks_within_a_phase_are_told() {
     // it is more than the standard deviations say
     let truth = &report(directory.path())["truth"];
     assert!(truth["single"]["largest"].as_f64().unwrap() > 5e-3, "{truth}");
+    // the whole recording tells them apart
+    let output = vibrissa(directory.path(), &reconstruct);
+    assert!(!complaint(&output).contains("within phase B"), "{}", complaint(&output));
+    let found = report(directory.path());
+    let labels: Vec<&str> =
+        found["runs"].as_array().unwrap().iter().map(|run| run["label"].as_str().unwrap()).collect();
+    assert_eq!(labels, ["free", "A", "B", "BB", "B", "A", "free"]);
+    assert!(found["truth"]["single"]["largest"].as_f64().unwrap() < 5e-4, "{}", found["truth"]);
     let exact =
         vibrissa(directory.path(), &["simulate", "scene.toml", "--rate", "100", "--speed", "0.005", "--out", "r.csv"]);
     assert!(exact.status.success());
@@ -456,7 +465,7 @@ fn help_names_files_units_and_exit_statuses() {
 #[test]
 fn one_contour_explains_a_recording_or_the_place_is_named_where_none_does() {
     let directory = recorded(&["--noise", "noise.toml", "--rate", "20", "--speed", "1e-3"]);
-    let output = reconstruct(directory.path(), &["--as-is", "--fit"]);
+    let output = reconstruct(directory.path(), &["--as-is"]);
     let fit = &report(directory.path())["fit"];
     assert!(output.status.success(), "{}: {fit}", complaint(&output));
     assert_eq!(fit["explains"], true);
@@ -483,7 +492,7 @@ fn one_contour_explains_a_recording_or_the_place_is_named_where_none_does() {
         }
         joined(&row)
     });
-    let output = reconstruct(directory.path(), &["--as-is", "--fit"]);
+    let output = reconstruct(directory.path(), &["--as-is"]);
     assert_eq!(output.status.code(), Some(2));
     let complaint = complaint(&output);
     assert!(

@@ -96,7 +96,8 @@ fn the_place_of_the_frame_changes_no_uncertainty() {
         row[2] -= 7.0;
     });
     for name in ["here", "there"] {
-        let output = reconstruct(path, &[&format!("{name}.csv")], name);
+        let tail = ["--rod", "rod.toml", "--local", "--out", name];
+        let output = vibrissa(path, &[&["reconstruct", &format!("{name}.csv")], &tail[..]].concat());
         assert_eq!(output.status.code(), Some(0), "{name}: {}", complaint(&output));
     }
     let (here, there) = (points(path, "here"), points(path, "there"));

@@ -176,20 +176,20 @@ impl PyReconstruction {
         self.found.check.findings.iter().map(Finding::to_string).collect()
     }
 
-    /// Whether one contour explains the whole recording; None without ``fit``, and where signs, units or rod are wrong. Where it does, labels,
-    /// points, contour and errors are its own.
+    /// Whether one contour explains the whole recording; None where none was fitted: without ``fit``, with friction, without noise, and where
+    /// signs, units or rod are wrong. Where it does, labels, points, contour and errors are its own.
     #[getter]
     fn is_explained(&self) -> Option<bool> {
-        self.found.fit.is_some().then(|| self.found.is_explained())
+        self.found.fitted().map(|fit| fit.goodness.explains)
     }
 
-    /// Why one contour does not explain the whole recording, and where, in words; None where it does, and without ``fit``.
+    /// Why no contour explains the whole recording, and where, in words; None where one does, and where none was fitted.
     #[getter]
     fn contradiction(&self) -> Option<String> {
         self.found.contradiction()
     }
 
-    /// The contour that explains the whole recording best, as a structured array; empty without ``fit``.
+    /// The contour that explains the whole recording best, as a structured array; empty where none was fitted.
     ///
     /// Fields: ``object``, counted from 1; points ``x``, ``y`` (m); ``sigma``: standard deviation across the contour (m), NaN where it is not touched; ``vertex``: whether
     /// smooth pieces meet at an angle there; ``touched``: whether the rod touches there, or between it and the next point.
@@ -323,7 +323,8 @@ fn recording(samples: Samples) -> Recording {
 ///     is none.
 /// fit : bool, optional
 ///     Fit one contour to the whole recording, which takes seconds, or a minute where none explains it. Where one does, labels, points,
-///     contour and errors are its own; else a warning says where it fails.
+///     contour and errors are its own; else a warning says where it fails. Without it samples are answered from their neighbours alone,
+///     in a fraction of a second. With friction, and without noise, nothing is fitted.
 ///
 /// Returns
 /// -------
@@ -334,7 +335,7 @@ fn recording(samples: Samples) -> Recording {
 /// ValueError
 ///     Too few samples can be used, or an argument is not possible.
 #[pyfunction]
-#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None, fit=false))]
+#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false, friction=None, fit=true))]
 #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
 pub fn reconstruct(
     py: Python<'_>,

@@ -523,7 +523,7 @@ def reconstruct(
     largest_sigma: float | None = None,
     as_is: bool = False,
     friction: float | tuple[float, float] | str | None = None,
-    fit: bool = False,
+    fit: bool = True,
 ) -> Reconstruction: ...
 def sweep(
     rod: Rod,

@@ -13,7 +13,11 @@ const DOUBTED: f64 = 0.01;
 impl Reconstructed {
     /// Adds whether one contour explains the recording; nothing where that was not looked at.
     pub(super) fn tell_fit(&self, text: &mut String) -> std::fmt::Result {
-        let Some(fit) = self.fitted() else { return Ok(()) };
+        let fit = match &self.fit {
+            Some(Ok(fit)) => fit,
+            Some(Err(why)) => return writeln!(text, "fit: none; {why}"),
+            None => return Ok(()),
+        };
         let Goodness { chi_squared, degrees_of_freedom, explains, .. } = &fit.goodness;
         let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
         if *explains {
@@ -80,13 +84,9 @@ impl Reconstructed {
         [self.rows[samples.start], self.rows[samples.end - 1]]
     }
 
-    /// Why one contour does not explain the recording; none where it does, or where that was not looked at.
+    /// Why no contour explains the recording; none where one does, or where none was fitted.
     pub fn contradiction(&self) -> Option<String> {
-        let fit = match self.fit.as_ref()? {
-            Ok(fit) if fit.goodness.explains => return None,
-            Ok(fit) => fit,
-            Err(error) => return Some(format!("whether one contour explains the recording is not known: {error}")),
-        };
+        let fit = self.fitted().filter(|fit| !fit.goodness.explains)?;
         let mut why = "no contour was found that explains the whole recording".to_owned();
         if let Some(worst) = fit.goodness.unlikely_window() {
             let [from, to] = self.rows_of(&worst.samples);
