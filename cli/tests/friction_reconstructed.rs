@@ -29,11 +29,13 @@ fn json(directory: &Path, name: &str) -> Value {
 #[test]
 fn friction_that_nobody_asked_for_is_never_silent() {
     let noisy = ["--noise", "noise.toml", "--seed", "7"].as_slice();
-    for (mu, noise) in [(0.05, noisy), (0.1, &[]), (0.3, noisy)] {
+    let local = ["--local"].as_slice();
+    for (mu, noise, how) in [(0.05, noisy, &[][..]), (0.1, &[], local), (0.3, noisy, local)] {
         let directory = directory(mu);
         let path = directory.path();
         done(path, 0, &[&["simulate", "scene.toml", "--rate", "50", "--out", "r.csv"], noise].concat());
         let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "out"];
+        let reconstruct = [&reconstruct[..], how].concat();
         let (_, complaint) = done(path, 2, &reconstruct);
         assert!(complaint.contains("the contacts seem to rub: with friction mu = "), "{mu}: {complaint}");
         let (report, _) = done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());
@@ -63,7 +65,7 @@ fn errors_of_the_laboratory_hide_no_friction() {
             text += &(row.iter().map(f64::to_string).collect::<Vec<_>>().join(",") + "\n");
         }
         fs::write(path.join("p.csv"), text).unwrap();
-        let reconstruct = ["reconstruct", "p.csv", "--rod", "scene.toml", "--out", "out"];
+        let reconstruct = ["reconstruct", "p.csv", "--rod", "scene.toml", "--local", "--out", "out"];
         let (_, complaint) = done(path, 2, &reconstruct);
         assert!(complaint.contains("the contacts seem to rub: with friction mu = "), "{sign}: {complaint}");
         done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());

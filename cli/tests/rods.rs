@@ -280,7 +280,7 @@ fn there_and_back(rod: &str, noise: Option<&str>) -> (Vec<Answer>, serde_json::V
     let with_noise = ["--noise", "noise.toml"];
     let told: &[&str] = if noise.is_none() { &with_noise } else { &[] };
     let reconstruct = ["reconstruct", "felt.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "found"];
-    let text = said(&[&reconstruct, told].concat());
+    let text = said(&[&reconstruct[..], &["--local"], told].concat());
     for file in ["points.jsonl", "contour.csv", "report.json", "contour.svg", "phases.svg"] {
         assert!(dir.path().join("found").join(file).metadata().unwrap().len() > 100, "{file}");
     }
