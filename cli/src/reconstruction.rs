@@ -9,7 +9,7 @@ use rod_files::{
 };
 use std::path::Path;
 use std::process::ExitCode;
-use vibrissa::reconstruct::{Budget, Finding, Known};
+use vibrissa::reconstruct::{Budget, Known};
 use vibrissa::rod::AnyRod;
 use vibrissa::{Rod, Settings};
 use vibrissa_cli::{Merged, write_reconstruction};
@@ -132,17 +132,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
     let mut code = ExitCode::SUCCESS;
     for found in found {
         let file = found.recording.file.display();
-        // kinks within a run are those of contacts that the fit knows, and labels are its own; where it needs no errors, the rod fits
-        let is_of_labels =
-            |finding: &Finding| matches!(finding, Finding::KinksWithin { .. } | Finding::Uncertain { .. });
-        let is_told = |finding: &&Finding| {
-            // samples that are left out are neither
-            let is_of_samples = matches!(finding, Finding::Frozen { .. });
-            let is_answered = found.is_explained()
-                && (is_of_labels(finding) || found.fits() && finding.is_misfit() && !is_of_samples);
-            (finding.is_misfit() || finding.is_warning()) && !is_answered
-        };
-        for finding in found.check.findings.iter().filter(is_told) {
+        for finding in found.warnings() {
             warn(&format!("warning: {file}: {finding}\n"));
         }
         if let Some(doubt) = found.doubt() {
@@ -155,9 +145,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
         if found.fits() {
             continue;
         }
-        // where the fit names an error that is too large, other causes contradict it
-        let is_named = found.fitted().is_some_and(|fit| fit.goodness.error_beyond_budget().is_some());
-        if let Some(causes) = found.explained().filter(|_| !found.is_explained() && !is_named) {
+        if let Some(causes) = found.explained() {
             warn(&format!("warning: {file}: {causes}\n"));
         }
         code = ExitCode::from(UNFINISHED);

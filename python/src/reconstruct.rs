@@ -173,7 +173,7 @@ impl PyReconstruction {
     /// What the check by the physics found, in words.
     #[getter]
     fn findings(&self) -> Vec<String> {
-        self.found.check.findings.iter().map(Finding::to_string).collect()
+        self.found.findings().map(Finding::to_string).collect()
     }
 
     /// Whether one contour explains the whole recording; None where none was fitted: without ``fit``, with friction, without noise, and where
@@ -372,7 +372,7 @@ pub fn reconstruct(
     let found = running::run(py, reconstructed)?.map_err(|error: ReconstructionError| errors::value(error))?;
     let mut doubts: Vec<String> = Vec::new();
     if !found.fits() {
-        let findings: Vec<_> = found.check.findings.iter().map(ToString::to_string).collect();
+        let findings: Vec<_> = found.findings().map(ToString::to_string).collect();
         doubts.push(format!("recording, units and rod do not fit: {}", findings.join("; ")));
     }
     doubts.extend(found.contradiction().into_iter().chain(found.doubt()));

@@ -5,6 +5,7 @@ use super::stages::{self, Registration};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tempfile::TempDir;
 
 /// Why results cannot be written.
@@ -77,6 +78,8 @@ pub struct Staged {
     target: PathBuf,
     /// Files that must not be replaced.
     inputs: Vec<PathBuf>,
+    /// Files of an earlier run that must not stay.
+    obsolete: Mutex<Vec<PathBuf>>,
     stage: TempDir,
     // after the stage, in which order they are dropped
     _registration: Registration,
@@ -101,7 +104,7 @@ impl Staged {
         };
         let stage = stage().map_err(|source| OutputError::Directory { directory: target.to_path_buf(), source })?;
         let _registration = stages.open(stage.path(), made);
-        Ok(Self { target: target.to_path_buf(), inputs: Vec::new(), stage, _registration })
+        Ok(Self { target: target.to_path_buf(), inputs: Vec::new(), obsolete: Mutex::default(), stage, _registration })
     }
 
     /// The same, but it replaces none of these files.
@@ -152,11 +155,31 @@ impl Staged {
         write().map_err(|source| OutputError::File { file: self.target.join(name), source })
     }
 
+    /// Has a file go that an earlier run may have left; `name` may lead through folders.
+    ///
+    /// # Errors
+    /// [`OutputError::Special`], [`OutputError::Input`].
+    pub fn remove(&self, name: &Path) -> Result<(), OutputError> {
+        let file = self.target.join(name);
+        check_output(&file, &self.inputs)?;
+        self.obsolete.lock().unwrap_or_else(PoisonError::into_inner).push(file);
+        Ok(())
+    }
+
     /// Moves all files to where they belong, each in one stroke over the one that was there.
     ///
     /// # Errors
     /// [`OutputError::File`]; those moved before it stay.
     pub fn publish(self) -> Result<(), OutputError> {
+        let obsolete = std::mem::take(&mut *self.obsolete.lock().unwrap_or_else(PoisonError::into_inner));
+        for file in obsolete {
+            match fs::remove_file(&file) {
+                Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                    return Err(OutputError::File { file, source });
+                }
+                _ => {}
+            }
+        }
         // let go before `self`, which takes it again when it is dropped
         let mut stages = stages::lock();
         stages.published = true;
@@ -194,6 +217,11 @@ mod tests {
         assert_eq!(fs::read(&good).unwrap(), b"good");
 
         let staged = Staged::new(dir.path()).unwrap();
+        staged.remove("folder/file".as_ref()).unwrap();
+        drop(staged);
+        assert!(good.exists());
+
+        let staged = Staged::new(dir.path()).unwrap();
         let failure = staged.write("folder/file".as_ref(), |out| {
             out.write_all(b"half")?;
             Err(io::Error::other("disk full"))
@@ -203,6 +231,11 @@ mod tests {
         drop(staged);
         assert_eq!(fs::read(&good).unwrap(), b"good");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "the stage is gone");
+
+        let staged = Staged::new(dir.path()).unwrap();
+        ["folder/file", "never there"].into_iter().for_each(|name| staged.remove(name.as_ref()).unwrap());
+        staged.publish().unwrap();
+        assert!(!good.exists());
     }
 
     #[test]

@@ -20,8 +20,10 @@ impl Reconstructed {
     pub fn write(&self, staged: &Staged, folder: &Path) -> Result<(), OutputError> {
         staged.write(&folder.join("points.jsonl"), |file| self.write_points(file))?;
         staged.write(&folder.join("contour.csv"), |file| write_csv(file, &COLUMNS, self.contour.rows()))?;
-        if let Some(points) = self.fitted_contour() {
-            staged.write(&folder.join("fitted.csv"), |file| write_csv(file, &FITTED_COLUMNS, points))?;
+        let fitted = folder.join("fitted.csv");
+        match self.fitted_contour() {
+            Some(points) => staged.write(&fitted, |file| write_csv(file, &FITTED_COLUMNS, points))?,
+            None => staged.remove(&fitted)?,
         }
         staged.write(&folder.join("report.json"), |file| pretty_json(file, &ReportRecord::of(self)))?;
         Ok(())

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::{ContourFit, Goodness, Source};
+use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Source};
 
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
@@ -29,7 +29,11 @@ impl Reconstructed {
         let label =
             |run: &(Range<usize>, Option<Label>)| run.1.map_or_else(|| "?".to_owned(), |label| label.to_string());
         let labels: Vec<String> = fit.runs().iter().map(label).collect();
-        writeln!(text, "fit: no contour explains the recording, {of}; its phases: {}", labels.join(" "))
+        let worst = fit.goodness.unlikely_window().map_or_else(String::new, |worst| {
+            let [from, to] = self.rows_of(&worst.samples);
+            format!(" ({:.0} of {} in rows {from} to {to})", worst.chi_squared, worst.residuals)
+        });
+        writeln!(text, "fit: no contour explains the recording, {of}{worst}; its phases: {}", labels.join(" "))
     }
 
     /// Whether one contour explains the recording; false where that was not looked at.
@@ -61,6 +65,24 @@ impl Reconstructed {
     /// known. What the physics find is of the local answer.
     pub fn fits(&self) -> bool {
         self.check.fits() || self.fitted().is_some_and(|fit| fit.goodness.explains && fit.errors.is_empty())
+    }
+
+    /// What the physics find, without what the contour that explains the recording answers: kinks within a phase are those of contacts that it
+    /// knows, labels are its own, and where it needs no errors, the rod fits.
+    pub fn findings(&self) -> impl Iterator<Item = &Finding> {
+        let is_answered = |finding: &Finding| match finding {
+            Finding::KinksWithin { .. } | Finding::Uncertain { .. } => true,
+            // samples that are left out stay left out
+            Finding::Frozen { .. } => false,
+            _ => self.fits() && finding.is_misfit(),
+        };
+        self.check.findings.iter().filter(move |finding| !(self.is_explained() && is_answered(finding)))
+    }
+
+    /// What the command warns of: findings that cast doubt on the results, and all of them where no contour explains the recording.
+    pub fn warnings(&self) -> impl Iterator<Item = &Finding> {
+        let is_contradicted = self.fitted().is_some_and(|fit| !fit.goodness.explains);
+        self.findings().filter(move |finding| is_contradicted || finding.is_misfit() || finding.is_warning())
     }
 
     /// The points of the contour of the fit, as in fitted.csv; none where there is no fit.
@@ -97,7 +119,9 @@ impl Reconstructed {
             let share = 100.0 * fit.goodness.unreached;
             why += &format!("; at {share:.0} % of the samples, as rows {from} to {to}, the rod cannot be on it");
         }
-        if let Some((source, off)) = fit.goodness.error_beyond_budget() {
+        // where the contacts seem to rub, errors stand in for friction
+        let rubs = self.check.findings.iter().any(|finding| matches!(finding, Finding::Friction { .. }));
+        if let Some((source, off)) = fit.goodness.error_beyond_budget().filter(|_| !rubs) {
             why += &format!("; its {source} is off what is known by {:.0} standard deviations of that", off.abs());
         }
         Some(

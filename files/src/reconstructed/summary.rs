@@ -124,7 +124,7 @@ impl Reconstructed {
                 100.0 * line.share
             )?;
         }
-        self.check.findings.iter().try_for_each(|finding| writeln!(text, "physics: {finding}"))?;
+        self.findings().try_for_each(|finding| writeln!(text, "physics: {finding}"))?;
         self.explained().map_or(Ok(()), |causes| writeln!(text, "physics: {causes}"))
     }
 

@@ -294,7 +294,7 @@ impl fmt::Display for Finding {
             Self::Friction { mu, sigma, gain } => write!(
                 f,
                 "the contacts seem to rub: with friction mu = {:.4} +- {sigma:.1e} the scan is likelier by a factor of 10^{:.0}; K over 2 |F| \
-                 along tangential contacts is {:.4} in place of 0; reconstruct with friction",
+                 along tangential contacts is {:.4} in place of 0; reconstruct with friction (`--friction estimate`)",
                 mu.abs(),
                 (gain / std::f64::consts::LN_10).min(999.0),
                 mu / mu.hypot(1.0)

@@ -45,10 +45,10 @@ use std::ops::Range;
 
 /// Most evaluations of the model at all poses of a recording, each of milliseconds. Larger: more time on recordings that nothing explains; smaller:
 /// those with many contacts are given up.
-const MOST_EVALUATIONS: usize = 1000;
+const MOST_EVALUATIONS: usize = 600;
 /// The same without errors that all samples share, where these may not be needed; and once more from the contour that was found.
-const WITHOUT_ERRORS: usize = 800;
-const AGAIN: usize = 300;
+const WITHOUT_ERRORS: usize = 500;
+const AGAIN: usize = 200;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
