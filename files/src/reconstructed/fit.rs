@@ -5,8 +5,11 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Source};
+use vibrissa::reconstruct::kink::{Kink, KinkKind};
+use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Reading, Source};
 
+/// Distance from a vertex, rod lengths, within which a contact is at it: a kink is known to some samples.
+const AT_VERTEX: f64 = 0.01;
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
 
@@ -67,16 +70,38 @@ impl Reconstructed {
         self.check.fits() || self.fitted().is_some_and(|fit| fit.goodness.explains && fit.errors.is_empty())
     }
 
-    /// What the physics find, without what the contour that explains the recording answers: kinks within a phase are those of contacts that it
-    /// knows, labels are its own, and where it needs no errors, the rod fits.
+    /// What the physics find; without misfits, where the contour that explains the recording needs no errors.
     pub fn findings(&self) -> impl Iterator<Item = &Finding> {
-        let is_answered = |finding: &Finding| match finding {
-            Finding::KinksWithin { .. } | Finding::Uncertain { .. } => true,
-            // samples that are left out stay left out
-            Finding::Frozen { .. } => false,
-            _ => self.fits() && finding.is_misfit(),
+        let fits = self.fits();
+        // samples that are left out stay left out
+        let is_answered =
+            move |finding: &Finding| fits && finding.is_misfit() && !matches!(finding, Finding::Frozen { .. });
+        self.check.findings.iter().filter(move |finding| !is_answered(finding))
+    }
+
+    /// The kinks within a phase B of the contour that explains the recording, which it does not tell of: noise may hide another contact there. It tells of
+    /// those at which the phase changes, and of those at its vertices.
+    pub(super) fn unexplained_kinks(&self, fit: &ContourFit) -> Option<Finding> {
+        let vertices: Vec<[f64; 2]> = fit
+            .objects
+            .iter()
+            .flat_map(|object| object.vertices.iter().filter_map(|vertex| object.points.get(*vertex).copied()))
+            .collect();
+        let is_at_vertex = |[x, y]: [f64; 2]| {
+            vertices.iter().any(|vertex| (vertex[0] - x).hypot(vertex[1] - y) < AT_VERTEX * fit.length)
         };
-        self.check.findings.iter().filter(move |finding| !(self.is_explained() && is_answered(finding)))
+        let is_unexplained = |kink: &&Kink| {
+            let blocks = fit.blocks.windows(3).find(|three| three[1].samples.contains(&kink.next));
+            let around = blocks.map_or(kink.next..kink.next, |three| three[0].samples.start..three[2].samples.end);
+            let readings = self.found.readings.get(around).unwrap_or_default();
+            let is_told = |reading: &Reading| {
+                reading.label != Label::B || reading.touch.is_ok_and(|touch| is_at_vertex([touch.x, touch.y]))
+            };
+            kink.kind == KinkKind::Kink && !readings.is_empty() && !readings.iter().any(is_told)
+        };
+        let mut kinks = self.found.kinks.iter().filter(is_unexplained);
+        let from = kinks.next()?.next;
+        Some(Finding::KinksWithin { count: 1 + kinks.count(), from })
     }
 
     /// What the command warns of: findings that cast doubt on the results, and all of them where no contour explains the recording.

@@ -121,6 +121,13 @@ impl Reconstructed {
                 }
             }
             self.contour = self.found.contour(&Assembly::default());
+            // labels are those of the contour now
+            let findings = &mut self.check.findings;
+            let is_within = |finding: &Finding| matches!(finding, Finding::KinksWithin { .. });
+            let had_kinks = findings.iter().any(is_within);
+            findings.retain(|finding| !is_within(finding) && !matches!(finding, Finding::Uncertain { .. }));
+            let kinks = self.unexplained_kinks(fit).filter(|_| had_kinks);
+            self.check.findings.extend(kinks);
         }
         self.fit = Some(fit);
     }

@@ -58,7 +58,9 @@ impl<R: PhysicalRod> Fit<'_, R> {
                     let distinct = model.curve.distinct(&state.contacts, covariance, self.rod.units().length);
                     self.answer(x, &distinct, &covariances, probability)
                 };
-                *answer = state.as_ref().map(told);
+                // a contact that begins inside the block may have no covariance yet
+                let is_known = |state: &&State| state.contacts.is_empty() || !covariances.is_empty();
+                *answer = state.as_ref().filter(is_known).map(told);
             }
         }
         Some(answers)
