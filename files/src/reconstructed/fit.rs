@@ -8,7 +8,9 @@ use vibrissa::Label;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
 use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Reading, Source};
 
-/// Distance from a vertex, rod lengths, within which a contact is at it: a kink is known to some samples.
+/// Blocks on either side of a kink, and distance of its contact from a vertex, rod lengths, within which a change of the contour's own explains it: a
+/// kink in noise is known to some samples.
+const NEAR_KINK: usize = 3;
 const AT_VERTEX: f64 = 0.01;
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
@@ -91,8 +93,10 @@ impl Reconstructed {
             vertices.iter().any(|vertex| (vertex[0] - x).hypot(vertex[1] - y) < AT_VERTEX * fit.length)
         };
         let is_unexplained = |kink: &&Kink| {
-            let blocks = fit.blocks.windows(3).find(|three| three[1].samples.contains(&kink.next));
-            let around = blocks.map_or(kink.next..kink.next, |three| three[0].samples.start..three[2].samples.end);
+            let block = fit.blocks.partition_point(|block| block.samples.end <= kink.next);
+            let near = block.saturating_sub(NEAR_KINK)..fit.blocks.len().min(block + NEAR_KINK + 1);
+            let blocks = fit.blocks.get(near).unwrap_or_default();
+            let around = blocks.first().zip(blocks.last()).map_or(0..0, |(a, b)| a.samples.start..b.samples.end);
             let readings = self.found.readings.get(around).unwrap_or_default();
             let is_told = |reading: &Reading| {
                 reading.label != Label::B || reading.touch.is_ok_and(|touch| is_at_vertex([touch.x, touch.y]))
