@@ -133,9 +133,7 @@ impl PyReconstruction {
     /// Neighbouring samples with one label: first sample, last sample + 1, label.
     #[getter]
     fn runs(&self) -> Vec<(usize, usize, String)> {
-        let runs = &self.found.found.runs;
-        let ends = runs.iter().skip(1).map(|run| run.0).chain([self.found.samples.len()]);
-        runs.iter().zip(ends).map(|(&(first, label), end)| (first, end, label.to_string())).collect()
+        self.found.runs().map(|(samples, label)| (samples.start, samples.end, label.to_string())).collect()
     }
 
     /// Kinks and jumps of the reactions as a structured array.

@@ -5,13 +5,8 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::kink::{Kink, KinkKind};
-use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Reading, Source};
+use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Source};
 
-/// Blocks on either side of a kink, and distance of its contact from a vertex, rod lengths, within which a change of the contour's own explains it: a
-/// kink in noise is known to some samples.
-const NEAR_KINK: usize = 3;
-const AT_VERTEX: f64 = 0.01;
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
 
@@ -79,33 +74,6 @@ impl Reconstructed {
         let is_answered =
             move |finding: &Finding| fits && finding.is_misfit() && !matches!(finding, Finding::Frozen { .. });
         self.check.findings.iter().filter(move |finding| !is_answered(finding))
-    }
-
-    /// The kinks within a phase B of the contour that explains the recording, which it does not tell of: noise may hide another contact there. It tells of
-    /// those at which the phase changes, and of those at its vertices.
-    pub(super) fn unexplained_kinks(&self, fit: &ContourFit) -> Option<Finding> {
-        let vertices: Vec<[f64; 2]> = fit
-            .objects
-            .iter()
-            .flat_map(|object| object.vertices.iter().filter_map(|vertex| object.points.get(*vertex).copied()))
-            .collect();
-        let is_at_vertex = |[x, y]: [f64; 2]| {
-            vertices.iter().any(|vertex| (vertex[0] - x).hypot(vertex[1] - y) < AT_VERTEX * fit.length)
-        };
-        let is_unexplained = |kink: &&Kink| {
-            let block = fit.blocks.partition_point(|block| block.samples.end <= kink.next);
-            let near = block.saturating_sub(NEAR_KINK)..fit.blocks.len().min(block + NEAR_KINK + 1);
-            let blocks = fit.blocks.get(near).unwrap_or_default();
-            let around = blocks.first().zip(blocks.last()).map_or(0..0, |(a, b)| a.samples.start..b.samples.end);
-            let readings = self.found.readings.get(around).unwrap_or_default();
-            let is_told = |reading: &Reading| {
-                reading.label != Label::B || reading.touch.is_ok_and(|touch| is_at_vertex([touch.x, touch.y]))
-            };
-            kink.kind == KinkKind::Kink && !readings.is_empty() && !readings.iter().any(is_told)
-        };
-        let mut kinks = self.found.kinks.iter().filter(is_unexplained);
-        let from = kinks.next()?.next;
-        Some(Finding::KinksWithin { count: 1 + kinks.count(), from })
     }
 
     /// What the command warns of: findings that cast doubt on the results, and all of them where no contour explains the recording.

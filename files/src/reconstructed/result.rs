@@ -126,7 +126,7 @@ impl Reconstructed {
             let is_within = |finding: &Finding| matches!(finding, Finding::KinksWithin { .. });
             let had_kinks = findings.iter().any(is_within);
             findings.retain(|finding| !is_within(finding) && !matches!(finding, Finding::Uncertain { .. }));
-            let kinks = self.unexplained_kinks(fit).filter(|_| had_kinks);
+            let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);
             self.check.findings.extend(kinks);
         }
         self.fit = Some(fit);
@@ -177,9 +177,7 @@ impl Reconstructed {
 
     /// The runs of samples with one label, in order.
     pub fn runs(&self) -> impl Iterator<Item = (Range<usize>, Label)> + '_ {
-        let runs = &self.found.runs;
-        let ends = runs.iter().skip(1).map(|run| run.0).chain([self.samples.len()]);
-        runs.iter().zip(ends).map(|(&(first, label), end)| (first..end, label))
+        self.found.phases()
     }
 
     /// The pose of the support of the clamp at a sample, as it was recorded.

@@ -18,7 +18,8 @@ const INDEPENDENT: f64 = 2.0;
 /// Standard deviation of a block over the largest reaction, at least: what the contour of a fit, a cubic spline, and the mean of a block
 /// leave of noise-free samples.
 const LEAST_NOISE: f64 = 3e-4;
-/// Noise of a sample over the largest reaction up to which a recording is exact: its points need no mean over samples. What simulations print.
+/// Standard deviation of the noise of a sample over the largest reaction up to which a recording is exact, as simulations without noise are. Larger: recordings of
+/// good sensors are not fitted; smaller: clean points are replaced by those of splines.
 const EXACT: f64 = 1e-6;
 /// Free blocks whose scatter about their mean is looked at; independent blocks that would tell the noise as well as the model of it does (its variance to
 /// 15 %); and the largest ratio of the variances: more is no noise.

@@ -211,8 +211,8 @@ impl Curve {
 
     /// The node at which the interval of a contact of a state begins, and the share of it at which the contact is; none for a contact at a vertex.
     pub fn interval(&self, contact: &Contact) -> Option<(usize, f64)> {
-        let piece = self.piece_of(contact).filter(|_| !is_at_vertex(contact))?;
-        let (t, knots) = (piece.closest(contact.x, contact.y).t, piece.knots());
+        let (piece, t) = self.along(contact).filter(|_| !is_at_vertex(contact))?;
+        let (piece, knots) = (&self.pieces[piece], self.pieces[piece].knots());
         let i = knots.partition_point(|knot| *knot <= t).clamp(1, knots.len() - 1) - 1;
         Some((piece.first + i, (t - knots[i]) / (knots[i + 1] - knots[i])))
     }
@@ -222,24 +222,29 @@ impl Curve {
         if let Some((first, _)) = self.interval(contact) {
             return Some(first..first + 2);
         }
-        let piece = self.piece_of(contact)?;
+        let piece = &self.pieces[self.along(contact)?.0];
         let vertex = piece.first + piece.knots().len() - 1;
         Some(vertex - 1..(vertex + 2).min(self.nodes.len()))
     }
 
-    fn piece_of(&self, contact: &Contact) -> Option<&Piece> {
-        self.pieces.iter().find(|one| one.object == contact.object && one.number == contact.piece)
+    /// The number of the piece of a contact of a state, and the parameter there; at a vertex the end of the piece.
+    fn along(&self, contact: &Contact) -> Option<(usize, f64)> {
+        let is_its = |one: &Piece| one.object == contact.object && one.number == contact.piece;
+        let k = self.pieces.iter().position(is_its)?;
+        let end = self.pieces[k].knots()[self.pieces[k].knots().len() - 1];
+        Some((k, if is_at_vertex(contact) { end } else { self.pieces[k].closest(contact.x, contact.y).t }))
     }
 
     /// How point and tangent of the contour at a contact of a state change with the unknowns.
     pub fn rates(&self, contact: &Contact) -> Vec<(usize, SupportRate)> {
-        let Some(piece) = self.piece_of(contact) else { return Vec::new() };
+        let Some((piece, t)) = self.along(contact) else { return Vec::new() };
+        let piece = &self.pieces[piece];
         if is_at_vertex(contact) {
             let (own, first) = &self.ways[piece.first + piece.knots().len() - 1];
             let rate = |(i, way): (usize, &Vector2<f64>)| (first + i, SupportRate { x: way.x, y: way.y, alpha: 0.0 });
             return own.iter().enumerate().map(rate).collect();
         }
-        self.rates_at(piece, piece.closest(contact.x, contact.y).t)
+        self.rates_at(piece, t)
     }
 
     /// The same at the parameter `t` of a piece.
@@ -260,17 +265,10 @@ impl Curve {
 
     /// How deep the contour is behind the chord between two contacts on one object, at some places of the way; none on different ones.
     pub fn hollow(&self, one: &Contact, other: &Contact) -> Option<Vec<Dependent>> {
-        let place = |contact: &Contact| {
-            let k =
-                self.pieces.iter().position(|piece| (piece.object, piece.number) == (contact.object, contact.piece))?;
-            let piece = &self.pieces[k];
-            let end = piece.knots()[piece.knots().len() - 1];
-            Some((k, if is_at_vertex(contact) { end } else { piece.closest(contact.x, contact.y).t }))
-        };
-        let [mut from, mut to] = [place(one)?, place(other)?];
         if one.object != other.object {
             return None;
         }
+        let [mut from, mut to] = [self.along(one)?, self.along(other)?];
         if (to.0, to.1) < (from.0, from.1) {
             (from, to) = (to, from);
         }

@@ -11,9 +11,11 @@ mod blocks;
 mod curve;
 mod distinct;
 mod ends;
+mod finer;
 mod flatten;
 mod forward;
 mod grow;
+mod kinks;
 mod order;
 mod outline;
 mod pair;
@@ -171,38 +173,36 @@ pub fn fit_contour<R: PhysicalRod>(
     let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
     let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
     let (sources, errors) = Sources::of(&uniform, local);
-    let mut starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
+    let starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
     if starts.is_empty() {
         return Err(FitError::NoContacts);
     }
+    // the best from all starts, or once more from what was found before
+    type Found = Option<(Solved, Blocks, Sources)>;
+    let round = |before: Found, sources: &Sources, errors: &DVector<f64>, evaluations| -> Found {
+        let again = before
+            .as_ref()
+            .map(|(solved, blocks, _)| Start { blocks: blocks.clone(), chains: solved.chains(units.length) });
+        let starts = again.as_ref().map_or(&starts[..], std::slice::from_ref);
+        let found = best_of(starts, Search { rod, sources, errors, evaluations });
+        found.map(|(solved, blocks)| (solved, blocks.clone(), sources.clone())).or(before)
+    };
     let exact = sources.exact();
     // errors that the recording does not ask for would move its contour as far as they are uncertain
-    let rounds = match local.is_corrected() || sources.free.is_empty() {
-        true => vec![(&sources, MOST_EVALUATIONS), (&sources, AGAIN)],
-        false => vec![(&exact, WITHOUT_ERRORS), (&exact, AGAIN), (&sources, AGAIN)],
+    let are_free = local.is_corrected() || sources.free.is_empty();
+    let mut best = match are_free {
+        true => round(None, &sources, &errors, MOST_EVALUATIONS),
+        false => round(None, &exact, &DVector::zeros(0), WITHOUT_ERRORS),
     };
-    let mut best: Option<(Solved, Blocks, &Sources)> = None;
-    for (sources, evaluations) in rounds {
-        let errors = match &best {
-            // of the last round, or what the local answer says
-            Some((solved, _, before)) if before.free == sources.free => solved.errors(),
-            _ if sources.free.is_empty() => DVector::zeros(0),
-            _ => errors.clone(),
-        };
-        match &best {
-            Some((solved, ..)) if solved.goodness.explains => break,
-            // another round of the same is for what is nearly explained
-            Some((solved, _, before)) if before.free == sources.free && !solved.is_near() => continue,
-            Some((solved, blocks, _)) => {
-                starts = vec![Start { blocks: blocks.clone(), chains: solved.chains(units.length) }]
-            }
-            None => {}
-        }
-        let found = best_of(&starts, Search { rod, sources, errors: &errors, evaluations });
-        best = found.map(|(solved, blocks)| (solved, blocks.clone(), sources)).or(best);
+    if let Some((solved, ..)) = best.as_ref().filter(|best| best.0.is_near() && !best.0.goodness.explains) {
+        let errors = solved.errors();
+        best = round(best, if are_free { &sources } else { &exact }, &errors, AGAIN);
+    }
+    if !are_free && best.as_ref().is_none_or(|best| !best.0.goodness.explains) {
+        best = round(best, &sources, &errors, AGAIN);
     }
     let (solved, blocks, sources) = best.ok_or(FitError::NoStart)?;
-    Ok(solved.result(rod, samples, &blocks, sources, &uniform))
+    Ok(solved.result(rod, samples, &blocks, &sources, &uniform))
 }
 
 /// The best fit from some starts: the first that explains the recording, else the one of lowest cost.

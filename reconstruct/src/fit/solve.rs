@@ -2,6 +2,7 @@
 
 use super::blocks::{Block, Blocks};
 use super::curve::{Curve, Node};
+use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
 use super::problem::{Explained, Fit, Model, Sources};
@@ -11,27 +12,18 @@ use super::trim::touched;
 use super::verdict::Goodness;
 use super::{ContourFit, FittedBlock, FittedObject};
 use crate::least_squares::{Damped, Iterate, iterate};
-use crate::numeric::chi_squared::upper_tail;
 use crate::phase::Label;
 use crate::systematic::Source;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 use rod_contact::State;
 use rod_core::{PhysicalRod, Rod, Sample};
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Most changes of a contour, one after the other.
 const CHANGES: usize = 10;
 /// The part of the evaluations that are left which is kept for the starts after this one: half of them.
 const KEPT: usize = 2;
-/// Probability of the residuals of the blocks that touch an interval below which it is cut in two, and the shortest one that is (rod lengths). Larger,
-/// and shorter: nodes for noise.
-const ASKS: f64 = 1e-3;
-const SHORTEST: f64 = 2e-3;
-/// Radius (rod lengths) and angle (radians) of a bend from which on, smaller and larger, it becomes a vertex.
-const SHARP: f64 = 6e-3;
-const VERTEX_TURN: f64 = 0.4;
 /// Decrease of the cost, which is that of chi squared, for which a finer contour is taken. Smaller: nodes for noise.
 const WORTH: f64 = 5.0;
 /// Most contours of which a hollow is straight that are tried at a time.
@@ -155,7 +147,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                     .collect()
             }
             Change::Flatter => through(flattened(&best.curve, &best.states, length), HOLLOWS),
-            Change::Finer => finer(best, fit.blocks, length).map(with_states).into_iter().collect(),
+            Change::Finer => finer(&best.curve, best.seen(fit.blocks), length).map(with_states).into_iter().collect(),
             Change::Sharper | Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
@@ -195,79 +187,6 @@ impl Change {
             true => &[Self::Flatter, Self::Finer, Self::Sharper, Self::Joined],
             false => &[Self::Grown, Self::Finer, Self::Flatter],
         }
-    }
-}
-
-/// The contour of a fit, for a rod of this length, with more nodes where the recording asks for them; none where it asks for none.
-fn finer(solved: &Solved, blocks: &Blocks, length: f64) -> Option<Curve> {
-    let curve = &solved.curve;
-    let worst = solved.goodness.unlikely_window().map_or(0..0, |worst| worst.samples.clone());
-    let mut asking: BTreeMap<usize, Asking> = BTreeMap::new();
-    for (block, (state, residual)) in blocks.blocks.iter().zip(solved.states.iter().zip(&solved.explained.residuals)) {
-        let Some((state, residual)) = state.as_ref().zip(*residual) else { continue };
-        for (interval, share) in state.contacts.iter().filter_map(|contact| curve.interval(contact)) {
-            let asking = asking.entry(interval).or_default();
-            asking.add(share, residual.norm_squared());
-            asking.is_worst |= worst.contains(&block.samples.start);
-        }
-    }
-    let turns = curve.turns();
-    let asks = |interval: &usize| asking.get(interval).is_some_and(Asking::is_unlikely);
-    let is_cut = |(interval, long, _): &&(usize, f64, f64)| *long > 2.0 * SHORTEST * length && asks(interval);
-    let at = |(interval, long, _): &(usize, f64, f64)| (*interval, asking[interval].cut(SHORTEST * length / long));
-    let cut: BTreeMap<usize, f64> = turns.iter().filter(is_cut).map(at).collect();
-    let sharp = turns.windows(2).filter(|pair| {
-        let (turn, long) = (0.5 * (pair[0].2 + pair[1].2), 0.5 * (pair[0].1 + pair[1].1));
-        pair[1].0 == pair[0].0 + 1
-            && turn > VERTEX_TURN
-            && long < SHARP * length * turn
-            && (asks(&pair[0].0) || asks(&pair[1].0))
-    });
-    let sharp: BTreeSet<usize> = sharp.map(|pair| pair[1].0).collect();
-    if cut.is_empty() && sharp.is_empty() {
-        return None;
-    }
-    curve.refined(&cut, &sharp)
-}
-
-/// An interval of a contour, as the blocks see it that touch it.
-struct Asking {
-    /// Sum of the squares of their residuals, and number of these.
-    sum: f64,
-    count: f64,
-    /// The part of the interval that they touch.
-    touched: [f64; 2],
-    /// Whether they are where the recording is explained worst: a long interval may hide that.
-    is_worst: bool,
-}
-
-impl Default for Asking {
-    fn default() -> Self {
-        Self { sum: 0.0, count: 0.0, touched: [1.0, 0.0], is_worst: false }
-    }
-}
-
-impl Asking {
-    fn add(&mut self, share: f64, squares: f64) {
-        (self.sum, self.count) = (self.sum + squares, self.count + 3.0);
-        self.touched = [self.touched[0].min(share), self.touched[1].max(share)];
-    }
-
-    fn is_unlikely(&self) -> bool {
-        self.is_worst || upper_tail(self.sum, self.count) < ASKS
-    }
-
-    /// Where a node parts the touched half of it from the rest; in the middle, if both are touched. No part is smaller than `least`.
-    fn cut(&self, least: f64) -> f64 {
-        let [from, to] = self.touched;
-        let share = if to < 0.5 {
-            to
-        } else if from > 0.5 {
-            from
-        } else {
-            0.5
-        };
-        share.clamp(least, 1.0 - least)
     }
 }
 
@@ -354,6 +273,15 @@ impl Solved {
     pub fn chains(&self, length: f64) -> Vec<Vec<Node>> {
         let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(1.0 / length)).collect();
         self.curve.nodes_of_chains().iter().map(scaled).collect()
+    }
+
+    /// The states of the blocks with their residuals, and whether they are where the recording is explained worst.
+    fn seen<'a>(&'a self, blocks: &'a Blocks) -> impl Iterator<Item = (&'a State, Vector3<f64>, bool)> {
+        let worst = self.goodness.unlikely_window().map_or(0..0, |worst| worst.samples.clone());
+        let blocks = blocks.blocks.iter().zip(self.states.iter().zip(&self.explained.residuals));
+        blocks.filter_map(move |(block, (state, residual))| {
+            Some((state.as_ref()?, (*residual)?, worst.contains(&block.samples.start)))
+        })
     }
 
     /// Number of blocks with several contacts.

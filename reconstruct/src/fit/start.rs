@@ -14,6 +14,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{PhysicalRod, Rod};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Standard deviation of a contact point, rod lengths, up to which all count the same.
 const EQUAL: f64 = 1e-3;
@@ -107,13 +108,12 @@ fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
 /// from the local answer.
 fn doubtful(local: &Reconstruction) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
-    let ends = local.runs.iter().skip(1).map(|run| run.0).chain([local.readings.len()]);
-    for ((start, label), end) in local.runs.iter().zip(ends).filter(|((_, label), _)| !label.several()) {
+    for (Range { start, end }, label) in local.phases().filter(|(_, label)| !label.several()) {
         let inner =
-            local.kinks.iter().filter(|kink| kink.kind == KinkKind::Kink && kink.next > *start && kink.next < end);
-        let cuts: Vec<usize> = std::iter::once(*start).chain(inner.map(|kink| kink.next)).chain([end]).collect();
+            local.kinks.iter().filter(|kink| kink.kind == KinkKind::Kink && kink.next > start && kink.next < end);
+        let cuts: Vec<usize> = std::iter::once(start).chain(inner.map(|kink| kink.next)).chain([end]).collect();
         let longest = cuts.windows(2).max_by_key(|cut| cut[1] - cut[0]).map(|cut| cut[0]);
-        let others = cuts[..cuts.len() - 1].iter().filter(|from| *label != Label::Free && Some(**from) != longest);
+        let others = cuts[..cuts.len() - 1].iter().filter(|from| label != Label::Free && Some(**from) != longest);
         found.extend(others.map(|from| 2 * kinks_before(local, *from)));
     }
     found

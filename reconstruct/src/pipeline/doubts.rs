@@ -86,9 +86,8 @@ impl Reconstruction {
             used.map(|reading| 1.0 - reading.probability).sum::<f64>()
         };
         let share = wrong(&self.readings) / self.readings.len().max(1) as f64;
-        let ends = self.runs.iter().skip(1).map(|run| run.0).chain([self.readings.len()]);
-        let runs = self.runs.iter().zip(ends).map(|((start, label), end)| (*start..end, *label));
-        let counted = runs.map(|(run, label)| (wrong(self.readings.get(run.clone()).unwrap_or_default()), run, label));
+        let counted =
+            self.phases().map(|(run, label)| (wrong(self.readings.get(run.clone()).unwrap_or_default()), run, label));
         // the run whose labels are least sure, of those that count
         let counted = counted.filter(|(wrong, ..)| *wrong > MUCH * share * self.readings.len() as f64);
         let doubt = |run: &Range<usize>, wrong: f64| wrong / run.len().max(1) as f64;

@@ -89,6 +89,12 @@ impl Reconstruction {
         (corrected, self.passes.iter().flat_map(of).collect())
     }
 
+    /// The samples along which the label is the same, in order.
+    pub fn phases(&self) -> impl Iterator<Item = (Range<usize>, Label)> + '_ {
+        let ends = self.runs.iter().skip(1).map(|run| run.0).chain([self.readings.len()]);
+        self.runs.iter().zip(ends).map(|(&(first, label), end)| (first..end, label))
+    }
+
     /// Takes over the labels, contact points and shared errors of a contour that explains the recording, wherever it gives some; nothing changes
     /// where it does not explain it. `settings` are those of the reconstruction.
     #[cfg(feature = "contact")]
@@ -151,8 +157,7 @@ impl Reconstruction {
     /// The contour of some consecutive samples, which are numbered from 0 in it.
     fn of_pass(&self, assembly: &Assembly, pass: Range<usize>) -> ContourEstimate {
         let readings = self.readings.get(pass.clone()).unwrap_or_default();
-        let runs = self.runs.iter().map(|run| run.0).skip(1).chain([self.readings.len()]);
-        let mut lengths = self.runs.iter().zip(runs).map(|(run, end)| (end, end - run.0));
+        let mut lengths = self.phases().map(|(samples, _)| (samples.end, samples.len()));
         let mut run = lengths.next();
         let mut touches: Vec<Touch> = Vec::with_capacity(readings.len());
         let answers: Vec<(Range<usize>, Option<String>, usize)> = readings
