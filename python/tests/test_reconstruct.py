@@ -62,8 +62,9 @@ def test_one_contour_explains_a_recording(scene: vibrissa.Scene, tmp_path: Path)
     assert np.mean(off < 3 * np.hypot(points["sigma_x"], points["sigma_y"])) > 0.95
 
 
+@pytest.mark.parametrize("fit", [True, False])
 def test_simulated_and_reconstructed_as_by_the_command(
-    scene: vibrissa.Scene, command: list[str], tmp_path: Path
+    scene: vibrissa.Scene, command: list[str], tmp_path: Path, fit: bool
 ) -> None:
     (tmp_path / "noise.toml").write_text(NOISE_FILE)
     file = tmp_path / "recording.csv"
@@ -81,22 +82,28 @@ def test_simulated_and_reconstructed_as_by_the_command(
 
     recording = vibrissa.Recording.read(file, scene.rod)
     np.testing.assert_array_equal(recording.samples["f0x"], samples["f0x"])
-    found = vibrissa.reconstruct(scene.rod, recording, fit=False)
+    found = vibrissa.reconstruct(scene.rod, recording, fit=fit)
     out = tmp_path / "out"
+    how = [] if fit else ["--local"]
     done = subprocess.run(
-        [*command, "reconstruct", str(file), "--rod", str(SCENES / "O1_q40.toml"), "--local", "--out", str(out)],
+        [*command, "reconstruct", str(file), "--rod", str(SCENES / "O1_q40.toml"), "--out", str(out), *how],
         capture_output=True,
     )
     assert done.returncode in (0, 2), done.stderr
     points = [json.loads(line) for line in (out / "points.jsonl").read_text().splitlines()]
     assert len(points) == len(found)
     for reading, why, point in zip(found.readings, found.reasons, points):
-        assert reading["label"] == point["label"] and reading["basis"] == point["basis"]
+        # the contour of a fit needs no basis: null in the file, empty in the array
+        basis = point["basis"] or "" if fit else point["basis"]
+        assert reading["label"] == point["label"] and reading["basis"] == basis
         assert why["reason"] == (point["reason"] or "")
         for name in ["x", "y", "s", "alpha", "force", "sigma_x", "systematic_y", "probability"]:
             assert (np.isnan(reading[name]) and point[name] is None) or reading[name] == point[name]
         if point["second"] is not None and point["second"]["x"] is not None:
             assert reading["second_x"] == point["second"]["x"]
+    if fit:
+        fitted = list(csv.DictReader((out / "fitted.csv").open()))
+        assert found.is_explained and [float(row["y"]) for row in fitted] == found.fitted["y"].tolist()
     contour = list(csv.DictReader((out / "contour.csv").open()))
     assert [float(row["sigma"]) for row in contour] == found.contour["sigma"].tolist()
     report = json.loads((out / "report.json").read_text())
