@@ -53,7 +53,7 @@ Examples:
   vibrissa reconstruct near.csv far.csv --rod rod.toml --out object
   vibrissa reconstruct volts.tdms --rod scene.toml --setup sensor.toml --stage constant:1e-3
 
-Next: open contour.svg and phases.svg of the results in a browser; docs/output-files.md explains every field of the others.";
+Next: open contour.svg, phases.svg and residuals.svg of the results in a browser; docs/output-files.md explains every field of the others.";
 
 pub const CALIBRATE: &str = "\
 Examples:

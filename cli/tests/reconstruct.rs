@@ -476,14 +476,25 @@ fn one_contour_explains_a_recording_or_the_place_is_named_where_none_does() {
     let table = fs::read_to_string(directory.path().join("out/r/fitted.csv")).unwrap();
     let points: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let off = |row: &&Vec<&str>| {
-        let [x, y, sigma] = [1, 2, 3].map(|column| row[column].parse::<f64>().unwrap());
+        let [x, y, sigma] = [1, 2, 4].map(|column| row[column].parse::<f64>().unwrap());
         // of the parabola that is lower there
         let (x, slope) = if x < 0.015 { (x, 100.0 * x) } else { (x - 0.03, 100.0 * (x - 0.03)) };
         (y - 50.0 * x * x).abs() / slope.hypot(1.0) / sigma
     };
-    assert!(points.iter().all(|row| row[3].is_empty() == (row[5] == "false")), "{table}");
-    let touched: Vec<f64> = points.iter().filter(|row| row[5] == "true").map(|row| off(&row)).collect();
+    let is_known = |row: &Vec<&str>| [row[3] == "touched", row[3] == "bounded"] == [4, 5].map(|k| !row[k].is_empty());
+    assert!(table.starts_with("object,x,y,known,sigma,room,vertex\n") && points.iter().all(is_known), "{table}");
+    assert!(points.iter().any(|row| row[3] == "bounded"), "{table}");
+    let touched: Vec<f64> = points.iter().filter(|row| row[3] == "touched").map(|row| off(&row)).collect();
     assert!(touched.len() > 5 && touched.len() < points.len() && touched.iter().all(|off| *off < 5.0), "{touched:?}");
+    let shapes = fit["shapes"].as_array().unwrap();
+    assert!(shapes.iter().all(|shape| shape["evidence"] != 0.0 || shape["shape"] == "parabola"), "{shapes:?}");
+    assert!(printed.contains(": parabola, vertex.x "), "{printed}");
+    let residuals = directory.path().join("out/r/residuals.svg");
+    let figure = fs::read_to_string(&residuals).unwrap();
+    assert!(figure.contains("the contour explains the recording") && figure.contains("residual / σ"), "{figure}");
+    // what a run with a fit left does not stay beside one without
+    reconstruct(directory.path(), &["--as-is", "--local"]);
+    assert!(!residuals.exists() && !directory.path().join("out/r/fitted.csv").exists());
 
     // somebody leans on the rod for a while
     edit(directory.path(), |k, mut row| {

@@ -15,7 +15,9 @@ use rod_files::{FittedPoint, Reconstructed, ReconstructionError, Recording};
 use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
-use vibrissa::reconstruct::{Basis, Budget, Evidence, Finding, Friction, Reading, Source, SourceEstimate, TraceRow};
+use vibrissa::reconstruct::{
+    Basis, Budget, Evidence, Finding, Friction, Reading, SimpleShape, Source, SourceEstimate, TraceRow,
+};
 use vibrissa::{Label, Sample, Settings};
 
 const TRACE: &[Column<TraceRow>] = &[
@@ -42,9 +44,25 @@ const FITTED: &[Column<FittedPoint>] = &[
     Column { name: "object", get: Get::Int(|row| row.object as i64) },
     Column { name: "x", get: Get::Float(|row| row.x) },
     Column { name: "y", get: Get::Float(|row| row.y) },
+    Column { name: "known", get: Get::Text(|row| row.known.into()) },
     Column { name: "sigma", get: Get::Float(|row| row.sigma.unwrap_or(f64::NAN)) },
+    Column { name: "room", get: Get::Float(|row| row.room.unwrap_or(f64::NAN)) },
     Column { name: "vertex", get: Get::Flag(|row| row.vertex) },
-    Column { name: "touched", get: Get::Flag(|row| row.touched) },
+];
+
+/// A simple shape, and the number of one of its parameters.
+type ShapeRow = (SimpleShape, usize);
+
+const SHAPE: &[Column<ShapeRow>] = &[
+    Column { name: "object", get: Get::Int(|row| row.0.object as i64 + 1) },
+    Column { name: "first", get: Get::Int(|row| row.0.points.start as i64) },
+    Column { name: "last", get: Get::Int(|row| row.0.points.end as i64 - 1) },
+    Column { name: "shape", get: Get::Text(|row| row.0.kind.to_string().into()) },
+    Column { name: "evidence", get: Get::Float(|row| row.0.evidence) },
+    Column { name: "p_value", get: Get::Float(|row| row.0.p_value) },
+    Column { name: "parameter", get: Get::Text(|row| row.0.parameters[row.1].0.clone().into()) },
+    Column { name: "value", get: Get::Float(|row| row.0.parameters[row.1].1) },
+    Column { name: "sigma", get: Get::Float(|row| row.0.parameters[row.1].2) },
 ];
 
 const ESTIMATE: &[Column<SourceEstimate>] = &[
@@ -189,12 +207,30 @@ impl PyReconstruction {
 
     /// The contour that explains the whole recording best, as a structured array; empty where none was fitted.
     ///
-    /// Fields: ``object``, counted from 1; points ``x``, ``y`` (m); ``sigma``: standard deviation across the contour (m), NaN where it is not touched; ``vertex``: whether
-    /// smooth pieces meet at an angle there; ``touched``: whether the rod touches there, or between it and the next point.
+    /// Fields: ``object``, counted from 1; points ``x``, ``y`` (m); ``known``: "touched" where the rod touches there, or nearer to it than to its neighbours, "bounded"
+    /// where it passed outside, "unknown" where it was not; ``sigma``: standard deviation across the contour (m), NaN where it is not touched; ``room``: how far
+    /// the object may reach beyond the point at most (m), NaN where it is not bounded; ``vertex``: whether smooth pieces meet at an angle there.
     #[getter]
     fn fitted<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let rows: Vec<FittedPoint> = self.found.fitted_contour().into_iter().flatten().collect();
         structured(py, FITTED, rows.iter())
+    }
+
+    /// Simple shapes that explain an object of the fit as well as its free contour does, as a structured array with a row for each parameter; the best shape of
+    /// an object first. Empty where no contour explains the recording.
+    ///
+    /// Fields: ``object``, counted from 1; ``first`` and ``last``: the points of the object in ``fitted`` of which it tells, counted from 0; ``shape``: "line", "polygon", "arc", "ellipse" or "parabola"; ``evidence``: Bayesian information criterion less that of the
+    /// best shape of the object; ``p_value``: probability of what it leaves more than the free contour; ``parameter``: as the fields of scene files; ``value`` and
+    /// ``sigma``: in m, 1/m and rad.
+    #[getter]
+    fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let shapes = self.found.fitted().map_or(&[][..], |fit| &fit.simple);
+        let of_shape = |shape: &SimpleShape| {
+            let shape = shape.clone();
+            (0..shape.parameters.len()).map(move |parameter| (shape.clone(), parameter))
+        };
+        let rows: Vec<ShapeRow> = shapes.iter().flat_map(of_shape).collect();
+        structured(py, SHAPE, rows.iter())
     }
 
     /// What explains a recording that does not fit.

@@ -53,9 +53,14 @@ def test_one_contour_explains_a_recording(scene: vibrissa.Scene, tmp_path: Path)
     assert plain.is_explained is None and plain.contradiction is None and len(plain.fitted) == 0
     found = vibrissa.reconstruct(scene.rod, samples, as_is=True)
     assert found.is_explained and found.contradiction is None
-    touched = found.fitted[found.fitted["touched"]]
+    touched = found.fitted[found.fitted["known"] == "touched"]
+    bounded = found.fitted[found.fitted["known"] == "bounded"]
+    assert len(bounded) and np.all(bounded["room"] >= 0) and np.all(np.isnan(bounded["sigma"]))
     gaps = scene.objects[0].gap(touched["x"], touched["y"])
     assert len(touched) > 5 and np.all(np.abs(gaps) < 5 * touched["sigma"])
+    # the object is two parabolas
+    best = found.shapes[(found.shapes["evidence"] == 0) & (found.shapes["parameter"] == "coefficient")]
+    assert set(best["shape"]) == {"parabola"} and np.all(np.abs(best["value"] - 50) < 4 * best["sigma"])
     # its points lie on it
     points = found.readings[~np.isnan(found.readings["x"])]
     off = np.abs(scene.objects[0].gap(points["x"], points["y"]))

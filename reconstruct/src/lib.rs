@@ -64,7 +64,10 @@ pub use contour::{
     Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
 };
 #[cfg(feature = "contact")]
-pub use fit::{ContourFit, FitError, FittedBlock, FittedObject, Goodness, WorstWindow, fit_contour};
+pub use fit::{
+    ContourFit, FitError, FittedBlock, FittedObject, Goodness, Knowledge, ShapeKind, SimpleShape, WorstWindow,
+    fit_contour,
+};
 #[cfg(feature = "std")]
 pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};
 #[cfg(feature = "std")]

@@ -63,7 +63,7 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
 }
 
 /// The straight way from the first pose to the last; where they are the same, to the one farthest from it.
-fn path(found: &Reconstructed) -> Option<ClampPath> {
+pub(super) fn path(found: &Reconstructed) -> Option<ClampPath> {
     let (first, length) = (found.samples.first()?.pose, found.rod.at_clamp().length());
     let off = |pose: &Pose| (pose.x - first.x).hypot(pose.y - first.y).hypot(length * (pose.phi - first.phi));
     let poses = || found.samples.iter().map(|sample| sample.pose);

@@ -2,6 +2,7 @@
 
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::cloud::{self, Dot};
+use super::fitted;
 use super::palette::{self, FAINT, INK, MUTED, label_colour};
 use super::plane::PlaneWindow;
 use rod_files::{Comparison, Reconstructed, naive_touch};
@@ -19,7 +20,7 @@ const FIRST: Dot = Dot { colour: palette::FIRST, filled: false };
 const SECOND: Dot = Dot { colour: palette::SECOND, filled: false };
 const NAIVE: Dot = Dot { colour: FAINT, filled: true };
 
-/// Draws the contact points in the plane, and the true contour where it is known.
+/// Draws the contact points in the plane, the contour of the fit, and the true contour where it is known.
 pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureError> {
     let single = |label: Label| {
         let readings = found.found.readings.iter().filter(move |reading| reading.label == label);
@@ -64,6 +65,9 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
         let entries: Vec<(Dot, &str)> = drawn.map(|(dot, name, _)| (dot, name)).collect();
         cloud::key(&head, (24, 154), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
         let chart = window.chart(&area, (12, 8))?;
+        if let Some(fit) = found.fitted() {
+            fitted::draw(&chart, fit)?;
+        }
         cloud::dots(&chart, &window, seen, NAIVE)?;
         for (label, dot) in [(Label::A, tip), (Label::B, tangential)] {
             cloud::dots(&chart, &window, single(label), dot)?;

@@ -31,7 +31,8 @@ pub fn write_sweep(scan: &Scan, staged: &Staged, folder: &Path) -> Result<(), Wr
     Ok(())
 }
 
-/// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg into `folder` of the staged directory.
+/// Writes points.jsonl, contour.csv, report.json, contour.svg and phases.svg, and where there is a fit fitted.csv and residuals.svg, into `folder` of the
+/// staged directory.
 ///
 /// # Errors
 /// [`WriteError`].
@@ -40,6 +41,14 @@ pub fn write_reconstruction(found: &Reconstructed, staged: &Staged, folder: &Pat
     found.write(staged, folder)?;
     for (name, figure) in figures {
         staged.write(&folder.join(name), |file| file.write_all(figure.as_bytes()))?;
+    }
+    let residuals = folder.join("residuals.svg");
+    match found.fitted() {
+        Some(fit) => {
+            let figure = figure::residuals(found, fit)?;
+            staged.write(&residuals, |file| file.write_all(figure.as_bytes()))?;
+        }
+        None => staged.remove(&residuals)?,
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Source};
+use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Knowledge, ShapeKind, SimpleShape, Source};
 
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
@@ -21,10 +21,8 @@ impl Reconstructed {
         let Goodness { chi_squared, degrees_of_freedom, explains, .. } = &fit.goodness;
         let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
         if *explains {
-            return writeln!(
-                text,
-                "fit: one contour explains the recording, {of}; labels, points and errors are its own"
-            );
+            writeln!(text, "fit: one contour explains the recording, {of}; labels, points and errors are its own")?;
+            return tell_shapes(&fit.simple, text);
         }
         let label =
             |run: &(Range<usize>, Option<Label>)| run.1.map_or_else(|| "?".to_owned(), |label| label.to_string());
@@ -90,9 +88,14 @@ impl Reconstructed {
                 object: object + 1,
                 x: fitted.points[k][0],
                 y: fitted.points[k][1],
-                sigma: fitted.touched[k].then_some(fitted.sigmas[k]),
+                known: match fitted.known[k] {
+                    Knowledge::Touched { .. } => "touched",
+                    Knowledge::Bounded { .. } => "bounded",
+                    Knowledge::Unknown => "unknown",
+                },
+                sigma: fitted.known[k].sigma(),
+                room: fitted.known[k].room(),
                 vertex: fitted.vertices.contains(&k),
-                touched: fitted.touched[k],
             };
             (0..fitted.points.len()).map(point)
         }))
@@ -128,8 +131,26 @@ impl Reconstructed {
     }
 }
 
+/// Adds the simple shape that explains each object best, and what others do.
+fn tell_shapes(shapes: &[SimpleShape], text: &mut String) -> std::fmt::Result {
+    for of_object in shapes.chunk_by(|one, other| (one.object, &one.points) == (other.object, &other.points)) {
+        let [best, others @ ..] = of_object else { continue };
+        // lengths in mm, angles in degrees
+        let number = |(name, value, sigma): &(String, f64, f64)| match &name[..] {
+            "coefficient" => format!("{name} {value:.2} +- {sigma:.1e} 1/m"),
+            "rotation" => format!("{name} {:.3} +- {:.1e} deg", value.to_degrees(), sigma.to_degrees()),
+            _ => format!("{name} {:.4} +- {:.1e} mm", 1e3 * value, 1e3 * sigma),
+        };
+        let numbers: Vec<String> = best.parameters.iter().map(number).collect();
+        write!(text, "shape of object {}: {}, {}", best.object + 1, best.kind, numbers.join(", "))?;
+        let others: Vec<String> = others.iter().map(|other| other.kind.to_string()).collect();
+        if others.is_empty() { writeln!(text)? } else { writeln!(text, "; or: {}", others.join(", "))? }
+    }
+    Ok(())
+}
+
 /// Columns of fitted.csv.
-pub(super) const FITTED_COLUMNS: [&str; 6] = ["object", "x", "y", "sigma", "vertex", "touched"];
+pub(super) const FITTED_COLUMNS: [&str; 7] = ["object", "x", "y", "known", "sigma", "room", "vertex"];
 
 /// A point of the contour of a fit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -140,12 +161,14 @@ pub struct FittedPoint {
     pub x: f64,
     /// Position, m.
     pub y: f64,
+    /// `touched`: the rod touches the contour there, or nearer to it than to its neighbours; `bounded`: it passed outside; `unknown`: it was not there.
+    pub known: &'static str,
     /// Standard deviation across the contour, m; none where it is not touched.
     pub sigma: Option<f64>,
+    /// How far the object may reach beyond the point at most, across the contour, m; none where it is not bounded.
+    pub room: Option<f64>,
     /// Whether smooth pieces meet at an angle there.
     pub vertex: bool,
-    /// Whether the rod touches the contour there, or between it and the next point.
-    pub touched: bool,
 }
 
 /// The fit of one contour to the whole recording.
@@ -168,6 +191,7 @@ pub(super) struct FitRecord {
     /// First and last rows of several contacts where each row alone was answered by one.
     several_for_one: Vec<[usize; 2]>,
     runs: Vec<FittedRunRecord>,
+    shapes: Vec<ShapeRecord>,
     errors: Vec<FittedErrorRecord>,
 }
 
@@ -195,6 +219,47 @@ struct FittedRunRecord {
     label: Option<Label>,
     from: usize,
     to: usize,
+}
+
+/// A simple shape that explains an object as well as the free contour does.
+#[derive(Serialize)]
+struct ShapeRecord {
+    /// Number of the object, from 1.
+    object: usize,
+    /// The first and the last point of the object of which it tells, from 1.
+    points: [usize; 2],
+    shape: ShapeKind,
+    parameters: Vec<ParameterRecord>,
+    chi_squared: f64,
+    p_value: f64,
+    evidence: f64,
+}
+
+#[derive(Serialize)]
+struct ParameterRecord {
+    name: String,
+    value: f64,
+    sigma: f64,
+}
+
+impl ShapeRecord {
+    fn of(shape: &SimpleShape) -> Self {
+        let SimpleShape { object, points, kind, parameters, chi_squared, p_value, evidence } = shape;
+        let parameter = |(name, value, sigma): &(String, f64, f64)| ParameterRecord {
+            name: name.clone(),
+            value: *value,
+            sigma: *sigma,
+        };
+        Self {
+            object: object + 1,
+            points: [points.start + 1, points.end],
+            shape: *kind,
+            parameters: parameters.iter().map(parameter).collect(),
+            chi_squared: *chi_squared,
+            p_value: *p_value,
+            evidence: *evidence,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -235,6 +300,7 @@ impl FitRecord {
             }),
             several_for_one: found.several_for_one.iter().map(|run| found.rows_of(run)).collect(),
             runs: fit.runs().into_iter().map(run).collect(),
+            shapes: fit.simple.iter().map(ShapeRecord::of).collect(),
             errors: fit
                 .errors
                 .iter()

@@ -155,6 +155,12 @@ impl Curve {
         Some((chain, node - self.chains[chain].start))
     }
 
+    /// The directions in which a node moves, and the number of its first unknown.
+    pub fn ways_of(&self, node: usize) -> (&[Vector2<f64>], usize) {
+        let (ways, first) = &self.ways[node];
+        (ways, *first)
+    }
+
     /// How far each unknown may be off 0, as a standard deviation.
     pub fn sigmas(&self) -> impl Iterator<Item = f64> {
         self.nodes.iter().zip(&self.ways).flat_map(|(node, (own, _))| own.iter().map(|_| node.sigma))
@@ -217,14 +223,27 @@ impl Curve {
         Some((piece.first + i, (t - knots[i]) / (knots[i + 1] - knots[i])))
     }
 
+    /// The node next to which a contact of a state lies.
+    pub fn node_at(&self, contact: &Contact) -> Option<usize> {
+        match self.interval(contact) {
+            Some((first, share)) => Some(if share < 0.5 { first } else { first + 1 }),
+            None => self.vertex_of(contact),
+        }
+    }
+
     /// The nodes between which a contact of a state lies, or those around its vertex.
-    pub fn nodes_at(&self, contact: &Contact) -> Option<Range<usize>> {
+    pub fn nodes_around(&self, contact: &Contact) -> Option<Range<usize>> {
         if let Some((first, _)) = self.interval(contact) {
             return Some(first..first + 2);
         }
-        let piece = &self.pieces[self.along(contact)?.0];
-        let vertex = piece.first + piece.knots().len() - 1;
+        let vertex = self.vertex_of(contact)?;
         Some(vertex - 1..(vertex + 2).min(self.nodes.len()))
+    }
+
+    /// The node at the end of the piece of a contact.
+    fn vertex_of(&self, contact: &Contact) -> Option<usize> {
+        let piece = &self.pieces[self.along(contact)?.0];
+        Some(piece.first + piece.knots().len() - 1)
     }
 
     /// The number of the piece of a contact of a state, and the parameter there; at a vertex the end of the piece.

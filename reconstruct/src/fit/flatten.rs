@@ -44,7 +44,7 @@ fn bridges(curve: &Curve, state: &State) -> Vec<Bridge> {
         }
         let (first, second) = if a > 0.0 { (one, other) } else { (other, one) };
         let (from, to) =
-            (curve.in_chain(curve.nodes_at(first)?.start)?, curve.in_chain(curve.nodes_at(second)?.end - 1)?);
+            (curve.in_chain(curve.nodes_around(first)?.start)?, curve.in_chain(curve.nodes_around(second)?.end - 1)?);
         (from.0 != to.0 || from.1 < to.1).then_some(Bridge { from, to })
     };
     state.contacts.windows(2).filter_map(of_pair).collect()

@@ -43,7 +43,7 @@ impl ContourFit {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FittedBlock, FittedObject, Goodness};
+    use super::super::{FittedBlock, FittedObject, Goodness, Knowledge};
     use super::*;
     use crate::point::Touch;
     use nalgebra::Matrix2;
@@ -62,7 +62,8 @@ mod tests {
             explains: true,
         };
         ContourFit {
-            objects: vec![FittedObject { sigmas: vec![1e-6; 22], touched: vec![true; 22], points, vertices }],
+            objects: vec![FittedObject { known: vec![Knowledge::Touched { sigma: 1e-6 }; 22], points, vertices }],
+            simple: Vec::new(),
             errors: Vec::new(),
             goodness,
             blocks: (0..21).map(block).collect(),

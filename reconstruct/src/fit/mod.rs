@@ -11,17 +11,20 @@ mod blocks;
 mod curve;
 mod distinct;
 mod ends;
+mod family;
 mod finer;
 mod flatten;
 mod forward;
 mod grow;
 mod kinks;
+mod knowledge;
 mod order;
 mod outline;
 mod pair;
 mod piece;
 mod problem;
 mod propose;
+mod simple;
 mod solve;
 mod start;
 mod swept;
@@ -30,6 +33,9 @@ mod tests;
 mod trim;
 mod verdict;
 
+pub use family::ShapeKind;
+pub use knowledge::Knowledge;
+pub use simple::SimpleShape;
 pub use verdict::{Goodness, WorstWindow};
 
 use crate::phase::Label;
@@ -39,7 +45,7 @@ use blocks::Blocks;
 use nalgebra::{DVector, Vector2};
 use piece::Piece;
 use problem::Sources;
-use rod_contours::{Composite, ContourError};
+use rod_contours::{Composite, Contour as _, ContourError};
 use rod_core::{PhysicalRod, Rod, Sample};
 use solve::{Search, Solved};
 use start::{Start, starts};
@@ -89,12 +95,10 @@ pub struct FittedBlock {
 pub struct FittedObject {
     /// Points, m.
     pub points: Vec<[f64; 2]>,
-    /// Standard deviations of these across the contour, m.
-    pub sigmas: Vec<f64>,
     /// Numbers of the points at which smooth pieces meet at an angle.
     pub vertices: Vec<usize>,
-    /// Whether the rod touches the contour at a point, or between it and the next. Of the others nothing is known but that the rod passed them.
-    pub touched: Vec<bool>,
+    /// What is known of the contour at each point.
+    pub known: Vec<Knowledge>,
 }
 
 impl FittedObject {
@@ -103,13 +107,36 @@ impl FittedObject {
     /// # Errors
     /// [`ContourError`], where numbers that were changed by hand give no contour.
     pub fn contour(&self) -> Result<Composite, ContourError> {
+        let pieces = self.pieces().map(|piece| piece?.contour()).collect::<Result<_, ContourError>>()?;
+        Composite::new(pieces)
+    }
+
+    /// Places along the part, m: for each interval from a point to the next, `count` from its beginning on, and its end.
+    ///
+    /// # Errors
+    /// As [`FittedObject::contour`].
+    pub fn intervals(&self, count: usize) -> Result<Vec<Vec<[f64; 2]>>, ContourError> {
+        let mut intervals = Vec::new();
+        for piece in self.pieces() {
+            let piece = piece?;
+            for knots in piece.knots().windows(2) {
+                let share = |k: usize| k as f64 / count.max(1) as f64;
+                let place = |k: usize| piece.spline.frame(knots[0] + share(k) * (knots[1] - knots[0]));
+                intervals.push((0..=count).map(place).map(|frame| [frame.x, frame.y]).collect());
+            }
+        }
+        Ok(intervals)
+    }
+
+    /// The smooth pieces.
+    fn pieces(&self) -> impl Iterator<Item = Result<Piece, ContourError>> {
         let cuts = std::iter::once(0).chain(self.vertices.iter().copied());
         let ends = self.vertices.iter().copied().chain([self.points.len().saturating_sub(1)]);
-        let points: Vec<Vector2<f64>> = self.points.iter().map(|point| (*point).into()).collect();
-        let piece = |(from, to): (usize, usize)| {
-            Piece::through(points.get(from..=to).unwrap_or_default(), from, 0, 0)?.contour()
-        };
-        Composite::new(cuts.zip(ends).map(piece).collect::<Result<_, ContourError>>()?)
+        cuts.zip(ends).map(|(from, to)| {
+            let points: Vec<Vector2<f64>> =
+                self.points.get(from..=to).unwrap_or_default().iter().map(|point| (*point).into()).collect();
+            Piece::through(&points, from, 0, 0)
+        })
     }
 }
 
@@ -119,6 +146,8 @@ impl FittedObject {
 pub struct ContourFit {
     /// What was touched, as far as it hangs together.
     pub objects: Vec<FittedObject>,
+    /// Simple shapes that explain an object as well, the best of each object first; none where no contour explains the recording.
+    pub simple: Vec<SimpleShape>,
     /// The errors that all samples share, in the units of the sources, with their standard deviations; empty where they are not estimated.
     pub errors: Vec<(Source, f64, f64)>,
     /// How well it explains the recording.

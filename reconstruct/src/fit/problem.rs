@@ -190,6 +190,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
         self.sources.errors(x.iter().skip(self.curve.count()))
     }
 
+    /// The poses of the blocks without the errors.
+    pub fn poses(&self, x: &DVector<f64>) -> Option<Vec<Pose>> {
+        Some(self.corrected(&self.errors(x))?.into_iter().map(|one| one.pose).collect())
+    }
+
     /// The blocks without the errors.
     pub fn corrected(&self, errors: &Errors) -> Option<Vec<Corrected>> {
         let (correction, length) = (Correction::new(self.blocks.frame, errors)?, self.rod.units().length);

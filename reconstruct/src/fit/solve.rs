@@ -7,10 +7,11 @@ use super::flatten::flattened;
 use super::grow::{Grown, grown};
 use super::problem::{Explained, Fit, Model, Sources};
 use super::propose::{joined, sharpened};
+use super::simple::Best;
 use super::start::Start;
 use super::trim::touched;
 use super::verdict::Goodness;
-use super::{ContourFit, FittedBlock, FittedObject};
+use super::{ContourFit, FittedBlock, FittedObject, Knowledge};
 use crate::least_squares::{Damped, Iterate, iterate};
 use crate::phase::Label;
 use crate::systematic::Source;
@@ -212,6 +213,7 @@ pub(super) struct Solved {
     curve: Curve,
     pub cost: f64,
     covariance: DMatrix<f64>,
+    bend: f64,
     explained: Explained,
     states: Vec<Option<State>>,
     pub goodness: Goodness,
@@ -246,7 +248,7 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let goodness = Goodness::of(&explained, &samples, determined, farthest);
     fit.states.clone_from(&states);
-    Some(Solved { x, curve, cost: equations.cost, covariance, explained, states, goodness })
+    Some(Solved { x, curve, cost: equations.cost, covariance, bend: fit.bend, explained, states, goodness })
 }
 
 impl Solved {
@@ -315,8 +317,9 @@ impl Solved {
         sources: &Sources,
         given: &Rod,
     ) -> ContourFit {
-        let Self { x, curve, covariance, explained, goodness, states, .. } = self;
-        let fit = Fit::new(rod, curve.clone(), blocks, sources);
+        let Self { x, curve, covariance, bend, explained, goodness, states, .. } = self;
+        let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
+        fit.bend = bend;
         let model = goodness.explains.then(|| fit.model_with(&x, curve.clone(), states.clone())).flatten();
         let told = |(label, state): (&Option<Label>, &Option<State>)| match state {
             Some(state) => label.map(|_| curve.label(&state.contacts, &covariance, given.length())),
@@ -338,16 +341,25 @@ impl Solved {
             label: labels[k],
             residuals: explained.residuals[k].map(Into::into),
         };
-        let chains: Vec<Vec<Node>> = curve.nodes_of_chains();
-        let touched = touched(&chains, &states, given.length());
-        let object = |(nodes, touched): (Vec<(usize, Node)>, Vec<bool>)| FittedObject {
-            points: nodes.iter().map(|(_, node)| [node.at.x * length, node.at.y * length]).collect(),
-            sigmas: nodes.iter().map(|(k, _)| curve.variance(*k, &covariance).max(0.0).sqrt() * length).collect(),
-            vertices: (0..nodes.len()).filter(|i| nodes[*i].1.is_vertex).collect(),
-            touched,
+        let known = fit.known(&x, &curve, &states, &labels, &covariance);
+        let best = Best {
+            x: &x,
+            curve: &curve,
+            states: &states,
+            goodness: &goodness,
+            residuals: 3.0 * explained.residuals.iter().flatten().count() as f64,
+            known: &known,
+        };
+        let samples: Vec<Range<usize>> = blocks.blocks.iter().map(|block| block.samples.clone()).collect();
+        let simple = if goodness.explains { fit.simple(&best, &samples) } else { Vec::new() };
+        let object = |(nodes, known): (&Vec<Node>, Vec<Knowledge>)| FittedObject {
+            points: nodes.iter().map(|node| [node.at.x * length, node.at.y * length]).collect(),
+            vertices: (0..nodes.len()).filter(|i| nodes[*i].is_vertex).collect(),
+            known: known.into_iter().map(|one| one.scaled(length)).collect(),
         };
         ContourFit {
-            objects: curve.chains().map(Iterator::collect).zip(touched).map(object).collect(),
+            objects: curve.nodes_of_chains().iter().zip(known).map(object).collect(),
+            simple: simple.into_iter().map(|shape| shape.scaled(length)).collect(),
             readings: readings.unwrap_or_default(),
             length: given.length(),
             ringing: blocks.ringing,

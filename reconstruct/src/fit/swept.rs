@@ -10,6 +10,8 @@ use rod_core::{Elastica, PhysicalRod, RodModel};
 /// Shapes of the rod that are looked at, and points of each. More: more time.
 const SHAPES: usize = 200;
 const POINTS: usize = 32;
+/// Points of each shape where the rod bounds a contour: its chords are 1e-5 rod lengths off.
+const FINE: usize = 200;
 /// How far inside a contour the rod must have been, rod lengths, and how often: noise and errors put single shapes there.
 const INSIDE: f64 = 0.004;
 const OFTEN: usize = 2;
@@ -35,7 +37,7 @@ impl Swept {
             // what the others leave, whatever noise did to it
             let rest = forces.iter().fold(whole(&reactions), |rest, (_, force)| rest - force);
             forces.push((last.s, rest));
-            Some(places(&bent(rod, pose, &reactions, &forces)?))
+            Some(places(&bent(rod, pose, &reactions, &forces)?, POINTS))
         };
         Self { shapes: known.iter().step_by(known.len().div_ceil(SHAPES).max(1)).filter_map(shape).collect() }
     }
@@ -43,8 +45,13 @@ impl Swept {
     /// Of states of the rod.
     pub fn of_states<'a, R: PhysicalRod>(rod: &R, states: impl Iterator<Item = &'a State>) -> Self {
         let states: Vec<&State> = states.collect();
-        let shape = |state: &&State| Some(places(&state.elastica(rod).ok()?));
+        let shape = |state: &&State| Some(places(&state.elastica(rod).ok()?, POINTS));
         Self { shapes: states.iter().step_by(states.len().div_ceil(SHAPES).max(1)).filter_map(shape).collect() }
+    }
+
+    /// All of these shapes, finely.
+    pub fn finely<M: RodModel>(shapes: impl Iterator<Item = Elastica<M>>) -> Self {
+        Self { shapes: shapes.map(|shape| places(&shape, FINE)).collect() }
     }
 
     /// With those of another.
@@ -77,11 +84,25 @@ impl Swept {
         let crosses = |shape: &&Vec<Vector2<f64>>| shape.windows(2).any(|pair| cross(from, to, pair[0], pair[1]));
         self.shapes.iter().filter(crosses).take(OFTEN).count() == OFTEN
     }
+
+    /// The share of a way from a place after which it first meets the rod; none if it does not.
+    pub fn first_on_ray(&self, from: Vector2<f64>, way: Vector2<f64>) -> Option<f64> {
+        let steps = self.shapes.iter().flat_map(|shape| shape.windows(2));
+        steps.filter_map(|pair| meets(from, way, pair[0], pair[1])).min_by(f64::total_cmp)
+    }
 }
 
-/// Points of a rod, rod lengths.
-fn places<M: RodModel>(bent: &Elastica<M>) -> Vec<Vector2<f64>> {
-    bent.sample(POINTS).map(|at| Vector2::new(at.x, at.y) / bent.length()).collect()
+/// The share of a way from a place after which it meets a line segment.
+fn meets(from: Vector2<f64>, way: Vector2<f64>, a: Vector2<f64>, b: Vector2<f64>) -> Option<f64> {
+    let (chord, apart) = (b - a, a - from);
+    let sine = way.perp(&chord);
+    let (share, on_chord) = (apart.perp(&chord) / sine, apart.perp(&way) / sine);
+    ((0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&on_chord)).then_some(share)
+}
+
+/// So many points of a rod, rod lengths.
+fn places<M: RodModel>(bent: &Elastica<M>, points: usize) -> Vec<Vector2<f64>> {
+    bent.sample(points).map(|at| Vector2::new(at.x, at.y) / bent.length()).collect()
 }
 
 /// Whether two line segments cross.

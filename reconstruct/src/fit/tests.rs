@@ -1,9 +1,9 @@
 #![expect(clippy::print_stdout, reason = "prints the numbers that the page on reconstruction names")]
 
-use super::{ContourFit, FitError, fit_contour};
+use super::{ContourFit, FitError, ShapeKind, fit_contour};
 use crate::{Ar1, Budget, Label, NoiseModel, Reconstruction, Settings, Source, disturb, reconstruct_passes};
 use rod_contact::{ClampPath, State, Sweep};
-use rod_contours::{Composite, Contour, Parabola};
+use rod_contours::{CircularArc, Composite, Contour, Parabola};
 use rod_core::{Pose, Reactions, Rod, Sample};
 
 /// Object O2 of Merker et al. (2020).
@@ -263,5 +263,105 @@ fn derivatives_of_the_cost_are_its_differences() {
             let off = (2.0 * here.gradient[i] - difference).abs() / (1e3 + difference.abs());
             assert!(off < 0.01, "unknown {i}: {} {difference}", 2.0 * here.gradient[i]);
         }
+    }
+}
+
+#[test]
+fn no_object_reaches_beyond_where_the_rod_passed() {
+    let rod = steel();
+    let (fit, _) = explained(&rod, &states(&rod), 3);
+    // the solid of object O2
+    let is_solid = |x: f64, y: f64| [[0.0, 0.0], [0.03, 0.01]].iter().any(|[a, b]| y > b + 50.0 * (x - a).powi(2));
+    let (mut touched, mut bounded) = (0, 0);
+    for object in &fit.objects {
+        let at = |k: usize| object.points[k.min(object.points.len() - 1)];
+        for (k, known) in object.known.iter().enumerate() {
+            let ([x, y], [from, to]) = (at(k), [at(k.saturating_sub(1)), at(k + 1)]);
+            touched += usize::from(known.sigma().is_some_and(|sigma| sigma > 0.0));
+            let Some(room) = known.room() else { continue };
+            let way = (to[0] - from[0]).hypot(to[1] - from[1]);
+            for share in [1.0, 1.5, 2.0] {
+                // 0.02 mm for the noise of the rod's shape
+                let out = (room + 2e-5) * share / way;
+                let (x, y) = (x + out * (to[1] - from[1]), y - out * (to[0] - from[0]));
+                assert!(!is_solid(x, y), "at {x}, {y}, {room} beyond the contour");
+            }
+            bounded += 1;
+        }
+    }
+    assert!(touched > 20 && bounded > 2, "{touched} touched, {bounded} bounded");
+}
+
+#[test]
+fn the_parabolas_of_an_object_are_found() {
+    let rod = steel();
+    let (fit, _) = explained(&rod, &states(&rod), 3);
+    // (vertex x, vertex y, coefficient, rotation) of the two parts
+    let truth = [[0.0, 0.0, 50.0, 0.0], [0.03, 0.01, 50.0, 0.0]];
+    assert_eq!(fit.objects.len(), 2);
+    for object in 0..2 {
+        let best = fit.simple.iter().find(|shape| shape.object == object).unwrap();
+        assert_eq!((best.kind, best.evidence), (ShapeKind::Parabola, 0.0), "{:?}", fit.simple);
+        let is_its = |truth: &&[f64; 4]| (truth[0] - best.parameters[0].1).abs() < 0.01;
+        let truth = truth.iter().find(is_its).unwrap();
+        for ((name, value, sigma), truth) in best.parameters.iter().zip(truth) {
+            println!("{name}: {value} +- {sigma}, true {truth}");
+            assert!((value - truth).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, true {truth}");
+        }
+    }
+}
+
+#[test]
+fn a_disc_is_known_by_its_centre_and_radius() {
+    let rod = steel();
+    let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    let path = ClampPath::new(clamp(0.07), clamp(-0.07)).unwrap();
+    let disc = Composite::single(CircularArc::new([0.003, 0.02], 0.02, 0.0, std::f64::consts::TAU).unwrap()).unwrap();
+    let (fit, _) = explained(&rod, &Sweep::new(&rod, &disc, path, 5e-5).unwrap().run().states, 1);
+    let arc = fit.simple.iter().find(|shape| shape.kind == ShapeKind::Arc).expect("an arc");
+    for ((name, value, sigma), truth) in arc.parameters.iter().zip([0.003, 0.02, 0.02]) {
+        assert!((value - truth).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, true {truth}");
+    }
+}
+
+/// How often the true shape is found, and how far its parameters are off.
+#[test]
+#[ignore = "prints the numbers that the page on reconstruction names; a minute in release"]
+fn shapes_of_many_seeds() {
+    let rod = steel();
+    let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    let path = ClampPath::new(clamp(0.07), clamp(-0.07)).unwrap();
+    let disc = Composite::single(CircularArc::new([0.003, 0.02], 0.02, 0.0, std::f64::consts::TAU).unwrap()).unwrap();
+    let of_disc = Sweep::new(&rod, &disc, path, 5e-5).unwrap().run().states;
+    let scans = [
+        (ShapeKind::Parabola, states(&rod), vec![vec![0.0, 0.0, 50.0, 0.0], vec![0.03, 0.01, 50.0, 0.0]]),
+        (ShapeKind::Arc, of_disc, vec![vec![0.003, 0.02, 0.02]]),
+    ];
+    for (kind, states, truths) in scans {
+        let (mut objects, mut found, mut first, mut off) = (0, 0, 0, Vec::new());
+        for seed in 0..20 {
+            let mut samples = samples(&states);
+            noisy(&mut samples, seed);
+            let Ok(fit) = fitted(&rod, &samples, &AS_IS) else { continue };
+            objects += fit.objects.len();
+            for shape in fit.simple.iter().filter(|shape| shape.kind == kind) {
+                let far = |truth: &&Vec<f64>| (truth[0] - shape.parameters[0].1).abs();
+                let truth = truths.iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap();
+                found += 1;
+                first += usize::from(shape.evidence == 0.0);
+                off.extend(
+                    shape.parameters.iter().zip(truth).map(|((_, value, sigma), truth)| (value - truth).abs() / sigma),
+                );
+            }
+        }
+        let within = |most: f64| 100.0 * off.iter().filter(|off| **off < most).count() as f64 / off.len() as f64;
+        println!(
+            "{kind}: of {objects} objects {found} are one, {first} best of all; {:.0}, {:.0} and {:.0} % of the parameters within 1, 2 and 3 \
+             standard deviations, the largest {:.1} off",
+            within(1.0),
+            within(2.0),
+            within(3.0),
+            off.iter().fold(0.0, |most: f64, off| most.max(*off)),
+        );
     }
 }

@@ -17,7 +17,7 @@ pub(super) fn touched(chains: &[Vec<Node>], states: &[Option<State>], length: f6
         return chains.iter().map(|chain| vec![false; chain.len()]).collect();
     };
     for contact in states.iter().flatten().flat_map(|state| &state.contacts) {
-        let nodes = curve.place(contact, NEAR_VERTEX * length).and_then(|contact| curve.nodes_at(&contact));
+        let nodes = curve.place(contact, NEAR_VERTEX * length).and_then(|contact| curve.nodes_around(&contact));
         if let Some(nodes) = nodes {
             flat[nodes].fill(true);
         }

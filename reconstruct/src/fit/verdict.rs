@@ -10,7 +10,7 @@ const WINDOW: usize = 12;
 /// Relative standard deviation of the noise, which is itself estimated from the recording: so much is chi squared off without meaning anything.
 const NOISE_KNOWN_TO: f64 = 0.03;
 /// Probability below which a recording is not explained.
-const UNLIKELY: f64 = 1e-4;
+pub(super) const UNLIKELY: f64 = 1e-4;
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["f0x", "f0y", "m0z"];
 
@@ -59,6 +59,11 @@ const MOST_OFF: f64 = 5.0;
 /// Largest share of blocks that are not reached of a recording that is explained: those beside a jump that the model makes a little earlier.
 const MOST_UNREACHED: f64 = 0.02;
 
+/// Probability of a sum of squares as large or larger of so many degrees of freedom.
+pub(super) fn probability(chi_squared: f64, degrees_of_freedom: f64) -> f64 {
+    upper_tail(chi_squared / (1.0 + NOISE_KNOWN_TO).powi(2), degrees_of_freedom)
+}
+
 impl Goodness {
     /// From the residuals of blocks with these samples. `determined` is the number of unknowns that the recording determines.
     pub(super) fn of(
@@ -71,8 +76,7 @@ impl Goodness {
         let square = |k: &usize| explained.residuals[*k].map_or(0.0, |residual| residual.norm_squared());
         let chi_squared: f64 = known.iter().map(square).sum();
         let degrees_of_freedom = (3.0 * known.len() as f64 - determined).max(1.0);
-        let allowed = (1.0 + NOISE_KNOWN_TO).powi(2);
-        let p_value = upper_tail(chi_squared / allowed, degrees_of_freedom);
+        let p_value = probability(chi_squared, degrees_of_freedom);
         let windows = known.len() as f64 / WINDOW as f64;
         let worst = known.windows(WINDOW).map(|window| (window.iter().map(square).sum::<f64>(), window));
         let worst = worst.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(sum, window)| {
@@ -81,7 +85,7 @@ impl Goodness {
                 squares.sum::<f64>()
             };
             let channel = (0..3).max_by(|a, b| of_channel(*a).total_cmp(&of_channel(*b))).unwrap_or(0);
-            let p = upper_tail(sum / allowed, 3.0 * WINDOW as f64);
+            let p = probability(sum, 3.0 * WINDOW as f64);
             WorstWindow {
                 samples: samples[window[0]].start..samples[window[WINDOW - 1]].end,
                 channel: CHANNELS[channel].to_owned(),
