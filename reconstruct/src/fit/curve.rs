@@ -231,6 +231,13 @@ impl Curve {
         }
     }
 
+    /// Way from a node to the nearer of its neighbours.
+    pub fn spacing(&self, node: usize) -> f64 {
+        let is_neighbour = |other: &usize| self.in_chain(node).map(|at| at.0) == self.in_chain(*other).map(|at| at.0);
+        let neighbours = [node.checked_sub(1), Some(node + 1)].into_iter().flatten().filter(is_neighbour);
+        neighbours.map(|other| (self.points[other] - self.points[node]).norm()).fold(f64::INFINITY, f64::min)
+    }
+
     /// The nodes between which a contact of a state lies, or those around its vertex.
     pub fn nodes_around(&self, contact: &Contact) -> Option<Range<usize>> {
         if let Some((first, _)) = self.interval(contact) {

@@ -55,6 +55,11 @@ impl Place {
         self.ways.iter().map(move |way| (at - self.at).dot(way))
     }
 
+    /// The way to a shape, if there is one: a touched place goes any way, another one stays where it is if that is far.
+    fn as_far(&self, way: Option<f64>) -> Option<f64> {
+        if self.is_touched { way } else { Some(way.filter(|way| way.abs() < FAR).unwrap_or(0.0)) }
+    }
+
     /// The offsets that move it across the contour.
     fn across(&self, offset: f64) -> impl Iterator<Item = f64> {
         self.ways.iter().map(move |way| offset * self.normal.dot(way))
@@ -114,8 +119,7 @@ impl<'a> Family<'a> {
         }
         let mut offsets = Vec::new();
         for place in self.places {
-            let way = self.on_curve(place, parameters).filter(|way| place.is_touched || way.abs() < FAR);
-            offsets.extend(place.across(if place.is_touched { way? } else { way.unwrap_or(0.0) }));
+            offsets.extend(place.across(place.as_far(self.on_curve(place, parameters))?));
         }
         Some(offsets)
     }
@@ -128,7 +132,8 @@ impl<'a> Family<'a> {
     /// What the values mean. Of straight edges they are the corners.
     pub fn names(&self) -> Vec<String> {
         let names: &[&str] = match self.kind {
-            ShapeKind::Line | ShapeKind::Polygon => {
+            ShapeKind::Line => &["from.x", "from.y", "to.x", "to.y"],
+            ShapeKind::Polygon => {
                 let names = |k: usize| [format!("points[{k}].x"), format!("points[{k}].y")];
                 return (0..self.corners.len()).flat_map(names).collect();
             }
@@ -185,7 +190,7 @@ impl<'a> Family<'a> {
             let edge = corners.partition_point(|corner| corner.0 < k).clamp(1, corners.len() - 1);
             let (from, to) = (corners[edge - 1].1, corners[edge].1);
             let way = (from - place.at).perp(&(to - from)) / place.normal.perp(&(to - from));
-            offsets.extend(place.across(if way.abs() < FAR { way } else { 0.0 }));
+            offsets.extend(place.across(place.as_far(Some(way))?));
         }
         offsets.iter().all(|offset| offset.is_finite()).then_some(offsets)
     }
@@ -323,6 +328,14 @@ mod tests {
         assert!((at(6, 7).y - 2.0 * (at(6, 7).x - 0.3)).abs() < 1e-15, "{moved:?}");
         let simpler: Vec<_> = family.simpler().map(|family| family.corners).collect();
         assert_eq!(simpler, [vec![1, 5]]);
+    }
+
+    #[test]
+    fn no_touched_place_is_left_beside_a_line() {
+        let places = places(&[(0.0, 0.0), (0.1, 0.25), (0.2, 0.3), (0.3, 0.25), (0.4, 0.0)]);
+        let family = Family::of(ShapeKind::Line, &places).unwrap();
+        let moved = family.offsets(&family.starts()[0]).unwrap();
+        assert!((moved[2].abs() - 0.3).abs() < 1e-12, "{moved:?}");
     }
 
     #[test]

@@ -13,12 +13,17 @@ use std::collections::BTreeSet;
 /// How far outside of a contour the rod may have passed to bound it, rod lengths.
 const FAR: f64 = 1.0;
 
+/// Standard deviations of a contact's place that the way from a node to the next has at least, where the contact touches that node. Smaller: contacts of hardly loaded
+/// rods, which may be anywhere; larger: the ends of what is touched are not known.
+const SURE: f64 = 3.0;
+
 /// What is known of the contour at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Knowledge {
-    /// The rod touches the contour there, or nearer to there than to a neighbour.
+    /// The rod touches the contour there, or nearer to there than to a neighbour, at a contact whose place has less than a third of the way to
+    /// that as its standard deviation.
     Touched {
         /// Standard deviation across the contour, in the worst direction at a vertex, m.
         sigma: f64,
@@ -54,7 +59,12 @@ impl Knowledge {
 
     /// Of the untouched node `k` of a chain, m.
     fn of_untouched(chain: &[Node], k: usize, swept: &Swept, length: f64) -> Self {
-        let along = chain[(k + 1).min(chain.len() - 1)].at - chain[k.saturating_sub(1)].at;
+        let (before, after) = (chain[k.saturating_sub(1)].at, chain[(k + 1).min(chain.len() - 1)].at);
+        if (chain[k].at - before).dot(&(after - chain[k].at)) < 0.0 {
+            // it turns back: no side is outside
+            return Self::Unknown;
+        }
+        let along = after - before;
         // the solid is on the left
         let outwards = Vector2::new(along.y, -along.x).try_normalize(0.0);
         let share = outwards.and_then(|outwards| swept.first_on_ray(chain[k].at / length, outwards * FAR));
@@ -74,8 +84,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     ) -> Vec<Vec<Knowledge>> {
         let (chains, length) = (curve.nodes_of_chains(), self.rod.units().length);
         let swept = self.swept(x, states, labels);
-        let contacts = states.iter().flatten().flat_map(|state| &state.contacts);
-        let touched: BTreeSet<usize> = contacts.filter_map(|contact| curve.node_at(contact)).collect();
+        let touched = self.touched(x, curve, states, covariance).unwrap_or_default();
         let of_node = |node: usize, k: usize, chain: &[Node]| match touched.contains(&node) {
             true => Knowledge::Touched { sigma: curve.variance(node, covariance).max(0.0).sqrt() },
             false => Knowledge::of_untouched(chain, k, &swept, length),
@@ -87,6 +96,41 @@ impl<R: PhysicalRod> Fit<'_, R> {
             known
         };
         chains.iter().map(of_chain).collect()
+    }
+
+    /// The nodes that contacts touch whose place is known: a hardly loaded rod is straight, and does not tell where along it that is.
+    fn touched(
+        &self,
+        x: &DVector<f64>,
+        curve: &Curve,
+        states: &[Option<State>],
+        covariance: &DMatrix<f64>,
+    ) -> Option<BTreeSet<usize>> {
+        let model = self.model_with(x, curve.clone(), states.to_vec())?;
+        let stepped = self.stepped(x)?;
+        let (mut sure, mut likely) = (BTreeSet::new(), BTreeSet::new());
+        for (block, state) in states.iter().enumerate().filter_map(|(block, state)| Some((block, state.as_ref()?))) {
+            let known = self.covariances(x, &model, block, &stepped, [covariance; 2]).unwrap_or_default();
+            for (contact, [own, _]) in state.contacts.iter().zip(known) {
+                let Some(node) = curve.node_at(contact) else { continue };
+                let sigma = own.symmetric_eigenvalues().max().sqrt();
+                sure.extend(Some(node).filter(|node| SURE * sigma < curve.spacing(*node)));
+                likely.extend(Some(node).filter(|node| sigma < curve.spacing(*node)));
+            }
+        }
+        let mut touched = BTreeSet::new();
+        for chain in curve.chains() {
+            let nodes: Vec<usize> = chain.map(|(node, _)| node).collect();
+            for run in nodes.chunk_by(|one, other| likely.contains(one) == likely.contains(other)) {
+                // those that are likely count between sure ones
+                let ends = run
+                    .iter()
+                    .position(|node| sure.contains(node))
+                    .zip(run.iter().rposition(|node| sure.contains(node)));
+                touched.extend(ends.into_iter().flat_map(|(first, last)| &run[first..=last]));
+            }
+        }
+        Some(touched)
     }
 
     /// Where the rod was.
