@@ -3,7 +3,7 @@
 use super::abscissa::Abscissa;
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::palette::{INK, MUTED, label_colour};
-use super::trace::{self, Along, LINE, TraceChart, TracePart};
+use super::trace::{self, Along, LINE, TracePart};
 use rod_files::Reconstructed;
 use std::ops::Range;
 use vibrissa::{ClampPath, Pose, Rod};
@@ -36,14 +36,12 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
         },
         ("probability", &|sample| found.found.readings[sample].probability),
     ];
-    let last = quantities.len() - 1;
-    let row = |index: usize| PLOT + trace::trimmings(index == 0, index == last);
-    let height = HEAD + (0..=last).map(row).sum::<u32>();
+    let height = HEAD + PLOT * quantities.len() as u32 + trace::trimmings(true, true);
     let Some(path) = path(found) else { return svg((WIDTH, HEAD), |_| Ok(())) };
     let abscissa = Abscissa::of(&path);
     let along = along(found, &path, abscissa);
     svg((WIDTH, height), |root| {
-        let (head, mut rest) = root.split_vertically(HEAD);
+        let (head, rest) = root.split_vertically(HEAD);
         let title = format!("{}: reactions, phase criterion K, and probability of the label", found.name);
         write(&head, &title, (24, 36), HPos::Left, TITLE, INK)?;
         let kinks = match found.found.kinks.len() {
@@ -51,14 +49,8 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
             kinks => format!("{kinks} kinks and jumps"),
         };
         write(&head, &format!("vertical lines: {kinks}"), (24, 80), HPos::Left, BODY, MUTED)?;
-        for (index, (name, quantity)) in quantities.into_iter().enumerate() {
-            let (part, below) = rest.split_vertically(row(index));
-            let parts = parts(found, abscissa, &along.across, quantity);
-            let trace = TraceChart { along: &along, parts, name, phases: index == 0, foot: index == last };
-            trace::draw(root, &part, &trace)?;
-            rest = below;
-        }
-        Ok(())
+        let trace = |(name, quantity)| (name, parts(found, abscissa, &along.across, quantity));
+        trace::stack(root, &rest, &along, PLOT, quantities.into_iter().map(trace).collect())
     })
 }
 
@@ -71,7 +63,8 @@ pub(super) fn path(found: &Reconstructed) -> Option<ClampPath> {
     ClampPath::new(first, last.or_else(|| poses().max_by(|a, b| off(a).total_cmp(&off(b))))?).ok()
 }
 
-fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
+/// The abscissa of a recording, with the phases of its answers, and its kinks as marks.
+pub(super) fn along(found: &Reconstructed, path: &ClampPath, abscissa: Abscissa) -> Along {
     let value = |sample: usize| abscissa.value(found.samples[sample].pose);
     let phases = found.runs().map(|(samples, label)| (value(samples.start)..value(samples.end - 1), label.to_string()));
     Along {

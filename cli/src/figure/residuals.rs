@@ -1,10 +1,10 @@
 //! What the contour of the fit leaves of a recording.
 
 use super::abscissa::Abscissa;
-use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
+use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, svg, write};
 use super::palette::{INK, MUTED, label_colour};
-use super::reactions::path;
-use super::trace::{self, Along, LINE, TraceChart, TracePart};
+use super::reactions::{along, path};
+use super::trace::{self, Along, LINE, TracePart};
 use rod_files::Reconstructed;
 use std::ops::Range;
 use vibrissa::Label;
@@ -26,29 +26,22 @@ pub(crate) fn residuals(found: &Reconstructed, fit: &ContourFit) -> Result<Strin
     let name = |label: Option<Label>| label.map_or_else(|| "?".to_owned(), |label| label.to_string());
     let worst = &fit.goodness.worst;
     let along = Along {
-        across: span(found.samples.iter().map(|sample| abscissa.value(sample.pose)), 0.02),
-        foot: abscissa.label(&path),
         phases: fit.runs().into_iter().map(|(samples, label)| (ends(&samples, at), name(label))).collect(),
         marks: worst.iter().flat_map(|worst| [worst.samples.start, worst.samples.end - 1]).map(at).collect(),
-        legs: Vec::new(),
-        modes: Vec::new(),
+        ..along(found, &path, abscissa)
     };
-    let row = |index: usize| PLOT + trace::trimmings(index == 0, index == 2);
-    svg((WIDTH, HEAD + (0..3).map(row).sum::<u32>()), |root| {
-        let (head, mut rest) = root.split_vertically(HEAD);
+    let height = HEAD + PLOT * NAMES.len() as u32 + trace::trimmings(true, true);
+    svg((WIDTH, height), |root| {
+        let (head, rest) = root.split_vertically(HEAD);
         let title = format!("{}: measured less the rod past the fitted contour", found.name);
         write(&head, &title, (24, 36), HPos::Left, TITLE, INK)?;
         for (line, y) in verdict(&fit.goodness).into_iter().zip([76, 110]) {
             write(&head, &line, (24, y), HPos::Left, BODY, MUTED)?;
         }
-        for (channel, name) in NAMES.into_iter().enumerate() {
-            let (part, below) = rest.split_vertically(row(channel));
-            let parts = parts(fit, |block| Some((middle(block), block.residuals?[channel])));
-            let trace = TraceChart { along: &along, parts, name, phases: channel == 0, foot: channel == 2 };
-            trace::draw(root, &part, &trace)?;
-            rest = below;
-        }
-        Ok(())
+        let of_channel = |(channel, name): (usize, &'static str)| {
+            (name, parts(fit, |block| Some((middle(block), block.residuals?[channel]))))
+        };
+        trace::stack(root, &rest, &along, PLOT, NAMES.into_iter().enumerate().map(of_channel).collect())
     })
 }
 

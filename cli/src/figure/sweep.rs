@@ -4,7 +4,7 @@ use super::canvas::{Area, FigureError, HPos, PAGE, TITLE, svg, width, write};
 use super::elasticae;
 use super::legend::Legend;
 use super::palette::INK;
-use super::trace::{self, Along, TraceChart};
+use super::trace::{self, Along};
 use rod_files::Scan;
 use std::ops::Range;
 use vibrissa::State;
@@ -63,14 +63,8 @@ fn reactions(root: &Area<'_>, area: &Area<'_>, scan: &Scan, along: &Along) -> Re
         ("m_{0z} in N mm", |state| 1e3 * state.reactions.m0z),
     ];
     let height = (area.dim_in_pixel().1 - trace::trimmings(true, true)) / 3;
-    let mut rest = area.clone();
-    for (index, (name, quantity)) in quantities.into_iter().enumerate() {
-        let (phases, foot) = (index == 0, index == 2);
-        let (part, below) = rest.split_vertically(height + trace::trimmings(phases, foot));
-        trace::draw(root, &part, &TraceChart { along, parts: trace::parts(scan, quantity), name, phases, foot })?;
-        rest = below;
-    }
-    Ok(())
+    let traces = quantities.into_iter().map(|(name, quantity)| (name, trace::parts(scan, quantity))).collect();
+    trace::stack(root, area, along, height, traces)
 }
 
 #[cfg(test)]

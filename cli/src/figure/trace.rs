@@ -117,6 +117,25 @@ pub(crate) fn parts(scan: &Scan, quantity: impl Fn(&State) -> f64) -> Vec<TraceP
     sticks.chain(intervals.iter().map(|part| drawn(part, colour(part.phase).stroke_width(LINE)))).collect()
 }
 
+/// Draws quantities, each with its unit, into an area of `root`, above each other in plots of this height (pixels): the phases above the first one, the
+/// abscissa below the last.
+pub(crate) fn stack(
+    root: &Area<'_>,
+    area: &Area<'_>,
+    along: &Along,
+    plot: u32,
+    traces: Vec<(&str, Vec<TracePart>)>,
+) -> Result<(), FigureError> {
+    let (last, mut rest) = (traces.len().saturating_sub(1), area.clone());
+    for (index, (name, parts)) in traces.into_iter().enumerate() {
+        let (phases, foot) = (index == 0, index == last);
+        let (part, below) = rest.split_vertically(plot + trimmings(phases, foot));
+        draw(root, &part, &TraceChart { along, parts, name, phases, foot })?;
+        rest = below;
+    }
+    Ok(())
+}
+
 /// Draws a trace into a part of `root`.
 pub(crate) fn draw(root: &Area<'_>, area: &Area<'_>, trace: &TraceChart<'_>) -> Result<(), FigureError> {
     let Along { across, foot, phases, marks, legs, modes } = trace.along;

@@ -38,17 +38,15 @@ pub fn write_sweep(scan: &Scan, staged: &Staged, folder: &Path) -> Result<(), Wr
 /// [`WriteError`].
 pub fn write_reconstruction(found: &Reconstructed, staged: &Staged, folder: &Path) -> Result<(), WriteError> {
     let figures = [("contour.svg", figure::reconstruction(found)?), ("phases.svg", figure::reactions(found)?)];
+    let residuals = found.fitted().map(|fit| figure::residuals(found, fit)).transpose()?;
     found.write(staged, folder)?;
     for (name, figure) in figures {
         staged.write(&folder.join(name), |file| file.write_all(figure.as_bytes()))?;
     }
-    let residuals = folder.join("residuals.svg");
-    match found.fitted() {
-        Some(fit) => {
-            let figure = figure::residuals(found, fit)?;
-            staged.write(&residuals, |file| file.write_all(figure.as_bytes()))?;
-        }
-        None => staged.remove(&residuals)?,
+    let file = folder.join("residuals.svg");
+    match residuals {
+        Some(figure) => staged.write(&file, |file| file.write_all(figure.as_bytes()))?,
+        None => staged.remove(&file)?,
     }
     Ok(())
 }
