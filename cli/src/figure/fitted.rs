@@ -9,8 +9,14 @@ use vibrissa::reconstruct::{ContourFit, Knowledge};
 /// Places between two points of the contour.
 const PLACES: usize = 12;
 /// Width of the line, and lengths of a dash and the gap behind it where nothing is touched, pixels.
-pub(super) const WIDTH: u32 = 3;
-pub(super) const DASH: (i32, i32) = (3, 5);
+const WIDTH: u32 = 3;
+const DASH: (i32, i32) = (3, 5);
+
+/// What is drawn.
+pub(super) fn note(fit: &ContourFit) -> String {
+    let which = if fit.goodness.explains { "contour of the fit" } else { "best contour, which explains only a part" };
+    format!("grey line: {which}, dotted where untouched; pale: as far as the object may reach there")
+}
 
 /// Draws it: a line where it is touched, dots where it is not, and a pale area as far as the object may reach there at most.
 pub(super) fn draw(chart: &Chart<'_>, fit: &ContourFit) -> Result<(), FigureError> {

@@ -14,6 +14,8 @@ use vibrissa::reconstruct::score::Deviation;
 const WIDTH: u32 = PAGE;
 const HEIGHT: (f64, f64) = (300.0, 1200.0);
 const HEAD: u32 = 184;
+/// Height of the line that says what is drawn of a fit, pixels.
+const NOTE: u32 = 36;
 
 /// First and second contacts of several: rings.
 const FIRST: Dot = Dot { colour: palette::FIRST, filled: false };
@@ -41,8 +43,9 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
     let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
     let in_view = |point: &(f64, f64)| window.x.contains(&point.0) && window.y.contains(&point.1);
     let seen: Vec<(f64, f64)> = naive.into_iter().filter(in_view).collect();
-    svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {
-        let (head, area) = root.split_vertically(HEAD);
+    let room = HEAD + found.fitted().map_or(0, |_| NOTE);
+    svg((WIDTH, room + below + high.ceil() as u32), |root| {
+        let (head, area) = root.split_vertically(room);
         write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
         let errors = match &found.comparison {
             _ if all().next().is_none() => "no sample has a contact point, so there is no contour".to_owned(),
@@ -66,6 +69,7 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
         cloud::key(&head, (24, 154), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
         let chart = window.chart(&area, (12, 8))?;
         if let Some(fit) = found.fitted() {
+            write(&head, &fitted::note(fit), (24, HEAD as i32 + 6), HPos::Left, BODY, MUTED)?;
             fitted::draw(&chart, fit)?;
         }
         cloud::dots(&chart, &window, seen, NAIVE)?;
