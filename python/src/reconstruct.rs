@@ -224,7 +224,7 @@ impl PyReconstruction {
     /// ``sigma``: in m, 1/m and rad.
     #[getter]
     fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let shapes = self.found.fitted().map_or(&[][..], |fit| &fit.simple);
+        let shapes = self.found.fitted().map_or(&[][..], |fit| &fit.shapes);
         let of_shape = |shape: &SimpleShape| {
             let shape = shape.clone();
             (0..shape.parameters.len()).map(move |parameter| (shape.clone(), parameter))

@@ -22,7 +22,7 @@ impl Reconstructed {
         let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
         if *explains {
             writeln!(text, "fit: one contour explains the recording, {of}; labels, points and errors are its own")?;
-            return tell_shapes(&fit.simple, text);
+            return tell_shapes(&fit.shapes, text);
         }
         let label =
             |run: &(Range<usize>, Option<Label>)| run.1.map_or_else(|| "?".to_owned(), |label| label.to_string());
@@ -142,7 +142,8 @@ fn tell_shapes(shapes: &[SimpleShape], text: &mut String) -> std::fmt::Result {
             _ => format!("{name} {:.4} +- {:.1e} mm", 1e3 * value, 1e3 * sigma),
         };
         let numbers: Vec<String> = best.parameters.iter().map(number).collect();
-        write!(text, "shape of object {}: {}, {}", best.object + 1, best.kind, numbers.join(", "))?;
+        let [object, first, last] = [best.object + 1, best.points.start + 1, best.points.end];
+        write!(text, "shape of object {object}, points {first} to {last}: {}, {}", best.kind, numbers.join(", "))?;
         let others: Vec<String> = others.iter().map(|other| other.kind.to_string()).collect();
         if others.is_empty() { writeln!(text)? } else { writeln!(text, "; or: {}", others.join(", "))? }
     }
@@ -300,7 +301,7 @@ impl FitRecord {
             }),
             several_for_one: found.several_for_one.iter().map(|run| found.rows_of(run)).collect(),
             runs: fit.runs().into_iter().map(run).collect(),
-            shapes: fit.simple.iter().map(ShapeRecord::of).collect(),
+            shapes: fit.shapes.iter().map(ShapeRecord::of).collect(),
             errors: fit
                 .errors
                 .iter()

@@ -28,6 +28,13 @@ pub enum ShapeKind {
     Parabola,
 }
 
+impl ShapeKind {
+    /// Whether it is of straight edges, whose parameters are the offsets of their corners.
+    fn is_straight(self) -> bool {
+        matches!(self, Self::Line | Self::Polygon)
+    }
+}
+
 impl fmt::Display for ShapeKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -114,7 +121,7 @@ impl<'a> Family<'a> {
     /// The offsets by which each place comes to lie on the shape, one for each direction in which it moves; none where a touched one does not reach it.
     /// Others that do not stay where they are.
     pub fn offsets(&self, parameters: &DVector<f64>) -> Option<Vec<f64>> {
-        if let ShapeKind::Line | ShapeKind::Polygon = self.kind {
+        if self.kind.is_straight() {
             return self.on_edges(parameters);
         }
         let mut offsets = Vec::new();
@@ -146,13 +153,16 @@ impl<'a> Family<'a> {
 
     /// The values of what `names` names; rotations in radians.
     pub fn values(&self, parameters: &DVector<f64>) -> DVector<f64> {
-        match self.kind {
-            ShapeKind::Line | ShapeKind::Polygon => {
-                let corners = self.moved_corners(parameters);
-                DVector::from_iterator(2 * corners.len(), corners.iter().flat_map(|(_, at)| [at.x, at.y]))
-            }
-            _ => parameters.clone(),
+        if !self.kind.is_straight() {
+            return parameters.clone();
         }
+        let corners = self.moved_corners(parameters);
+        DVector::from_iterator(2 * corners.len(), corners.iter().flat_map(|(_, at)| [at.x, at.y]))
+    }
+
+    /// The parameters, of places that have come to lie on the shape.
+    pub fn arrived(&self, parameters: &DVector<f64>) -> DVector<f64> {
+        if self.kind.is_straight() { self.corners_at_rest() } else { parameters.clone() }
     }
 
     /// Whether the shape is one: its sizes are positive, and the solid is inside.

@@ -63,7 +63,7 @@ mod tests {
         };
         ContourFit {
             objects: vec![FittedObject { known: vec![Knowledge::Touched { sigma: 1e-6 }; 22], points, vertices }],
-            simple: Vec::new(),
+            shapes: Vec::new(),
             errors: Vec::new(),
             goodness,
             blocks: (0..21).map(block).collect(),

@@ -1,8 +1,8 @@
 //! What the recording tells of the contour at each of its points: it is touched, or the rod bounds it from outside, or nothing is known.
 
 use super::bent::bent;
-use super::curve::{Curve, Node};
-use super::problem::Fit;
+use super::curve::Node;
+use super::problem::{Corrected, Fit, Model};
 use super::swept::Swept;
 use crate::phase::Label;
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -73,60 +73,54 @@ impl Knowledge {
 }
 
 impl<R: PhysicalRod> Fit<'_, R> {
-    /// What is known at each node of each chain of a contour, of the unknowns `x` with this covariance, by the states of the blocks.
+    /// What is known at each node of each chain of a model with the unknowns `x` of this covariance, whose blocks have these labels.
     pub fn known(
         &self,
         x: &DVector<f64>,
-        curve: &Curve,
-        states: &[Option<State>],
-        labels: &[Option<Label>],
+        model: &Model,
         covariance: &DMatrix<f64>,
+        labels: &[Option<Label>],
     ) -> Vec<Vec<Knowledge>> {
-        let (chains, length) = (curve.nodes_of_chains(), self.rod.units().length);
-        let swept = self.swept(x, states, labels);
-        let touched = self.touched(x, curve, states, covariance).unwrap_or_default();
-        let of_node = |node: usize, k: usize, chain: &[Node]| match touched.contains(&node) {
-            true => Knowledge::Touched { sigma: curve.variance(node, covariance).max(0.0).sqrt() },
-            false => Knowledge::of_untouched(chain, k, &swept, length),
+        let (curve, length) = (&model.curve, self.rod.units().length);
+        let swept = self.swept(model, labels);
+        let touched = self.touched(x, model, covariance).unwrap_or_default();
+        let of_chain = |chain: Vec<(usize, Node)>| {
+            let (numbers, nodes): (Vec<usize>, Vec<Node>) = chain.into_iter().unzip();
+            let of_node = |(k, node): (usize, &usize)| match touched.contains(node) {
+                true => Knowledge::Touched { sigma: curve.variance(*node, covariance).max(0.0).sqrt() },
+                false => Knowledge::of_untouched(&nodes, k, &swept, length),
+            };
+            numbers.iter().enumerate().map(of_node).collect()
         };
-        let mut first = 0;
-        let of_chain = |chain: &Vec<Node>| {
-            let known = (0..chain.len()).map(|k| of_node(first + k, k, chain)).collect();
-            first += chain.len();
-            known
-        };
-        chains.iter().map(of_chain).collect()
+        curve.chains().map(|chain| of_chain(chain.collect())).collect()
     }
 
     /// The nodes that contacts touch whose place is known: a hardly loaded rod is straight, and does not tell where along it that is.
-    fn touched(
-        &self,
-        x: &DVector<f64>,
-        curve: &Curve,
-        states: &[Option<State>],
-        covariance: &DMatrix<f64>,
-    ) -> Option<BTreeSet<usize>> {
-        let model = self.model_with(x, curve.clone(), states.to_vec())?;
-        let stepped = self.stepped(x)?;
+    fn touched(&self, x: &DVector<f64>, model: &Model, covariance: &DMatrix<f64>) -> Option<BTreeSet<usize>> {
+        let (curve, stepped) = (&model.curve, self.stepped(x)?);
         let (mut sure, mut likely) = (BTreeSet::new(), BTreeSet::new());
-        for (block, state) in states.iter().enumerate().filter_map(|(block, state)| Some((block, state.as_ref()?))) {
-            let known = self.covariances(x, &model, block, &stepped, [covariance; 2]).unwrap_or_default();
+        for (block, state) in
+            model.states.iter().enumerate().filter_map(|(block, state)| Some((block, state.as_ref()?)))
+        {
+            let known = self.covariances(x, model, block, &stepped, [covariance; 2]).unwrap_or_default();
             for (contact, [own, _]) in state.contacts.iter().zip(known) {
                 let Some(node) = curve.node_at(contact) else { continue };
-                let sigma = own.symmetric_eigenvalues().max().sqrt();
-                sure.extend(Some(node).filter(|node| SURE * sigma < curve.spacing(*node)));
-                likely.extend(Some(node).filter(|node| sigma < curve.spacing(*node)));
+                let (sigma, way) = (own.symmetric_eigenvalues().max().sqrt(), curve.spacing(node));
+                if sigma < way {
+                    likely.insert(node);
+                }
+                if SURE * sigma < way {
+                    sure.insert(node);
+                }
             }
         }
+        // those that are likely count between sure ones
         let mut touched = BTreeSet::new();
         for chain in curve.chains() {
             let nodes: Vec<usize> = chain.map(|(node, _)| node).collect();
             for run in nodes.chunk_by(|one, other| likely.contains(one) == likely.contains(other)) {
-                // those that are likely count between sure ones
-                let ends = run
-                    .iter()
-                    .position(|node| sure.contains(node))
-                    .zip(run.iter().rposition(|node| sure.contains(node)));
+                let is_sure = |node: &usize| sure.contains(node);
+                let ends = run.iter().position(is_sure).zip(run.iter().rposition(is_sure));
                 touched.extend(ends.into_iter().flat_map(|(first, last)| &run[first..=last]));
             }
         }
@@ -134,13 +128,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// Where the rod was.
-    fn swept(&self, x: &DVector<f64>, states: &[Option<State>], labels: &[Option<Label>]) -> Swept {
-        let poses = self.poses(x).unwrap_or_default();
-        let shape = |(pose, (state, label)): (_, (&Option<State>, &Option<Label>))| match state {
+    fn swept(&self, Model { corrected, states, .. }: &Model, labels: &[Option<Label>]) -> Swept {
+        let shape = |(block, (state, label)): (&Corrected, (&Option<State>, &Option<Label>))| match state {
             Some(state) => state.elastica(self.rod).ok(),
-            None if *label == Some(Label::Free) => bent(self.rod, pose, &Reactions::default(), &[]),
+            None if *label == Some(Label::Free) => bent(self.rod, block.pose, &Reactions::default(), &[]),
             None => None,
         };
-        Swept::finely(poses.into_iter().zip(states.iter().zip(labels)).filter_map(shape))
+        Swept::finely(corrected.iter().zip(states.iter().zip(labels)).filter_map(shape))
     }
 }

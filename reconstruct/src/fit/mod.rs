@@ -147,7 +147,7 @@ pub struct ContourFit {
     /// What was touched, as far as it hangs together.
     pub objects: Vec<FittedObject>,
     /// Simple shapes that explain an object as well, the best of each object first; none where no contour explains the recording.
-    pub simple: Vec<SimpleShape>,
+    pub shapes: Vec<SimpleShape>,
     /// The errors that all samples share, in the units of the sources, with their standard deviations; empty where they are not estimated.
     pub errors: Vec<(Source, f64, f64)>,
     /// How well it explains the recording.

@@ -80,6 +80,7 @@ impl Sources {
 
 /// The fit at one contour. Its unknowns are the offsets of the contour's points (m), then the errors less what is known of them, in standard
 /// deviations of their budget.
+#[derive(Clone)]
 pub(super) struct Fit<'a, R> {
     pub rod: &'a R,
     pub curve: Curve,
@@ -141,7 +142,7 @@ impl Corrected {
 pub(super) struct Model {
     pub curve: Curve,
     pub objects: Vec<Composite>,
-    corrected: Vec<Corrected>,
+    pub corrected: Vec<Corrected>,
     pub states: Vec<Option<State>>,
 }
 
@@ -188,11 +189,6 @@ impl<'a, R: PhysicalRod> Fit<'a, R> {
 impl<R: PhysicalRod> Fit<'_, R> {
     fn errors(&self, x: &DVector<f64>) -> Errors {
         self.sources.errors(x.iter().skip(self.curve.count()))
-    }
-
-    /// The poses of the blocks without the errors.
-    pub fn poses(&self, x: &DVector<f64>) -> Option<Vec<Pose>> {
-        Some(self.corrected(&self.errors(x))?.into_iter().map(|one| one.pose).collect())
     }
 
     /// The blocks without the errors.

@@ -10,7 +10,6 @@ use super::problem::Fit;
 use super::verdict::{Goodness, UNLIKELY, probability};
 use crate::least_squares::{Damped, NormalMatrix, Problem, iterate};
 use nalgebra::{DMatrix, DVector, Vector2};
-use rod_contact::State;
 use rod_core::PhysicalRod;
 use std::ops::Range;
 
@@ -75,11 +74,10 @@ fn is_size(name: &str) -> bool {
     ["radius", "radii[0]", "radii[1]", "coefficient"].contains(&name)
 }
 
-/// A fit at its best contour.
+/// The best contour of a fit.
 pub(super) struct Best<'a> {
     pub x: &'a DVector<f64>,
-    pub curve: &'a Curve,
-    pub states: &'a [Option<State>],
+    pub covariance: &'a DMatrix<f64>,
     pub goodness: &'a Goodness,
     /// Number of residuals.
     pub residuals: f64,
@@ -91,6 +89,8 @@ struct Part {
     object: usize,
     /// The touched nodes, from the first to after the last.
     touched: Range<usize>,
+    /// The whole contour.
+    curve: Curve,
     places: Vec<Place>,
     unknowns: Vec<usize>,
 }
@@ -103,39 +103,33 @@ struct Near {
     /// How the others follow.
     others: Vec<usize>,
     follow: (DVector<f64>, DMatrix<f64>),
-    /// Cost of the blocks, and number of unknowns of the part that the recording determines.
+    /// Cost of the blocks.
     cost: f64,
-    determined: f64,
 }
 
 impl<R: PhysicalRod> Fit<'_, R> {
-    /// The simple shapes that explain each object, the best first; where none does, those that explain runs of its touched nodes. `samples` are those of the
-    /// blocks.
-    pub fn simple(&self, best: &Best<'_>, samples: &[Range<usize>]) -> Vec<SimpleShape> {
+    /// The simple shapes that explain each object, the best first; where none does, those that explain runs of its touched nodes. The fit has the best
+    /// contour and its states.
+    pub fn shapes(&self, best: &Best<'_>) -> Vec<SimpleShape> {
         let of = |object: usize| {
             let runs = runs(&best.known[object]);
             let whole = runs.first()?.start..runs.last()?.end;
-            let shapes = self.shapes(best, object, &whole, samples);
+            let shapes = self.shapes_of(best, object, &whole);
             let is_done = !shapes.is_empty() || runs.len() == 1;
-            let of_runs = || runs.iter().flat_map(|run| self.shapes(best, object, run, samples)).collect();
+            let of_runs = || runs.iter().flat_map(|run| self.shapes_of(best, object, run)).collect();
             Some(if is_done { shapes } else { of_runs() })
         };
         (0..best.known.len()).filter_map(of).flatten().collect()
     }
 
     /// The simple shapes that explain some touched nodes, the best first.
-    fn shapes(
-        &self,
-        best: &Best<'_>,
-        object: usize,
-        touched: &Range<usize>,
-        samples: &[Range<usize>],
-    ) -> Vec<SimpleShape> {
+    fn shapes_of(&self, best: &Best<'_>, object: usize, touched: &Range<usize>) -> Vec<SimpleShape> {
         let Some(part) = self.part(best, best.x, object, touched) else { return Vec::new() };
-        let Some(near) = self.near(best, best.x, &part) else { return Vec::new() };
+        let Some(near) = self.near(best.x, &part) else { return Vec::new() };
+        let determined = self.determined(best, &part);
         let kinds = [ShapeKind::Line, ShapeKind::Polygon, ShapeKind::Arc, ShapeKind::Parabola, ShapeKind::Ellipse];
-        let found = kinds.into_iter().filter_map(|kind| self.shape(best, &near, &part, kind, samples));
-        let mut found: Vec<SimpleShape> = found.collect();
+        let mut found: Vec<SimpleShape> =
+            kinds.into_iter().filter_map(|kind| self.shape(best, (&near, determined), &part, kind)).collect();
         found.sort_by(|a, b| a.evidence.total_cmp(&b.evidence));
         let least = found.first().map_or(0.0, |shape| shape.evidence);
         found.iter_mut().for_each(|shape| shape.evidence -= least);
@@ -145,7 +139,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// Touched nodes of an object of the contour with unknowns `x`, and those around them that are not.
     fn part(&self, best: &Best<'_>, x: &DVector<f64>, object: usize, touched: &Range<usize>) -> Option<Part> {
         let length = self.rod.units().length;
-        let curve = best.curve.moved(x.rows(0, best.curve.count()).into_owned())?;
+        let curve = self.curve.moved(x.rows(0, self.curve.count()).into_owned())?;
         let chain: Vec<_> = curve.chains().nth(object)?.collect();
         let is_touched = |k: &usize| best.known[object][*k].sigma().is_some();
         let first = (0..touched.start).rev().find(is_touched).map_or(0, |k| k + 1);
@@ -165,14 +159,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
             });
             unknowns.extend(unknown..unknown + ways.len());
         }
-        Some(Part { object, touched: touched.clone(), places, unknowns })
+        Some(Part { object, touched: touched.clone(), curve, places, unknowns })
     }
 
-    /// The cost near the unknowns `x`.
-    fn near(&self, best: &Best<'_>, x: &DVector<f64>, part: &Part) -> Option<Near> {
-        let mut fit = self.at(best);
-        let normal = fit.equations(x);
-        let prior = self.prior(x, &best.curve.moved(x.rows(0, best.curve.count()).into_owned())?);
+    /// The cost near the unknowns `x`, which are those of a part and others.
+    fn near(&self, x: &DVector<f64>, part: &Part) -> Option<Near> {
+        let (normal, prior) = (self.clone().equations(x), self.prior(x, &part.curve));
         let own = &part.unknowns;
         let others: Vec<usize> = (0..x.len()).filter(|i| !own.contains(i)).collect();
         // the smoothness of the part is not asked for
@@ -185,30 +177,33 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let length = self.rod.units().length;
         let gradient = slope.select_rows(own) + across.transpose() * &follow.0;
         let information = block(&matrix, own, own) + across.transpose() * &follow.1;
-        let told = normal.covariance()? * &prior.matrix;
         Some(Near {
             gradient: gradient * length,
             information: information * (length * length),
             others,
             follow: (follow.0, follow.1 * length),
             cost: normal.cost - prior.cost,
-            determined: own.iter().map(|i| 1.0 - told[(*i, *i)]).sum(),
         })
     }
 
-    /// The best shape of a kind, if it explains a part.
+    /// Number of unknowns of a part that the recording determines, not its smoothness alone.
+    fn determined(&self, best: &Best<'_>, part: &Part) -> f64 {
+        let told = best.covariance * self.prior(best.x, &part.curve).matrix;
+        part.unknowns.iter().map(|i| 1.0 - told[(*i, *i)]).sum()
+    }
+
+    /// The best shape of a kind, if it explains a part, of which so many unknowns are determined.
     fn shape(
         &self,
         best: &Best<'_>,
-        near: &Near,
+        (near, determined): (&Near, f64),
         part: &Part,
         kind: ShapeKind,
-        samples: &[Range<usize>],
     ) -> Option<SimpleShape> {
         let each = best.residuals.ln();
         let mut found = Found::simplest(Family::of(kind, &part.places)?, near, each)?;
         let free = found.parameters.len() as f64;
-        let freedom = (near.determined - free).max(1.0);
+        let freedom = (determined - free).max(1.0);
         // far off the quadratic form is a rough one, and is soon a better one
         let is_hopeful = |found: &Found, before: f64| {
             let more = found.cost - near.cost;
@@ -217,68 +212,48 @@ impl<R: PhysicalRod> Fit<'_, R> {
         if !is_hopeful(&found, MOST * best.residuals) {
             return None;
         }
-        let mut x = self.moved(best, best.x, near, part, &found)?;
+        let mut x = self.moved(best.x, near, part, &found)?;
         for _ in 0..ROUNDS {
             let there = self.part(best, &x, part.object, &part.touched)?;
-            let closer = self.near(best, &x, &there)?;
+            let closer = self.near(&x, &there)?;
             let next = found.again(&there.places, &closer)?;
             if !is_hopeful(&next, found.cost) {
                 return None;
             }
-            x = self.moved(best, &x, &closer, &there, &next)?;
+            x = self.moved(&x, &closer, &there, &next)?;
             let gain = closer.cost - next.cost;
             found = next;
             if gain < GAIN {
                 break;
             }
         }
-        let fit = self.at(best);
-        let explained = fit.explained(&fit.model(&x)?);
-        let determined = best.residuals - best.goodness.degrees_of_freedom - near.determined + free;
-        let goodness = Goodness::of(&explained, samples, determined, best.goodness.farthest_error);
+        let explained = self.explained(&self.model(&x)?);
+        let others = best.residuals - best.goodness.degrees_of_freedom - determined;
+        let goodness = Goodness::of(&explained, &self.blocks.blocks, others + free, best.goodness.farthest_error);
         let chi_squared = goodness.chi_squared - best.goodness.chi_squared;
         let p_value = probability(chi_squared, freedom);
         let there = self.part(best, &x, part.object, &part.touched)?;
         let family = found.family(&there.places);
-        let is_one = p_value >= UNLIKELY && goodness.explains && family.is_shape(&found.parameters);
         let parameters = found.named(&family, self.rod.units().length)?;
-        let mut sizes = parameters.iter().filter(|(name, ..)| is_size(name));
-        let is_one = is_one && sizes.all(|(_, value, sigma)| value.abs() > KNOWN * sigma);
+        let is_known = |(name, value, sigma): &(String, f64, f64)| !is_size(name) || value.abs() > KNOWN * sigma;
+        let is_one = p_value >= UNLIKELY
+            && goodness.explains
+            && family.is_shape(&found.parameters)
+            && parameters.iter().all(is_known);
+        let (object, points) = (part.object, part.touched.clone());
         let evidence = chi_squared + free * each;
-        is_one.then_some(SimpleShape {
-            object: part.object,
-            points: part.touched.clone(),
-            kind,
-            parameters,
-            chi_squared,
-            p_value,
-            evidence,
-        })
+        is_one.then_some(SimpleShape { object, points, kind, parameters, chi_squared, p_value, evidence })
     }
 
     /// The unknowns `x`, moved so that a part is on a shape, and the others follow.
-    fn moved(
-        &self,
-        best: &Best<'_>,
-        x: &DVector<f64>,
-        near: &Near,
-        part: &Part,
-        found: &Found,
-    ) -> Option<DVector<f64>> {
+    fn moved(&self, x: &DVector<f64>, near: &Near, part: &Part, found: &Found) -> Option<DVector<f64>> {
         let length = self.rod.units().length;
         let offsets = DVector::from_vec(found.family(&part.places).offsets(&found.parameters)?);
         let mut x = x.clone();
         part.unknowns.iter().zip(&offsets).for_each(|(i, offset)| x[*i] += offset * length);
         let follow = &near.follow.0 + &near.follow.1 * &offsets;
         near.others.iter().zip(&follow).for_each(|(i, offset)| x[*i] += offset);
-        (x.len() == best.x.len()).then_some(x)
-    }
-
-    /// At the best contour.
-    fn at(&self, best: &Best<'_>) -> Self {
-        let mut fit = Fit::new(self.rod, best.curve.clone(), self.blocks, self.sources);
-        (fit.states, fit.bend) = (best.states.to_vec(), self.bend);
-        fit
+        Some(x)
     }
 }
 
@@ -326,8 +301,8 @@ impl Found {
         let mut quadratic = Quadratic { family, near };
         let found = iterate(&mut quadratic, start, Damped::until(SETTLED), STEPS).0.x;
         let parameters = in_order(family.kind, found);
-        let NormalMatrix { cost, .. } = quadratic.equations(&parameters);
-        let covariance = quadratic.equations(&parameters).covariance()?;
+        let equations = quadratic.equations(&parameters);
+        let (cost, covariance) = (equations.cost, equations.covariance()?);
         let (kind, corners) = (family.kind, family.corners.clone());
         cost.is_finite().then_some(Self { kind, corners, parameters, covariance, cost })
     }
@@ -335,9 +310,7 @@ impl Found {
     /// The best one of the same kind for places that are on this one.
     fn again(&self, places: &[Place], near: &Near) -> Option<Self> {
         let family = self.family(places);
-        // the parameters of edges are offsets of their corners from where they are
-        let is_straight = matches!(self.kind, ShapeKind::Line | ShapeKind::Polygon);
-        let start = if is_straight { family.starts().pop()? } else { self.parameters.clone() };
+        let start = family.arrived(&self.parameters);
         Self::from(&family, near, start)
     }
 
@@ -347,8 +320,7 @@ impl Found {
 
     /// What it is called, with standard deviations, for a rod of this length.
     fn named(&self, family: &Family<'_>, length: f64) -> Option<Vec<(String, f64, f64)>> {
-        let is_straight = matches!(self.kind, ShapeKind::Line | ShapeKind::Polygon);
-        let parameters = if is_straight { family.starts().pop()? } else { self.parameters.clone() };
+        let parameters = family.arrived(&self.parameters);
         let values = family.values(&parameters);
         let rates = by_parameters(&parameters, |p| Some(family.values(p)))?;
         let spread = &rates * &self.covariance * rates.transpose();

@@ -19,7 +19,6 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use rod_contact::State;
 use rod_core::{PhysicalRod, Rod, Sample};
 use std::cmp::Ordering;
-use std::ops::Range;
 
 /// Most changes of a contour, one after the other.
 const CHANGES: usize = 10;
@@ -243,10 +242,9 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     // unknowns that the prior alone determines count for nothing
     let prior = fit.prior(&x, &curve).matrix;
     let determined = x.len() as f64 - (&covariance * prior).trace();
-    let samples: Vec<Range<usize>> = fit.blocks.blocks.iter().map(|block| block.samples.clone()).collect();
     let off = |(i, k): (usize, &usize)| (Source::ALL[*k], x[count + i]);
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let goodness = Goodness::of(&explained, &samples, determined, farthest);
+    let goodness = Goodness::of(&explained, &fit.blocks.blocks, determined, farthest);
     fit.states.clone_from(&states);
     Some(Solved { x, curve, cost: equations.cost, covariance, bend: fit.bend, explained, states, goodness })
 }
@@ -319,14 +317,15 @@ impl Solved {
     ) -> ContourFit {
         let Self { x, curve, covariance, bend, explained, goodness, states, .. } = self;
         let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
-        fit.bend = bend;
-        let model = goodness.explains.then(|| fit.model_with(&x, curve.clone(), states.clone())).flatten();
+        (fit.bend, fit.states) = (bend, states);
+        let model = fit.model_with(&x, curve.clone(), fit.states.clone());
         let told = |(label, state): (&Option<Label>, &Option<State>)| match state {
             Some(state) => label.map(|_| curve.label(&state.contacts, &covariance, given.length())),
             None => *label,
         };
-        let labels: Vec<Option<Label>> = explained.labels.iter().zip(&states).map(told).collect();
-        let readings = model.and_then(|model| fit.answers(&x, &model, &covariance, &labels, samples));
+        let labels: Vec<Option<Label>> = explained.labels.iter().zip(&fit.states).map(told).collect();
+        let explaining = model.as_ref().filter(|_| goodness.explains);
+        let readings = explaining.and_then(|model| fit.answers(&x, model, &covariance, &labels, samples));
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
@@ -341,17 +340,12 @@ impl Solved {
             label: labels[k],
             residuals: explained.residuals[k].map(Into::into),
         };
-        let known = fit.known(&x, &curve, &states, &labels, &covariance);
-        let best = Best {
-            x: &x,
-            curve: &curve,
-            states: &states,
-            goodness: &goodness,
-            residuals: 3.0 * explained.residuals.iter().flatten().count() as f64,
-            known: &known,
-        };
-        let samples: Vec<Range<usize>> = blocks.blocks.iter().map(|block| block.samples.clone()).collect();
-        let simple = if goodness.explains { fit.simple(&best, &samples) } else { Vec::new() };
+        let known = model.as_ref().map(|model| fit.known(&x, model, &covariance, &labels));
+        let known =
+            known.unwrap_or_else(|| curve.chains().map(|chain| chain.map(|_| Knowledge::Unknown).collect()).collect());
+        let residuals = 3.0 * explained.residuals.iter().flatten().count() as f64;
+        let best = Best { x: &x, covariance: &covariance, goodness: &goodness, residuals, known: &known };
+        let shapes = if goodness.explains { fit.shapes(&best) } else { Vec::new() };
         let object = |(nodes, known): (&Vec<Node>, Vec<Knowledge>)| FittedObject {
             points: nodes.iter().map(|node| [node.at.x * length, node.at.y * length]).collect(),
             vertices: (0..nodes.len()).filter(|i| nodes[*i].is_vertex).collect(),
@@ -359,7 +353,7 @@ impl Solved {
         };
         ContourFit {
             objects: curve.nodes_of_chains().iter().zip(known).map(object).collect(),
-            simple: simple.into_iter().map(|shape| shape.scaled(length)).collect(),
+            shapes: shapes.into_iter().map(|shape| shape.scaled(length)).collect(),
             readings: readings.unwrap_or_default(),
             length: given.length(),
             ringing: blocks.ringing,

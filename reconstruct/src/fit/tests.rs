@@ -300,8 +300,8 @@ fn the_parabolas_of_an_object_are_found() {
     let truth = [[0.0, 0.0, 50.0, 0.0], [0.03, 0.01, 50.0, 0.0]];
     assert_eq!(fit.objects.len(), 2);
     for object in 0..2 {
-        let best = fit.simple.iter().find(|shape| shape.object == object).unwrap();
-        assert_eq!((best.kind, best.evidence), (ShapeKind::Parabola, 0.0), "{:?}", fit.simple);
+        let best = fit.shapes.iter().find(|shape| shape.object == object).unwrap();
+        assert_eq!((best.kind, best.evidence), (ShapeKind::Parabola, 0.0), "{:?}", fit.shapes);
         let is_its = |truth: &&[f64; 4]| (truth[0] - best.parameters[0].1).abs() < 0.01;
         let truth = truth.iter().find(is_its).unwrap();
         for ((name, value, sigma), truth) in best.parameters.iter().zip(truth) {
@@ -318,7 +318,7 @@ fn a_disc_is_known_by_its_centre_and_radius() {
     let path = ClampPath::new(clamp(0.07), clamp(-0.07)).unwrap();
     let disc = Composite::single(CircularArc::new([0.003, 0.02], 0.02, 0.0, std::f64::consts::TAU).unwrap()).unwrap();
     let (fit, _) = explained(&rod, &Sweep::new(&rod, &disc, path, 5e-5).unwrap().run().states, 1);
-    let arc = fit.simple.iter().find(|shape| shape.kind == ShapeKind::Arc).expect("an arc");
+    let arc = fit.shapes.iter().find(|shape| shape.kind == ShapeKind::Arc).expect("an arc");
     for ((name, value, sigma), truth) in arc.parameters.iter().zip([0.003, 0.02, 0.02]) {
         assert!((value - truth).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, true {truth}");
     }
@@ -344,7 +344,7 @@ fn shapes_of_many_seeds() {
             noisy(&mut samples, seed);
             let Ok(fit) = fitted(&rod, &samples, &AS_IS) else { continue };
             objects += fit.objects.len();
-            for shape in fit.simple.iter().filter(|shape| shape.kind == kind) {
+            for shape in fit.shapes.iter().filter(|shape| shape.kind == kind) {
                 let far = |truth: &&Vec<f64>| (truth[0] - shape.parameters[0].1).abs();
                 let truth = truths.iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap();
                 found += 1;

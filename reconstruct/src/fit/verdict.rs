@@ -1,5 +1,6 @@
 //! Whether a contour explains its recording.
 
+use super::blocks::Block;
 use super::problem::Explained;
 use crate::numeric::chi_squared::upper_tail;
 use crate::systematic::Source;
@@ -65,14 +66,14 @@ pub(super) fn probability(chi_squared: f64, degrees_of_freedom: f64) -> f64 {
 }
 
 impl Goodness {
-    /// From the residuals of blocks with these samples. `determined` is the number of unknowns that the recording determines.
+    /// From the residuals of these blocks. `determined` is the number of unknowns that the recording determines.
     pub(super) fn of(
         explained: &Explained,
-        samples: &[Range<usize>],
+        blocks: &[Block],
         determined: f64,
         farthest_error: Option<(Source, f64)>,
     ) -> Self {
-        let known: Vec<usize> = (0..samples.len()).filter(|k| explained.residuals[*k].is_some()).collect();
+        let known: Vec<usize> = (0..blocks.len()).filter(|k| explained.residuals[*k].is_some()).collect();
         let square = |k: &usize| explained.residuals[*k].map_or(0.0, |residual| residual.norm_squared());
         let chi_squared: f64 = known.iter().map(square).sum();
         let degrees_of_freedom = (3.0 * known.len() as f64 - determined).max(1.0);
@@ -87,7 +88,7 @@ impl Goodness {
             let channel = (0..3).max_by(|a, b| of_channel(*a).total_cmp(&of_channel(*b))).unwrap_or(0);
             let p = probability(sum, 3.0 * WINDOW as f64);
             WorstWindow {
-                samples: samples[window[0]].start..samples[window[WINDOW - 1]].end,
+                samples: blocks[window[0]].samples.start..blocks[window[WINDOW - 1]].samples.end,
                 channel: CHANNELS[channel].to_owned(),
                 chi_squared: sum,
                 residuals: 3 * WINDOW,
