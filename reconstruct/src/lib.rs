@@ -8,6 +8,8 @@
 //!   and the [`Evidence`]. [`Live`]: labels and single contacts as samples come.
 //! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them; [`reconstruct_general`] for
 //!   any rod on any clamp.
+//! - [`forces`]: forces from shapes. A [`Frame`] has points on the rod, measured numbers at its base ([`Channel`]), or both; of each frame the contacts
+//!   with place and force, the reactions, their covariance, and a [`FrameVerdict`]: what it cannot tell.
 //! - [`kink`], [`noise_estimate`]: the places where the reactions have kinks and jumps, and their noise.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: offsets of the contours of several scans, where they disagree, and one contour from all.
@@ -30,6 +32,8 @@ mod contour;
 mod fit;
 #[cfg(feature = "contact")]
 mod forward;
+#[cfg(feature = "std")]
+mod frames;
 #[cfg(feature = "std")]
 mod friction;
 #[cfg(feature = "std")]
@@ -67,6 +71,11 @@ pub use contour::{
 pub use fit::{
     ContourFit, FitError, FittedBlock, FittedObject, Goodness, Knowledge, ShapeKind, SimpleShape, WorstWindow,
     fit_contour,
+};
+#[cfg(feature = "std")]
+pub use frames::{
+    Axis, Channel, FamilyMember, Film, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, FrameVerdict,
+    Measurand, SeenPoint, forces,
 };
 #[cfg(feature = "std")]
 pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};

@@ -3,6 +3,7 @@
 
 mod clean;
 mod common;
+mod frames;
 mod free_rod;
 mod friction;
 mod kink_filter;

@@ -120,6 +120,11 @@ impl Default for Damped {
 }
 
 impl Damped {
+    /// With next to no damping at first: from a place near the solution.
+    pub fn lightly() -> Self {
+        Self { damping: Self::LEAST.0, settled: 0.0 }
+    }
+
     /// Until a step would let the cost fall by less than this share: for costs that are not smooth, along which short steps go on for ever.
     #[cfg(feature = "contact")]
     pub fn until(settled: f64) -> Self {

@@ -23,7 +23,6 @@ pub(crate) fn wilson_hilferty(freedom: usize, z: f64) -> f64 {
 
 /// The probability that chi-squared of so many degrees of freedom (not necessarily a whole number, 1 at least) is `x` or more, by the
 /// cube-root approximation of Wilson and Hilferty (1931): within 10 % of itself down to 1e-5 from 30 degrees of freedom on.
-#[cfg(feature = "contact")]
 pub(crate) fn upper_tail(x: f64, freedom: f64) -> f64 {
     let spread = 2.0 / (9.0 * freedom);
     beyond((((x / freedom).max(0.0)).cbrt() - (1.0 - spread)) / spread.sqrt())
@@ -31,7 +30,6 @@ pub(crate) fn upper_tail(x: f64, freedom: f64) -> f64 {
 
 /// The probability that a standard normal variable is `z` or more, relative error below 1e-8: by its Taylor series, and from 2 on by the
 /// continued fraction of Laplace.
-#[cfg(feature = "contact")]
 fn beyond(z: f64) -> f64 {
     let density = (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
     if z > 2.0 {
@@ -63,7 +61,6 @@ fn falling_to(p: f64, f: impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    #[cfg(feature = "contact")]
     #[test]
     fn tails_are_those_of_tables() {
         // R: pnorm(z, lower = FALSE), pchisq(x, k, lower = FALSE)

@@ -1,0 +1,153 @@
+//! Which contacts a frame shows: none, one on the side or at the tip, or two.
+
+use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, solve};
+use super::observed::Observed;
+use super::shape::Place;
+use super::start::{Sight, Start, second};
+use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
+use rod_core::RodModel;
+
+/// Quantile of the standard normal distribution for a contact to be told: one in a thousand frames without it shows it by chance. The same
+/// probability below which a shape does not explain its frame.
+const BEYOND_CHANCE: f64 = 3.0902;
+pub(super) const CHANCE: f64 = 1e-3;
+/// How many starts are tried for one contact where the first ones do not explain the frame.
+const MOST_STARTS: usize = 4;
+
+/// What may touch the rod.
+#[derive(Clone, Copy)]
+pub(super) struct Allowed {
+    /// Largest number of contacts.
+    pub contacts: usize,
+    /// Coefficient of friction.
+    pub friction: f64,
+}
+
+impl Allowed {
+    /// A contact on the side.
+    fn side(&self) -> Place {
+        if self.friction > 0.0 { Place::Side { s: None, rub: None } } else { Place::SIDE }
+    }
+}
+
+/// The shape that a frame shows, and the others that explain it as well, each with how much larger its chi squared is.
+pub(super) struct Chosen {
+    pub best: Candidate,
+    pub rivals: Vec<(Candidate, f64)>,
+}
+
+impl Candidate {
+    /// The probability that chance leaves as much.
+    pub fn p_value(&self) -> f64 {
+        if self.freedom <= 0 { 1.0 } else { upper_tail(self.chi_squared, self.freedom as f64) }
+    }
+
+    pub fn explains(&self) -> bool {
+        self.p_value() > CHANCE
+    }
+
+    /// Whether this one explains so much more than `simpler` that chance does not.
+    fn is_worth(&self, simpler: &Self) -> bool {
+        let more = (simpler.freedom - self.freedom).max(1) as usize;
+        simpler.chi_squared - self.chi_squared > wilson_hilferty(more, BEYOND_CHANCE)
+    }
+}
+
+/// Solves for no contact, one, and two, and takes the fewest that explain the frame. None where the observations are too few for any shape.
+pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allowed) -> Option<Chosen> {
+    let sight = Sight::of(observed);
+    let friction = allowed.friction;
+    let free = solve(model, observed, &[], &sight.free(model), friction, MOST_STEPS);
+    if allowed.contacts == 0 {
+        return free.map(|best| Chosen { best, rivals: Vec::new() });
+    }
+    let mut singles = one(model, observed, &sight, allowed.side(), friction, MOST_STEPS);
+    let most_steps = if singles.iter().any(Candidate::explains) { FEW_STEPS } else { MOST_STEPS };
+    singles.extend(one(model, observed, &sight, Place::Tip, friction, most_steps));
+    singles.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    let Some(free) = free else { return settle(singles) };
+    if !singles.first().is_some_and(|one| one.is_worth(&free)) {
+        return Some(Chosen { best: free, rivals: Vec::new() });
+    }
+    if singles[0].explains() || allowed.contacts == 1 {
+        return settle(singles);
+    }
+    let starts = singles.iter().flat_map(|one| second(model, one, allowed.side()));
+    let pairs = starts.filter_map(|(contacts, start)| solve(model, observed, &contacts, &start, friction, MOST_STEPS));
+    let mut pairs: Vec<Candidate> = pairs.filter(Candidate::is_ordered).collect();
+    pairs.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    if pairs.first().is_some_and(|pair| pair.is_worth(&singles[0])) { settle(pairs) } else { settle(singles) }
+}
+
+/// The best of candidates in the order of their chi squared, and those that differ from it and explain the frame as well.
+fn settle(mut candidates: Vec<Candidate>) -> Option<Chosen> {
+    if candidates.is_empty() {
+        return None;
+    }
+    let best = candidates.remove(0);
+    let mut rivals: Vec<(Candidate, f64)> = Vec::new();
+    for other in candidates {
+        let more = other.chi_squared - best.chi_squared;
+        let is_new = other.differs(&best) && rivals.iter().all(|(rival, _)| other.differs(rival));
+        if is_new && other.explains() && more < wilson_hilferty(1, BEYOND_CHANCE) {
+            rivals.push((other, more));
+        }
+    }
+    Some(Chosen { best, rivals })
+}
+
+/// Distance of contacts (L) from which two shapes are told apart.
+const DISTINCT: f64 = 1e-3;
+
+impl Candidate {
+    fn differs(&self, other: &Self) -> bool {
+        let (own, others) = (&self.shape.contacts, &other.shape.contacts);
+        own.len() != others.len()
+            || own.iter().zip(others).any(|(a, b)| {
+                (a.node.cut.x - b.node.cut.x).hypot(a.node.cut.y - b.node.cut.y) > DISTINCT
+                    || (a.node.s - b.node.s).abs() > DISTINCT
+            })
+    }
+
+    /// Whether two contacts are at two places.
+    fn is_ordered(&self) -> bool {
+        self.shape.contacts.windows(2).all(|pair| pair[1].node.s < pair[0].node.s - DISTINCT)
+    }
+}
+
+/// All different solutions with one contact at a kind of place, from several starts where the first does not explain the frame.
+fn one<M: RodModel>(
+    model: &M,
+    observed: &Observed,
+    sight: &Sight,
+    place: Place,
+    friction: f64,
+    most_steps: usize,
+) -> Vec<Candidate> {
+    let starts = sight.one(model, observed, place);
+    // without points on the rod nothing leads to one solution
+    let blind = observed.dots.len() < 3;
+    let mut found: Vec<Candidate> = Vec::new();
+    for start in starts.iter().take(if blind { usize::MAX } else { MOST_STARTS }) {
+        let Some(candidate) = solve(model, observed, &[place], start, friction, most_steps) else { continue };
+        let is_told = candidate.explains();
+        if found.iter().all(|other| candidate.differs(other)) {
+            found.push(candidate);
+        }
+        if is_told && !blind {
+            break;
+        }
+    }
+    found
+}
+
+/// The shape with its single contact at the arc length `s`.
+pub(super) fn held_at<M: RodModel>(model: &M, observed: &Observed, s: f64, friction: f64) -> Option<Candidate> {
+    let place = Place::Side { s: Some(s), rub: if friction > 0.0 { None } else { Some(0.0) } };
+    let starts: Vec<Start> = Sight::of(observed).one(model, observed, place);
+    let solved = starts
+        .iter()
+        .take(MOST_STARTS)
+        .filter_map(|start| solve(model, observed, &[place], start, friction, MOST_STEPS));
+    solved.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
+}

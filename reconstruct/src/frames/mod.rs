@@ -1,0 +1,24 @@
+//! Forces from what was seen of a rod: points on it, and any channels of its base, frame by frame.
+//!
+//! A [`Frame`] holds observations, each with its noise. Their model is one shape of the rod (`shape`): it is followed from its outermost contact,
+//! where the bending moment vanishes, back to the base, so that free end and balance of forces hold for any values of the unknowns and the
+//! least squares (`problem`) have no conditions. `start` guesses, `candidate` solves for one set of contacts, `choose` says how many contacts
+//! the frame shows, and `verdict` what it cannot tell. [`forces`] does all that for a film.
+
+mod candidate;
+mod choose;
+mod family;
+mod fault;
+mod forces;
+mod noise;
+mod observation;
+mod observed;
+mod problem;
+mod shape;
+mod start;
+mod verdict;
+
+pub use fault::FrameFault;
+pub use forces::{Film, ForceSettings, FrameContact, FrameForces, forces};
+pub use observation::{Axis, Channel, Frame, Measurand, SeenPoint};
+pub use verdict::{FamilyMember, FrameVerdict};

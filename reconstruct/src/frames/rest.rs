@@ -1,0 +1,1 @@
+//! The shape of a rod at rest, from frames in which nothing touches it.

@@ -1,0 +1,81 @@
+//! What a frame cannot tell.
+
+use super::candidate::Candidate;
+use std::fmt;
+
+/// Standard deviation of the place of a contact (L) from which on it is not told.
+const VAGUE_PLACE: f64 = 0.1;
+/// Standard deviation of a force, as a share of it, from which on it is not told.
+const VAGUE_FORCE: f64 = 0.5;
+
+/// What a frame tells of the forces on the rod, from the information matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FrameVerdict {
+    /// No force beyond the noise.
+    Free,
+    /// Contacts, forces and reactions are determined.
+    Told,
+    /// A contact is there, but its place and its force are known roughly only (standard deviations of more than a tenth of the length, or of
+    /// half of the force): what they do together, the moment at the base, may be known well.
+    Rough,
+    /// Place and force are not told apart at all: a whole family of them explains the frame.
+    Family,
+    /// More than one set of contacts explains the frame: the others are rivals.
+    Several,
+    /// No shape with the contacts that are allowed explains the frame.
+    NotExplained,
+}
+
+impl fmt::Display for FrameVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Free => "free",
+            Self::Told => "told",
+            Self::Rough => "rough",
+            Self::Family => "family",
+            Self::Several => "several",
+            Self::NotExplained => "not explained",
+        })
+    }
+}
+
+/// One member of a family that explains a frame: the force that a contact at this place has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FamilyMember {
+    /// Arc length of the contact, m.
+    pub s: f64,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Force, N.
+    pub force: f64,
+    /// Chi squared of the frame.
+    pub chi_squared: f64,
+}
+
+/// The verdict on the best candidate; `sigmas` are those of arc length (L) and of force (as a share) of each contact.
+pub(super) fn verdict(best: &Candidate, rivals: usize, sigmas: impl Iterator<Item = (f64, f64)>) -> FrameVerdict {
+    if !best.explains() {
+        return FrameVerdict::NotExplained;
+    }
+    if best.covariance.is_none() {
+        return FrameVerdict::Family;
+    }
+    if best.shape.contacts.is_empty() {
+        return FrameVerdict::Free;
+    }
+    // a standard deviation of the length of the rod is that of any place
+    let (mut is_rough, mut is_family) = (false, false);
+    for (place, force) in sigmas {
+        is_rough |= place > VAGUE_PLACE || force > VAGUE_FORCE;
+        is_family |= place > 3.0 * VAGUE_PLACE;
+    }
+    match (is_family, rivals > 0, is_rough) {
+        (true, ..) => FrameVerdict::Family,
+        (_, true, _) => FrameVerdict::Several,
+        (.., true) => FrameVerdict::Rough,
+        _ => FrameVerdict::Told,
+    }
+}

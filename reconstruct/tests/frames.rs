@@ -1,0 +1,264 @@
+//! Forces from shapes, against a rod that is integrated step by step and shot at its free end.
+
+use rod_core::{AnyRod, CurvatureSpec, RodSpec, StiffnessSpec};
+use rod_reconstruct::{ForceSettings, Frame, FrameVerdict, forces};
+
+/// The laws of a rod: bending stiffness and curvature at rest by the arc length, SI.
+struct Law {
+    length: f64,
+    stiffness: Box<dyn Fn(f64) -> f64>,
+    rest: Box<dyn Fn(f64) -> f64>,
+}
+
+/// A force at an arc length: size, and the angle by which friction turns it from the normal.
+#[derive(Clone, Copy, Debug)]
+struct Push {
+    s: f64,
+    force: f64,
+    turn: f64,
+}
+
+/// (x, y, phi, m) at the arc lengths `at`, from the base on, by Runge and Kutta's rule; `pushes` with their directions alpha.
+fn integrate(law: &Law, base: [f64; 3], m0: f64, pushes: &[Push], alphas: &[f64], at: &[f64]) -> Vec<[f64; 4]> {
+    let steps = 4000;
+    let rate = |s: f64, v: [f64; 4], [a, b]: [f64; 2]| {
+        let (sin, cos) = v[2].sin_cos();
+        [cos, sin, v[3] / (law.stiffness)(s) + (law.rest)(s), a * cos + b * sin]
+    };
+    let mut marks: Vec<f64> = at.iter().copied().chain(pushes.iter().map(|push| push.s)).collect();
+    marks.sort_by(f64::total_cmp);
+    let (mut s, mut v, mut seen) = (0.0, [base[0], base[1], base[2], m0], Vec::new());
+    for mark in marks {
+        let count = ((mark - s) / law.length * f64::from(steps)).ceil().max(1.0);
+        let h = (mark - s) / count;
+        let mut force = [0.0; 2];
+        for (push, alpha) in pushes.iter().zip(alphas).filter(|(push, _)| push.s > s + 1e-15) {
+            force = [force[0] + push.force * alpha.cos(), force[1] + push.force * alpha.sin()];
+        }
+        let add = |v: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| v[i] + h * k[i]);
+        for _ in 0..count as usize {
+            let k1 = rate(s, v, force);
+            let k2 = rate(s + h / 2.0, add(v, k1, h / 2.0), force);
+            let k3 = rate(s + h / 2.0, add(v, k2, h / 2.0), force);
+            let k4 = rate(s + h, add(v, k3, h), force);
+            v = std::array::from_fn(|i| v[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+            s += h;
+        }
+        s = mark;
+        seen.push((mark, v));
+    }
+    at.iter().map(|at| seen.iter().find(|(mark, _)| mark == at).unwrap().1).collect()
+}
+
+/// The rod clamped at `base` under its pushes: moment at the base and directions by Newton's method with differences, the load growing.
+fn shoot(law: &Law, base: [f64; 3], pushes: &[Push], at: &[f64]) -> (Vec<[f64; 4]>, f64, Vec<f64>) {
+    let places: Vec<f64> = pushes.iter().map(|push| push.s).collect();
+    let last = *places.last().unwrap();
+    let unloaded = integrate(law, base, 0.0, &[], &[], &places);
+    let mut u: Vec<f64> =
+        [0.0].into_iter().chain(unloaded.iter().zip(pushes).map(|(v, push)| v[2] + push.turn)).collect();
+    let unit = (law.stiffness)(0.0) / law.length;
+    for part in 1..=10 {
+        let scaled: Vec<Push> =
+            pushes.iter().map(|push| Push { force: push.force * f64::from(part) / 10.0, ..*push }).collect();
+        for _ in 0..12 {
+            let left = |u: &[f64]| {
+                let mut marks = places.clone();
+                marks.push(last);
+                let found = integrate(law, base, u[0] * unit, &scaled, &u[1..], &marks);
+                let mut left = vec![found[pushes.len()][3] / unit];
+                left.extend(found.iter().zip(pushes).enumerate().map(|(k, (v, push))| v[2] + push.turn - u[k + 1]));
+                left
+            };
+            let now = left(&u);
+            if now.iter().all(|v| v.abs() < 1e-13) {
+                break;
+            }
+            let n = u.len();
+            let mut jacobian = nalgebra::DMatrix::zeros(n, n);
+            for k in 0..n {
+                let (mut one, mut other) = (u.clone(), u.clone());
+                one[k] += 1e-6;
+                other[k] -= 1e-6;
+                for (i, (a, b)) in left(&one).iter().zip(left(&other)).enumerate() {
+                    jacobian[(i, k)] = (a - b) / 2e-6;
+                }
+            }
+            let step = jacobian.lu().solve(&nalgebra::DVector::from_vec(now)).unwrap();
+            u.iter_mut().zip(step.iter()).for_each(|(u, step)| *u -= step);
+        }
+    }
+    let m0 = u[0] * unit;
+    (integrate(law, base, m0, pushes, &u[1..], at), m0, u[1..].to_vec())
+}
+
+/// A uniform rod, a tapered one, and one that tapers and is bent at rest, with their laws.
+fn rods() -> Vec<(AnyRod, Law)> {
+    let (length, base, modulus) = (0.04, 1e-4, 3e9);
+    let wire = StiffnessSpec::of_wire(base, modulus);
+    let stiffness = move |tip: f64| {
+        Box::new(move |s: f64| {
+            let d: f64 = base + (tip - base) * s / length;
+            modulus * std::f64::consts::PI * d.powi(4) / 64.0
+        }) as Box<dyn Fn(f64) -> f64>
+    };
+    let uniform = RodSpec::new(length, wire);
+    let cone = RodSpec { tip_diameter: Some(2e-5), ..uniform.clone() };
+    let bent =
+        RodSpec { natural_curvature: Some(CurvatureSpec::Points(vec![[0.0, 8.0], [length, 20.0]])), ..cone.clone() };
+    let zero = || Box::new(|_: f64| 0.0) as Box<dyn Fn(f64) -> f64>;
+    let law = |tip, rest| Law { length, stiffness: stiffness(tip), rest };
+    vec![
+        (uniform.build().unwrap(), law(base, zero())),
+        (cone.build().unwrap(), law(2e-5, zero())),
+        (bent.build().unwrap(), law(2e-5, Box::new(move |s| 8.0 + 12.0 * s / length))),
+    ]
+}
+
+fn arcs(length: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| length * k as f64 / (count - 1) as f64).collect()
+}
+
+#[test]
+fn exact_points_give_exact_forces() {
+    for (number, (rod, law)) in rods().iter().enumerate() {
+        let unit = rod.units().force;
+        for friction in [0.0_f64, 0.4] {
+            for (s, force, share) in [(0.35, 3.0, 0.5), (0.6, -1.5, -0.9), (0.82, 0.15, 0.99), (1.0, 0.08, 0.3)] {
+                let push = Push { s: s * law.length, force: force * unit, turn: share * friction.atan() };
+                let at = arcs(law.length, 40);
+                let (found, m0, _) = shoot(law, [0.01, -0.02, 0.8], &[push], &at);
+                let points: Vec<[f64; 2]> = found.iter().map(|v| [v[0], v[1]]).collect();
+                let settings = ForceSettings { friction, ..ForceSettings::default() };
+                let film = forces(rod, &[Frame::from_base(&points)], &settings);
+                let told = film.frames[0].as_ref().unwrap();
+                let what = format!("rod {number}, friction {friction}, {push:?}, sigma {:e}: {told:?}", film.sigma);
+                assert_eq!(told.verdict, FrameVerdict::Told, "{what}");
+                assert_eq!(told.contacts.len(), 1, "{what}");
+                let contact = &told.contacts[0];
+                assert!((contact.s - push.s).abs() < 1e-9 * law.length, "{what}");
+                assert!((contact.force - push.force.abs()).abs() < 1e-9 * unit, "{what}");
+                assert!((told.reactions.m0z + m0).abs() < 1e-9 * rod.units().moment, "{what}");
+            }
+        }
+    }
+}
+
+/// Standard normal numbers by Box and Muller's transform of a xorshift generator.
+struct Normal(u64);
+
+impl Normal {
+    fn uniform(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        ((self.0 >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    fn next(&mut self) -> f64 {
+        (-2.0 * self.uniform().ln()).sqrt() * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+/// What of 1,000 frames with noise is as it should be.
+#[derive(Debug, Default)]
+struct Tally {
+    frames: usize,
+    chi_squared: f64,
+    freedom: usize,
+    /// Within 1, 2, 3 standard deviations: of arc length, force, base moment.
+    within: [[usize; 3]; 3],
+    worst: f64,
+    wrong_count: usize,
+    told: usize,
+}
+
+/// Noisy films of rods with one contact, judged against the truth. `friction` is that of the films and known as a limit.
+fn tally(rod: &AnyRod, law: &Law, friction: f64, sigma: f64, know: bool) -> Tally {
+    let unit = rod.units().force;
+    let (at, mut normal, mut tally) = (arcs(law.length, 40), Normal(88_172_645_463_325_252), Tally::default());
+    for (s, force, share) in
+        [(0.3, 4.0, 0.5), (0.45, -2.5, -0.9), (0.55, 1.5, 0.0), (0.7, 1.0, 0.99), (0.8, -0.4, -0.4)]
+    {
+        let push = Push { s: s * law.length, force: force * unit, turn: share * friction.atan() };
+        let (found, m0, _) = shoot(law, [0.01, -0.02, 0.8], &[push], &at);
+        let frames: Vec<Frame> = (0..200)
+            .map(|_| {
+                let points = found.iter().map(|v| [0, 1].map(|c| v[c] + sigma * law.length * normal.next()));
+                Frame::from_base(&points.collect::<Vec<_>>())
+            })
+            .collect();
+        let settings =
+            ForceSettings { friction, sigma: know.then_some(sigma * law.length), ..ForceSettings::default() };
+        let film = forces(rod, &frames, &settings);
+        assert!((film.sigma / (sigma * law.length) - 1.0).abs() < 0.05, "{}", film.sigma);
+        for told in film.frames {
+            let told = told.unwrap();
+            tally.frames += 1;
+            tally.chi_squared += told.chi_squared;
+            tally.freedom += told.freedom;
+            let [contact] = &told.contacts[..] else {
+                tally.wrong_count += 1;
+                continue;
+            };
+            if told.verdict != FrameVerdict::Told {
+                continue;
+            }
+            tally.told += 1;
+            let off = [
+                (contact.s - push.s) / contact.sigmas()[0],
+                (contact.force - push.force.abs()) / contact.sigma_force,
+                (told.reactions.m0z + m0) / told.covariance[5][5].sqrt(),
+            ];
+            for (within, off) in tally.within.iter_mut().zip(off) {
+                for (k, within) in within.iter_mut().enumerate() {
+                    *within += usize::from(off.abs() < (k + 1) as f64);
+                }
+                tally.worst = tally.worst.max(off.abs());
+            }
+        }
+    }
+    tally
+}
+
+#[test]
+fn standard_deviations_are_right() {
+    for (number, (rod, law)) in rods().iter().enumerate() {
+        for friction in [0.0, 0.4] {
+            let tally = tally(rod, law, friction, 0.0005, true);
+            println!("{number} {friction}: {tally:?}");
+            let Tally { frames, chi_squared, freedom, within, worst, wrong_count, told } = tally;
+            assert!((frames, wrong_count) == (1000, 0) && told >= 750 && worst < 6.0, "{number} {friction}");
+            // two-sided band of 99 %
+            assert!(
+                (chi_squared - freedom as f64).abs() < 2.576 * (2.0 * freedom as f64).sqrt(),
+                "{number} {friction}"
+            );
+            // a share of friction is anywhere within its bounds: five shares are no sample of that
+            let least = if friction == 0.0 { [0.60, 0.92, 0.985] } else { [0.50, 0.85, 0.97] };
+            for within in within {
+                for (within, least) in within.iter().zip(least) {
+                    assert!(*within as f64 >= least * told as f64, "{number} {friction} {within}");
+                }
+                assert!(friction > 0.0 || within[0] as f64 <= 0.76 * told as f64, "{number} {within:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn free_rods_are_told_free() {
+    for (number, (rod, law)) in rods().iter().enumerate() {
+        let (at, mut normal) = (arcs(law.length, 40), Normal(77));
+        let rest = integrate(law, [0.01, -0.02, 0.8], 0.0, &[], &[], &at);
+        let frames: Vec<Frame> = (0..1000)
+            .map(|_| {
+                let points = rest.iter().map(|v| [0, 1].map(|c| v[c] + 5e-4 * law.length * normal.next()));
+                Frame::from_base(&points.collect::<Vec<_>>())
+            })
+            .collect();
+        let film = forces(rod, &frames, &ForceSettings::default());
+        let free = film.frames.iter().filter(|told| told.as_ref().is_ok_and(|told| told.contacts.is_empty())).count();
+        assert!(free >= 990, "{number}: {free}");
+    }
+}
