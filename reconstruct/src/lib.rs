@@ -9,7 +9,8 @@
 //! - [`passes`]: the parts of a recording whose clamp turns back, and [`reconstruct_passes`] for all of them; [`reconstruct_general`] for
 //!   any rod on any clamp.
 //! - [`forces`]: forces from shapes. A [`Frame`] has points on the rod, measured numbers at its base ([`Channel`]), or both; of each frame the contacts
-//!   with place and force, the reactions, their covariance, and a [`FrameVerdict`]: what it cannot tell.
+//!   with place and force, the reactions, their covariance, and a [`FrameVerdict`]: what it cannot tell. [`rest_shape`]:
+//!   the curvature at rest from frames of the free rod.
 //! - [`kink`], [`noise_estimate`]: the places where the reactions have kinks and jumps, and their noise.
 //! - [`Assembly`]: contact points of a scan become a [`ContourEstimate`], stretches of a contour and gaps.
 //! - [`align`], [`Comparison`], [`merge`]: offsets of the contours of several scans, where they disagree, and one contour from all.
@@ -75,7 +76,7 @@ pub use fit::{
 #[cfg(feature = "std")]
 pub use frames::{
     Axis, Channel, FamilyMember, Film, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, FrameVerdict,
-    Measurand, SeenPoint, forces,
+    Measurand, RestError, RestShape, SeenPoint, forces, rest_shape,
 };
 #[cfg(feature = "std")]
 pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};

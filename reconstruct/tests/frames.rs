@@ -1,7 +1,7 @@
 //! Forces from shapes, against a rod that is integrated step by step and shot at its free end.
 
 use rod_core::{AnyRod, CurvatureSpec, RodSpec, StiffnessSpec};
-use rod_reconstruct::{ForceSettings, Frame, FrameVerdict, forces};
+use rod_reconstruct::{ForceSettings, Frame, FrameVerdict, forces, rest_shape};
 
 /// The laws of a rod: bending stiffness and curvature at rest by the arc length, SI.
 struct Law {
@@ -260,5 +260,32 @@ fn free_rods_are_told_free() {
         let film = forces(rod, &frames, &ForceSettings::default());
         let free = film.frames.iter().filter(|told| told.as_ref().is_ok_and(|told| told.contacts.is_empty())).count();
         assert!(free >= 990, "{number}: {free}");
+    }
+}
+
+#[test]
+fn the_shape_at_rest_is_found_from_free_frames() {
+    let (_, law) = &rods()[2];
+    let (at, mut normal) = (arcs(law.length, 40), Normal(5));
+    let mut off = [0.0; 3];
+    let trials = 30;
+    for _ in 0..trials {
+        let frames: Vec<Frame> = (0..6)
+            .map(|k| {
+                let rest = integrate(law, [0.01, -0.02, 0.3 * f64::from(k)], 0.0, &[], &[], &at);
+                let points = rest.iter().map(|v| [0, 1].map(|c| v[c] + 5e-4 * law.length * normal.next()));
+                Frame::from_base(&points.collect::<Vec<_>>())
+            })
+            .collect();
+        let rest = rest_shape(law.length, &frames, None).unwrap();
+        assert!(rest.coefficients.len() <= 3 && (rest.sigma / (5e-4 * law.length) - 1.0).abs() < 0.2, "{rest:?}");
+        for (off, s) in off.iter_mut().zip([0.2, 0.5, 0.8]) {
+            let (found, sigma) = rest.curvature(s * law.length);
+            *off += ((found - (law.rest)(s * law.length)) / sigma).powi(2);
+        }
+    }
+    // 99 % of chi squared of 30
+    for off in off {
+        assert!(off > 13.8 && off < 53.7, "{off}");
     }
 }

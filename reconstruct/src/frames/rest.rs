@@ -1,1 +1,368 @@
 //! The shape of a rod at rest, from frames in which nothing touches it.
+
+use super::forces::Film;
+use super::noise::{LEAST, first_guess};
+use super::observation::{Frame, SeenPoint};
+use crate::least_squares::{Damped, NormalMatrix, Problem, iterate};
+use crate::numeric::chi_squared::wilson_hilferty;
+use crate::numeric::legendre;
+use nalgebra::{DMatrix, DVector};
+
+/// Most Legendre polynomials of a curvature.
+const MOST_TERMS: usize = 8;
+/// Cells in which position is integrated: by Simpson's rule, errors of 1e-12 for curvatures of a few turns.
+const CELLS: usize = 256;
+/// Quantile for another term: one in a thousand straight rods gets one by chance.
+const BEYOND_CHANCE: f64 = 3.0902;
+/// How many times terms and noise are found in turn.
+const ROUNDS: usize = 3;
+const MOST_STEPS: usize = 60;
+
+/// Why frames give no shape at rest.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RestError {
+    /// No frame shows enough.
+    #[error("no frame has 5 points or more, expected frames in which nothing touches the rod")]
+    NoFrames,
+    /// No curvature explains the frames.
+    #[error(
+        "no curvature at rest was found that is near the frames: is the rod that of the film, and free in all of them?"
+    )]
+    NoShape,
+}
+
+/// The curvature of a rod at rest, by Legendre polynomials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestShape {
+    /// Length of the rod, m.
+    pub length: f64,
+    /// Coefficients of P_j(2 s / length - 1), 1/m.
+    pub coefficients: Vec<f64>,
+    /// Their covariance, row by row.
+    pub covariance: Vec<Vec<f64>>,
+    /// Standard deviation of the coordinates of points, m.
+    pub sigma: f64,
+    /// Chi squared of all frames, and its degrees of freedom.
+    pub chi_squared: f64,
+    /// Degrees of freedom.
+    pub freedom: usize,
+    /// Number of frames.
+    pub frames: usize,
+}
+
+impl RestShape {
+    /// The curvature at an arc length (m), 1/m, with its standard deviation.
+    pub fn curvature(&self, s: f64) -> (f64, f64) {
+        let mut values = vec![0.0; self.coefficients.len()];
+        legendre::values(2.0 * s / self.length - 1.0, &mut values);
+        let sum = |row: &[f64]| row.iter().zip(&values).map(|(c, p)| c * p).sum::<f64>();
+        let variance = self.covariance.iter().zip(&values).map(|(row, p)| p * sum(row)).sum::<f64>();
+        (sum(&self.coefficients), variance.max(0.0).sqrt())
+    }
+
+    /// Coefficients that are off by one standard deviation, in independent directions.
+    pub fn variations(&self) -> Vec<Vec<f64>> {
+        let n = self.coefficients.len();
+        let covariance = DMatrix::from_fn(n, n, |i, j| self.covariance[i][j]);
+        let eigen = covariance.symmetric_eigen();
+        let vary = |k: usize| {
+            let size = eigen.eigenvalues[k].max(0.0).sqrt();
+            (0..n).map(|i| self.coefficients[i] + size * eigen.eigenvectors[(i, k)]).collect()
+        };
+        (0..n).map(vary).collect()
+    }
+}
+
+/// The curvature at rest that explains all `frames` of a rod of `length` (m) together, with the fewest terms; each frame has a pose of its own.
+///
+/// `sigma` is the standard deviation of the coordinates of the points (m), found from the frames where it is not given.
+///
+/// # Errors
+/// [`RestError`].
+pub fn rest_shape(length: f64, frames: &[Frame], sigma: Option<f64>) -> Result<RestShape, RestError> {
+    let usable: Vec<&Frame> = frames.iter().filter(|frame| frame.points.len() >= 5).collect();
+    if usable.is_empty() {
+        return Err(RestError::NoFrames);
+    }
+    let mut noise = sigma.map_or_else(|| first_guess(usable.iter().copied(), length), |sigma| sigma / length);
+    let mut best = None;
+    for _ in 0..ROUNDS {
+        let found = terms(length, &usable, noise).ok_or(RestError::NoShape)?;
+        let ratio = (found.cost / found.freedom.max(1) as f64).sqrt();
+        let is_settled = sigma.is_some() || (ratio - 1.0).abs() < 0.02;
+        best = Some(found);
+        if is_settled {
+            break;
+        }
+        noise = (noise * ratio).max(LEAST);
+    }
+    let Solved { coefficients, covariance, cost, freedom } = best.ok_or(RestError::NoShape)?;
+    let rows = (0..coefficients.len()).map(|i| covariance.row(i).iter().map(|v| v / (length * length)).collect());
+    Ok(RestShape {
+        length,
+        covariance: rows.collect(),
+        coefficients: coefficients.iter().map(|c| c / length).collect(),
+        sigma: noise * length,
+        chi_squared: cost,
+        freedom,
+        frames: usable.len(),
+    })
+}
+
+/// Coefficients with a number of terms, dimensionless.
+struct Solved {
+    coefficients: DVector<f64>,
+    covariance: DMatrix<f64>,
+    cost: f64,
+    freedom: usize,
+}
+
+/// As many terms as chance does not explain: where one more is not worth it, the next but one may be.
+fn terms(length: f64, frames: &[&Frame], sigma: f64) -> Option<Solved> {
+    let mut best = solve(length, frames, sigma, &DVector::zeros(1))?;
+    while best.coefficients.len() < MOST_TERMS {
+        let count = best.coefficients.len();
+        let more = (1..=2).filter(|more| count + more <= MOST_TERMS).find_map(|more| {
+            let start = best.coefficients.clone().resize_vertically(count + more, 0.0);
+            let next = solve(length, frames, sigma, &start)?;
+            (best.cost - next.cost > wilson_hilferty(more, BEYOND_CHANCE)).then_some(next)
+        });
+        match more {
+            Some(next) => best = next,
+            None => break,
+        }
+    }
+    Some(best)
+}
+
+fn solve(length: f64, frames: &[&Frame], sigma: f64, start: &DVector<f64>) -> Option<Solved> {
+    let films: Vec<Dots> = frames.iter().map(|frame| Dots::of(frame, length, sigma)).collect();
+    let mut problem = Rest { films, terms: start.len(), freedom: 0 };
+    let poses = problem.films.iter().flat_map(|dots| dots.pose);
+    let x = DVector::from_iterator(start.len() + 3 * frames.len(), start.iter().copied().chain(poses));
+    let (mut at, _) = iterate(&mut problem, x, Damped::default(), MOST_STEPS);
+    at.equations = problem.equations(&at.x);
+    let terms = start.len();
+    let covariance = at.equations.covariance()?.view((0, 0), (terms, terms)).into_owned();
+    Some(Solved {
+        coefficients: at.x.rows(0, terms).into_owned(),
+        covariance,
+        cost: at.equations.cost,
+        freedom: problem.freedom.saturating_sub(at.x.len()),
+    })
+}
+
+/// The points of a frame, lengths in L.
+struct Dots {
+    at: Vec<[f64; 2]>,
+    sigma: Vec<f64>,
+    feet: Vec<f64>,
+    /// Whether the first one is the base; otherwise the last one is the tip.
+    from_base: bool,
+    pose: [f64; 3],
+}
+
+impl Dots {
+    fn of(frame: &Frame, length: f64, sigma: f64) -> Self {
+        let at: Vec<[f64; 2]> = frame.points.iter().map(|&SeenPoint { x, y, .. }| [x / length, y / length]).collect();
+        let mut feet = vec![0.0; at.len()];
+        for k in 1..at.len() {
+            feet[k] = feet[k - 1] + (at[k][0] - at[k - 1][0]).hypot(at[k][1] - at[k - 1][1]);
+        }
+        let from_base = frame.base_is_first || !frame.tip_is_last;
+        let last = feet[at.len() - 1];
+        feet.iter_mut().for_each(|foot| *foot = (*foot + if from_base { 0.0 } else { 1.0 - last }).clamp(0.0, 1.0));
+        let near = (at.len() / 5).max(1);
+        let phi = (at[near][1] - at[0][1]).atan2(at[near][0] - at[0][0]);
+        // back to the base along the tangent
+        let back = feet[0];
+        let pose = [at[0][0] - back * phi.cos(), at[0][1] - back * phi.sin(), phi];
+        Self {
+            sigma: frame.points.iter().map(|p| p.sigma.map_or(sigma, |own| own / length)).collect(),
+            at,
+            feet,
+            from_base,
+            pose,
+        }
+    }
+}
+
+/// All frames: the unknowns are the coefficients, and of each frame the pose of its base.
+struct Rest {
+    films: Vec<Dots>,
+    terms: usize,
+    freedom: usize,
+}
+
+/// The rod at rest, from its base at the origin along x, in cells: position, angle, and how they change with the coefficients.
+struct Curve {
+    nodes: Vec<[f64; 3]>,
+    /// Of each node (x, y) by each coefficient.
+    by: Vec<Vec<[f64; 2]>>,
+}
+
+/// Angle and its rates by the coefficients at an arc length: integrals of Legendre polynomials, of which P_j is the difference of two
+/// neighbours.
+fn angle(coefficients: &[f64], s: f64, rates: &mut [f64]) -> f64 {
+    let t = 2.0 * s - 1.0;
+    let mut p = vec![0.0; coefficients.len() + 1];
+    legendre::values(t, &mut p);
+    for (j, rate) in rates.iter_mut().enumerate() {
+        // int_-1^t P_j = (P_j+1 - P_j-1) / (2 j + 1), and t + 1 for j = 0; half of it by s
+        *rate = 0.5 * if j == 0 { t + 1.0 } else { (p[j + 1] - p[j - 1]) / (2 * j + 1) as f64 };
+    }
+    coefficients.iter().zip(rates.iter()).map(|(c, rate)| c * rate).sum()
+}
+
+impl Curve {
+    fn of(coefficients: &[f64]) -> Self {
+        let terms = coefficients.len();
+        let mut nodes = vec![[0.0; 3]];
+        let mut by = vec![vec![[0.0; 2]; terms]];
+        let h = 1.0 / CELLS as f64;
+        let mut rates = vec![0.0; terms];
+        for k in 0..CELLS {
+            let ([mut x, mut y, _], mut rate) = (nodes[k], by[k].clone());
+            let mut phi = 0.0;
+            for (at, weight) in [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)] {
+                phi = angle(coefficients, (k as f64 + at) * h, &mut rates);
+                let (sin, cos) = phi.sin_cos();
+                (x, y) = (x + h * weight * cos, y + h * weight * sin);
+                for (by, rate) in rate.iter_mut().zip(&rates) {
+                    *by = [by[0] - h * weight * sin * rate, by[1] + h * weight * cos * rate];
+                }
+            }
+            nodes.push([x, y, phi]);
+            by.push(rate);
+        }
+        Self { nodes, by }
+    }
+
+    /// Position, angle and rates at an arc length between nodes, by Simpson's rule from the node before.
+    fn at(&self, coefficients: &[f64], s: f64) -> ([f64; 3], Vec<[f64; 2]>, Vec<f64>) {
+        let k = ((s * CELLS as f64) as usize).min(CELLS - 1);
+        let from = k as f64 / CELLS as f64;
+        let h = s - from;
+        let ([mut x, mut y, _], mut by) = (self.nodes[k], self.by[k].clone());
+        let mut rates = vec![0.0; coefficients.len()];
+        let mut phi = 0.0;
+        for (at, weight) in [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)] {
+            phi = angle(coefficients, from + at * h, &mut rates);
+            let (sin, cos) = phi.sin_cos();
+            (x, y) = (x + h * weight * cos, y + h * weight * sin);
+            for (by, rate) in by.iter_mut().zip(&rates) {
+                *by = [by[0] - h * weight * sin * rate, by[1] + h * weight * cos * rate];
+            }
+        }
+        ([x, y, phi], by, rates)
+    }
+}
+
+impl Problem for Rest {
+    type Equations = NormalMatrix;
+
+    fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
+        let coefficients = &x.as_slice()[..self.terms];
+        let curve = Curve::of(coefficients);
+        let mut normal = NormalMatrix::empty(x.len());
+        self.freedom = 0;
+        for (number, dots) in self.films.iter_mut().enumerate() {
+            let first = self.terms + 3 * number;
+            let (sin0, cos0) = x[first + 2].sin_cos();
+            let turn = |[a, b]: [f64; 2]| [a * cos0 - b * sin0, a * sin0 + b * cos0];
+            let last = dots.at.len() - 1;
+            for (k, point) in dots.at.iter().enumerate() {
+                let is_held = if dots.from_base { k == 0 } else { k == last };
+                let foot = dots.feet[k];
+                let ([px, py, phi], by, rates) = curve.at(coefficients, foot);
+                let [rx, ry] = turn([px, py]);
+                let left = [x[first] + rx - point[0], x[first + 1] + ry - point[1]];
+                let (sin, cos) = (phi + x[first + 2]).sin_cos();
+                let ahead = -(left[0] * cos + left[1] * sin);
+                let mut add = |along: [f64; 2], residual: f64, slope: f64| {
+                    let mut row: Vec<(usize, f64)> = by
+                        .iter()
+                        .enumerate()
+                        .map(|(j, by)| {
+                            let [a, b] = turn(*by);
+                            (j, along[0] * a + along[1] * b + slope * rates[j])
+                        })
+                        .collect();
+                    let spin = along[0] * -ry + along[1] * rx + slope;
+                    row.extend([(first, along[0]), (first + 1, along[1]), (first + 2, spin)]);
+                    normal.add(&row, residual, dots.sigma[k]);
+                    self.freedom += 1;
+                };
+                if is_held {
+                    add([1.0, 0.0], left[0], 0.0);
+                    add([0.0, 1.0], left[1], 0.0);
+                } else {
+                    // the residual across the rod; the tangent turns with the unknowns
+                    add([-sin, cos], cos * left[1] - sin * left[0], ahead);
+                    dots.feet[k] = (foot + ahead.clamp(-0.1, 0.1)).clamp(0.0, 1.0);
+                }
+            }
+        }
+        normal
+    }
+}
+
+impl Film {
+    /// Adds to the covariances what the films of rods that are off by one standard deviation each, in independent directions, differ by.
+    pub fn add_errors_of_the_rod(&mut self, others: &[Self]) {
+        for (number, frame) in self.frames.iter_mut().enumerate() {
+            let Ok(frame) = frame else { continue };
+            for other in others {
+                let Some(Ok(other)) = other.frames.get(number) else { continue };
+                if other.contacts.len() != frame.contacts.len() {
+                    continue;
+                }
+                let of = |f: &super::FrameForces| {
+                    [f.base.x, f.base.y, f.base.phi, f.reactions.f0x, f.reactions.f0y, f.reactions.m0z]
+                };
+                let (one, two) = (of(frame), of(other));
+                add_square(&mut frame.covariance, std::array::from_fn(|i| two[i] - one[i]));
+                for (contact, other) in frame.contacts.iter_mut().zip(&other.contacts) {
+                    let of = |c: &super::FrameContact| [c.s, c.x, c.y, c.fx, c.fy];
+                    let (one, two) = (of(contact), of(other));
+                    add_square(&mut contact.covariance, std::array::from_fn(|i| two[i] - one[i]));
+                    contact.sigma_force = contact.sigma_force.hypot(other.force - contact.force);
+                }
+            }
+        }
+    }
+}
+
+fn add_square<const N: usize>(covariance: &mut [[f64; N]; N], change: [f64; N]) {
+    for (row, a) in covariance.iter_mut().zip(change) {
+        row.iter_mut().zip(change).for_each(|(entry, b)| *entry += a * b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_those_of_differences() {
+        let c = [2.0, -1.5, 0.7, 0.3];
+        let at = |c: &[f64], s: f64| Curve::of(c).at(c, s);
+        for s in [0.0, 0.31, 0.777, 1.0] {
+            let (_, by, rates) = at(&c, s);
+            for j in 0..c.len() {
+                let moved =
+                    |h: f64| at(&std::array::from_fn::<f64, 4, _>(|i| c[i] + if i == j { h } else { 0.0 }), s).0;
+                let (one, other) = (moved(1e-5), moved(-1e-5));
+                let difference = [0, 1, 2].map(|i| (one[i] - other[i]) / 2e-5);
+                for (found, exact) in difference.into_iter().zip([by[j][0], by[j][1], rates[j]]) {
+                    assert!((found - exact).abs() < 1e-9, "{s} {j}: {found} {exact}");
+                }
+            }
+        }
+        // an arc of curvature 2
+        let ([x, y, phi], ..) = at(&[2.0], 0.77);
+        assert!((x - 1.54_f64.sin() / 2.0).abs() < 1e-12 && (y - (1.0 - 1.54_f64.cos()) / 2.0).abs() < 1e-12);
+        assert!((phi - 1.54).abs() < 1e-14);
+    }
+}
