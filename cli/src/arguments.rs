@@ -3,7 +3,7 @@
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
 use crate::recording_arguments::{Moved, Written};
-use crate::values::{degrees, directory, friction, no_quiet, number, positive, seed};
+use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use rod_files::SensorAddress;
@@ -68,6 +68,13 @@ sample. Writes recording.csv (clamp poses, reactions and raw values; `vibrissa r
 sample) and summary.json (losses, flags, latency), the first two as it goes. Ends when the clamp has arrived, the recording
 ends, the sensor is silent for 3 s, or with Ctrl-C.";
 
+const FORCES: &str = "\
+Find the forces on a rod from points on it, frame by frame.
+
+Each frame is explained by the elastica with the fewest contacts, none, one or two, each on the side or at the tip. Writes
+forces.jsonl and forces.csv (contacts, forces, reactions of the base, standard deviations, chi squared, and a verdict: what the frame tells),
+rest.json (the curvature at rest, with --rest), frames.svg (shapes and forces) and forces.svg (force and moment over the frames).";
+
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -112,6 +119,9 @@ pub enum Command {
     /// Turn a recording of clamp reactions back into contact points, phases and the contour
     #[command(long_about = RECONSTRUCT, after_help = guide::RECONSTRUCT)]
     Reconstruct(Reconstruct),
+    /// Find the forces on a rod from points on it, frame by frame: tracked whiskers, images, or a part of the signal at the base
+    #[command(long_about = FORCES, after_help = guide::FORCES)]
+    Forces(Forces),
     /// Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings
     #[command(long_about = CALIBRATE, after_help = guide::CALIBRATE)]
     Calibrate(Calibrate),
@@ -214,6 +224,65 @@ pub struct Reconstruct {
     pub trust: Trust,
     #[command(flatten)]
     pub written: Written,
+}
+
+/// Frames of a rod.
+#[derive(Debug, Args)]
+pub struct Forces {
+    /// Points on the rod, a CSV file with the columns frame,x,y and perhaps sigma: one row a point, in order from the base to the tip. Or measured
+    /// numbers at its base, one row a frame: any of x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), base_x,base_y,base_phi, kappa@S (1/m, at the arc
+    /// length S in m), each perhaps with sigma_...
+    #[arg(value_name = "FRAMES")]
+    pub frames: PathBuf,
+    /// The rod, a TOML file with the table [rod] of a scene, or a scene. Without bending_stiffness and youngs_modulus forces are in EI/L^2
+    #[arg(long, value_name = "FILE")]
+    pub rod: PathBuf,
+    /// Frames of the same rod in which nothing touches it, as FRAMES: its curvature at rest is found from them, in place of that of the rod's file
+    #[arg(long, value_name = "FILE")]
+    pub rest: Option<PathBuf>,
+    /// Length of the rod, m, in place of that of its file
+    #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
+    pub length: Option<f64>,
+    /// Measured numbers beside the points, a CSV file with the column frame and columns as FRAMES may have them
+    #[arg(long, value_name = "FILE")]
+    pub channels: Option<PathBuf>,
+    /// Metres per unit of x and y, as the size of a pixel
+    #[arg(long, value_name = "METRES", value_parser = positive, default_value_t = 1.0, allow_negative_numbers = true)]
+    pub scale: f64,
+    /// y counts down, as in images: it is turned
+    #[arg(long)]
+    pub image: bool,
+    /// Which ends of the rod the points show: the first one is the base, or the last one the tip. With both, how much too short the rod looks
+    #[arg(long, value_enum, default_value_t = Visible::Base)]
+    pub visible: Visible,
+    /// Standard deviation of each coordinate of the points, m [default: found in the film]
+    #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
+    pub sigma: Option<f64>,
+    /// Largest coefficient of Coulomb friction at contacts on the side
+    #[arg(long, value_name = "MU", value_parser = not_negative, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub friction: f64,
+    /// Largest number of contacts
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=2), default_value_t = 2, allow_negative_numbers = true)]
+    pub contacts: u8,
+    /// Largest apparent shortening of a rod of which both ends are seen, %: more is a rod bent out of the plane of the image
+    #[arg(long, value_name = "PERCENT", value_parser = positive, default_value_t = 5.0, allow_negative_numbers = true)]
+    pub shortening: f64,
+    /// Directory of the results [default: out/<name of the frames>]
+    #[arg(long, value_name = "DIR", value_parser = directory)]
+    pub out: Option<PathBuf>,
+}
+
+/// Which ends of a rod are seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Visible {
+    /// The first point is the base
+    Base,
+    /// The last point is the tip
+    Tip,
+    /// Both
+    Both,
+    /// Neither: place along the rod is told only where stiffness or curvature at rest vary
+    Neither,
 }
 
 /// How far a recording and its rod can be trusted.

@@ -1,7 +1,8 @@
 //! Why a command fails.
 
 use rod_files::{
-    LiveError, OutputError, ProfileError, ReconstructionError, SceneError, SimulationError, StudyError, TruthError,
+    FilmError, LiveError, OutputError, ProfileError, ReconstructionError, SceneError, SimulationError, StudyError,
+    TruthError,
 };
 use vibrissa::contact::ContactError;
 use vibrissa_cli::{BudgetError, CalibrateError, FakeError, PaperError, WriteError};
@@ -34,6 +35,8 @@ pub enum Error {
     Live(#[from] LiveError),
     #[error(transparent)]
     Reconstruct(#[from] ReconstructionError),
+    #[error(transparent)]
+    Film(#[from] FilmError),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Truth(#[from] TruthError),

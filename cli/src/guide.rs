@@ -55,6 +55,14 @@ Examples:
 
 Next: open contour.svg, phases.svg and residuals.svg of the results in a browser; docs/output-files.md explains every field of the others.";
 
+pub const FORCES: &str = "\
+Examples:
+  vibrissa forces frames.csv --rod whisker.toml
+  vibrissa forces pixels.csv --rod whisker.toml --scale 4.2e-5 --image --rest free.csv
+  vibrissa forces torque.csv --rod rod.toml     # a recording with some of its columns
+
+Next: open frames.svg and forces.svg of the results in a browser; docs/forces-from-shapes.md explains the verdicts.";
+
 pub const CALIBRATE: &str = "\
 Examples:
   vibrissa calibrate first.csv second.csv --rod rod.toml --out calibrated.toml

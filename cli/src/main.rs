@@ -4,6 +4,7 @@ mod accuracy;
 mod accuracy_arguments;
 mod arguments;
 mod error;
+mod film;
 mod guide;
 mod progress;
 mod reconstruction;
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
+        Command::Forces(arguments) => film::forces(arguments),
         Command::Budget(arguments) => accuracy::expect(arguments),
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live(arguments) => live(arguments),

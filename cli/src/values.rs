@@ -26,6 +26,12 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected a number greater than 0".to_owned())
 }
 
+/// A number that is not negative.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    number.ok_or_else(|| "expected a number, 0 or larger".to_owned())
+}
+
 /// What is known of friction: none, estimate, a coefficient, or a coefficient with its standard deviation.
 pub fn friction(text: &str) -> Result<Friction, String> {
     let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);

@@ -5,7 +5,7 @@ mod profile;
 pub use profile::write_profiles;
 
 use crate::figure::{self, FigureError};
-use rod_files::{OutputError, Reconstructed, Scan, Staged};
+use rod_files::{FilmForces, OutputError, Reconstructed, Scan, Staged};
 use std::path::Path;
 
 /// Why results cannot be written.
@@ -47,6 +47,19 @@ pub fn write_reconstruction(found: &Reconstructed, staged: &Staged, folder: &Pat
     match residuals {
         Some(figure) => staged.write(&file, |file| file.write_all(figure.as_bytes()))?,
         None => staged.remove(&file)?,
+    }
+    Ok(())
+}
+
+/// Writes forces.jsonl, forces.csv, rest.json where a shape at rest was found, frames.svg and forces.svg into the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_film(found: &FilmForces, staged: &Staged) -> Result<(), WriteError> {
+    let figures = [("frames.svg", figure::frames(found)?), ("forces.svg", figure::over_frames(found)?)];
+    found.write(staged)?;
+    for (name, figure) in figures {
+        staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
     }
     Ok(())
 }

@@ -96,7 +96,7 @@ pub fn pretty_json(out: &mut dyn Write, record: &impl serde::Serialize) -> io::R
     out.write_all(b"\n")
 }
 
-fn json_line(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {
+pub(crate) fn json_line(out: &mut dyn Write, record: &impl serde::Serialize) -> io::Result<()> {
     serde_json::to_writer(&mut *out, record)?;
     out.write_all(b"\n")
 }

@@ -58,6 +58,32 @@ pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
     parse(file, &toml_file::text("the rod", file)?)
 }
 
+/// A rod that was filmed.
+#[derive(Clone, Debug)]
+pub struct FilmedRod {
+    /// The rod; of an unknown stiffness with that of 1 N m^2 at its base.
+    pub rod: AnyRod,
+    /// Whether its stiffness is known. Otherwise forces are known in E I / L^2 only, and moments in E I / L, with E I at the base.
+    pub is_stiffness_known: bool,
+}
+
+/// The rod in a TOML file as for [`read_rod`], of any kind on any springs, perhaps of another `length` (m) than the file says. It may have no
+/// stiffness at all: neither bending_stiffness nor youngs_modulus.
+///
+/// # Errors
+/// [`SceneError`]: the file cannot be read, or holds no rod.
+pub fn read_filmed_rod(file: &Path, length: Option<f64>) -> Result<FilmedRod, SceneError> {
+    parse_filmed(file, &toml_file::text("the rod", file)?, length)
+}
+
+fn parse_filmed(file: &Path, text: &str, length: Option<f64>) -> Result<FilmedRod, SceneError> {
+    toml_file::parse(file, text, |table| {
+        let file = RodFile::deserialize(Deserializer::from(table))?;
+        let (rod, is_stiffness_known) = rod_table::filmed_rod(&file.rod, file.clamp.as_ref(), length)?;
+        Ok(FilmedRod { rod, is_stiffness_known })
+    })
+}
+
 fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
     toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform(INSTEAD))
 }
@@ -77,6 +103,22 @@ mod tests {
         let scene =
             "[rod]\nlength = 0.1\nbending_stiffness = 1\n[contact]\nfriction = 1\n[sweep]\nfrom = 3\n[[object]]\n";
         assert!(parse("scene.toml".as_ref(), scene).is_ok());
+    }
+
+    #[test]
+    fn a_filmed_rod_may_have_no_stiffness_and_another_length() {
+        let read = |text: &str, length| parse_filmed("rod.toml".as_ref(), text, length).unwrap();
+        let known = read("[rod]\nlength = 0.1\nbending_stiffness = 2e-3\n", Some(0.05));
+        assert!(known.is_stiffness_known && known.rod.length() == 0.05);
+        assert_eq!(known.rod.at_clamp().bending_stiffness(), 2e-3);
+        for text in ["[rod]\nlength = 0.1\n", "[rod]\nlength = 0.1\ndiameter = 1e-3\ntip_diameter = 1e-4\n"] {
+            let unknown = read(text, None);
+            let stiffness = unknown.rod.at_clamp().bending_stiffness();
+            assert!(!unknown.is_stiffness_known && (stiffness - 1.0).abs() < 1e-12, "{stiffness}");
+        }
+        let thin = "[rod]\nlength = 0.1\ntip_diameter = 1e-4\n";
+        let error = parse_filmed("rod.toml".as_ref(), thin, None).unwrap_err().to_string();
+        assert!(error.starts_with("rod.toml:3:16: rod.tip_diameter: "), "{error}");
     }
 
     #[test]

@@ -53,6 +53,30 @@ pub(super) fn rod_for_recordings(
     Ok(alone(table)?.with_springs(springs))
 }
 
+/// The rod of a table for films of it, perhaps of another length, and whether its stiffness is given: if not, it is 1 N m^2 at the base.
+pub(super) fn filmed_rod(
+    table: &Spanned<RodTable>,
+    clamp: Option<&Spanned<ClampTable>>,
+    length: Option<f64>,
+) -> Result<(AnyRod, bool), Fault> {
+    let mut spec = spec(table)?;
+    spec.length = length.unwrap_or(spec.length);
+    let StiffnessSpec { bending_stiffness, diameter, youngs_modulus } = spec.stiffness;
+    let is_known = bending_stiffness.is_some() || youngs_modulus.is_some() || !spec.sections.is_empty();
+    if !is_known {
+        spec.stiffness = match diameter {
+            Some(diameter) => StiffnessSpec::of_wire(diameter, 64.0 / (std::f64::consts::PI * diameter.powi(4))),
+            None => StiffnessSpec::of(1.0),
+        };
+    }
+    if let Some(clamp) = clamp.filter(|_| !is_known) {
+        let message = "springs beside a rod without a stiffness, expected bending_stiffness or youngs_modulus in [rod]";
+        return Err(Fault::new(clamp.span(), message));
+    }
+    let rod = spec.build().map_err(|fault| fault_in_table(table, fault))?;
+    Ok((rod.with_springs(springs(clamp)?), is_known))
+}
+
 /// The rod of a table, if it is uniform and straight at rest; `instead` is what the user may do with another one.
 pub(super) fn uniform(table: &Spanned<RodTable>, instead: &str) -> Result<Rod, Fault> {
     let rod = alone(table)?;

@@ -13,6 +13,8 @@ pub(super) const MOST_STEPS: usize = 60;
 pub(super) const FEW_STEPS: usize = 12;
 /// Share of chi squared by which it falls no more.
 const SETTLED: f64 = 1e-3;
+/// Standard deviations (dimensionless) of channels with which exact ones are solved first.
+const FLOORS: [f64; 5] = [0.1, 1e-2, 1e-3, 1e-4, 1e-5];
 /// Standard deviations from the bounds of friction within which they count.
 const NEAR: f64 = 3.0;
 
@@ -39,7 +41,13 @@ pub(super) fn solve<M: RodModel>(
     friction: f64,
     most_steps: usize,
 ) -> Option<Candidate> {
-    let mut candidate = without_bounds(model, observed, contacts, start, most_steps)?;
+    // exact channels make narrow valleys, which are entered from where they are wide
+    let mut start = start.clone();
+    for floor in FLOORS.into_iter().filter(|floor| *floor > observed.most_exact()) {
+        let blurred = without_bounds(model, &observed.blurred(floor), contacts, &start, most_steps)?;
+        start = Start { u: blurred.u, feet: blurred.feet };
+    }
+    let mut candidate = without_bounds(model, observed, contacts, &start, most_steps)?;
     let mut bounded = Vec::new();
     for number in 0..contacts.len() {
         let Some(across) = candidate.rubbing(number) else { continue };

@@ -30,16 +30,20 @@ impl Allowed {
     }
 }
 
-/// The shape that a frame shows, and the others that explain it as well, each with how much larger its chi squared is.
+/// The shape that a frame shows, and the others that explain it as well.
 pub(super) struct Chosen {
     pub best: Candidate,
-    pub rivals: Vec<(Candidate, f64)>,
+    pub rivals: Vec<Candidate>,
+    /// Of a free rod the contact that chance shows: how large a force may be there unseen.
+    pub unseen: Option<Candidate>,
 }
 
 impl Candidate {
     /// The probability that chance leaves as much.
     pub fn p_value(&self) -> f64 {
-        if self.freedom <= 0 { 1.0 } else { upper_tail(self.chi_squared, self.freedom as f64) }
+        // as many unknowns as numbers leave nothing
+        let left = self.freedom.max(1) as f64;
+        upper_tail(self.chi_squared, left)
     }
 
     pub fn explains(&self) -> bool {
@@ -59,7 +63,7 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     let friction = allowed.friction;
     let free = solve(model, observed, &[], &sight.free(model), friction, MOST_STEPS);
     if allowed.contacts == 0 {
-        return free.map(|best| Chosen { best, rivals: Vec::new() });
+        return free.map(|best| Chosen { best, rivals: Vec::new(), unseen: None });
     }
     let mut singles = one(model, observed, &sight, allowed.side(), friction, MOST_STEPS);
     let most_steps = if singles.iter().any(Candidate::explains) { FEW_STEPS } else { MOST_STEPS };
@@ -67,7 +71,8 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     singles.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     let Some(free) = free else { return settle(singles) };
     if !singles.first().is_some_and(|one| one.is_worth(&free)) {
-        return Some(Chosen { best: free, rivals: Vec::new() });
+        let unseen = (!singles.is_empty()).then(|| singles.swap_remove(0));
+        return Some(Chosen { best: free, rivals: Vec::new(), unseen });
     }
     if singles[0].explains() || allowed.contacts == 1 {
         return settle(singles);
@@ -85,15 +90,15 @@ fn settle(mut candidates: Vec<Candidate>) -> Option<Chosen> {
         return None;
     }
     let best = candidates.remove(0);
-    let mut rivals: Vec<(Candidate, f64)> = Vec::new();
+    let mut rivals: Vec<Candidate> = Vec::new();
     for other in candidates {
         let more = other.chi_squared - best.chi_squared;
-        let is_new = other.differs(&best) && rivals.iter().all(|(rival, _)| other.differs(rival));
+        let is_new = other.differs(&best) && rivals.iter().all(|rival| other.differs(rival));
         if is_new && other.explains() && more < wilson_hilferty(1, BEYOND_CHANCE) {
-            rivals.push((other, more));
+            rivals.push(other);
         }
     }
-    Some(Chosen { best, rivals })
+    Some(Chosen { best, rivals, unseen: None })
 }
 
 /// Distance of contacts (L) from which two shapes are told apart.

@@ -17,6 +17,12 @@ use rod_core::{PhysicalRod, Pose, Reactions, Units};
 /// Length of the points along the rod, as a share of the length of the rod, beyond which they are not of this rod, and below which they are in
 /// another unit.
 const LENGTHS: (f64, f64) = (0.02, 1.3);
+/// Share of the points at which they turn back, from which on they are no curve.
+const NO_CURVE: f64 = 0.2;
+/// Share of the noise that is left with all points in reverse order, from which on it is asked whether they are so.
+const LESS_NOISE: f64 = 0.7;
+/// Most frames by which that is found.
+const FEW: usize = 20;
 /// Cosine of the angle between two chords from which on the points turn back: 120 degrees.
 const TURNS_BACK: f64 = -0.5;
 /// Chords shorter than so many standard deviations have no direction.
@@ -80,6 +86,14 @@ pub struct FrameContact {
 }
 
 impl FrameContact {
+    /// Adds to the covariance what another explanation of the same contact differs by.
+    pub(super) fn add_difference(&mut self, other: &Self) {
+        let of = |c: &Self| [c.s, c.x, c.y, c.fx, c.fy];
+        let (one, two) = (of(self), of(other));
+        add_square(&mut self.covariance, std::array::from_fn(|i| two[i] - one[i]));
+        self.sigma_force = self.sigma_force.hypot(other.force - self.force);
+    }
+
     /// Standard deviations of s, x, y, fx, fy.
     pub fn sigmas(&self) -> [f64; 5] {
         std::array::from_fn(|i| self.covariance[i][i].max(0.0).sqrt())
@@ -138,7 +152,7 @@ pub struct FrameForces {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn forces<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) -> Film {
-    let sigma = settings.sigma.map_or_else(|| noise(rod, frames, settings), |sigma| sigma / rod.units().length);
+    let sigma = settings.sigma.map_or_else(|| found_noise(rod, frames, settings), |sigma| sigma / rod.units().length);
     let frames = frames.iter().map(|frame| of_frame(rod, frame, settings, sigma)).collect();
     Film { frames, sigma: sigma * rod.units().length }
 }
@@ -147,10 +161,27 @@ fn allowed(settings: &ForceSettings) -> Allowed {
     Allowed { contacts: settings.most_contacts, friction: settings.friction.max(0.0) }
 }
 
+/// The noise of the points (L). Where points in reverse order leave much less of it, the noise is that: then no shape explains them as they are.
+fn found_noise<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) -> f64 {
+    let sigma = noise(rod, frames, settings);
+    let few = || frames.iter().step_by(frames.len().div_ceil(FEW).max(1));
+    let reversed: Vec<Frame> = few().map(reversed).collect();
+    let of_few: Vec<Frame> = few().cloned().collect();
+    let (less, same) = (noise(rod, &reversed, settings), noise(rod, &of_few, settings));
+    if less > LEAST && less < LESS_NOISE * same { sigma.min(less) } else { sigma }
+}
+
+fn reversed(frame: &Frame) -> Frame {
+    let mut reversed = frame.clone();
+    reversed.points.reverse();
+    reversed
+}
+
 /// The noise of the points (L), from what the best shapes leave of a sample of the frames.
 fn noise<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) -> f64 {
     let needs = |frame: &&Frame| frame.points.len() > 3 && frame.points.iter().any(|point| point.sigma.is_none());
-    let usable: Vec<&Frame> = frames.iter().filter(needs).filter(|frame| check(rod, frame, LEAST).is_ok()).collect();
+    let usable: Vec<&Frame> =
+        frames.iter().filter(needs).filter(|frame| check(rod, frame, f64::INFINITY).is_ok()).collect();
     let mut sigma = first_guess(usable.iter().copied(), rod.units().length);
     let stride = usable.len().div_ceil(SAMPLE).max(1);
     for _ in 0..ROUNDS {
@@ -202,10 +233,20 @@ fn check<R: PhysicalRod>(rod: &R, frame: &Frame, sigma: f64) -> Result<(), Frame
     let chords: Vec<[f64; 2]> =
         frame.points.windows(2).map(|pair| [pair[1].x - pair[0].x, pair[1].y - pair[0].y]).collect();
     let length = rod.units().length;
+    let turns_back = |sharp: f64| {
+        let turns = move |pair: &[[f64; 2]]| {
+            let [[ax, ay], [bx, by]] = [pair[0], pair[1]];
+            let (a, b) = (ax.hypot(ay), bx.hypot(by));
+            a > sharp && b > sharp && ax * bx + ay * by < TURNS_BACK * a * b
+        };
+        chords.windows(2).map(turns)
+    };
     let measured: f64 = chords.iter().map(|[x, y]| x.hypot(*y)).sum();
     let ratio = measured / length;
     if !(LENGTHS.0..=LENGTHS.1).contains(&ratio) {
+        let back = turns_back(0.0).filter(|turns| *turns).count() as f64;
         let hint = match ratio {
+            _ if back > NO_CURVE * chords.len() as f64 => "they turn back all along: are two rods mixed?".to_owned(),
             300.0..3000.0 => "are the points in mm?".to_owned(),
             3000.0.. => "are the points in pixels, without a scale?".to_owned(),
             3e-4..3e-3 => "is the rod's length in mm?".to_owned(),
@@ -213,12 +254,7 @@ fn check<R: PhysicalRod>(rod: &R, frame: &Frame, sigma: f64) -> Result<(), Frame
         };
         return Err(FrameFault::Length { measured, length, hint });
     }
-    let sharp = SHARP * sigma * length;
-    let back = chords.windows(2).position(|pair| {
-        let [[ax, ay], [bx, by]] = [pair[0], pair[1]];
-        let (a, b) = (ax.hypot(ay), bx.hypot(by));
-        a > sharp && b > sharp && ax * bx + ay * by < TURNS_BACK * a * b
-    });
+    let back = turns_back(SHARP * sigma * length).position(|turns| turns);
     back.map_or(Ok(()), |k| Err(FrameFault::Order { point: k + 1 }))
 }
 
@@ -241,14 +277,30 @@ fn of_frame<R: PhysicalRod>(
         return Err(FrameFault::OutOfPlane { shortening: 1e2 * share, most: 1e2 * settings.most_shortening });
     }
     let units = rod.units();
-    let Chosen { best, rivals } = chosen;
-    let contacts = contacts(&best, &units);
+    let Chosen { best, rivals, unseen } = chosen;
+    let mut contacts = contacts(&best, &units);
     let sigmas = contacts.iter().map(|contact| {
         let share = if contact.force > 0.0 { contact.sigma_force / contact.force } else { f64::INFINITY };
         (contact.sigmas()[0] / units.length, share)
     });
     let verdict = verdict(&best, rivals.len(), sigmas);
-    let (pose, reactions, covariance) = at_base(&best, &units);
+    let (pose, reactions, mut covariance) = at_base(&best, &units);
+    // what another explanation says differs from this one by an error of this one; of a free rod that is what chance shows, with its own error
+    for other in rivals.iter().chain(&unseen) {
+        let (base, felt, its_own) = at_base(other, &units);
+        let of = |base: &Pose, felt: &Reactions| [base.x, base.y, base.phi, felt.f0x, felt.f0y, felt.m0z];
+        let (one, two) = (of(&pose, &reactions), of(&base, &felt));
+        add_square(&mut covariance, std::array::from_fn(|i| two[i] - one[i]));
+        if unseen.is_some() {
+            for i in 3..6 {
+                (3..6).for_each(|j| covariance[i][j] += its_own[i][j]);
+            }
+        }
+        let others = self::contacts(other, &units);
+        if others.len() == contacts.len() {
+            contacts.iter_mut().zip(&others).for_each(|(contact, other)| contact.add_difference(other));
+        }
+    }
     let is_family = verdict == FrameVerdict::Family;
     Ok(FrameForces {
         verdict,
@@ -260,16 +312,14 @@ fn of_frame<R: PhysicalRod>(
         freedom: best.freedom.max(0) as usize,
         p_value: best.p_value(),
         shortening,
-        rivals: rivals.iter().map(|(rival, _)| self::contacts(rival, &units)).collect(),
+        rivals: rivals.iter().map(|rival| self::contacts(rival, &units)).collect(),
         family: if is_family { family(rod.model(), &observed, &units, allowed(settings).friction) } else { Vec::new() },
     })
 }
 
 /// Whether the points in reverse order are of a shape of the rod.
 fn is_explained_reversed<R: PhysicalRod>(rod: &R, frame: &Frame, settings: &ForceSettings, sigma: f64) -> bool {
-    let mut reversed = frame.clone();
-    reversed.points.reverse();
-    let chosen = choose(rod.model(), &Observed::new(&reversed, rod, sigma), allowed(settings));
+    let chosen = choose(rod.model(), &Observed::new(&reversed(frame), rod, sigma), allowed(settings));
     chosen.is_some_and(|chosen| chosen.best.explains())
 }
 
@@ -316,6 +366,13 @@ fn in_units(best: &Candidate, contact: &Contact, units: &Units) -> FrameContact 
         is_tip: *is_tip,
         covariance,
         sigma_force: sigma_of_size([b, -a].map(|part| part * units.force), &covariance),
+    }
+}
+
+/// Adds the square of a change, as of one standard deviation.
+pub(super) fn add_square<const N: usize>(covariance: &mut [[f64; N]; N], change: [f64; N]) {
+    for (row, a) in covariance.iter_mut().zip(change) {
+        row.iter_mut().zip(change).for_each(|(entry, b)| *entry += a * b);
     }
 }
 

@@ -62,6 +62,17 @@ impl Observed {
         }
     }
 
+    /// The same with no channel more exact than `floor`.
+    pub fn blurred(&self, floor: f64) -> Self {
+        let blur = |channel: &Measured| Measured { sigma: channel.sigma.max(floor), ..*channel };
+        Self { dots: self.dots.clone(), channels: self.channels.iter().map(blur).collect(), ..*self }
+    }
+
+    /// The most exact channel.
+    pub fn most_exact(&self) -> f64 {
+        self.channels.iter().fold(f64::INFINITY, |least, channel| least.min(channel.sigma))
+    }
+
     /// The value of a channel, where there is one for this quantity.
     pub fn channel(&self, quantity: Measurand) -> Option<f64> {
         self.channels.iter().find(|channel| channel.quantity == quantity).map(|channel| channel.value)

@@ -1,6 +1,6 @@
 //! The shape of a rod at rest, from frames in which nothing touches it.
 
-use super::forces::Film;
+use super::forces::{Film, add_square};
 use super::noise::{LEAST, first_guess};
 use super::observation::{Frame, SeenPoint};
 use crate::least_squares::{Damped, NormalMatrix, Problem, iterate};
@@ -323,20 +323,9 @@ impl Film {
                 };
                 let (one, two) = (of(frame), of(other));
                 add_square(&mut frame.covariance, std::array::from_fn(|i| two[i] - one[i]));
-                for (contact, other) in frame.contacts.iter_mut().zip(&other.contacts) {
-                    let of = |c: &super::FrameContact| [c.s, c.x, c.y, c.fx, c.fy];
-                    let (one, two) = (of(contact), of(other));
-                    add_square(&mut contact.covariance, std::array::from_fn(|i| two[i] - one[i]));
-                    contact.sigma_force = contact.sigma_force.hypot(other.force - contact.force);
-                }
+                frame.contacts.iter_mut().zip(&other.contacts).for_each(|(one, two)| one.add_difference(two));
             }
         }
-    }
-}
-
-fn add_square<const N: usize>(covariance: &mut [[f64; N]; N], change: [f64; N]) {
-    for (row, a) in covariance.iter_mut().zip(change) {
-        row.iter_mut().zip(change).for_each(|(entry, b)| *entry += a * b);
     }
 }
 

@@ -1,0 +1,171 @@
+//! A film: the points of some frames with the rod through them and the forces on it, and forces and moments over the frames.
+
+use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
+use super::element::Element;
+use super::line::thin_line;
+use super::palette::{FAINT, FIRST, INK, MUTED, TRANSITION};
+use super::plane::PlaneWindow;
+use super::trace::{self, Along, LINE, TracePart};
+use rod_files::FilmForces;
+use vibrissa::reconstruct::{FrameContact, FrameForces};
+use vibrissa::rod::{Elastica, Load, RodError};
+
+/// Most frames that are drawn.
+const MOST: usize = 25;
+/// Points on a rod.
+const POINTS: usize = 200;
+/// Least and largest height of the plane, height of the title, and of a plot over the frames, pixels.
+const HEIGHT: (f64, f64) = (300.0, 1200.0);
+const HEAD: u32 = 110;
+const PLOT: u32 = 240;
+/// Length of the largest force that is drawn, pixels.
+const ARROW: f64 = 110.0;
+/// Radius of a point, pixels.
+const DOT: i32 = 2;
+
+type Curve = Vec<(f64, f64)>;
+
+/// Draws shapes and forces of some frames.
+pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
+    let every = found.frames.len().div_ceil(MOST).max(1);
+    let drawn = || found.frames.iter().zip(&found.film.frames).step_by(every);
+    let dots = || drawn().flat_map(|((_, frame), _)| frame.points.iter().map(|point| (1e3 * point.x, 1e3 * point.y)));
+    let told = || drawn().filter_map(|(_, told)| told.as_ref().ok());
+    let rods: Vec<Curve> = told().filter_map(|told| rod(found, told).ok()).collect();
+    let all = || dots().chain(rods.iter().flatten().copied());
+    if all().next().is_none() {
+        return svg((PAGE, HEAD), |root| write(root, &found.name, (24, 36), HPos::Left, TITLE, INK));
+    }
+    let (x, y) = (span(all().map(|point| point.0), 0.08), span(all().map(|point| point.1), 0.08));
+    let (beside, below) = PlaneWindow::TRIMMINGS;
+    let plot = f64::from(PAGE - beside);
+    let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
+    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
+    let largest =
+        told().flat_map(|told| &told.contacts).fold(f64::MIN_POSITIVE, |most, contact| most.max(contact.force));
+    svg((PAGE, HEAD + below + high.ceil() as u32), |root| {
+        let (head, area) = root.split_vertically(HEAD);
+        let shown = if every > 1 { format!(", one of {every} frames") } else { String::new() };
+        write(
+            &head,
+            &format!("{}: the rod and the forces on it{shown}", found.name),
+            (24, 36),
+            HPos::Left,
+            TITLE,
+            INK,
+        )?;
+        let (name, unit) = force_unit(found);
+        let unit = format!("{:.3} {name}", largest / unit);
+        write(
+            &head,
+            &format!("dots: points; lines: the rod; arrows: forces, the longest {unit}"),
+            (24, 80),
+            HPos::Left,
+            BODY,
+            MUTED,
+        )?;
+        let chart = window.chart(&area, (12, 8))?;
+        chart.draw_series(rods.iter().map(|rod| {
+            Element::line(thin_line(rod.iter().copied(), (window.scale, window.scale)), FAINT.stroke_width(2))
+        }))?;
+        chart.draw_series(dots().map(|at| Element::circle(at, DOT, MUTED.filled())))?;
+        let length = window.scale * ARROW / largest;
+        for contact in told().flat_map(|told| &told.contacts) {
+            for line in arrow(contact, length, window.scale) {
+                chart.draw_series([Element::line(line, FIRST.stroke_width(LINE / 2))])?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The unit of forces in figures, by the largest one, and what it is in N.
+fn force_unit(found: &FilmForces) -> (&'static str, f64) {
+    if !found.rod.is_stiffness_known {
+        return ("EI/L²", found.rod.rod.units().force);
+    }
+    let told = found.film.frames.iter().flatten();
+    let largest = told.flat_map(|told| &told.contacts).fold(0.0_f64, |most, contact| most.max(contact.force));
+    if largest < 1e-4 { ("µN", 1e-6) } else { ("mN", 1e-3) }
+}
+
+/// The rod of a frame, mm.
+fn rod(found: &FilmForces, told: &FrameForces) -> Result<Curve, RodError> {
+    let load =
+        |contact: &FrameContact| Load { s: contact.s, force: contact.force, alpha: contact.fx.atan2(-contact.fy) };
+    let loads: Vec<Load> = told.contacts.iter().map(load).collect();
+    let rod = &found.rod.rod;
+    let shape = Elastica::of_rod(rod.clone(), rod.units(), told.base, told.reactions.m0z, &loads)?;
+    Ok(shape.sample(POINTS).map(|at| (1e3 * at.x, 1e3 * at.y)).collect())
+}
+
+/// The lines of an arrow that ends in a contact.
+fn arrow(contact: &FrameContact, length: f64, pixel: f64) -> [Curve; 2] {
+    let to = (1e3 * contact.x, 1e3 * contact.y);
+    let back = |along: f64, across: f64| {
+        let (x, y) = (contact.fx / contact.force, contact.fy / contact.force);
+        (to.0 - along * x - across * y, to.1 - along * y + across * x)
+    };
+    let head = 10.0 * pixel;
+    [vec![back(length * contact.force, 0.0), to], vec![back(head, 0.5 * head), to, back(head, -0.5 * head)]]
+}
+
+/// Draws force and place of the first contact and the moment at the base over the frames, with one standard deviation on either side.
+pub(crate) fn over_frames(found: &FilmForces) -> Result<String, FigureError> {
+    let is_known = found.rod.is_stiffness_known;
+    let (unit, force) = force_unit(found);
+    let moment = if is_known { 1e-6 } else { found.rod.rod.units().moment };
+    let first = format!("force in {unit}");
+    let names = [first.as_str(), "s in mm", if is_known { "m_{0z} in µN m" } else { "m_{0z} in EI/L" }];
+    type Quantity = fn(&FrameForces) -> Option<(f64, f64)>;
+    let quantities: [(Quantity, f64); 3] = [
+        (|told| told.contacts.first().map(|contact| (contact.force, contact.sigma_force)), force),
+        (|told| told.contacts.first().map(|contact| (contact.s, contact.sigmas()[0])), 1e-3),
+        (|told| Some((told.reactions.m0z, told.covariance[5][5].max(0.0).sqrt())), moment),
+    ];
+    let numbers: Vec<f64> = found.frames.iter().map(|(number, _)| *number as f64).collect();
+    let along = Along {
+        across: span(numbers.iter().copied(), 0.02),
+        foot: "frame".into(),
+        phases: Vec::new(),
+        marks: Vec::new(),
+        legs: Vec::new(),
+        modes: Vec::new(),
+    };
+    let height = HEAD + PLOT * names.len() as u32 + trace::trimmings(true, true);
+    svg((PAGE, height), |root| {
+        let (head, rest) = root.split_vertically(HEAD);
+        write(
+            &head,
+            &format!("{}: the first contact, and the moment at the base", found.name),
+            (24, 36),
+            HPos::Left,
+            TITLE,
+            INK,
+        )?;
+        write(&head, "vertical bars: one standard deviation on either side", (24, 80), HPos::Left, BODY, MUTED)?;
+        let traces = names.into_iter().zip(quantities).map(|(name, (quantity, unit))| {
+            let values: Vec<Option<(f64, f64)>> =
+                found.film.frames.iter().map(|told| told.as_ref().ok().and_then(quantity)).collect();
+            (name, parts(&numbers, &values, unit))
+        });
+        trace::stack(root, &rest, &along, PLOT, traces.collect())
+    })
+}
+
+/// Bars of standard deviations, and lines through the values of neighbouring frames.
+fn parts(numbers: &[f64], values: &[Option<(f64, f64)>], unit: f64) -> Vec<TracePart> {
+    let known: Vec<(f64, Option<(f64, f64)>)> = numbers.iter().copied().zip(values.iter().copied()).collect();
+    let bar = |(at, value): &(f64, Option<(f64, f64)>)| {
+        let (value, sigma) = value.filter(|(_, sigma)| sigma.is_finite())?;
+        let points = vec![(*at, (value - sigma) / unit), (*at, (value + sigma) / unit)];
+        Some(TracePart { points, style: FAINT.stroke_width(LINE) })
+    };
+    let bars = known.iter().filter_map(bar);
+    let runs = known.chunk_by(|one, other| one.1.is_some() == other.1.is_some());
+    let line = |run: &[(f64, Option<(f64, f64)>)]| TracePart {
+        points: run.iter().filter_map(|(at, value)| value.map(|(value, _)| (*at, value / unit))).collect(),
+        style: TRANSITION.stroke_width(2),
+    };
+    bars.chain(runs.map(line).filter(|part| !part.points.is_empty())).collect()
+}

@@ -1,0 +1,57 @@
+//! The command `forces`.
+
+use crate::arguments::{Forces, Visible};
+use crate::error::Error;
+use crate::progress::stage;
+use crate::{UNFINISHED, say, signals, warn};
+use rod_files::{Ends, FilmForces, FilmOptions, Staged, read_filmed_rod};
+use std::path::Path;
+use std::process::ExitCode;
+use vibrissa::reconstruct::ForceSettings;
+use vibrissa_cli::write_film;
+
+/// Share of frames that chance alone may leave unexplained, with room: one in a thousand is expected.
+const BY_CHANCE: f64 = 0.01;
+
+pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
+    let Forces {
+        frames,
+        rod,
+        rest,
+        length,
+        channels,
+        scale,
+        image,
+        visible,
+        sigma,
+        friction,
+        contacts,
+        shortening,
+        out,
+    } = arguments;
+    signals::end();
+    let filmed = read_filmed_rod(&rod, length)?;
+    let settings = ForceSettings { friction, sigma, most_contacts: contacts.into(), most_shortening: shortening / 1e2 };
+    let ends = match visible {
+        Visible::Base => Ends::Base,
+        Visible::Tip => Ends::Tip,
+        Visible::Both => Ends::Both,
+        Visible::Neither => Ends::Neither,
+    };
+    let inputs = [frames.clone(), rod].into_iter().chain(rest.clone()).chain(channels.clone()).collect();
+    let options = FilmOptions { scale, image, ends, channels, rest, settings };
+    stage(&format!("{}: finding the forces", frames.display()));
+    let found = FilmForces::read(&frames, filmed, &options)?;
+    let out = out.unwrap_or_else(|| Path::new("out").join(&found.name));
+    let staged = Staged::new(&out)?.keeping(inputs);
+    write_film(&found, &staged)?;
+    staged.publish()?;
+    say(&found.summary());
+    say(&format!("written to {}\n", out.display()));
+    for warning in found.warnings() {
+        warn(&format!("warning: {}: {warning}\n", frames.display()));
+    }
+    let (faults, unexplained) = found.failures();
+    let is_fine = faults == 0 && unexplained as f64 <= BY_CHANCE * found.frames.len() as f64;
+    Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })
+}

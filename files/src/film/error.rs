@@ -1,0 +1,65 @@
+//! Why a table is no film.
+
+use std::path::PathBuf;
+use vibrissa::reconstruct::RestError;
+use vibrissa::rod::RodError;
+
+/// Why a table is no film.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FilmError {
+    /// The file cannot be read, or is no table.
+    #[error("cannot read the frames {}: {source}", file.display())]
+    Unreadable {
+        /// Which file.
+        file: PathBuf,
+        /// Why.
+        source: csv::Error,
+    },
+    /// A column is missing.
+    #[error("{}:1: no column {missing}, found {found}; expected {expected}", file.display())]
+    Missing {
+        /// Which file.
+        file: PathBuf,
+        /// Which column.
+        missing: String,
+        /// All there are.
+        found: String,
+        /// What a table has.
+        expected: &'static str,
+    },
+    /// Rows that cannot be used, the first ones.
+    #[error("{}: {}", file.display(), faults.join("\n"))]
+    Rows {
+        /// Which file.
+        file: PathBuf,
+        /// Each with its line, value and what was expected.
+        faults: Vec<String>,
+    },
+    /// There is no row.
+    #[error("{}: no frame, expected rows below the names of the columns", file.display())]
+    Empty {
+        /// Which file.
+        file: PathBuf,
+    },
+    /// The frames of the free rod give no shape at rest.
+    #[error("{}: {source}", file.display())]
+    Rest {
+        /// Which file.
+        file: PathBuf,
+        /// Why.
+        source: AtRestError,
+    },
+}
+
+/// Why frames of the free rod give no shape at rest.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AtRestError {
+    /// No curvature explains them.
+    #[error(transparent)]
+    Shape(#[from] RestError),
+    /// The curvature is none that a rod can have.
+    #[error("the shape at rest: {0}")]
+    Rod(#[from] RodError),
+}

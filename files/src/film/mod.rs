@@ -1,0 +1,12 @@
+//! Films of a rod: points on it, frame by frame, and measured numbers at its base, from tables to files of forces.
+
+mod channels;
+mod error;
+mod points;
+mod record;
+mod result;
+mod summary;
+mod table;
+
+pub use error::{AtRestError, FilmError};
+pub use result::{Ends, FilmForces, FilmOptions};

@@ -1,0 +1,271 @@
+//! Frames as they are written.
+
+use crate::FilmedRod;
+use serde::Serialize;
+use vibrissa::reconstruct::{FrameContact, FrameFault, FrameForces, RestShape};
+
+/// Columns of forces.csv.
+pub(super) const COLUMNS: [&str; 24] = [
+    "frame",
+    "verdict",
+    "contacts",
+    "s",
+    "x",
+    "y",
+    "force",
+    "fx",
+    "fy",
+    "sigma_s",
+    "sigma_x",
+    "sigma_y",
+    "sigma_force",
+    "f0x",
+    "f0y",
+    "m0z",
+    "sigma_f0x",
+    "sigma_f0y",
+    "sigma_m0z",
+    "x0",
+    "y0",
+    "phi0",
+    "chi2",
+    "freedom",
+];
+
+/// What numbers of a rod of unknown stiffness, computed with 1 N m^2, are divided by: forces come in E I / L^2, moments in E I / L.
+fn units(rod: &FilmedRod) -> (f64, f64) {
+    let units = rod.rod.units();
+    if rod.is_stiffness_known { (1.0, 1.0) } else { (units.force, units.moment) }
+}
+
+/// A line of forces.jsonl. Numbers that are not determined are null.
+#[derive(Default, Serialize)]
+pub(super) struct FrameRecord {
+    frame: i64,
+    verdict: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<String>,
+    contacts: Vec<ContactRecord>,
+    s: Option<f64>,
+    x: Option<f64>,
+    y: Option<f64>,
+    force: Option<f64>,
+    sigma_s: Option<f64>,
+    sigma_force: Option<f64>,
+    f0x: Option<f64>,
+    f0y: Option<f64>,
+    m0z: Option<f64>,
+    sigma_f0x: Option<f64>,
+    sigma_f0y: Option<f64>,
+    sigma_m0z: Option<f64>,
+    /// Of (f0x, f0y, m0z).
+    covariance: Option<[[f64; 3]; 3]>,
+    x0: Option<f64>,
+    y0: Option<f64>,
+    phi0: Option<f64>,
+    sigma_x0: Option<f64>,
+    sigma_y0: Option<f64>,
+    sigma_phi0: Option<f64>,
+    chi2: Option<f64>,
+    freedom: Option<usize>,
+    p: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shortening: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sigma_shortening: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rivals: Vec<Vec<ContactRecord>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    family: Vec<MemberRecord>,
+    force_unit: &'static str,
+}
+
+#[derive(Clone, Serialize)]
+struct ContactRecord {
+    s: f64,
+    x: f64,
+    y: f64,
+    force: f64,
+    fx: f64,
+    fy: f64,
+    tip: bool,
+    sigma_s: Option<f64>,
+    sigma_x: Option<f64>,
+    sigma_y: Option<f64>,
+    sigma_force: Option<f64>,
+    sigma_fx: Option<f64>,
+    sigma_fy: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct MemberRecord {
+    s: f64,
+    x: f64,
+    y: f64,
+    force: f64,
+    chi2: f64,
+}
+
+/// A number, if it is one.
+fn known(number: f64) -> Option<f64> {
+    Some(number).filter(|number| number.is_finite())
+}
+
+impl ContactRecord {
+    fn of(contact: &FrameContact, force: f64) -> Self {
+        let [s, x, y, fx, fy] = contact.sigmas();
+        Self {
+            s: contact.s,
+            x: contact.x,
+            y: contact.y,
+            force: contact.force / force,
+            fx: contact.fx / force,
+            fy: contact.fy / force,
+            tip: contact.is_tip,
+            sigma_s: known(s),
+            sigma_x: known(x),
+            sigma_y: known(y),
+            sigma_force: known(contact.sigma_force / force),
+            sigma_fx: known(fx / force),
+            sigma_fy: known(fy / force),
+        }
+    }
+}
+
+impl FrameRecord {
+    pub fn of(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Self {
+        let (force, moment) = units(rod);
+        let force_unit = if rod.is_stiffness_known { "N" } else { "EI/L^2" };
+        let told = match told {
+            Ok(told) => told,
+            Err(fault) => return Self::of_fault(frame, fault, force_unit),
+        };
+        let contacts = |contacts: &[FrameContact]| -> Vec<_> {
+            contacts.iter().map(|contact| ContactRecord::of(contact, force)).collect()
+        };
+        let own = contacts(&told.contacts);
+        let first = own.first().cloned();
+        let sizes = [force, force, moment];
+        let sigma = |k: usize| told.covariance[k][k].max(0.0).sqrt();
+        let reactions: [[f64; 3]; 3] =
+            std::array::from_fn(|i| std::array::from_fn(|j| told.covariance[i + 3][j + 3] / sizes[i] / sizes[j]));
+        let of = |number: fn(&ContactRecord) -> Option<f64>| first.as_ref().and_then(number);
+        Self {
+            frame,
+            verdict: told.verdict.to_string(),
+            fault: None,
+            s: of(|c| Some(c.s)),
+            x: of(|c| Some(c.x)),
+            y: of(|c| Some(c.y)),
+            force: of(|c| Some(c.force)),
+            sigma_s: of(|c| c.sigma_s),
+            sigma_force: of(|c| c.sigma_force),
+            f0x: Some(told.reactions.f0x / force),
+            f0y: Some(told.reactions.f0y / force),
+            m0z: Some(told.reactions.m0z / moment),
+            sigma_f0x: known(sigma(3) / force),
+            sigma_f0y: known(sigma(4) / force),
+            sigma_m0z: known(sigma(5) / moment),
+            covariance: reactions[0][0].is_finite().then_some(reactions),
+            x0: Some(told.base.x),
+            y0: Some(told.base.y),
+            phi0: Some(told.base.phi),
+            sigma_x0: known(sigma(0)),
+            sigma_y0: known(sigma(1)),
+            sigma_phi0: known(sigma(2)),
+            chi2: Some(told.chi_squared),
+            freedom: Some(told.freedom),
+            p: Some(told.p_value),
+            shortening: told.shortening.map(|(share, _)| share),
+            sigma_shortening: told.shortening.map(|(_, sigma)| sigma),
+            rivals: told.rivals.iter().map(|rival| contacts(rival)).collect(),
+            family: told
+                .family
+                .iter()
+                .map(|member| MemberRecord {
+                    s: member.s,
+                    x: member.x,
+                    y: member.y,
+                    force: member.force / force,
+                    chi2: member.chi_squared,
+                })
+                .collect(),
+            contacts: own,
+            force_unit,
+        }
+    }
+
+    fn of_fault(frame: i64, fault: &FrameFault, force_unit: &'static str) -> Self {
+        Self { frame, verdict: "fault".into(), fault: Some(fault.to_string()), force_unit, ..Self::default() }
+    }
+}
+
+/// A row of forces.csv.
+pub(super) fn row(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Vec<String> {
+    let record = FrameRecord::of(frame, told, rod);
+    let first = record.contacts.first().cloned();
+    let cell = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
+    let of = |number: fn(&ContactRecord) -> Option<f64>| cell(first.as_ref().and_then(number));
+    let mut row = vec![frame.to_string(), record.verdict.clone(), record.contacts.len().to_string()];
+    row.extend([
+        of(|c| Some(c.s)),
+        of(|c| Some(c.x)),
+        of(|c| Some(c.y)),
+        of(|c| Some(c.force)),
+        of(|c| Some(c.fx)),
+        of(|c| Some(c.fy)),
+        of(|c| c.sigma_s),
+        of(|c| c.sigma_x),
+        of(|c| c.sigma_y),
+        of(|c| c.sigma_force),
+    ]);
+    let numbers = [
+        record.f0x,
+        record.f0y,
+        record.m0z,
+        record.sigma_f0x,
+        record.sigma_f0y,
+        record.sigma_m0z,
+        record.x0,
+        record.y0,
+        record.phi0,
+        record.chi2,
+    ];
+    row.extend(numbers.map(cell));
+    row.push(record.freedom.map_or_else(String::new, |freedom| freedom.to_string()));
+    row
+}
+
+/// The file rest.json.
+#[derive(Serialize)]
+pub(super) struct RestRecord {
+    /// Arc length (m), curvature (1/m), its standard deviation (1/m): as the field natural_curvature takes the first two.
+    natural_curvature: Vec<[f64; 2]>,
+    sigma: Vec<f64>,
+    legendre: Vec<f64>,
+    covariance: Vec<Vec<f64>>,
+    chi2: f64,
+    freedom: usize,
+    frames: usize,
+    sigma_points: f64,
+}
+
+/// Number of points at which the curvature at rest is written.
+const POINTS: usize = 41;
+
+impl RestRecord {
+    pub fn of(rest: &RestShape) -> Self {
+        let places = (0..POINTS).map(|k| rest.length * k as f64 / (POINTS - 1) as f64);
+        let (points, sigma) = places.map(|s| (s, rest.curvature(s))).map(|(s, (of, sigma))| ([s, of], sigma)).unzip();
+        Self {
+            natural_curvature: points,
+            sigma,
+            legendre: rest.coefficients.clone(),
+            covariance: rest.covariance.clone(),
+            chi2: rest.chi_squared,
+            freedom: rest.freedom,
+            frames: rest.frames,
+            sigma_points: rest.sigma,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! A film in words.
+
+use super::result::FilmForces;
+use crate::table::counted;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use vibrissa::reconstruct::{Frame, FrameVerdict};
+
+/// Most faults of frames that are told.
+const MOST_FAULTS: usize = 5;
+/// Length of the points along the rod, as a share of the length of the rod, below which it is told which end is taken as seen.
+const WHOLE: f64 = 0.97;
+
+impl FilmForces {
+    /// Frames and verdicts, noise, and the shape at rest.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.tell(&mut text);
+        text
+    }
+
+    fn tell(&self, text: &mut String) -> std::fmt::Result {
+        let mut verdicts: BTreeMap<String, usize> = BTreeMap::new();
+        for told in &self.film.frames {
+            let verdict = told.as_ref().map_or_else(|_| "fault".into(), |told| told.verdict.to_string());
+            *verdicts.entry(verdict).or_default() += 1;
+        }
+        let verdicts: Vec<String> = verdicts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
+        writeln!(text, "{}: {}: {}", self.name, counted(self.frames.len(), "frame"), verdicts.join(", "))?;
+        let has_points = |((_, frame), told): (&(i64, Frame), &Result<_, _>)| frame.points.len() > 2 && told.is_ok();
+        if self.frames.iter().zip(&self.film.frames).any(has_points) {
+            let length = self.rod.rod.length();
+            writeln!(
+                text,
+                "noise of the points: {:.2e} m, {:.1e} of the length",
+                self.film.sigma,
+                self.film.sigma / length
+            )?;
+        }
+        if let Some(rest) = &self.rest {
+            let [base, tip] = [0.0, rest.length].map(|s| rest.curvature(s));
+            writeln!(
+                text,
+                "curvature at rest from {}: {:.4} +- {:.2e} 1/m at the base, {:.4} +- {:.2e} 1/m at the tip",
+                counted(rest.frames, "frame"),
+                base.0,
+                base.1,
+                tip.0,
+                tip.1
+            )?;
+        }
+        if !self.rod.is_stiffness_known {
+            writeln!(text, "no stiffness is given: forces are in EI/L^2, moments in EI/L, with EI at the base")?;
+        }
+        Ok(())
+    }
+
+    /// What may be wrong: frames with faults, frames that nothing explains, a rod of which the points show a part.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let numbered = || self.frames.iter().map(|(number, _)| *number).zip(&self.film.frames);
+        let faults: Vec<String> = numbered()
+            .filter_map(|(number, told)| told.as_ref().err().map(|fault| format!("frame {number}: {fault}")))
+            .collect();
+        warnings.extend(faults.iter().take(MOST_FAULTS).cloned());
+        if faults.len() > MOST_FAULTS {
+            warnings.push(format!("and {} more", counted(faults.len() - MOST_FAULTS, "frame")));
+        }
+        let worst = numbered()
+            .filter_map(|(number, told)| Some((number, told.as_ref().ok()?)))
+            .filter(|(_, told)| told.verdict == FrameVerdict::NotExplained)
+            .min_by(|a, b| a.1.p_value.total_cmp(&b.1.p_value));
+        if let Some((number, told)) = worst {
+            let (_, count) = self.failures();
+            warnings.push(format!(
+                "{} of {} have no shape with the contacts that are allowed: worst is frame {number} with chi squared {:.0} of {}; friction, \
+                 another shape at rest, points that are not of the rod, or more noise than is told?",
+                count, counted(self.frames.len(), "frame"), told.chi_squared, told.freedom
+            ));
+        }
+        warnings.extend(self.part_of_the_rod());
+        if !self.ignored.is_empty() {
+            warnings.push(format!("not used: column {}", self.ignored.join(", ")));
+        }
+        warnings
+    }
+
+    /// A rod of which the points show a part only.
+    fn part_of_the_rod(&self) -> Option<String> {
+        let mut shares: Vec<f64> = self
+            .frames
+            .iter()
+            .filter(|(_, frame)| frame.points.len() > 2)
+            .map(|(_, frame)| {
+                let chords = frame.points.windows(2).map(|pair| (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y));
+                chords.sum::<f64>() / self.rod.rod.length()
+            })
+            .collect();
+        shares.sort_unstable_by(f64::total_cmp);
+        let share = *shares.get(shares.len() / 2)?;
+        let first = &self.frames.iter().find(|(_, frame)| frame.points.len() > 2)?.1;
+        let taken = match (first.base_is_first, first.tip_is_last) {
+            (true, false) => {
+                "the first point is taken as the base and the tip as not seen; if it is the base that is hidden, say --visible tip"
+            }
+            (false, true) => "the last point is taken as the tip and the base as not seen",
+            _ => return None,
+        };
+        (share < WHOLE).then(|| format!("the points show {:.0} % of the rod: {taken}", 1e2 * share))
+    }
+}

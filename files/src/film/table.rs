@@ -1,0 +1,103 @@
+//! A table of numbers by the names of its columns.
+
+use super::error::FilmError;
+use std::path::{Path, PathBuf};
+
+/// Most faults that are told.
+const MOST_FAULTS: usize = 5;
+
+/// Names and rows of a CSV file.
+pub(super) struct Numbers {
+    pub file: PathBuf,
+    names: Vec<String>,
+    rows: Vec<(u64, csv::StringRecord)>,
+    faults: Vec<String>,
+    left_out: usize,
+}
+
+impl Numbers {
+    pub fn read(file: &Path) -> Result<Self, FilmError> {
+        let unreadable = |source| FilmError::Unreadable { file: file.to_path_buf(), source };
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .comment(Some(b'#'))
+            .flexible(true)
+            .from_path(file)
+            .map_err(unreadable)?;
+        let names = reader
+            .headers()
+            .map_err(unreadable)?
+            .iter()
+            .map(|name| name.trim_start_matches('\u{feff}').to_owned())
+            .collect();
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(unreadable)?;
+            rows.push((record.position().map_or(0, csv::Position::line), record));
+        }
+        let table = Self { file: file.to_path_buf(), names, rows, faults: Vec::new(), left_out: 0 };
+        if table.rows.is_empty() { Err(FilmError::Empty { file: table.file }) } else { Ok(table) }
+    }
+
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|own| own == name)
+    }
+
+    /// The column of this name.
+    pub fn needed(&self, name: &str, expected: &'static str) -> Result<usize, FilmError> {
+        self.column(name).ok_or_else(|| FilmError::Missing {
+            file: self.file.clone(),
+            missing: name.to_owned(),
+            found: self.names.join(", "),
+            expected,
+        })
+    }
+
+    pub fn is_empty(&self, row: usize, column: usize) -> bool {
+        self.rows[row].1.get(column).unwrap_or_default().is_empty()
+    }
+
+    /// The number in a cell; none in an empty one, and where it is no number, which is a fault.
+    pub fn number(&mut self, row: usize, column: usize) -> Option<f64> {
+        let cell = self.rows[row].1.get(column).unwrap_or_default();
+        if cell.is_empty() {
+            return None;
+        }
+        match cell.parse::<f64>() {
+            Ok(number) => Some(number).filter(|number| !number.is_nan()),
+            Err(_) => {
+                let fault = format!("{} is `{cell}`, expected a number", self.names[column]);
+                self.fault(row, &fault);
+                None
+            }
+        }
+    }
+
+    pub fn fault(&mut self, row: usize, fault: &str) {
+        if self.faults.len() < MOST_FAULTS {
+            self.faults.push(format!("line {}: {fault}", self.rows[row].0));
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// The faults of all rows, if there are any.
+    pub fn check(&mut self) -> Result<(), FilmError> {
+        if self.faults.is_empty() {
+            return Ok(());
+        }
+        let mut faults = std::mem::take(&mut self.faults);
+        if self.left_out > 0 {
+            faults.push(format!("and {} more", self.left_out));
+        }
+        Err(FilmError::Rows { file: self.file.clone(), faults })
+    }
+}
