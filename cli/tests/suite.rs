@@ -21,6 +21,7 @@ mod documents;
 mod edges;
 mod files;
 mod first_steps;
+mod forces;
 mod friction;
 mod friction_reconstructed;
 mod interrupt;

@@ -1,0 +1,146 @@
+//! Forces from points on a rod.
+
+use crate::common::{complaint, vibrissa};
+use std::fs;
+use std::path::Path;
+
+/// A rod with E I = 1e-6 N m^2.
+const ROD: &str = "[rod]\nlength = 0.1\nbending_stiffness = 1e-6\n";
+
+/// Points of a rod that a force of 4 E I / L^2 bends at 0.6 L, by steps of the moment from there to the base, and straight beyond.
+fn points(count: usize) -> Vec<[f64; 2]> {
+    // from the contact, at the origin with slope 0: phi'' = A cos phi + B sin phi with B = 0 and A = 4
+    let (steps, contact) = (60_000, 0.6);
+    let h = contact / f64::from(steps);
+    let (mut phi, mut kappa, mut at) = (0.0_f64, 0.0, [0.0_f64; 2]);
+    let mut course = vec![(contact, at)];
+    for k in 1..=steps {
+        // leapfrog, backwards
+        let middle = kappa - 0.5 * h * 4.0 * phi.cos();
+        let half = phi - 0.5 * h * middle;
+        phi -= h * middle;
+        kappa = middle - 0.5 * h * 4.0 * phi.cos();
+        at = [at[0] - h * half.cos(), at[1] - h * half.sin()];
+        course.push((contact - h * f64::from(k), at));
+    }
+    course.reverse();
+    course.push((1.0, [0.4, 0.0]));
+    let place = |s: f64| {
+        let k = course.partition_point(|(place, _)| *place < s).clamp(1, course.len() - 1);
+        let ((from, a), (to, b)) = (course[k - 1], course[k]);
+        let share = (s - from) / (to - from);
+        [0, 1].map(|c| 0.1 * (a[c] + share * (b[c] - a[c])))
+    };
+    (0..count).map(|k| place(k as f64 / (count - 1) as f64)).collect()
+}
+
+fn table(frames: &[Vec<[f64; 2]>]) -> String {
+    let mut text = "frame,x,y\n".to_owned();
+    for (number, points) in frames.iter().enumerate() {
+        points.iter().for_each(|[x, y]| text += &format!("{number},{x:?},{y:?}\n"));
+    }
+    text
+}
+
+fn lines(file: &Path) -> Vec<serde_json::Value> {
+    fs::read_to_string(file).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn place_and_force_come_from_points() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let straight: Vec<[f64; 2]> = (0..40).map(|k| [0.1 * f64::from(k) / 39.0, 0.0]).collect();
+    fs::write(path.join("frames.csv"), table(&[points(40), straight])).unwrap();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    let output = vibrissa(path, &["forces", "frames.csv", "--rod", "rod.toml"]);
+    assert!(output.status.success(), "{}", complaint(&output));
+    let found = lines(&path.join("out/frames/forces.jsonl"));
+    let number = |key: &str| found[0][key].as_f64().unwrap();
+    assert_eq!((found[0]["verdict"].as_str(), found[1]["verdict"].as_str()), (Some("told"), Some("free")));
+    // 4 E I / L^2 = 4e-4 N at 0.06 m, pushing along -y at slope 0
+    assert!((number("s") - 0.06).abs() < 1e-6 && (number("force") - 4e-4).abs() < 1e-8, "{}", found[0]);
+    assert!((found[0]["contacts"][0]["fy"].as_f64().unwrap() + 4e-4).abs() < 1e-8);
+    // the moment at the base holds that of the force
+    let lever = number("x") - number("x0");
+    assert!((number("m0z") - 4e-4 * lever).abs() < 1e-12, "{}", found[0]);
+    for file in ["forces.csv", "frames.svg", "forces.svg"] {
+        assert!(path.join("out/frames").join(file).exists(), "{file}");
+    }
+    // without a stiffness in E I / L^2 and E I / L
+    fs::write(path.join("soft.toml"), "[rod]\nlength = 0.1\n").unwrap();
+    let output = vibrissa(path, &["forces", "frames.csv", "--rod", "soft.toml", "--out", "soft"]);
+    assert!(output.status.success(), "{}", complaint(&output));
+    let found = lines(&path.join("soft/forces.jsonl"));
+    assert_eq!(found[0]["force_unit"], "EI/L^2");
+    assert!((found[0]["force"].as_f64().unwrap() - 4.0).abs() < 1e-4);
+    assert!((found[0]["m0z"].as_f64().unwrap() - 40.0 * lever).abs() < 1e-3);
+}
+
+#[test]
+fn what_is_no_film_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    let good = points(20);
+    let shifted = good.iter().map(|[x, y]| [*x, y + 0.02]);
+    let mixed: Vec<[f64; 2]> = good.iter().copied().zip(shifted).flat_map(|(one, other)| [one, other]).collect();
+    let in_mm = good.iter().map(|[x, y]| [1e3 * x, 1e3 * y]).collect();
+    for (text, status, message) in [
+        (table(&[mixed]), 2, "frame 0: the points lie along"),
+        (table(&[in_mm]), 2, "are the points in mm?"),
+        (table(&[good.clone(), vec![[0.0, 0.0]]]), 2, "frame 1: 1 points and 0 channels, expected points at 3 places"),
+        ("frame,x,y\n1,0,0\n0,0,0\n".into(), 1, "line 3: frame 0 after frame 1, expected frames in order"),
+        (
+            "frame,x,y\n1,a,0\n1.5,0,0\n".into(),
+            1,
+            "line 2: x is `a`, expected a number\nline 3: frame is 1.5, expected a whole",
+        ),
+        ("frame,x\n1,0\n".into(), 1, "no column y, found frame, x"),
+        ("u,v\n1,0\n".into(), 1, "no column of a measured number, found u, v; expected any of x0"),
+        ("frame,x,y\n".into(), 1, "no frame, expected rows"),
+    ] {
+        fs::write(path.join("frames.csv"), &text).unwrap();
+        let output = vibrissa(path, &["forces", "frames.csv", "--rod", "rod.toml"]);
+        assert_eq!(output.status.code(), Some(status), "{text}");
+        assert!(complaint(&output).contains(message), "{message}: {}", complaint(&output));
+    }
+}
+
+/// Axial force and moment of a frictionless contact on the side of a uniform rod are one number, F = -M^2 / 2 E I; across and moment are two.
+#[test]
+fn a_part_of_the_base_signal_tells_what_it_tells() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    // of the contact of `points`, in the frame of the base: by the first integral of the elastica
+    let all = points(40);
+    let frames = table(std::slice::from_ref(&all));
+    fs::write(path.join("frames.csv"), frames).unwrap();
+    assert!(vibrissa(path, &["forces", "frames.csv", "--rod", "rod.toml", "--out", "whole"]).status.success());
+    let found = lines(&path.join("whole/forces.jsonl")).remove(0);
+    let of = |key: &str| found[key].as_f64().unwrap();
+    let (sin, cos) = of("phi0").sin_cos();
+    // turned so that the base points along x
+    let (along, across, moment) = (of("f0x") * cos + of("f0y") * sin, of("f0y") * cos - of("f0x") * sin, of("m0z"));
+    assert!((along - moment * moment / 2e-6).abs() < 1e-6 * along.abs(), "{along} {moment}");
+    for (columns, row, verdict) in [
+        ("f0x,m0z", format!("{along:?},{moment:?}"), "family"),
+        ("m0z", format!("{moment:?}"), "family"),
+        ("f0x,f0y,m0z", format!("{along:?},{across:?},{moment:?}"), "told"),
+    ] {
+        fs::write(path.join("part.csv"), format!("x0,y0,phi0,{columns}\n0,0,0,{row}\n")).unwrap();
+        let output = vibrissa(path, &["forces", "part.csv", "--rod", "rod.toml"]);
+        let told = lines(&path.join("out/part/forces.jsonl")).remove(0);
+        assert_eq!(told["verdict"], verdict, "{columns}: {told} {}", complaint(&output));
+        if verdict == "family" {
+            // the true contact is a member: the force at 0.6 L is 4 E I / L^2
+            let members = told["family"].as_array().unwrap();
+            let near = members.iter().find(|member| (member["s"].as_f64().unwrap() - 0.06).abs() < 1e-9).unwrap();
+            assert!((near["force"].as_f64().unwrap() - 4e-4).abs() < 4e-6, "{near}");
+            assert!(told["sigma_force"].is_null() || told["sigma_force"].as_f64().unwrap() > 1e-3, "{told}");
+        } else {
+            assert!((told["s"].as_f64().unwrap() - 0.06).abs() < 1e-5, "{told}");
+        }
+    }
+}
