@@ -14,6 +14,7 @@ mod equilibrium;
 mod errors;
 mod event;
 mod follower;
+mod forces;
 mod friction;
 mod live;
 mod own_function;
@@ -67,6 +68,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<derivatives::PyTransitionDerivatives>()?;
     module.add_class::<recording::PyRecording>()?;
     module.add_class::<reconstruct::PyReconstruction>()?;
+    module.add_class::<forces::PyForces>()?;
+    module.add_function(wrap_pyfunction!(forces::_forces, module)?)?;
     module.add_class::<live::PyLive>()?;
     module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;

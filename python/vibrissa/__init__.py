@@ -18,6 +18,9 @@ Studies
 From reactions to the object
     :func:`reconstruct` gives a :class:`Reconstruction`, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
     noise, :class:`Live` answers while samples come.
+Forces from shapes
+    :func:`forces` gives :class:`Forces` from points on the rod, frame by frame; :mod:`vibrissa.tracking` reads WHISK, WhiskiWrap, DeepLabCut, SLEAP and
+    CSV, :mod:`vibrissa.whiskers` has whiskers of rats as rods.
 
 ``UNITS`` has the units of the fields of all arrays.
 """
@@ -42,6 +45,7 @@ from ._core import (
     Equilibrium,
     Event,
     Follower,
+    Forces,
     Graph,
     Line,
     Live,
@@ -69,6 +73,7 @@ from ._core import (
     sweep,
 )
 from ._errors import SweepStopped
+from ._forces import forces
 from ._ragged import Ragged
 from ._study import StudyBroken, grid, study
 from ._study_files import read_study
@@ -91,6 +96,7 @@ __all__ = [
     "Equilibrium",
     "Event",
     "Follower",
+    "Forces",
     "Graph",
     "Line",
     "Live",
@@ -115,6 +121,7 @@ __all__ = [
     "__version__",
     "check_contract",
     "equilibrium",
+    "forces",
     "grid",
     "read_study",
     "reconstruct",

@@ -1,0 +1,98 @@
+"""Forces from points on a rod."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+import vibrissa
+from vibrissa.tracking import Frames
+
+ROD = vibrissa.Rod(0.1, bending_stiffness=1e-6)
+Points = npt.NDArray[np.float64]
+
+
+def swept() -> tuple[list[vibrissa.State], list[Points]]:
+    """States of a rod that is pushed against a peg, and 40 points on each shape."""
+    peg = vibrissa.CircularArc((0.06, 0.03), 0.004, 0.0, 2.0 * math.pi)
+    scan = vibrissa.sweep(ROD, peg, vibrissa.ClampPath((0.0, 0.0, 0.1), (0.0, 0.04, 0.1)), 1e-3)
+    states = [scan.state(k) for k in range(len(scan)) if len(scan.state(k).contacts) == 1 and scan.state(k).contacts[0].force > 1e-5]
+    return states, [state.shape(ROD, 40)[:, :2] for state in states]
+
+
+def test_states_of_a_sweep_are_found_again() -> None:
+    states, points = swept()
+    assert len(states) > 5
+    found = vibrissa.forces(ROD, points)
+    assert len(found) == len(states) and found.faults == {}
+    table = found.frames
+    for state, row in zip(states, table, strict=True):
+        contact = state.contacts[0]
+        assert row["verdict"] in ("told", "several")
+        if row["verdict"] == "told":
+            assert abs(row["s"] - contact.s) < 1e-8 and abs(row["force"] - contact.force) < 1e-9
+        assert abs(row["m0z"] - state.reactions[2]) < 1e-11
+    assert found.covariance.shape == (len(states), 6, 6)
+    assert set(found.contacts["frame"]) == set(range(len(states)))
+
+
+def test_channels_alone_and_what_they_cannot_tell() -> None:
+    states, _ = swept()
+    x0, y0, phi0 = np.array([state.pose for state in states]).T
+    f0x, f0y, m0z = np.array([state.reactions for state in states]).T
+    whole = vibrissa.forces(ROD, channels={"x0": x0, "y0": y0, "phi0": phi0, "f0x": f0x, "f0y": f0y, "m0z": m0z})
+    assert (whole.frames["verdict"] == "told").all()
+    assert np.allclose(whole.frames["s"], [state.contacts[0].s for state in states], atol=1e-6)
+    moment = vibrissa.forces(ROD, channels={"x0": x0, "y0": y0, "phi0": phi0, "m0z": m0z})
+    assert (moment.frames["verdict"] == "family").all()
+    assert len(moment.family) == 20 * len(states)
+
+
+def test_frames_of_all_kinds_are_the_same() -> None:
+    _, points = swept()
+    with_gap = [np.vstack([one[:20], [[np.nan, np.nan]], one[20:]]) for one in points[:3]]
+    one = vibrissa.forces(ROD, points[:3]).frames
+    for frames in (dict(enumerate(points[:3])), with_gap, Frames.from_points(enumerate(points[:3]))):
+        assert (vibrissa.forces(ROD, frames).frames["s"] == one["s"]).all()
+
+
+def test_the_shape_at_rest_comes_from_free_frames() -> None:
+    rng = np.random.default_rng(4)
+    bent = vibrissa.Rod(0.1, bending_stiffness=1e-6, natural_curvature=8.0)
+    s = np.linspace(0.0, 0.1, 40)
+
+    def arc(phi: float) -> Points:
+        line = np.column_stack([np.sin(8.0 * s + phi) - np.sin(phi), np.cos(phi) - np.cos(8.0 * s + phi)]) / 8.0
+        return line + rng.normal(0.0, 5e-5, line.shape)
+
+    rest = [arc(0.1 * k) for k in range(6)]
+    found = vibrissa.forces(ROD, [arc(1.0)], rest=rest)
+    assert found.rest is not None
+    curvature, sigma = found.rest[:, 1], found.rest[:, 2]
+    assert (abs(curvature - 8.0) < 5.0 * sigma).all() and (sigma < 0.1).all()
+    assert found.frames["verdict"][0] == "free"
+    assert vibrissa.forces(bent, [arc(1.0)]).frames["verdict"][0] == "free"
+    # as if it were straight, the bend is a force
+    assert vibrissa.forces(ROD, [arc(1.0)]).frames["verdict"][0] != "free"
+
+
+def test_mistakes_are_sentences() -> None:
+    _, points = swept()
+    for arguments, message in [
+        ({"frames": [np.zeros(3)]}, "frames: frame 0 has the shape (3,), expected points of shape (n, 2)"),
+        ({"frames": points[:1], "visible": "all"}, "visible is 'all', expected 'base', 'tip', 'both' or 'neither'"),
+        ({"frames": points[:1], "sigma": 0.0}, "sigma is 0, expected a number larger than 0"),
+        ({"frames": points[:1], "contacts": 3}, "contacts is 3, expected 0, 1 or 2"),
+        ({"frames": points[:1], "channels": {"f0x": [1.0, 2.0]}}, "the channels have 2 rows, expected one a frame: 1"),
+        ({"channels": {"torque": [1.0]}}, "torque is no measured number, expected any of x0"),
+        ({"frames": points[:1], "rest": [np.zeros((2, 2))]}, "rest: no frame has 5 points or more"),
+        ({}, "neither frames nor channels are given"),
+    ]:
+        with pytest.raises(ValueError, match=message.replace("(", r"\(").replace(")", r"\)").replace(",)", ",)")):
+            vibrissa.forces(ROD, **arguments)  # type: ignore[arg-type]
+    found = vibrissa.forces(ROD, [points[0], points[0][:1], 1e3 * points[0]])
+    assert list(found.frames["verdict"][1:]) == ["fault", "fault"]
+    assert found.faults[1].startswith("1 points and 0 channels") and "are the points in mm?" in found.faults[2]
