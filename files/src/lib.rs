@@ -27,7 +27,7 @@ pub mod table;
 mod toml_file;
 
 pub use cycle::{CYCLES, Cycle};
-pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions};
+pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions, channels_of_columns};
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::{Interval, intervals};
 pub use live::{

@@ -18,15 +18,21 @@ const SHARE: f64 = 1e-3;
 /// What third differences of independent noise have as their variance, in that of the noise.
 const THIRD: f64 = 20.0;
 
+/// A column of measured numbers with its standard deviations, none where a cell has none.
+struct Column {
+    quantity: Measurand,
+    cells: Vec<Option<(f64, Option<f64>)>>,
+}
+
 /// The measured numbers of each row, with the number of its frame: that of its column `frame`, or of the row, from 0.
 pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<Channel>)>, FilmError> {
-    let mut columns = Vec::new();
-    for (column, name) in table.names().iter().enumerate() {
-        if let Some(quantity) = quantity(name) {
-            columns.push((column, quantity, table.column(&format!("sigma_{name}"))));
-        }
-    }
-    if columns.is_empty() {
+    let named: Vec<(usize, Measurand, Option<usize>)> = table
+        .names()
+        .iter()
+        .enumerate()
+        .filter_map(|(column, name)| Some((column, quantity(name)?, table.column(&format!("sigma_{name}")))))
+        .collect();
+    if named.is_empty() {
         return Err(FilmError::Missing {
             file: table.file.clone(),
             missing: "of a measured number".into(),
@@ -35,43 +41,85 @@ pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<
         });
     }
     let number = table.column("frame");
-    let mut rows = Vec::with_capacity(table.len());
-    for row in 0..table.len() {
-        let of = match number {
-            Some(column) => whole(&mut table, row, column),
-            None => Some(row as i64),
-        };
-        let mut found = Vec::with_capacity(columns.len());
-        for (column, quantity, sigma) in &columns {
-            let value = table.number(row, *column);
-            let sigma = sigma.and_then(|column| table.number(row, column));
-            if sigma.is_some_and(|sigma| !(sigma > 0.0 && sigma.is_finite())) {
-                let fault = format!(
-                    "sigma_{} is not larger than 0, expected a standard deviation, or an empty cell",
-                    table.names()[*column]
-                );
-                table.fault(row, &fault);
-            }
-            found.push(value.map(|value| (*quantity, value, sigma)));
-        }
-        rows.extend(of.map(|of| (of, found)));
-    }
-    table.check()?;
-    let noise: Vec<f64> = columns
-        .iter()
-        .enumerate()
-        .map(|(k, (_, quantity, _))| {
-            let values = rows.iter().filter_map(|(_, row)| row[k].map(|(_, value, _)| value));
-            sigma_of(*quantity, &values.collect::<Vec<_>>(), length)
+    let numbers: Vec<Option<i64>> =
+        (0..table.len()).map(|row| number.map_or(Some(row as i64), |column| whole(&mut table, row, column))).collect();
+    let columns: Vec<Column> = named
+        .into_iter()
+        .map(|(column, quantity, sigma)| {
+            let mut cell = |row: usize| {
+                let value = table.number(row, column);
+                let sigma = sigma.and_then(|sigma| table.number(row, sigma));
+                if sigma.is_some_and(|sigma| !is_deviation(sigma)) {
+                    table.fault(row, &format!("sigma_{} is not larger than 0, {DEVIATION}", table.names()[column]));
+                }
+                value.map(|value| (value, sigma))
+            };
+            Column { quantity, cells: (0..numbers.len()).map(&mut cell).collect() }
         })
         .collect();
-    let channels = |row: Vec<Option<(Measurand, f64, Option<f64>)>>| {
-        let with_noise = row.into_iter().zip(&noise).filter_map(|(cell, noise)| {
-            cell.map(|(quantity, value, sigma)| Channel { quantity, value, sigma: sigma.unwrap_or(*noise) })
+    table.check()?;
+    let rows = with_noise(&columns, numbers.len(), length);
+    Ok(numbers.into_iter().zip(rows).filter_map(|(number, row)| Some((number?, row))).collect())
+}
+
+/// What is expected of a standard deviation.
+const DEVIATION: &str = "expected a standard deviation, or nothing";
+
+fn is_deviation(sigma: f64) -> bool {
+    sigma > 0.0 && sigma.is_finite()
+}
+
+/// The measured numbers of each row of columns as a table has them, by name; NaN where there is none. Of a rod of `length` (m).
+///
+/// # Errors
+/// Columns of another name or another length, and standard deviations that are none, all at once.
+pub fn channels_of_columns(columns: &[(String, Vec<f64>)], length: f64) -> Result<Vec<Vec<Channel>>, String> {
+    let count = columns.first().map_or(0, |column| column.1.len());
+    let mut faults = Vec::new();
+    let mut found = Vec::new();
+    for (name, values) in columns {
+        if values.len() != count {
+            faults.push(format!("{name} has {} rows, expected {count} as {}", values.len(), columns[0].0));
+        }
+        let base = name.strip_prefix("sigma_").unwrap_or(name);
+        let Some(quantity) = quantity(base) else {
+            faults.push(format!("{name} is no measured number, expected {EXPECTED}"));
+            continue;
+        };
+        if base != name {
+            if values.iter().any(|sigma| !sigma.is_nan() && !is_deviation(*sigma)) {
+                faults.push(format!("{name} is not larger than 0 everywhere, {DEVIATION}"));
+            }
+            if !columns.iter().any(|(other, _)| other == base) {
+                faults.push(format!("{name} is given without {base}"));
+            }
+            continue;
+        }
+        let sigma = columns.iter().find(|(other, _)| other.strip_prefix("sigma_") == Some(name.as_str()));
+        let known = |value: f64| Some(value).filter(|value| !value.is_nan());
+        let cell = |(row, value): (usize, &f64)| {
+            let sigma = sigma.and_then(|(_, sigmas)| sigmas.get(row).copied().and_then(known));
+            known(*value).map(|value| (value, sigma))
+        };
+        found.push(Column { quantity, cells: values.iter().enumerate().map(cell).collect() });
+    }
+    if faults.is_empty() { Ok(with_noise(&found, count, length)) } else { Err(faults.join("\n")) }
+}
+
+/// The channels of each row; those whose noise no column tells have that of their column.
+fn with_noise(columns: &[Column], rows: usize, length: f64) -> Vec<Vec<Channel>> {
+    let noise = columns.iter().map(|Column { quantity, cells }| {
+        sigma_of(*quantity, &cells.iter().flatten().map(|(value, _)| *value).collect::<Vec<_>>(), length)
+    });
+    let noise: Vec<f64> = noise.collect();
+    let of = |row: usize| {
+        let cells = columns.iter().zip(&noise).filter_map(|(Column { quantity, cells }, noise)| {
+            let (value, sigma) = cells[row]?;
+            Some(Channel { quantity: *quantity, value, sigma: sigma.unwrap_or(*noise) })
         });
-        with_noise.collect::<Vec<_>>()
+        cells.collect()
     };
-    Ok(rows.into_iter().map(|(of, row)| (of, channels(row))).collect())
+    (0..rows).map(of).collect()
 }
 
 /// What a column measures.

@@ -8,5 +8,6 @@ mod result;
 mod summary;
 mod table;
 
+pub use channels::channels_of_columns;
 pub use error::{AtRestError, FilmError};
 pub use result::{Ends, FilmForces, FilmOptions};
