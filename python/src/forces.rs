@@ -169,6 +169,13 @@ impl PyForces {
         Ok(faults)
     }
 
+    /// What may be wrong, in sentences: frames with faults, frames that nothing explains, points that show a part of the rod only, frames of the free
+    /// rod of another shape than the others.
+    #[getter]
+    fn findings(&self) -> Vec<String> {
+        self.found.warnings()
+    }
+
     /// The curvature at rest that was found from ``rest``: points (m, 1/m) as a rod takes them with their standard deviations, shape (41, 3); None
     /// where no frames of the free rod were given.
     #[getter]
@@ -222,8 +229,15 @@ impl FlatFrames {
         };
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         let frames = self.numbers.iter().zip(starts.zip(&self.ends)).map(|(number, (start, end))| {
-            let points = (start..*end).map(point).collect();
-            (*number, Frame { points, base_is_first, tip_is_last, channels: Vec::new() })
+            // an end of which the point was not seen is not known
+            let is_seen = |k: usize| self.points.get(k).is_some_and(|[x, y]| !(x.is_nan() && y.is_nan()));
+            let (first, last) = (start < *end && is_seen(start), start < *end && is_seen(*end - 1));
+            let points = (start..*end).filter(|k| is_seen(*k)).map(point).collect();
+            let channels = Vec::new();
+            (
+                *number,
+                Frame { points, base_is_first: base_is_first && first, tip_is_last: tip_is_last && last, channels },
+            )
         });
         Ok(frames.collect())
     }

@@ -79,6 +79,38 @@ def test_the_shape_at_rest_comes_from_free_frames() -> None:
     assert vibrissa.forces(ROD, [arc(1.0)]).frames["verdict"][0] != "free"
 
 
+def test_an_end_that_was_not_seen_is_not_taken_for_one() -> None:
+    states, points = swept()
+    rng = np.random.default_rng(1)
+    whole = [one + rng.normal(0.0, 5e-5, one.shape) for one in points]
+    lost = [np.vstack([[[np.nan, np.nan]] * 4, one[4:]]) for one in whole]
+    # a uniform rod does not tell where along it the points are
+    found = vibrissa.forces(ROD, lost, sigma=5e-5)
+    assert not (found.frames["verdict"] == "told").any()
+    # without the gap the fifth point would be the base, and the moment that at the fifth point
+    wrong = vibrissa.forces(ROD, [one[4:] for one in whole], sigma=5e-5)
+    assert (wrong.frames["verdict"] == "told").any() and any("90 % of the rod" in finding for finding in wrong.findings)
+
+
+def test_free_frames_of_several_shapes_are_told() -> None:
+    states, points = swept()
+    rng = np.random.default_rng(2)
+    line = np.column_stack([np.linspace(0.0, 0.1, 40), np.zeros(40)])
+    free = [line + rng.normal(0.0, 5e-5, line.shape) for _ in range(5)]
+    assert vibrissa.forces(ROD, points, rest=free).findings == []
+    with_contact = [*free, points[-1]]
+    assert any("frame 5 of them" in finding for finding in vibrissa.forces(ROD, points, rest=with_contact).findings)
+
+
+def test_free_rods_bound_what_is_not_seen() -> None:
+    rng = np.random.default_rng(3)
+    line = np.column_stack([np.linspace(0.0, 0.1, 12), np.zeros(12)])
+    table = vibrissa.forces(ROD, [line + rng.normal(0.0, 5e-5, line.shape) for _ in range(20)], sigma=5e-5).frames
+    free = table[table["verdict"] == "free"]
+    # E I / L is 1e-5 N m
+    assert len(free) >= 19 and (free["sigma_m0z"] < 1e-6).all() and (free["sigma_m0z"] > 1e-8).all()
+
+
 def test_mistakes_are_sentences() -> None:
     _, points = swept()
     for arguments, message in [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import math
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -28,6 +29,10 @@ def fault(call: Callable[[], object]) -> str:
     with pytest.raises(ValueError) as caught:
         call()
     return str(caught.value)
+
+
+# A point of the rod that was not seen.
+UNSEEN = [math.nan, math.nan]
 
 
 def expect(frames: Frames, expected: dict[int, _Points], scale: float, flip: float = -1.0) -> None:
@@ -112,12 +117,12 @@ def test_a_csv_file_with_faults_names_their_lines(tmp_path: Path) -> None:
     assert read("frame,x,y\n3,0,0\n3,1,0\n2,0,0\n2,1,0\n") == (
         f"{file}, line 4: frame 2 comes after frame 3, expected frames that do not decrease"
     )
-    assert read("frame,x,y\n0,a,0\n0.5,1,\n0,1\n0,nan,1\n").splitlines() == [
+    assert read("frame,x,y\n0,a,0\n0.5,1,b\n0,1\n0,inf,1\n").splitlines() == [
         f"{file}, line 2: x is 'a', expected a finite number",
         f"{file}, line 3: frame is '0.5', expected an integer",
-        f"{file}, line 3: y is '', expected a finite number",
+        f"{file}, line 3: y is 'b', expected a finite number",
         f"{file}, line 4: has 2 cells, expected 3",
-        f"{file}, line 5: x is 'nan', expected a finite number",
+        f"{file}, line 5: x is 'inf', expected a finite number",
     ]
     assert read("frame,x,y\n0,0,0\n1,0,0\n1,1,0\n") == f"{file}, frame 0: has one point, expected at least two"
     assert read("frame,x,y\n") == f"{file}: no frame is left, expected at least one of two points"
@@ -345,14 +350,14 @@ def test_deeplabcut_points_in_the_order_of_the_argument(tmp_path: Path) -> None:
     file.write_text(deeplabcut(POSES))
     frames = read_deeplabcut(file, ["base", "mid", "tip"], scale=1e-4)
     # In frame 1 only the base is left, in frame 2 the tip is not likely enough.
-    expect(frames, {0: [[10, 1], [20, 2], [30, 3]], 2: [[12, 1], [22, 2]]}, 1e-4)
+    expect(frames, {0: [[10, 1], [20, 2], [30, 3]], 2: [[12, 1], [22, 2], UNSEEN]}, 1e-4)
     assert np.isnan(frames.sigma).all()
     frames = read_deeplabcut(file, ["base", "mid", "tip"], scale=1e-4, pixel_sigma=0.5, least_likelihood=0.0, image=False)
-    expect(frames, {0: [[10, 1], [20, 2], [30, 3]], 1: [[11, 1], [31, 3]], 2: [[12, 1], [22, 2], [32, 3]]}, 1e-4, flip=1.0)
+    expect(frames, {0: [[10, 1], [20, 2], [30, 3]], 1: [[11, 1], UNSEEN, [31, 3]], 2: [[12, 1], [22, 2], [32, 3]]}, 1e-4, flip=1.0)
     np.testing.assert_allclose(frames.sigma[:3], 0.5e-4 / np.sqrt([1.0, 0.64, 0.9]))
     file.write_text(deeplabcut(POSES).replace("0.9,", "0.0,"))
     frames = read_deeplabcut(file, ["base", "mid", "tip"], scale=1e-4, pixel_sigma=0.5, least_likelihood=0.0)
-    expect(frames, {0: [[10, 1], [20, 2]], 2: [[12, 1], [22, 2], [32, 3]]}, 1e-4)
+    expect(frames, {0: [[10, 1], [20, 2], UNSEEN], 2: [[12, 1], [22, 2], [32, 3]]}, 1e-4)
 
 
 def test_deeplabcut_individuals(tmp_path: Path) -> None:
@@ -408,7 +413,9 @@ def test_deeplabcut_files_with_faults(tmp_path: Path) -> None:
     assert read(deeplabcut(POSES, frames=["img0.png", 1, 2])) == f"{file}, line 4: the frame is 'img0.png', expected an integer"
     assert read(good.replace("30.0", "much")) == f"{file}, line 4, column 2: the cell is 'much', expected a finite number"
     assert read(good.replace("30.0,", "")) == f"{file}, line 4: has 9 cells, expected 10"
-    assert read(good, least_likelihood=1.0) == f"{file}: no frame is left, expected at least one of two points"
+    assert read(good, least_likelihood=1.0) == (
+        f"{file}: no frame has two points of a likelihood of 1.0 or more, expected a smaller least_likelihood"
+    )
     assert "the lines begin with frame, 0, expected scorer, bodyparts, coords or scorer, individuals" in read("frame,x,y\n0,1,2\n")
     assert "of the body part 'base' the column 'likelihood' is missing, expected one of x, y" in read(good.replace("likelihood", "z"))
     assert "there are several scorers" in read(good.replace("DLC", "DLD", 1))
@@ -456,7 +463,7 @@ def test_sleap_hdf5(tmp_path: Path, dims: list[str] | None) -> None:
         frames = read_sleap(file, ["base", "mid", "tip"], track=track, scale=1e-4)
         expect(frames, {1: [[10, 1], [20, 2], [30, 3]], 3: [[12, 1], [22, 2], [32, 3]]}, 1e-4)
     frames = read_sleap(file, ["base", "mid", "tip"], track=1, scale=1e-4, least_score=0.3)
-    expect(frames, {1: [[10, 1], [20, 2], [30, 3]], 3: [[12, 1], [22, 2]]}, 1e-4)
+    expect(frames, {1: [[10, 1], [20, 2], [30, 3]], 3: [[12, 1], [22, 2], UNSEEN]}, 1e-4)
     # Set by hand, without scores; nodes in the order of the skeleton.
     expect(read_sleap(file, scale=1.0, image=False), {0: [[5, 1], [6, 1], [7, 1]]}, 1.0, flip=1.0)
 

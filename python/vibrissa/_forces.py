@@ -25,7 +25,7 @@ class _Flat:
 
 
 def _flat(frames: FramesLike, name: str) -> _Flat:
-    """The frames in one piece; points that are NaN were not seen."""
+    """The frames in one piece."""
     if isinstance(frames, Frames):
         # frames are in order, and the points of a frame stand together
         numbers, counts = np.unique(frames.frame, return_counts=True)
@@ -37,7 +37,7 @@ def _flat(frames: FramesLike, name: str) -> _Flat:
         points = np.asarray(given, dtype=float)
         if points.ndim != 2 or points.shape[1] != 2:
             raise ValueError(f"{name}: frame {number} has the shape {points.shape}, expected points of shape (n, 2): x, y in m")
-        kept.append(points[~np.isnan(points).any(axis=1)])
+        kept.append(points)
     ends = np.cumsum([len(points) for points in kept]).astype(int).tolist()
     flat = np.concatenate(kept) if kept else np.empty((0, 2))
     return _Flat([int(number) for number, _ in numbered], ends, flat, [float("nan")] * len(flat))
@@ -65,10 +65,10 @@ def forces(
     rod : Rod
         Any rod, on a rigid clamp or on springs.
     frames : Frames, mapping of frame numbers to arrays, or sequence of arrays, optional
-        Points on the rod, of shape (n, 2), m, in order from the base to the tip; NaN where a point was not seen. :mod:`vibrissa.tracking` reads
-        them from files. None with `channels` alone.
+        Points on the rod, of shape (n, 2), m, in order from the base to the tip. NaN where a point was not seen: where that is the first one, the
+        base of this frame was not seen, whatever `visible` says, and so for the tip. :mod:`vibrissa.tracking` reads them from files. None with `channels` alone.
     rest : the same, optional
-        Frames in which nothing touches the rod: its curvature at rest is found from them, in place of that of `rod`.
+        Frames in which nothing touches the rod, of 5 points or more: its curvature at rest is found from them, in place of that of `rod`.
     channels : mapping of names to arrays, optional
         Measured numbers, one a frame: any of ``x0``, ``y0`` (m), ``phi0`` (rad) of the support, ``base_x``, ``base_y``, ``base_phi`` of the base,
         ``f0x``, ``f0y`` (N), ``m0z`` (N m), ``kappa@S`` (1/m, at the arc length S in m), and their standard deviations ``sigma_...``.
@@ -76,7 +76,8 @@ def forces(
     visible : str
         Which ends of the rod the points show: ``"base"`` (the first point), ``"tip"`` (the last), ``"both"`` or ``"neither"``.
     sigma : float, optional
-        Standard deviation of each coordinate of the points, m; found from the frames where it is None.
+        Standard deviation of each coordinate of the points, m; found from the frames where it is None, which needs 8 points or more a frame to be
+        reliable.
     friction : float
         Largest coefficient of Coulomb friction at contacts on the side.
     contacts : int

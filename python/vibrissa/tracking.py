@@ -46,14 +46,15 @@ class Frames:
     frame : array of int64, shape (n,)
         Number of the frame, which never decreases.
     x, y : array of float64, shape (n,)
-        Position in m.
+        Position in m; both NaN where a point of the rod was not seen. Where that is the first or the last point of a frame, the end of the rod
+        was not seen.
     sigma : array of float64, shape (n,)
         Standard deviation of x and of y in m, NaN where it is unknown.
 
     Raises
     ------
     ValueError
-        Arrays of different length; frames that decrease; a position that is not finite; a sigma that is not positive; a frame of one point;
+        Arrays of different length; frames that decrease; a position that is neither finite nor NaN; a sigma that is not positive; a frame of one point;
         no frame.
     """
 
@@ -101,7 +102,7 @@ class Frames:
         back without a difference.
         """
         columns: list[list[str]] = [[str(k) for k in self.frame.tolist()]]
-        columns += [[repr(value) for value in values.tolist()] for values in (self.x, self.y)]
+        columns += [["" if math.isnan(value) else repr(value) for value in values.tolist()] for values in (self.x, self.y)]
         names = ["frame", "x", "y"]
         if not np.isnan(self.sigma).all():
             names.append("sigma")
@@ -137,7 +138,8 @@ def read_frames(file: _File, *, scale: float = 1.0, image: bool = False) -> Fram
     Parameters
     ----------
     file : path
-        One line a point, from the base to the tip; frames must not decrease. An empty ``sigma`` is unknown.
+        One line a point, from the base to the tip; frames must not decrease. An empty ``sigma`` is unknown, and a point with empty ``x`` and
+        ``y`` was not seen.
     scale : float
         m for a unit of the file; also of ``sigma``.
     image : bool
@@ -164,7 +166,7 @@ def read_frames(file: _File, *, scale: float = 1.0, image: bool = False) -> Fram
             continue
         row = dict(zip(header, cells, strict=True))
         frame = _integer(row["frame"], f"{where}: frame", faults)
-        x, y = (_number(row[name], f"{where}: {name}", faults) for name in ("x", "y"))
+        x, y = (_number(row[name], f"{where}: {name}", faults, gaps=True) for name in ("x", "y"))
         sigma = _number(row.get("sigma", ""), f"{where}: sigma", faults, gaps=True)
         if frame is None:
             continue
@@ -382,6 +384,8 @@ def read_deeplabcut(
         faults.append(f"{file}, frame {frames[k]}: the likelihood of {bodyparts[j]!r} is missing, expected a number from 0 to 1")
     _check_increasing(file, frames, faults)
     kept = tracked & (likelihood >= least_likelihood) & (likelihood > 0.0)
+    if len(frames) and not faults and not (kept.sum(axis=1) >= 2).any():
+        faults.append(f"{file}: no frame has two points of a likelihood of {least_likelihood} or more, expected a smaller least_likelihood")
     sigma = np.full(x.shape, np.nan)
     if pixel_sigma is not None:
         sigma[kept] = pixel_sigma / np.sqrt(likelihood[kept])
@@ -470,12 +474,14 @@ def _faults(file: _File, frame: npt.NDArray[np.int64], x: _Floats, y: _Floats, s
         faults.append(f"{file}: no frame is left, expected at least one of two points")
     for k in np.flatnonzero(np.diff(frame) < 0).tolist():
         faults.append(f"{file}: frame {frame[k + 1]} comes after frame {frame[k]}, expected frames that do not decrease")
-    for k in np.flatnonzero(~(np.isfinite(x) & np.isfinite(y))).tolist():
-        faults.append(f"{file}, frame {frame[k]}: a point is ({x[k]}, {y[k]}), expected finite numbers")
+    seen = ~(np.isnan(x) & np.isnan(y))
+    for k in np.flatnonzero(seen & ~(np.isfinite(x) & np.isfinite(y))).tolist():
+        faults.append(f"{file}, frame {frame[k]}: a point is ({x[k]}, {y[k]}), expected finite numbers, or two NaN for a point that was not seen")
     for k in np.flatnonzero(~(np.isnan(sigma) | (np.isfinite(sigma) & (sigma > 0.0)))).tolist():
         faults.append(f"{file}, frame {frame[k]}: sigma is {sigma[k]}, expected a positive number, or none where it is unknown")
-    numbers, counts = np.unique(frame, return_counts=True)
+    numbers, counts = np.unique(frame[seen], return_counts=True)
     faults += [f"{file}, frame {number}: has one point, expected at least two" for number in numbers[counts == 1].tolist()]
+    faults += [f"{file}, frame {number}: has no point, expected at least two" for number in np.setdiff1d(frame, frame[seen]).tolist()]
     return faults
 
 
@@ -516,11 +522,11 @@ def _check_increasing(file: _File, frames: Sequence[int], faults: list[str]) -> 
 
 
 def _filtered(frames: Sequence[int], x: _Floats, y: _Floats, sigma: _Floats, kept: npt.NDArray[np.bool_]) -> list[_Shape]:
-    """The kept points of those frames that have two or more; arrays of shape (frames, points)."""
-    return [
-        (int(frames[k]), np.column_stack([x[k, kept[k]], y[k, kept[k]]]), sigma[k, kept[k]])
-        for k in np.flatnonzero(kept.sum(axis=1) >= 2).tolist()
-    ]
+    """The points of those frames that have two or more; arrays of shape (frames, points). Those that are not kept become NaN: which points of the
+    rod were not seen is known.
+    """
+    x, y, sigma = (np.where(kept, values, np.nan) for values in (x, y, sigma))
+    return [(int(frames[k]), np.column_stack([x[k], y[k]]), sigma[k]) for k in np.flatnonzero(kept.sum(axis=1) >= 2).tolist()]
 
 
 def _one_each(

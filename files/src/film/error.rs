@@ -60,6 +60,6 @@ pub enum AtRestError {
     #[error(transparent)]
     Shape(#[from] RestError),
     /// The curvature is none that a rod can have.
-    #[error("the shape at rest: {0}")]
+    #[error(transparent)]
     Rod(#[from] RodError),
 }

@@ -31,10 +31,15 @@ pub(super) fn points(mut table: Numbers, options: &FilmOptions) -> Result<Vec<(i
             }
             _ => frames.push((of, empty(options.ends))),
         }
-        let ([Some(x), Some(y)], Some((_, frame))) = (coordinates, frames.last_mut()) else {
-            // a point that was not seen
+        let Some((_, frame)) = frames.last_mut() else { continue };
+        let ends = empty(options.ends);
+        let [Some(x), Some(y)] = coordinates else {
+            // a point that was not seen, perhaps an end of the rod
+            frame.base_is_first &= !frame.points.is_empty();
+            frame.tip_is_last = false;
             continue;
         };
+        frame.tip_is_last = ends.tip_is_last;
         let scale = options.scale;
         frame.points.push(SeenPoint { x: scale * x, y: turned * scale * y, sigma: sigma.map(|sigma| scale * sigma) });
     }

@@ -79,6 +79,12 @@ impl FilmForces {
                 count, counted(self.frames.len(), "frame"), told.chi_squared, told.freedom
             ));
         }
+        if let Some(frame) = self.rest.as_ref().and_then(|rest| rest.other) {
+            warnings.push(format!(
+                "the frames of the free rod do not show one shape: frame {frame} of them (from 0, of those with 5 points or more) differs most; is the \
+                 rod free in all of them, and each in order from the base?"
+            ));
+        }
         warnings.extend(self.part_of_the_rod());
         if !self.ignored.is_empty() {
             warnings.push(format!("not used: column {}", self.ignored.join(", ")));

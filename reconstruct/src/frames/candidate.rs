@@ -8,9 +8,12 @@ use crate::least_squares::{Damped, Status, iterate};
 use nalgebra::{DMatrix, DVector};
 use rod_core::RodModel;
 
-/// Most steps of a solve, and of one whose contacts are not needed to explain the frame: what explains it as well is not far.
+/// Most steps of a solve, and those after which one is given up whose contacts are not needed to explain the frame; near to it, twice
+/// as many.
 pub(super) const MOST_STEPS: usize = 60;
-pub(super) const FEW_STEPS: usize = 12;
+pub(super) const FEW_STEPS: usize = 6;
+/// Most rounds of steps: damped ones first, then lightly damped ones.
+const ROUNDS: usize = 5;
 /// Share of chi squared by which it falls no more.
 const SETTLED: f64 = 1e-3;
 /// Standard deviations (dimensionless) of channels with which exact ones are solved first.
@@ -73,10 +76,12 @@ fn without_bounds<M: RodModel>(
     let mut u = start.u.clone();
     let mut cost = f64::INFINITY;
     // damped steps end in a valley that undamped ones may follow
-    for control in [Damped::default(), Damped::lightly(), Damped::lightly()] {
+    for round in 0..ROUNDS {
+        let control = if round == 0 { Damped::default() } else { Damped::lightly() };
         let (at, status) = iterate(&mut problem, u, control, most_steps);
         u = at.x;
-        let is_settled = at.equations.cost > cost * (1.0 - SETTLED) || status != Status::Converged;
+        let is_given_up = status == Status::OutOfSteps && most_steps < MOST_STEPS;
+        let is_settled = at.equations.cost > cost * (1.0 - SETTLED) || is_given_up;
         cost = at.equations.cost;
         if is_settled {
             break;
@@ -95,6 +100,11 @@ fn without_bounds<M: RodModel>(
 }
 
 impl Candidate {
+    /// A start from here.
+    pub fn start(&self) -> Start {
+        Start { u: self.u.clone(), feet: self.feet.clone() }
+    }
+
     /// The number of the unknown that is the force of a contact across the rod, if that along it is unknown too: the next one.
     fn rubbing(&self, number: usize) -> Option<usize> {
         let first = 3 + self.contacts[..number].iter().map(Place::unknowns).sum::<usize>();

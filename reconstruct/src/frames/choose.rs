@@ -5,12 +5,21 @@ use super::observed::Observed;
 use super::shape::Place;
 use super::start::{Sight, Start, second};
 use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
+use nalgebra::DVector;
 use rod_core::RodModel;
 
 /// Quantile of the standard normal distribution for a contact to be told: one in a thousand frames without it shows it by chance. The same
 /// probability below which a shape does not explain its frame.
 const BEYOND_CHANCE: f64 = 3.0902;
 pub(super) const CHANCE: f64 = 1e-3;
+/// Standard deviations that the force of each of two contacts has at least.
+const LOADED: f64 = 2.0;
+/// Where on a free rod a force is looked for that is not seen, L.
+const MIDDLE: f64 = 0.5;
+/// Probability from which on a solution is taken without a look for a better one: there may be another minimum.
+const SETTLES: f64 = 0.1;
+/// How many times the chi squared of what explains a frame another explanation may have after a few steps.
+const NEAR: f64 = 5.0;
 /// How many starts are tried for one contact where the first ones do not explain the frame.
 const MOST_STARTS: usize = 4;
 
@@ -34,7 +43,7 @@ impl Allowed {
 pub(super) struct Chosen {
     pub best: Candidate,
     pub rivals: Vec<Candidate>,
-    /// Of a free rod the contact that chance shows: how large a force may be there unseen.
+    /// Of a free rod the contact that chance shows at its middle: how large a force may be there unseen.
     pub unseen: Option<Candidate>,
 }
 
@@ -66,12 +75,19 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
         return free.map(|best| Chosen { best, rivals: Vec::new(), unseen: None });
     }
     let mut singles = one(model, observed, &sight, allowed.side(), friction, MOST_STEPS);
-    let most_steps = if singles.iter().any(Candidate::explains) { FEW_STEPS } else { MOST_STEPS };
-    singles.extend(one(model, observed, &sight, Place::Tip, friction, most_steps));
+    let known = singles.iter().filter(|one| one.explains()).map(|one| one.chi_squared).reduce(f64::min);
+    singles.extend(match known {
+        None => one(model, observed, &sight, Place::Tip, friction, MOST_STEPS),
+        Some(known) => {
+            let near = one(model, observed, &sight, Place::Tip, friction, FEW_STEPS);
+            let near = near.into_iter().filter(|tip| tip.chi_squared < NEAR * (known + tip.freedom as f64));
+            near.filter_map(|tip| solve(model, observed, &[Place::Tip], &tip.start(), friction, FEW_STEPS)).collect()
+        }
+    });
     singles.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     let Some(free) = free else { return settle(singles) };
     if !singles.first().is_some_and(|one| one.is_worth(&free)) {
-        let unseen = (!singles.is_empty()).then(|| singles.swap_remove(0));
+        let unseen = held_at(model, observed, MIDDLE, friction);
         return Some(Chosen { best: free, rivals: Vec::new(), unseen });
     }
     if singles[0].explains() || allowed.contacts == 1 {
@@ -79,7 +95,7 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     }
     let starts = singles.iter().flat_map(|one| second(model, one, allowed.side()));
     let pairs = starts.filter_map(|(contacts, start)| solve(model, observed, &contacts, &start, friction, MOST_STEPS));
-    let mut pairs: Vec<Candidate> = pairs.filter(Candidate::is_ordered).collect();
+    let mut pairs: Vec<Candidate> = pairs.filter(|pair| pair.is_ordered() && pair.is_loaded()).collect();
     pairs.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     if pairs.first().is_some_and(|pair| pair.is_worth(&singles[0])) { settle(pairs) } else { settle(singles) }
 }
@@ -101,7 +117,7 @@ fn settle(mut candidates: Vec<Candidate>) -> Option<Chosen> {
     Some(Chosen { best, rivals, unseen: None })
 }
 
-/// Distance of contacts (L) from which two shapes are told apart.
+/// Distance of contacts (L) from which two shapes are told apart, beside the standard deviation of their places.
 const DISTINCT: f64 = 1e-3;
 
 impl Candidate {
@@ -109,9 +125,23 @@ impl Candidate {
         let (own, others) = (&self.shape.contacts, &other.shape.contacts);
         own.len() != others.len()
             || own.iter().zip(others).any(|(a, b)| {
-                (a.node.cut.x - b.node.cut.x).hypot(a.node.cut.y - b.node.cut.y) > DISTINCT
-                    || (a.node.s - b.node.s).abs() > DISTINCT
+                let variance = a.node.s_unknown.zip(self.covariance.as_ref()).map(|(k, covariance)| covariance[(k, k)]);
+                let apart = DISTINCT + variance.unwrap_or_default().max(0.0).sqrt();
+                let way = (a.node.cut.x - b.node.cut.x).hypot(a.node.cut.y - b.node.cut.y);
+                way > apart || (a.node.s - b.node.s).abs() > apart
             })
+    }
+
+    /// Whether each contact has a force that chance does not show.
+    fn is_loaded(&self) -> bool {
+        let Some(covariance) = &self.covariance else { return false };
+        self.shape.contacts.iter().all(|contact| {
+            let [a, b] = contact.force.ab;
+            let size = a.hypot(b);
+            let rate = |k: usize, _| (a * contact.force.by[k][0] + b * contact.force.by[k][1]) / size;
+            let gradient = DVector::from_fn(self.u.len(), rate);
+            size > LOADED * gradient.dot(&(covariance * &gradient)).max(0.0).sqrt()
+        })
     }
 
     /// Whether two contacts are at two places.
@@ -135,7 +165,7 @@ fn one<M: RodModel>(
     let mut found: Vec<Candidate> = Vec::new();
     for start in starts.iter().take(if blind { usize::MAX } else { MOST_STARTS }) {
         let Some(candidate) = solve(model, observed, &[place], start, friction, most_steps) else { continue };
-        let is_told = candidate.explains();
+        let is_told = candidate.p_value() > SETTLES;
         if found.iter().all(|other| candidate.differs(other)) {
             found.push(candidate);
         }

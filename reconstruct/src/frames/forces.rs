@@ -10,9 +10,10 @@ use super::observed::Observed;
 use super::problem::reactions;
 use super::shape::Contact;
 use super::verdict::{FamilyMember, FrameVerdict, verdict};
+use crate::numeric::chi_squared::wilson_hilferty;
 use crate::numeric::median;
 use nalgebra::{DVector, Matrix3};
-use rod_core::{PhysicalRod, Pose, Reactions, Units};
+use rod_core::{PhysicalRod, Pose, Reactions, RodModel, Units};
 
 /// Length of the points along the rod, as a share of the length of the rod, beyond which they are not of this rod, and below which they are in
 /// another unit.
@@ -181,15 +182,15 @@ fn reversed(frame: &Frame) -> Frame {
 fn noise<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) -> f64 {
     let needs = |frame: &&Frame| frame.points.len() > 3 && frame.points.iter().any(|point| point.sigma.is_none());
     let usable: Vec<&Frame> =
-        frames.iter().filter(needs).filter(|frame| check(rod, frame, f64::INFINITY).is_ok()).collect();
+        frames.iter().filter(needs).filter(|frame| check(rod.units().length, frame, f64::INFINITY).is_ok()).collect();
     let mut sigma = first_guess(usable.iter().copied(), rod.units().length);
     let stride = usable.len().div_ceil(SAMPLE).max(1);
     for _ in 0..ROUNDS {
         let left = usable.iter().step_by(stride).filter_map(|frame| {
             let Chosen { best, .. } = choose(rod.model(), &Observed::new(frame, rod, sigma), allowed(settings))?;
-            (best.freedom > 0).then(|| best.chi_squared / best.freedom as f64)
+            // by the median of chi squared
+            (best.freedom > 0).then(|| best.chi_squared / wilson_hilferty(best.freedom as usize, 0.0))
         });
-        // the median of chi squared per freedom is a little less than 1, by less than the noise is known
         let Some(ratio) = median(left.collect()) else { break };
         let next = (sigma * ratio.sqrt()).max(LEAST);
         let is_settled = (next / sigma - 1.0).abs() < 0.02;
@@ -201,8 +202,8 @@ fn noise<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) ->
     sigma
 }
 
-/// What is wrong with a frame at first sight.
-fn check<R: PhysicalRod>(rod: &R, frame: &Frame, sigma: f64) -> Result<(), FrameFault> {
+/// What is wrong at first sight with a frame of a rod of `length` (m) whose points have the noise `sigma` (L).
+pub(super) fn check(length: f64, frame: &Frame, sigma: f64) -> Result<(), FrameFault> {
     let number = |what, of: String, value: f64, expected| FrameFault::Number { what, of, value, expected };
     for (k, SeenPoint { x, y, sigma }) in frame.points.iter().enumerate() {
         let of = || format!("point {k} (from 0)");
@@ -232,7 +233,6 @@ fn check<R: PhysicalRod>(rod: &R, frame: &Frame, sigma: f64) -> Result<(), Frame
     }
     let chords: Vec<[f64; 2]> =
         frame.points.windows(2).map(|pair| [pair[1].x - pair[0].x, pair[1].y - pair[0].y]).collect();
-    let length = rod.units().length;
     let turns_back = |sharp: f64| {
         let turns = move |pair: &[[f64; 2]]| {
             let [[ax, ay], [bx, by]] = [pair[0], pair[1]];
@@ -264,7 +264,7 @@ fn of_frame<R: PhysicalRod>(
     settings: &ForceSettings,
     sigma: f64,
 ) -> Result<FrameForces, FrameFault> {
-    check(rod, frame, sigma)?;
+    check(rod.units().length, frame, sigma)?;
     let observed = Observed::new(frame, rod, sigma);
     let chosen = choose(rod.model(), &observed, allowed(settings)).ok_or(FrameFault::NoShape)?;
     if !chosen.best.explains() && is_explained_reversed(rod, frame, settings, sigma) {
@@ -283,7 +283,8 @@ fn of_frame<R: PhysicalRod>(
         let share = if contact.force > 0.0 { contact.sigma_force / contact.force } else { f64::INFINITY };
         (contact.sigmas()[0] / units.length, share)
     });
-    let verdict = verdict(&best, rivals.len(), sigmas);
+    let is_placed = !rod.model().is_uniform() || observed.ends != [false; 2] || !observed.channels.is_empty();
+    let verdict = verdict(&best, rivals.len(), is_placed, sigmas);
     let (pose, reactions, mut covariance) = at_base(&best, &units);
     // what another explanation says differs from this one by an error of this one; of a free rod that is what chance shows, with its own error
     for other in rivals.iter().chain(&unseen) {
@@ -301,7 +302,7 @@ fn of_frame<R: PhysicalRod>(
             contacts.iter_mut().zip(&others).for_each(|(contact, other)| contact.add_difference(other));
         }
     }
-    let is_family = verdict == FrameVerdict::Family;
+    let is_family = verdict == FrameVerdict::Family && contacts.len() < 2;
     Ok(FrameForces {
         verdict,
         contacts,
@@ -378,6 +379,9 @@ pub(super) fn add_square<const N: usize>(covariance: &mut [[f64; N]; N], change:
 
 /// Standard deviation of the size of a force, to second order: a force whose direction is not well known is longer than it looks.
 fn sigma_of_size([fx, fy]: [f64; 2], covariance: &[[f64; 5]; 5]) -> f64 {
+    if !covariance[3][3].is_finite() {
+        return f64::INFINITY;
+    }
     let size = fx.hypot(fy);
     let variance =
         |x: f64, y: f64| x * x * covariance[3][3] + 2.0 * x * y * covariance[3][4] + y * y * covariance[4][4];

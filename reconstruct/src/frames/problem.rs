@@ -9,6 +9,8 @@ use rod_core::RodModel;
 
 /// Largest force (E I / L^2) that a contact is tried with: beyond it a rod is wound up.
 const MOST_FORCE: f64 = 400.0;
+/// How far (L) beyond an end the rod may go on where that is not seen.
+const BEYOND: f64 = 0.2;
 /// Largest way (L) of a foot point in one step.
 const MOST_WAY: f64 = 0.1;
 
@@ -53,10 +55,16 @@ impl<'a, M: RodModel> FrameProblem<'a, M> {
         let places: Vec<f64> = self.stations.iter().map(|station| station.0).collect();
         let mut rows = Rows { normal: NormalMatrix::empty(u.len()), count: 0, row: Vec::with_capacity(u.len()) };
         let (stations, feet) = (&self.stations, &mut self.feet);
+        // ends that are not seen are no bounds of what is seen
+        let within = match self.observed.ends {
+            [true, _] => (0.0, 1.0),
+            [false, true] => (-BEYOND, 1.0),
+            [false, false] => (-BEYOND, 1.0 + BEYOND),
+        };
         let shape = trace(self.model, self.contacts, u.as_slice(), &places, |k, node| {
             let number = stations[k].1;
             match dots.get(number) {
-                Some(dot) => rows.dot(self.model, dot, node, &mut feet[number]),
+                Some(dot) => rows.dot(self.model, dot, node, within, &mut feet[number]),
                 None => rows.along(self.model, &self.observed.channels[number - dots.len()], node),
             }
         })?;
@@ -87,11 +95,11 @@ impl Rows {
     }
 
     /// A dot at its foot point, which moves on.
-    fn dot<M: RodModel>(&mut self, model: &M, dot: &Dot, node: &Node, foot: &mut f64) {
+    fn dot<M: RodModel>(&mut self, model: &M, dot: &Dot, node: &Node, within: (f64, f64), foot: &mut f64) {
         let (sin, cos) = node.cut.phi.sin_cos();
         let (x, y) = (node.cut.x - dot.at[0], node.cut.y - dot.at[1]);
         let ahead = -(x * cos + y * sin);
-        let is_end = (node.s <= 0.0 && ahead <= 0.0) || (node.s >= 1.0 && ahead >= 0.0);
+        let is_end = (node.s <= within.0 && ahead <= 0.0) || (node.s >= within.1 && ahead >= 0.0);
         if dot.s.is_some() || is_end {
             self.add(|k| node.by[k][0], x, dot.sigma);
             self.add(|k| node.by[k][1], y, dot.sigma);
@@ -101,7 +109,7 @@ impl Rows {
         let kappa = model.curvature_at(node.s, node.cut.moment);
         let across = y * cos - x * sin + 0.5 * kappa * ahead * ahead;
         self.add(|k| cos * node.by[k][1] - sin * node.by[k][0] + ahead * node.by[k][2], across, dot.sigma);
-        *foot = (*foot + ahead.clamp(-MOST_WAY, MOST_WAY)).clamp(0.0, 1.0);
+        *foot = (*foot + ahead.clamp(-MOST_WAY, MOST_WAY)).clamp(within.0, within.1);
     }
 
     /// A channel somewhere along the rod.
@@ -148,7 +156,8 @@ pub(super) fn reactions(shape: &Shape) -> ([f64; 3], impl Fn(usize) -> [f64; 3] 
     let Shape { base, force, .. } = shape;
     let [a, b] = force.ab;
     let rates = |k: usize| [-force.by[k][1], force.by[k][0], -base.by[k][3]];
-    ([-b, a, -base.cut.moment], rates)
+    // 0, not -0
+    ([0.0 - b, a, 0.0 - base.cut.moment], rates)
 }
 
 impl<M: RodModel> Problem for FrameProblem<'_, M> {

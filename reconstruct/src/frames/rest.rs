@@ -1,6 +1,7 @@
 //! The shape of a rod at rest, from frames in which nothing touches it.
 
-use super::forces::{Film, add_square};
+use super::fault::FrameFault;
+use super::forces::{Film, add_square, check};
 use super::noise::{LEAST, first_guess};
 use super::observation::{Frame, SeenPoint};
 use crate::least_squares::{Damped, NormalMatrix, Problem, iterate};
@@ -23,8 +24,16 @@ const MOST_STEPS: usize = 60;
 #[non_exhaustive]
 pub enum RestError {
     /// No frame shows enough.
-    #[error("no frame has 5 points or more, expected frames in which nothing touches the rod")]
+    #[error("no frame has 5 points or more, expected frames of the free rod of 5 points or more each")]
     NoFrames,
+    /// A frame cannot be used.
+    #[error("frame {index} (from 0): {fault}")]
+    Frame {
+        /// Its number, from 0.
+        index: usize,
+        /// Why.
+        fault: FrameFault,
+    },
     /// No curvature explains the frames.
     #[error(
         "no curvature at rest was found that is near the frames: is the rod that of the film, and free in all of them?"
@@ -49,6 +58,8 @@ pub struct RestShape {
     pub freedom: usize,
     /// Number of frames.
     pub frames: usize,
+    /// The frame (from 0, of those with 5 points or more) that has another shape than the others, by more than chance, if there is one.
+    pub other: Option<usize>,
 }
 
 impl RestShape {
@@ -85,6 +96,9 @@ pub fn rest_shape(length: f64, frames: &[Frame], sigma: Option<f64>) -> Result<R
     if usable.is_empty() {
         return Err(RestError::NoFrames);
     }
+    for (index, frame) in frames.iter().enumerate().filter(|(_, frame)| frame.points.len() >= 5) {
+        check(length, frame, f64::INFINITY).map_err(|fault| RestError::Frame { index, fault })?;
+    }
     let mut noise = sigma.map_or_else(|| first_guess(usable.iter().copied(), length), |sigma| sigma / length);
     let mut best = None;
     for _ in 0..ROUNDS {
@@ -107,7 +121,64 @@ pub fn rest_shape(length: f64, frames: &[Frame], sigma: Option<f64>) -> Result<R
         chi_squared: cost,
         freedom,
         frames: usable.len(),
+        other: other_shape(length, &usable, noise, &coefficients),
     })
+}
+
+/// The frame whose own shape explains it best in place of the common one, if all own shapes together explain so much more that chance does not.
+fn other_shape(length: f64, frames: &[&Frame], sigma: f64, coefficients: &DVector<f64>) -> Option<usize> {
+    let terms = coefficients.len();
+    let (mut own, mut freedom, mut worst) = (0.0, 0, (0, 0.0));
+    let mut common = 0.0;
+    for (index, frame) in frames.iter().enumerate() {
+        let alone = solve(length, &[frame], sigma, coefficients)?;
+        let mut problem = Rest { films: vec![Dots::of(frame, length, sigma)], terms, freedom: 0 };
+        let pose = problem.films[0].pose;
+        let held = Held { rest: &mut problem, coefficients };
+        let together = held.cost(pose)?;
+        own += alone.cost;
+        freedom += alone.freedom;
+        common += together;
+        if together - alone.cost > worst.1 {
+            worst = (index, together - alone.cost);
+        }
+    }
+    let more = (frames.len() - 1) * terms;
+    if more == 0 || freedom == 0 {
+        return None;
+    }
+    // in units of the noise that own shapes leave
+    let gain = (common - own) / (own / freedom as f64);
+    (gain > wilson_hilferty(more, BEYOND_CHANCE)).then_some(worst.0)
+}
+
+/// A frame with a curvature that is given: only its pose is unknown.
+struct Held<'a> {
+    rest: &'a mut Rest,
+    coefficients: &'a DVector<f64>,
+}
+
+impl Held<'_> {
+    /// What the best pose leaves, from one nearby on.
+    fn cost(mut self, pose: [f64; 3]) -> Option<f64> {
+        let (at, _) = iterate(&mut self, DVector::from_column_slice(&pose), Damped::default(), MOST_STEPS);
+        Some(self.equations(&at.x).cost).filter(|cost| cost.is_finite())
+    }
+}
+
+impl Problem for Held<'_> {
+    type Equations = NormalMatrix;
+
+    fn equations(&mut self, pose: &DVector<f64>) -> NormalMatrix {
+        let terms = self.coefficients.len();
+        let all = DVector::from_iterator(terms + 3, self.coefficients.iter().chain(pose).copied());
+        let NormalMatrix { matrix, gradient, cost } = self.rest.equations(&all);
+        NormalMatrix {
+            matrix: matrix.view((terms, terms), (3, 3)).into_owned(),
+            gradient: gradient.rows(terms, 3).into_owned(),
+            cost,
+        }
+    }
 }
 
 /// Coefficients with a number of terms, dimensionless.

@@ -4,11 +4,14 @@ use super::observation::{Axis, Measurand};
 use super::observed::Observed;
 use super::problem::FrameProblem;
 use super::shape::{Place, trace, unknowns};
+use crate::least_squares::{Damped, iterate};
 use nalgebra::DVector;
 use rod_core::{Cut, RodModel};
 
 /// Arc lengths (L) at which a contact is tried first.
-const PLACES: [f64; 8] = [0.12, 0.25, 0.38, 0.5, 0.63, 0.75, 0.87, 0.96];
+const PLACES: [f64; 10] = [0.1, 0.2, 0.32, 0.44, 0.56, 0.68, 0.78, 0.86, 0.93, 0.985];
+/// Steps with the contact held at its place, by which starts are compared.
+const HELD_STEPS: usize = 3;
 /// Turns of the rod (rad) that are tried where no point on the rod tells how far it turns.
 const TURNS: [f64; 6] = [-1.2, -0.5, -0.1, 0.1, 0.5, 1.2];
 /// Number of points by which starts are compared.
@@ -106,10 +109,21 @@ impl Sight {
                 TURNS.iter().map(|turn| turn / unit).collect()
             };
             for force in forces {
-                let u = with_contact(cut, place, s, force, unknowns(&contacts));
-                let mut problem = FrameProblem::new(model, &few, &contacts, feet.clone());
-                if let Some(left) = problem.at(&u) {
-                    starts.push((left.normal.cost, Start { u, feet: self.feet.clone() }));
+                // along the rod a small force has many places: pose and force that go with this one tell them apart
+                let held = [match place {
+                    Place::Side { .. } => Place::Side { s: Some(s), rub: Some(0.0) },
+                    Place::Tip => Place::Tip,
+                }];
+                let u = with_contact(cut, held[0], s, force, unknowns(&held));
+                let mut problem = FrameProblem::new(model, &few, &held, feet.clone());
+                let (at, _) = iterate(&mut problem, u, Damped::lightly(), HELD_STEPS);
+                let cost = at.equations.cost;
+                if cost.is_finite() {
+                    let (pose, force) = (&at.x.as_slice()[..3], &at.x.as_slice()[3..]);
+                    let own = matches!(place, Place::Side { s: None, .. }).then_some(s);
+                    let mut u: Vec<f64> = pose.iter().copied().chain(own).chain(force.iter().copied()).collect();
+                    u.resize(unknowns(&contacts), 0.0);
+                    starts.push((cost, Start { u: DVector::from_vec(u), feet: self.feet.clone() }));
                 }
             }
         }

@@ -56,11 +56,18 @@ pub struct FamilyMember {
 }
 
 /// The verdict on the best candidate; `sigmas` are those of arc length (L) and of force (as a share) of each contact.
-pub(super) fn verdict(best: &Candidate, rivals: usize, sigmas: impl Iterator<Item = (f64, f64)>) -> FrameVerdict {
+///
+/// `is_placed` says whether anything tells where along the rod the points are: a uniform rod looks the same everywhere.
+pub(super) fn verdict(
+    best: &Candidate,
+    rivals: usize,
+    is_placed: bool,
+    sigmas: impl Iterator<Item = (f64, f64)>,
+) -> FrameVerdict {
     if !best.explains() {
         return FrameVerdict::NotExplained;
     }
-    if best.covariance.is_none() {
+    if best.covariance.is_none() || (!is_placed && !best.shape.contacts.is_empty()) {
         return FrameVerdict::Family;
     }
     if best.shape.contacts.is_empty() {
