@@ -279,12 +279,15 @@ fn of_frame<R: PhysicalRod>(
     let units = rod.units();
     let Chosen { best, rivals, unseen } = chosen;
     let mut contacts = contacts(&best, &units);
-    let sigmas = contacts.iter().map(|contact| {
+    let vague = |contact: &FrameContact| {
         let share = if contact.force > 0.0 { contact.sigma_force / contact.force } else { f64::INFINITY };
         (contact.sigmas()[0] / units.length, share)
-    });
+    };
+    let sigmas = contacts.iter().map(vague);
+    let rival_contacts: Vec<Vec<FrameContact>> = rivals.iter().map(|rival| self::contacts(rival, &units)).collect();
+    let of_rivals = rival_contacts.iter().flatten().map(vague);
     let is_placed = !rod.model().is_uniform() || observed.ends != [false; 2] || !observed.channels.is_empty();
-    let verdict = verdict(&best, rivals.len(), is_placed, sigmas);
+    let verdict = verdict(&best, is_placed, sigmas, of_rivals);
     let (pose, reactions, mut covariance) = at_base(&best, &units);
     // what another explanation says differs from this one by an error of this one; of a free rod that is what chance shows, with its own error
     for other in rivals.iter().chain(&unseen) {
@@ -313,7 +316,7 @@ fn of_frame<R: PhysicalRod>(
         freedom: best.freedom.max(0) as usize,
         p_value: best.p_value(),
         shortening,
-        rivals: rivals.iter().map(|rival| self::contacts(rival, &units)).collect(),
+        rivals: rival_contacts,
         family: if is_family { family(rod.model(), &observed, &units, allowed(settings).friction) } else { Vec::new() },
     })
 }

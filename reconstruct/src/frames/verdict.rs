@@ -55,14 +55,15 @@ pub struct FamilyMember {
     pub chi_squared: f64,
 }
 
-/// The verdict on the best candidate; `sigmas` are those of arc length (L) and of force (as a share) of each contact.
+/// The verdict on the best candidate; `sigmas` are those of arc length (L) and of force (as a share) of each contact, and the others those of
+/// the contacts that explain the frame too.
 ///
 /// `is_placed` says whether anything tells where along the rod the points are: a uniform rod looks the same everywhere.
 pub(super) fn verdict(
     best: &Candidate,
-    rivals: usize,
     is_placed: bool,
     sigmas: impl Iterator<Item = (f64, f64)>,
+    of_rivals: impl Iterator<Item = (f64, f64)>,
 ) -> FrameVerdict {
     if !best.explains() {
         return FrameVerdict::NotExplained;
@@ -73,13 +74,19 @@ pub(super) fn verdict(
     if best.shape.contacts.is_empty() {
         return FrameVerdict::Free;
     }
-    // a standard deviation of the length of the rod is that of any place
+    // what is anywhere within three tenths of the length is anywhere
+    let is_anywhere = |place: f64| place.is_nan() || place > 3.0 * VAGUE_PLACE;
     let (mut is_rough, mut is_family) = (false, false);
     for (place, force) in sigmas {
         is_rough |= place > VAGUE_PLACE || force > VAGUE_FORCE;
-        is_family |= place > 3.0 * VAGUE_PLACE;
+        is_family |= is_anywhere(place);
     }
-    match (is_family, rivals > 0, is_rough) {
+    let mut has_rivals = false;
+    for (place, _) in of_rivals {
+        has_rivals = true;
+        is_family |= is_anywhere(place);
+    }
+    match (is_family, has_rivals, is_rough) {
         (true, ..) => FrameVerdict::Family,
         (_, true, _) => FrameVerdict::Several,
         (.., true) => FrameVerdict::Rough,
