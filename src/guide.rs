@@ -48,6 +48,9 @@ pub mod output_files {}
 #[doc = include_str!("../docs/reconstruction.md")]
 pub mod reconstruction {}
 
+#[doc = include_str!("../docs/forces-from-shapes.md")]
+pub mod forces_from_shapes {}
+
 #[doc = include_str!("../docs/laboratory.md")]
 pub mod laboratory {}
 

@@ -1,7 +1,9 @@
 //! Forces from shapes, against a rod that is integrated step by step and shot at its free end.
 
-use rod_core::{AnyRod, CurvatureSpec, RodSpec, StiffnessSpec};
-use rod_reconstruct::{ForceSettings, Frame, FrameVerdict, forces, rest_shape};
+use rod_core::{
+    AnyRod, ClampSpec, CurvatureSpec, ElasticClamp, Elastica, Load, PhysicalRod, Pose, RodSpec, StiffnessSpec, Units,
+};
+use rod_reconstruct::{Axis, Channel, ForceSettings, Frame, FrameVerdict, Measurand, forces, rest_shape};
 
 /// The laws of a rod: bending stiffness and curvature at rest by the arc length, SI.
 struct Law {
@@ -288,4 +290,50 @@ fn the_shape_at_rest_is_found_from_free_frames() {
     for off in off {
         assert!(off > 13.8 && off < 53.7, "{off}");
     }
+}
+
+/// A cantilever under a dead load P at its tip: Mattiasson (1981), table 1, deflections w across and u along.
+#[test]
+fn the_tip_load_of_a_cantilever_is_found_from_its_shape() {
+    let rod = AnyRod::from(rod_core::Rod::new(1.0, 1.0).unwrap());
+    for (load, across, along) in [(1.0, 0.30172, 0.05643), (10.0, 0.81061, 0.55500)] {
+        let base = Pose { x: 0.0, y: 0.0, phi: 0.0 };
+        let push = Load { s: 1.0, force: load, alpha: 0.0 };
+        let shape = Elastica::under_loads(Units::ONE, base, &[push]).unwrap().0;
+        let tip = shape.at(1.0);
+        assert!((tip.y + across).abs() < 1e-5 && (1.0 - tip.x - along).abs() < 1e-5, "{tip:?}");
+        let points: Vec<[f64; 2]> = arcs(1.0, 40).iter().map(|s| shape.at(*s)).map(|at| [at.x, at.y]).collect();
+        let film = forces(&rod, &[Frame::from_base(&points)], &ForceSettings::default());
+        let told = film.frames[0].as_ref().unwrap();
+        assert_eq!((told.verdict, told.contacts.len()), (FrameVerdict::Told, 1), "{told:?}");
+        let contact = &told.contacts[0];
+        assert!(contact.is_tip && (contact.fy + load).abs() < 1e-9 && contact.fx.abs() < 1e-9, "{contact:?}");
+        assert!((told.reactions.m0z - load * tip.x).abs() < 1e-9 && (told.reactions.f0y - load).abs() < 1e-9);
+    }
+}
+
+/// The base of a rod on a torsion spring turns against its moment: support and base together tell the moment.
+#[test]
+fn the_rotation_of_a_compliant_base_is_a_moment() {
+    let springs = ElasticClamp::springs(None, None, Some(5e-4)).unwrap();
+    let spec = RodSpec { clamp: ClampSpec::Springs(springs), ..RodSpec::new(0.1, StiffnessSpec::of(1e-5)) };
+    let rod = spec.build().unwrap();
+    let moment = 2e-5;
+    let turned = moment / 5e-4;
+    let channel = |measured, value, sigma| Channel { quantity: measured, value, sigma };
+    let channels = vec![
+        channel(Measurand::Support(Axis::X), 0.0, 1e-7),
+        channel(Measurand::Support(Axis::Y), 0.0, 1e-7),
+        channel(Measurand::Support(Axis::Angle), 0.3, 1e-6),
+        channel(Measurand::Base(Axis::Angle), 0.3 - turned, 1e-6),
+    ];
+    let base = rod.base(Pose { x: 0.0, y: 0.0, phi: 0.3 }, &rod_core::Reactions { m0z: moment, ..Default::default() });
+    assert!((base.phi - (0.3 - turned)).abs() < 1e-12);
+    let film = forces(&rod, &[Frame { channels, ..Frame::default() }], &ForceSettings::default());
+    let told = film.frames[0].as_ref().unwrap();
+    assert_eq!(told.verdict, FrameVerdict::Family, "{told:?}");
+    assert!((told.reactions.m0z - moment).abs() < 1e-8, "{:?}", told.reactions);
+    // the force at half of the length times its lever, hardly bent
+    let near = told.family.iter().find(|member| (member.s - 0.05).abs() < 1e-9).unwrap();
+    assert!((near.force - moment / 0.05).abs() < 0.02 * near.force, "{near:?}");
 }

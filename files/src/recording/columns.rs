@@ -7,6 +7,9 @@ use vibrissa::hw::recording::{ColumnMap, Columns, Role, Table, TableError, Table
 /// What a recording must have, for messages.
 pub(super) const EXPECTED: &str = "x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N m) in any order, perhaps t (s), and perhaps all of sigma_f0x, sigma_f0y (N), sigma_m0z (N m)";
 
+/// What else to do where some of the reactions were not measured.
+const PART: &str = "; `vibrissa forces` takes a part of the reactions";
+
 /// What else to do where there are no poses.
 const STAGE: &str = "; of raw values or wrenches, --stage tells the poses";
 
@@ -21,7 +24,11 @@ pub(super) fn find(file: &Path, table: &Table, map: &ColumnMap) -> Result<Column
             file: file.to_path_buf(),
             line: error.line.unwrap_or(1),
             // raw values and wrenches have no poses at all
-            hint: if POSE.iter().all(|role| missing.contains(role)) { hint + STAGE } else { hint },
+            hint: match POSE.iter().filter(|role| missing.contains(role)).count() {
+                3 => hint + STAGE,
+                0 if !REACTIONS.iter().all(|role| missing.contains(role)) => hint + PART,
+                _ => hint,
+            },
             missing: missing.iter().map(|role| role.name().to_owned()).collect(),
             found,
         },
