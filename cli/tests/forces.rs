@@ -87,7 +87,7 @@ fn what_is_no_film_is_told() {
     let mixed: Vec<[f64; 2]> = good.iter().copied().zip(shifted).flat_map(|(one, other)| [one, other]).collect();
     let in_mm = good.iter().map(|[x, y]| [1e3 * x, 1e3 * y]).collect();
     for (text, status, message) in [
-        (table(&[mixed]), 2, "frame 0: the points lie along"),
+        (table(&[mixed]), 2, "frame 0: the points scatter by"),
         (table(&[in_mm]), 2, "are the points in mm?"),
         (table(&[good.clone(), vec![[0.0, 0.0]]]), 2, "frame 1: 1 points and 0 channels, expected points at 3 places"),
         ("frame,x,y\n1,0,0\n0,0,0\n".into(), 1, "line 3: frame 0 after frame 1, expected frames in order"),
@@ -97,7 +97,7 @@ fn what_is_no_film_is_told() {
             "line 2: x is `a`, expected a number\nline 3: frame is 1.5, expected a whole",
         ),
         ("frame,x\n1,0\n".into(), 1, "no column y, found frame, x"),
-        ("u,v\n1,0\n".into(), 1, "no column of a measured number, found u, v; expected any of x0"),
+        ("u,v\n1,0\n".into(), 1, "no column of a measured number, found u, v; expected frame, x, y for points"),
         ("frame,x,y\n".into(), 1, "no frame, expected rows"),
     ] {
         fs::write(path.join("frames.csv"), &text).unwrap();

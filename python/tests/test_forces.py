@@ -119,7 +119,7 @@ def test_mistakes_are_sentences() -> None:
         ({"frames": points[:1], "sigma": 0.0}, "sigma is 0, expected a number larger than 0"),
         ({"frames": points[:1], "contacts": 3}, "contacts is 3, expected 0, 1 or 2"),
         ({"frames": points[:1], "channels": {"f0x": [1.0, 2.0]}}, "the channels have 2 rows, expected one a frame: 1"),
-        ({"channels": {"torque": [1.0]}}, "torque is no measured number, expected any of x0"),
+        ({"channels": {"torque": [1.0]}}, "torque is no measured number, expected frame, x, y for points"),
         ({"frames": points[:1], "rest": [np.zeros((2, 2))]}, "rest: no frame has 5 points or more"),
         ({}, "neither frames nor channels are given"),
     ]:

@@ -5,18 +5,15 @@ use super::points::whole;
 use super::table::Numbers;
 use vibrissa::reconstruct::{Axis, Channel, Measurand};
 
-const EXPECTED: &str = "any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, kappa@S (curvature at the arc \
+const EXPECTED: &str = "frame, x, y for points on the rod, or measured numbers: any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, kappa@S (curvature at the arc \
      length S in m), each perhaps with a column sigma_...";
 
-/// Standard deviation of a position (m, as a share of the length of the rod) and angle (rad) that no column tells, and least one of a reaction, as a
-/// share of the largest: as good as exact beside what sensors and stages are.
+/// Standard deviation of a position (m, as a share of the length of the rod) and angle (rad) that no column tells: as good as
+/// exact beside what stages are.
 const EXACT: f64 = 1e-6;
-/// Fewest rows from which the noise of a channel is found.
-const FEWEST: usize = 8;
-/// Standard deviation of a reaction or curvature in a table that is too short to show it, as a share of the largest.
+/// Standard deviation of a reaction or curvature that no column tells, as a share of the largest one: rows need not be neighbours in time, so that
+/// their scatter says nothing.
 const SHARE: f64 = 1e-3;
-/// What third differences of independent noise have as their variance, in that of the noise.
-const THIRD: f64 = 20.0;
 
 /// A column of measured numbers with its standard deviations, none where a cell has none.
 struct Column {
@@ -139,20 +136,12 @@ fn quantity(name: &str) -> Option<Measurand> {
     })
 }
 
-/// The noise of a channel that no column tells: of a pose none, of others what third differences along the table show.
+/// The noise of a channel that no column tells.
 fn sigma_of(quantity: Measurand, values: &[f64], length: f64) -> f64 {
     match quantity {
         Measurand::Support(Axis::Angle) | Measurand::Base(Axis::Angle) => return EXACT,
         Measurand::Support(_) | Measurand::Base(_) => return EXACT * length,
         _ => {}
     }
-    let largest = values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
-    if values.len() < FEWEST {
-        return SHARE * largest;
-    }
-    let third = |v: &[f64]| (v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]).abs();
-    let mut differences: Vec<f64> = values.windows(4).map(third).collect();
-    differences.sort_unstable_by(f64::total_cmp);
-    // the median of the size of a normal variable
-    (differences[differences.len() / 2] / 0.6745 / THIRD.sqrt()).max(EXACT * largest)
+    SHARE * values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }

@@ -6,6 +6,14 @@ use std::path::{Path, PathBuf};
 /// Most faults that are told.
 const MOST_FAULTS: usize = 5;
 
+/// What separates the cells: of commas, semicolons and tabs what the line of names has most of.
+fn delimiter(file: &Path) -> std::io::Result<u8> {
+    let text = std::fs::read(file)?;
+    let names = text.split(|byte| *byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
+    let count = |delimiter: u8| names.iter().filter(|byte| **byte == delimiter).count();
+    Ok([b',', b';', b'\t'].into_iter().rev().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b','))
+}
+
 /// Names and rows of a CSV file.
 pub(super) struct Numbers {
     pub file: PathBuf,
@@ -18,7 +26,9 @@ pub(super) struct Numbers {
 impl Numbers {
     pub fn read(file: &Path) -> Result<Self, FilmError> {
         let unreadable = |source| FilmError::Unreadable { file: file.to_path_buf(), source };
+        let delimiter = delimiter(file).map_err(|source| unreadable(source.into()))?;
         let mut reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
             .flexible(true)
@@ -35,7 +45,13 @@ impl Numbers {
             let record = record.map_err(unreadable)?;
             rows.push((record.position().map_or(0, csv::Position::line), record));
         }
-        let table = Self { file: file.to_path_buf(), names, rows, faults: Vec::new(), left_out: 0 };
+        let mut table = Self { file: file.to_path_buf(), names, rows, faults: Vec::new(), left_out: 0 };
+        for row in 0..table.rows.len() {
+            let (cells, columns) = (table.rows[row].1.len(), table.names.len());
+            if cells != columns {
+                table.fault(row, &format!("{cells} cells, expected {columns}, one for each column"));
+            }
+        }
         if table.rows.is_empty() { Err(FilmError::Empty { file: table.file }) } else { Ok(table) }
     }
 
@@ -48,7 +64,7 @@ impl Numbers {
     }
 
     pub fn column(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|own| own == name)
+        self.names.iter().position(|own| own.eq_ignore_ascii_case(name))
     }
 
     /// The column of this name.

@@ -3,7 +3,7 @@
 use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, solve};
 use super::observed::Observed;
 use super::shape::Place;
-use super::start::{Sight, Start, second};
+use super::start::{Sight, Start};
 use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
 use nalgebra::DVector;
 use rod_core::RodModel;
@@ -20,8 +20,8 @@ const MIDDLE: f64 = 0.5;
 const SETTLES: f64 = 0.1;
 /// How many times the chi squared of what explains a frame another explanation may have after a few steps.
 const NEAR: f64 = 5.0;
-/// How many starts are tried for one contact where the first ones do not explain the frame.
-const MOST_STARTS: usize = 4;
+/// How many starts are tried where the first ones do not explain the frame.
+const MOST_STARTS: usize = 5;
 
 /// What may touch the rod.
 #[derive(Clone, Copy)]
@@ -90,12 +90,20 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
         let unseen = held_at(model, observed, MIDDLE, friction);
         return Some(Chosen { best: free, rivals: Vec::new(), unseen });
     }
-    if singles[0].explains() || allowed.contacts == 1 {
+    if singles[0].p_value() > SETTLES || allowed.contacts == 1 {
         return settle(singles);
     }
-    let starts = singles.iter().flat_map(|one| second(model, one, allowed.side()));
-    let pairs = starts.filter_map(|(contacts, start)| solve(model, observed, &contacts, &start, friction, MOST_STEPS));
-    let mut pairs: Vec<Candidate> = pairs.filter(|pair| pair.is_ordered() && pair.is_loaded()).collect();
+    let mut pairs: Vec<Candidate> = Vec::new();
+    for (contacts, start) in sight.two(model, observed, allowed.side(), &singles).iter().take(MOST_STARTS) {
+        let Some(pair) = solve(model, observed, contacts, start, friction, MOST_STEPS) else { continue };
+        let is_told = pair.p_value() > SETTLES;
+        if pair.is_ordered() && pair.is_loaded() {
+            pairs.push(pair);
+            if is_told {
+                break;
+            }
+        }
+    }
     pairs.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     if pairs.first().is_some_and(|pair| pair.is_worth(&singles[0])) { settle(pairs) } else { settle(singles) }
 }
@@ -117,18 +125,24 @@ fn settle(mut candidates: Vec<Candidate>) -> Option<Chosen> {
     Some(Chosen { best, rivals, unseen: None })
 }
 
-/// Distance of contacts (L) from which two shapes are told apart, beside the standard deviation of their places.
+/// Distance of contacts (L), and share of a force, from which two shapes are told apart.
 const DISTINCT: f64 = 1e-3;
 
 impl Candidate {
+    /// Whether this is another explanation: contacts of another number, another kind with another force, or at other places, beyond their standard
+    /// deviations.
     fn differs(&self, other: &Self) -> bool {
         let (own, others) = (&self.shape.contacts, &other.shape.contacts);
         own.len() != others.len()
             || own.iter().zip(others).any(|(a, b)| {
-                let variance = a.node.s_unknown.zip(self.covariance.as_ref()).map(|(k, covariance)| covariance[(k, k)]);
-                let apart = DISTINCT + variance.unwrap_or_default().max(0.0).sqrt();
                 let way = (a.node.cut.x - b.node.cut.x).hypot(a.node.cut.y - b.node.cut.y);
-                way > apart || (a.node.s - b.node.s).abs() > apart
+                let way = way.max((a.node.s - b.node.s).abs());
+                if a.is_tip != b.is_tip {
+                    let ([ax, ay], [bx, by]) = (a.force.ab, b.force.ab);
+                    return way > DISTINCT || (ax - bx).hypot(ay - by) > DISTINCT * ax.hypot(ay);
+                }
+                let variance = a.node.s_unknown.zip(self.covariance.as_ref()).map(|(k, covariance)| covariance[(k, k)]);
+                way > DISTINCT + variance.unwrap_or_default().max(0.0).sqrt()
             })
     }
 

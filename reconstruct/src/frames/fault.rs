@@ -36,6 +36,14 @@ pub enum FrameFault {
         /// What may be wrong.
         hint: String,
     },
+    /// The points scatter by more than any noise.
+    #[error(
+        "the points scatter by {share:.0} % of the length of the rod across it, expected points of one rod: are two rods mixed?"
+    )]
+    Scatter {
+        /// By how much, %.
+        share: f64,
+    },
     /// The points turn back on themselves.
     #[error(
         "the rod turns back at point {point} (from 0), expected points of one rod in order from the base to the tip: are two rods mixed?"

@@ -18,10 +18,16 @@ use rod_core::{PhysicalRod, Pose, Reactions, RodModel, Units};
 /// Length of the points along the rod, as a share of the length of the rod, beyond which they are not of this rod, and below which they are in
 /// another unit.
 const LENGTHS: (f64, f64) = (0.02, 1.3);
+/// Number of chords by which the length of a frame is measured.
+const FEW_CHORDS: usize = 10;
+/// Scatter of the points across the rod (L) from which on they are of more than one rod.
+const MOST_SCATTER: f64 = 0.03;
 /// Share of the points at which they turn back, from which on they are no curve.
 const NO_CURVE: f64 = 0.2;
 /// Share of the noise that is left with all points in reverse order, from which on it is asked whether they are so.
 const LESS_NOISE: f64 = 0.7;
+/// By how much chi squared is less with the points in reverse order, at least.
+const CLEARLY: f64 = 30.0;
 /// Most frames by which that is found.
 const FEW: usize = 20;
 /// Cosine of the angle between two chords from which on the points turn back: 120 degrees.
@@ -241,8 +247,15 @@ pub(super) fn check(length: f64, frame: &Frame, sigma: f64) -> Result<(), FrameF
         };
         chords.windows(2).map(turns)
     };
-    let measured: f64 = chords.iter().map(|[x, y]| x.hypot(*y)).sum();
+    // along a few of the points, so that their noise does not add to the length
+    let few = frame.points.iter().step_by(frame.points.len().div_ceil(FEW_CHORDS)).chain(frame.points.last());
+    let few: Vec<&SeenPoint> = few.collect();
+    let measured: f64 = few.windows(2).map(|pair| (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y)).sum();
     let ratio = measured / length;
+    let scatter = first_guess(std::iter::once(frame), length);
+    if LENGTHS.1 >= ratio && scatter > MOST_SCATTER {
+        return Err(FrameFault::Scatter { share: 1e2 * scatter });
+    }
     if !(LENGTHS.0..=LENGTHS.1).contains(&ratio) {
         let back = turns_back(0.0).filter(|turns| *turns).count() as f64;
         let hint = match ratio {
@@ -267,7 +280,7 @@ fn of_frame<R: PhysicalRod>(
     check(rod.units().length, frame, sigma)?;
     let observed = Observed::new(frame, rod, sigma);
     let chosen = choose(rod.model(), &observed, allowed(settings)).ok_or(FrameFault::NoShape)?;
-    if !chosen.best.explains() && is_explained_reversed(rod, frame, settings, sigma) {
+    if !chosen.best.explains() && is_explained_reversed(rod, frame, settings, sigma, chosen.best.chi_squared) {
         return Err(FrameFault::Reversed);
     }
     let shortening = shortening(&chosen.best, &observed);
@@ -322,9 +335,15 @@ fn of_frame<R: PhysicalRod>(
 }
 
 /// Whether the points in reverse order are of a shape of the rod.
-fn is_explained_reversed<R: PhysicalRod>(rod: &R, frame: &Frame, settings: &ForceSettings, sigma: f64) -> bool {
+fn is_explained_reversed<R: PhysicalRod>(
+    rod: &R,
+    frame: &Frame,
+    settings: &ForceSettings,
+    sigma: f64,
+    forward: f64,
+) -> bool {
     let chosen = choose(rod.model(), &Observed::new(&reversed(frame), rod, sigma), allowed(settings));
-    chosen.is_some_and(|chosen| chosen.best.explains())
+    chosen.is_some_and(|chosen| chosen.best.explains() && chosen.best.chi_squared + CLEARLY < forward)
 }
 
 /// By how much a rod of which both ends are seen looks too short (share of its length), with its standard deviation.

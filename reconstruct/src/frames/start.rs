@@ -1,5 +1,6 @@
 //! Where the least squares begin.
 
+use super::candidate::Candidate;
 use super::observation::{Axis, Measurand};
 use super::observed::Observed;
 use super::problem::FrameProblem;
@@ -14,8 +15,14 @@ const PLACES: [f64; 10] = [0.1, 0.2, 0.32, 0.44, 0.56, 0.68, 0.78, 0.86, 0.93, 0
 const HELD_STEPS: usize = 3;
 /// Turns of the rod (rad) that are tried where no point on the rod tells how far it turns.
 const TURNS: [f64; 6] = [-1.2, -0.5, -0.1, 0.1, 0.5, 1.2];
+/// Arc lengths (L) at which the outer and the inner one of two contacts are tried, the inner one within this share of the way to the outer one, and
+/// the steps by which such starts are compared.
+const OUTER: [f64; 4] = [0.44, 0.68, 0.86, 1.0];
+const INNER: [f64; 5] = [0.1, 0.2, 0.32, 0.56, 0.78];
+const MOST_INNER: f64 = 0.9;
+const PAIR_STEPS: usize = 12;
 /// Number of points by which starts are compared.
-const FEW: usize = 10;
+const FEW: usize = 14;
 /// Newton steps for the force that turns the base as the points say.
 const STEPS: usize = 6;
 /// Largest change of an angle in such a step, rad.
@@ -131,6 +138,41 @@ impl Sight {
         starts.into_iter().map(|start| start.1).collect()
     }
 
+    /// Starts with two contacts, at many pairs of places: from a first one that bends the rod as the points say, and a second one without a force. With
+    /// `from`, those from one contact besides. The best first, after a few steps.
+    pub fn two<M: RodModel>(
+        &self,
+        model: &M,
+        observed: &Observed,
+        side: Place,
+        from: &[Candidate],
+    ) -> Vec<(Vec<Place>, Start)> {
+        let (few, feet) = self.thinned(observed);
+        let mut starts: Vec<(Vec<Place>, Start)> = from.iter().flat_map(|one| second(model, one, side)).collect();
+        for outer in OUTER {
+            let cut = self.at(model, outer);
+            let force = self.force(model, outer, cut);
+            let place = if outer < 1.0 { side } else { Place::Tip };
+            for inner in INNER.into_iter().filter(|inner| *inner < MOST_INNER * outer) {
+                let contacts = vec![place, side];
+                let mut u = with_contact(cut, place, outer, force, 3 + place.unknowns()).as_slice().to_vec();
+                u.push(inner);
+                u.resize(unknowns(&contacts), 0.0);
+                starts.push((contacts, Start { u: DVector::from_vec(u), feet: self.feet.clone() }));
+            }
+        }
+        let mut ranked: Vec<(f64, (Vec<Place>, Start))> = Vec::new();
+        for (contacts, start) in starts {
+            let mut problem = FrameProblem::new(model, &few, &contacts, feet.clone());
+            let (at, _) = iterate(&mut problem, start.u, Damped::default(), PAIR_STEPS);
+            if at.equations.cost.is_finite() {
+                ranked.push((at.equations.cost, (contacts, Start { u: at.x, feet: self.feet.clone() })));
+            }
+        }
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.into_iter().map(|start| start.1).collect()
+    }
+
     /// A few of the dots, by which starts are compared, with their arc lengths.
     fn thinned(&self, observed: &Observed) -> (Observed, Vec<f64>) {
         let stride = observed.dots.len().div_ceil(FEW).max(1);
@@ -186,11 +228,7 @@ pub(super) fn turn_per_force<M: RodModel>(model: &M, s: f64) -> f64 {
 const SHARES: [f64; 3] = [0.3, 0.55, 0.8];
 
 /// Starts with a second contact that carries no force yet: on either side of the one that is known, and at the tip; each with its contacts.
-pub(super) fn second<M: RodModel>(
-    model: &M,
-    one: &super::candidate::Candidate,
-    side: Place,
-) -> Vec<(Vec<Place>, Start)> {
+fn second<M: RodModel>(model: &M, one: &Candidate, side: Place) -> Vec<(Vec<Place>, Start)> {
     let Some(contact) = one.shape.contacts.first() else { return Vec::new() };
     let mut starts = Vec::new();
     let mut add = |contacts: Vec<Place>, mut u: Vec<f64>| {

@@ -17,7 +17,7 @@ pub enum FrameVerdict {
     /// Contacts, forces and reactions are determined.
     Told,
     /// A contact is there, but its place and its force are known roughly only (standard deviations of more than a tenth of the length, or of
-    /// half of the force): what they do together, the moment at the base, may be known well.
+    /// half of the force), or there are as many unknowns as numbers, so that nothing checks them: what they do together, the moment at the base, may be known well.
     Rough,
     /// Place and force are not told apart at all: a whole family of them explains the frame.
     Family,
@@ -78,7 +78,8 @@ pub(super) fn verdict(
     let is_anywhere = |place: f64| place.is_nan() || place > 3.0 * VAGUE_PLACE;
     let (mut is_rough, mut is_family) = (false, false);
     for (place, force) in sigmas {
-        is_rough |= place > VAGUE_PLACE || force > VAGUE_FORCE;
+        // as many unknowns as numbers: nothing checks them
+        is_rough |= place > VAGUE_PLACE || force > VAGUE_FORCE || best.freedom <= 0;
         is_family |= is_anywhere(place);
     }
     let mut has_rivals = false;
