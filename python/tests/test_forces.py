@@ -120,7 +120,7 @@ def test_mistakes_are_sentences() -> None:
         ({"frames": points[:1], "contacts": 3}, "contacts is 3, expected 0, 1 or 2"),
         ({"frames": points[:1], "channels": {"f0x": [1.0, 2.0]}}, "the channels have 2 rows, expected one a frame: 1"),
         ({"channels": {"torque": [1.0]}}, "torque is no measured number, expected frame, x, y for points"),
-        ({"frames": points[:1], "rest": [np.zeros((2, 2))]}, "rest: no frame has 5 points or more"),
+        ({"frames": points[:1], "rest": [np.zeros((2, 2))]}, "rest: no frame has 5 points or more and shows an end"),
         ({}, "neither frames nor channels are given"),
     ]:
         with pytest.raises(ValueError, match=message.replace("(", r"\(").replace(")", r"\)").replace(",)", ",)")):

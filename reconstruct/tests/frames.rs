@@ -176,7 +176,7 @@ struct Tally {
 }
 
 /// Noisy films of rods with one contact, judged against the truth. `friction` is that of the films and known as a limit.
-fn tally(rod: &AnyRod, law: &Law, friction: f64, sigma: f64, know: bool) -> Tally {
+fn tally(rod: &AnyRod, law: &Law, friction: f64, sigma: f64, each: usize) -> Tally {
     let unit = rod.units().force;
     let (at, mut normal, mut tally) = (arcs(law.length, 40), Normal(88_172_645_463_325_252), Tally::default());
     for (s, force, share) in
@@ -184,16 +184,14 @@ fn tally(rod: &AnyRod, law: &Law, friction: f64, sigma: f64, know: bool) -> Tall
     {
         let push = Push { s: s * law.length, force: force * unit, turn: share * friction.atan() };
         let (found, m0, _) = shoot(law, [0.01, -0.02, 0.8], &[push], &at);
-        let frames: Vec<Frame> = (0..200)
+        let frames: Vec<Frame> = (0..each)
             .map(|_| {
                 let points = found.iter().map(|v| [0, 1].map(|c| v[c] + sigma * law.length * normal.next()));
                 Frame::from_base(&points.collect::<Vec<_>>())
             })
             .collect();
-        let settings =
-            ForceSettings { friction, sigma: know.then_some(sigma * law.length), ..ForceSettings::default() };
+        let settings = ForceSettings { friction, sigma: Some(sigma * law.length), ..ForceSettings::default() };
         let film = forces(rod, &frames, &settings);
-        assert!((film.sigma / (sigma * law.length) - 1.0).abs() < 0.05, "{}", film.sigma);
         for told in film.frames {
             let told = told.unwrap();
             tally.frames += 1;
@@ -227,10 +225,14 @@ fn tally(rod: &AnyRod, law: &Law, friction: f64, sigma: f64, know: bool) -> Tall
 fn standard_deviations_are_right() {
     for (number, (rod, law)) in rods().iter().enumerate() {
         for friction in [0.0, 0.4] {
-            let tally = tally(rod, law, friction, 0.0005, true);
+            let each = if friction == 0.0 { 200 } else { 40 };
+            let tally = tally(rod, law, friction, 0.0005, each);
             println!("{number} {friction}: {tally:?}");
             let Tally { frames, chi_squared, freedom, within, worst, wrong_count, told } = tally;
-            assert!(frames == 1000 && wrong_count <= 3 && told >= 750 && worst < 6.0, "{number} {friction}");
+            assert!(
+                frames == 5 * each && wrong_count <= 3 && told >= 3 * frames / 4 && worst < 6.0,
+                "{number} {friction}"
+            );
             // two-sided band of 99 %
             assert!(
                 (chi_squared - freedom as f64).abs() < 2.576 * (2.0 * freedom as f64).sqrt(),

@@ -7,7 +7,7 @@ use super::palette::{FAINT, FIRST, INK, MUTED, TRANSITION};
 use super::plane::PlaneWindow;
 use super::trace::{self, Along, LINE, TracePart};
 use rod_files::FilmForces;
-use vibrissa::reconstruct::{FrameContact, FrameForces};
+use vibrissa::reconstruct::{FrameContact, FrameForces, FrameVerdict};
 use vibrissa::rod::{Elastica, Load, RodError};
 
 /// Most frames that are drawn.
@@ -30,7 +30,7 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     let every = found.frames.len().div_ceil(MOST).max(1);
     let drawn = || found.frames.iter().zip(&found.film.frames).step_by(every);
     let dots = || drawn().flat_map(|((_, frame), _)| frame.points.iter().map(|point| (1e3 * point.x, 1e3 * point.y)));
-    let told = || drawn().filter_map(|(_, told)| told.as_ref().ok());
+    let told = || drawn().filter_map(|(_, told)| told.as_ref().ok()).filter(|told| is_shown(told));
     let rods: Vec<Curve> = told().filter_map(|told| rod(found, told).ok()).collect();
     let all = || dots().chain(rods.iter().flatten().copied());
     if all().next().is_none() {
@@ -55,10 +55,12 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
             INK,
         )?;
         let (name, unit) = force_unit(found);
-        let unit = format!("{:.3} {name}", largest / unit);
+        let unit = format!("{:.2} {name}", largest / unit);
         write(
             &head,
-            &format!("dots: points; lines: the rod; arrows: forces, the longest {unit}"),
+            &format!(
+                "dots: points; lines: the rod; arrows: forces on the rod, the longest {unit}; without frames of the verdicts family and not explained"
+            ),
             (24, 80),
             HPos::Left,
             BODY,
@@ -87,6 +89,11 @@ fn force_unit(found: &FilmForces) -> (&'static str, f64) {
     let told = found.film.frames.iter().flatten();
     let largest = told.flat_map(|told| &told.contacts).fold(0.0_f64, |most, contact| most.max(contact.force));
     if largest < 1e-4 { ("µN", 1e-6) } else { ("mN", 1e-3) }
+}
+
+/// Whether a frame has a shape and forces of its own.
+fn is_shown(told: &FrameForces) -> bool {
+    !matches!(told.verdict, FrameVerdict::Family | FrameVerdict::NotExplained)
 }
 
 /// The rod of a frame, mm.
@@ -143,10 +150,21 @@ pub(crate) fn over_frames(found: &FilmForces) -> Result<String, FigureError> {
             TITLE,
             INK,
         )?;
-        write(&head, "vertical bars: one standard deviation on either side", (24, 80), HPos::Left, BODY, MUTED)?;
+        write(
+            &head,
+            "vertical bars: one standard deviation on either side; m_{0z}: of the clamp on the rod; without frames of the verdicts family and not explained",
+            (24, 80),
+            HPos::Left,
+            BODY,
+            MUTED,
+        )?;
         let traces = names.into_iter().zip(quantities).map(|(name, (quantity, unit))| {
-            let values: Vec<Option<(f64, f64)>> =
-                found.film.frames.iter().map(|told| told.as_ref().ok().and_then(quantity)).collect();
+            let values: Vec<Option<(f64, f64)>> = found
+                .film
+                .frames
+                .iter()
+                .map(|told| told.as_ref().ok().filter(|told| is_shown(told)).and_then(quantity))
+                .collect();
             (name, parts(&numbers, &values, unit))
         });
         trace::stack(root, &rest, &along, PLOT, traces.collect())
@@ -167,5 +185,12 @@ fn parts(numbers: &[f64], values: &[Option<(f64, f64)>], unit: f64) -> Vec<Trace
         points: run.iter().filter_map(|(at, value)| value.map(|(value, _)| (*at, value / unit))).collect(),
         style: TRANSITION.stroke_width(2),
     };
-    bars.chain(runs.map(line).filter(|part| !part.points.is_empty())).collect()
+    // a frame on its own is a dash
+    let dash = |mut part: TracePart| {
+        if let [(at, value)] = part.points[..] {
+            part.points = vec![(at - 0.3, value), (at + 0.3, value)];
+        }
+        part
+    };
+    bars.chain(runs.map(line).filter(|part| !part.points.is_empty()).map(dash)).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::FilmedRod;
 use serde::Serialize;
-use vibrissa::reconstruct::{FrameContact, FrameFault, FrameForces, RestShape};
+use vibrissa::reconstruct::{FrameContact, FrameFault, FrameForces, FrameVerdict, RestShape};
 
 /// Columns of forces.csv.
 pub(super) const COLUMNS: [&str; 24] = [
@@ -144,7 +144,10 @@ impl FrameRecord {
             contacts.iter().map(|contact| ContactRecord::of(contact, force)).collect()
         };
         let own = contacts(&told.contacts);
-        let first = own.first().cloned();
+        // a family has no place and force of its own
+        let is_family = told.verdict == FrameVerdict::Family;
+        let first = own.first().filter(|_| !is_family).cloned();
+        let told_if = |number: f64, sigma: f64| Some(number).filter(|number| !is_family || sigma < number.abs());
         let sizes = [force, force, moment];
         let sigma = |k: usize| told.covariance[k][k].max(0.0).sqrt();
         let reactions: [[f64; 3]; 3] =
@@ -160,8 +163,8 @@ impl FrameRecord {
             force: of(|c| Some(c.force)),
             sigma_s: of(|c| c.sigma_s),
             sigma_force: of(|c| c.sigma_force),
-            f0x: Some(told.reactions.f0x / force),
-            f0y: Some(told.reactions.f0y / force),
+            f0x: told_if(told.reactions.f0x / force, sigma(3) / force),
+            f0y: told_if(told.reactions.f0y / force, sigma(4) / force),
             m0z: Some(told.reactions.m0z / moment),
             sigma_f0x: known(sigma(3) / force),
             sigma_f0y: known(sigma(4) / force),
@@ -203,7 +206,7 @@ impl FrameRecord {
 /// A row of forces.csv.
 pub(super) fn row(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Vec<String> {
     let record = FrameRecord::of(frame, told, rod);
-    let first = record.contacts.first().cloned();
+    let first = record.contacts.first().filter(|_| record.s.is_some()).cloned();
     let cell = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
     let of = |number: fn(&ContactRecord) -> Option<f64>| cell(first.as_ref().and_then(number));
     let mut row = vec![frame.to_string(), record.verdict.clone(), record.contacts.len().to_string()];
@@ -234,6 +237,42 @@ pub(super) fn row(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &Film
     row.extend(numbers.map(cell));
     row.push(record.freedom.map_or_else(String::new, |freedom| freedom.to_string()));
     row
+}
+
+/// Columns of contacts.csv.
+pub(super) const CONTACT_COLUMNS: [&str; 16] = [
+    "frame",
+    "verdict",
+    "contact",
+    "tip",
+    "s",
+    "x",
+    "y",
+    "force",
+    "fx",
+    "fy",
+    "sigma_s",
+    "sigma_x",
+    "sigma_y",
+    "sigma_force",
+    "sigma_fx",
+    "sigma_fy",
+];
+
+/// The rows of contacts.csv of a frame, from the base to the tip: none of one that has no place of its own.
+pub(super) fn contact_rows(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Vec<Vec<String>> {
+    let record = FrameRecord::of(frame, told, rod);
+    if matches!(told, Ok(told) if matches!(told.verdict, FrameVerdict::Family | FrameVerdict::NotExplained)) {
+        return Vec::new();
+    }
+    let cell = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
+    let row = |(number, c): (usize, &ContactRecord)| {
+        let mut row = vec![frame.to_string(), record.verdict.clone(), number.to_string(), c.tip.to_string()];
+        row.extend([c.s, c.x, c.y, c.force, c.fx, c.fy].map(|number| cell(Some(number))));
+        row.extend([c.sigma_s, c.sigma_x, c.sigma_y, c.sigma_force, c.sigma_fx, c.sigma_fy].map(cell));
+        row
+    };
+    record.contacts.iter().enumerate().map(row).collect()
 }
 
 /// The file rest.json.

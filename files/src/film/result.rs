@@ -3,7 +3,7 @@
 use super::channels::channels;
 use super::error::{AtRestError, FilmError};
 use super::points::{empty, points};
-use super::record::{COLUMNS, FrameRecord, row};
+use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, contact_rows, row};
 use super::table::Numbers;
 use crate::output::{json_line, pretty_json, write_csv};
 use crate::{FilmedRod, OutputError, Staged};
@@ -56,6 +56,10 @@ pub struct FilmForces {
     pub frames: Vec<(i64, Frame)>,
     /// What they tell.
     pub film: Film,
+    /// The frame of the free rod that has another shape than the others, if there is one: by its number, from 0 where the frames have none.
+    pub other_at_rest: Option<i64>,
+    /// Whether the noise of the points was given.
+    pub is_noise_given: bool,
     /// Columns of the table that are not used.
     pub ignored: Vec<String>,
 }
@@ -88,11 +92,13 @@ impl FilmForces {
         };
         let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
         let rest = options.rest.as_ref().map(|file| points(Numbers::read(file)?, options)).transpose()?;
+        let numbers: Vec<i64> = rest.iter().flatten().map(|(number, _)| *number).collect();
         let rest: Option<Vec<Frame>> = rest.map(|frames| frames.into_iter().map(|(_, frame)| frame).collect());
         let of_rest = || options.rest.clone().unwrap_or_else(|| file.to_path_buf());
         let found = Self::of(name, frames, rest.as_deref(), rod, &options.settings)
             .map_err(|source| FilmError::Rest { file: of_rest(), source })?;
-        Ok(Self { ignored, ..found })
+        let other_at_rest = found.other_at_rest.and_then(|index| numbers.get(index as usize).copied());
+        Ok(Self { ignored, other_at_rest, ..found })
     }
 
     /// Finds the forces in frames with their numbers; `rest` are frames of the free rod.
@@ -112,13 +118,15 @@ impl FilmForces {
         };
         let only: Vec<Frame> = frames.iter().map(|(_, frame)| frame.clone()).collect();
         let mut film = forces(&rod.rod, &only, settings);
+        let is_noise_given = settings.sigma.is_some();
         let settings = ForceSettings { sigma: Some(film.sigma), ..*settings };
         let others: Vec<Film> = others.iter().map(|other| forces(other, &only, &settings)).collect();
         film.add_errors_of_the_rod(&others);
-        Ok(Self { name, rod, rest, frames, film, ignored: Vec::new() })
+        let other_at_rest = rest.as_ref().and_then(|rest| rest.other).map(|other| other as i64);
+        Ok(Self { name, rod, rest, frames, film, other_at_rest, is_noise_given, ignored: Vec::new() })
     }
 
-    /// Writes forces.jsonl, forces.csv, and rest.json where a shape at rest was found.
+    /// Writes forces.jsonl, forces.csv, contacts.csv, and rest.json where a shape at rest was found.
     ///
     /// # Errors
     /// [`OutputError`].
@@ -129,6 +137,10 @@ impl FilmForces {
         })?;
         staged.write(Path::new("forces.csv"), |file| {
             write_csv(file, &COLUMNS, all().map(|((number, _), told)| row(*number, told, &self.rod)))
+        })?;
+        staged.write(Path::new("contacts.csv"), |file| {
+            let rows = all().flat_map(|((number, _), told)| contact_rows(*number, told, &self.rod));
+            write_csv(file, &CONTACT_COLUMNS, rows)
         })?;
         let file = Path::new("rest.json");
         match &self.rest {

@@ -8,6 +8,8 @@ use vibrissa::reconstruct::{Frame, FrameVerdict};
 
 /// Most faults of frames that are told.
 const MOST_FAULTS: usize = 5;
+/// Noise that is found, as a share of that which is given, from which on it is told.
+const LESS_NOISE: f64 = 0.3;
 /// Length of the points along the rod, as a share of the length of the rod, below which it is told which end is taken as seen.
 const WHOLE: f64 = 0.97;
 
@@ -74,22 +76,38 @@ impl FilmForces {
         if let Some((number, told)) = worst {
             let (_, count) = self.failures();
             warnings.push(format!(
-                "{} of {} have no shape with the contacts that are allowed: worst is frame {number} with chi squared {:.0} of {}; friction, \
+                "{} of {}: no shape with the contacts that are allowed; worst is frame {number} with chi squared {:.0} of {}; friction, \
                  another shape at rest, points that are not of the rod, or more noise than is told?",
                 count, counted(self.frames.len(), "frame"), told.chi_squared, told.freedom
             ));
         }
-        if let Some(frame) = self.rest.as_ref().and_then(|rest| rest.other) {
+        if let Some(frame) = self.other_at_rest {
             warnings.push(format!(
-                "the frames of the free rod do not show one shape: frame {frame} of them (from 0, of those with 5 points or more) differs most; is the \
-                 rod free in all of them, and each in order from the base?"
+                "the frames of the free rod do not show one shape: frame {frame} of them differs most; is the rod free in all of them, and each in order \
+                 from the base?"
             ));
         }
+        warnings.extend(self.less_noise());
         warnings.extend(self.part_of_the_rod());
         if !self.ignored.is_empty() {
             warnings.push(format!("not used: column {}", self.ignored.join(", ")));
         }
         warnings
+    }
+
+    /// Points that are far less noisy than they are said to be.
+    fn less_noise(&self) -> Option<String> {
+        let told = self.film.frames.iter().flatten().filter(|told| told.freedom > 0);
+        let mut shares: Vec<f64> = told.map(|told| (told.chi_squared / told.freedom as f64).sqrt()).collect();
+        shares.sort_unstable_by(f64::total_cmp);
+        let share = *shares.get(shares.len() / 2)?;
+        (self.is_noise_given && share < LESS_NOISE).then(|| {
+            format!(
+                "the points are {:.0} times less noisy than the standard deviation that is given, {:.2e} m: forces that they show may be told as noise",
+                1.0 / share.max(1e-9),
+                self.film.sigma
+            )
+        })
     }
 
     /// A rod of which the points show a part only.

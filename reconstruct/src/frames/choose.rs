@@ -96,12 +96,8 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     let mut pairs: Vec<Candidate> = Vec::new();
     for (contacts, start) in sight.two(model, observed, allowed.side(), &singles).iter().take(MOST_STARTS) {
         let Some(pair) = solve(model, observed, contacts, start, friction, MOST_STEPS) else { continue };
-        let is_told = pair.p_value() > SETTLES;
         if pair.is_ordered() && pair.is_loaded() {
             pairs.push(pair);
-            if is_told {
-                break;
-            }
         }
     }
     pairs.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));

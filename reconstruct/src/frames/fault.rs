@@ -54,7 +54,7 @@ pub enum FrameFault {
     },
     /// The points in reverse order are explained, as they are they are not.
     #[error(
-        "the points seem to run from the tip to the base: in reverse order they are explained, expected the base first"
+        "the points seem to run from the tip to the base, or to be mirrored: in reverse order they are explained, expected the base first, and y that counts up (is it an image?)"
     )]
     Reversed,
     /// The rod looks shorter than it is, by more than is allowed.

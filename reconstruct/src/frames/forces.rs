@@ -37,7 +37,7 @@ const SHARP: f64 = 8.0;
 /// Standard deviations within which a shortening is noise.
 const SIGMAS: f64 = 4.0;
 /// Most frames by which the noise is found.
-const SAMPLE: usize = 200;
+const SAMPLE: usize = 50;
 /// How many times the noise is found anew, where channels of known noise are weighed against points.
 const ROUNDS: usize = 3;
 
@@ -168,14 +168,24 @@ fn allowed(settings: &ForceSettings) -> Allowed {
     Allowed { contacts: settings.most_contacts, friction: settings.friction.max(0.0) }
 }
 
-/// The noise of the points (L). Where points in reverse order leave much less of it, the noise is that: then no shape explains them as they are.
+/// The noise of the points (L). Shapes with one contact tell it; where they leave much more than the scatter of neighbouring points, a few frames are
+/// asked with as many contacts as are allowed. Where points in reverse order leave much less, the noise is that: then no shape explains them
+/// as they are.
 fn found_noise<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) -> f64 {
-    let sigma = noise(rod, frames, settings);
-    let few = || frames.iter().step_by(frames.len().div_ceil(FEW).max(1));
-    let reversed: Vec<Frame> = few().map(reversed).collect();
-    let of_few: Vec<Frame> = few().cloned().collect();
-    let (less, same) = (noise(rod, &reversed, settings), noise(rod, &of_few, settings));
-    if less > LEAST && less < LESS_NOISE * same { sigma.min(less) } else { sigma }
+    let of_few = |turn: &dyn Fn(&Frame) -> Frame| -> Vec<Frame> {
+        frames.iter().step_by(frames.len().div_ceil(FEW).max(1)).map(turn).collect()
+    };
+    let one = ForceSettings { most_contacts: settings.most_contacts.min(1), ..*settings };
+    let (all, few) = (noise(rod, frames, &one), of_few(&Frame::clone));
+    let (same, less) = (noise(rod, &few, &one), noise(rod, &of_few(&reversed), &one));
+    if less > LEAST && less < LESS_NOISE * same {
+        return all.min(less);
+    }
+    let scatter = first_guess(few.iter(), rod.units().length);
+    if settings.most_contacts > 1 && LESS_NOISE * same > scatter {
+        return all.min(noise(rod, &few, settings));
+    }
+    all
 }
 
 fn reversed(frame: &Frame) -> Frame {

@@ -24,7 +24,9 @@ const MOST_STEPS: usize = 60;
 #[non_exhaustive]
 pub enum RestError {
     /// No frame shows enough.
-    #[error("no frame has 5 points or more, expected frames of the free rod of 5 points or more each")]
+    #[error(
+        "no frame has 5 points or more and shows an end of the rod, expected frames of the free rod of 5 points or more each"
+    )]
     NoFrames,
     /// A frame cannot be used.
     #[error("frame {index} (from 0): {fault}")]
@@ -58,7 +60,7 @@ pub struct RestShape {
     pub freedom: usize,
     /// Number of frames.
     pub frames: usize,
-    /// The frame (from 0, of those with 5 points or more) that has another shape than the others, by more than chance, if there is one.
+    /// The frame (from 0) that has another shape than the others, by more than chance, if there is one.
     pub other: Option<usize>,
 }
 
@@ -92,11 +94,13 @@ impl RestShape {
 /// # Errors
 /// [`RestError`].
 pub fn rest_shape(length: f64, frames: &[Frame], sigma: Option<f64>) -> Result<RestShape, RestError> {
-    let usable: Vec<&Frame> = frames.iter().filter(|frame| frame.points.len() >= 5).collect();
+    // a frame of which neither end was seen does not say where along the rod its points are
+    let is_usable = |frame: &&Frame| frame.points.len() >= 5 && (frame.base_is_first || frame.tip_is_last);
+    let usable: Vec<&Frame> = frames.iter().filter(is_usable).collect();
     if usable.is_empty() {
         return Err(RestError::NoFrames);
     }
-    for (index, frame) in frames.iter().enumerate().filter(|(_, frame)| frame.points.len() >= 5) {
+    for (index, frame) in frames.iter().enumerate().filter(|(_, frame)| is_usable(frame)) {
         check(length, frame, f64::INFINITY).map_err(|fault| RestError::Frame { index, fault })?;
     }
     let mut noise = sigma.map_or_else(|| first_guess(usable.iter().copied(), length), |sigma| sigma / length);
@@ -121,7 +125,8 @@ pub fn rest_shape(length: f64, frames: &[Frame], sigma: Option<f64>) -> Result<R
         chi_squared: cost,
         freedom,
         frames: usable.len(),
-        other: other_shape(length, &usable, noise, &coefficients),
+        other: other_shape(length, &usable, noise, &coefficients)
+            .and_then(|other| frames.iter().position(|frame| std::ptr::eq(frame, usable[other]))),
     })
 }
 
@@ -241,7 +246,7 @@ impl Dots {
         for k in 1..at.len() {
             feet[k] = feet[k - 1] + (at[k][0] - at[k - 1][0]).hypot(at[k][1] - at[k - 1][1]);
         }
-        let from_base = frame.base_is_first || !frame.tip_is_last;
+        let from_base = frame.base_is_first;
         let last = feet[at.len() - 1];
         feet.iter_mut().for_each(|foot| *foot = (*foot + if from_base { 0.0 } else { 1.0 - last }).clamp(0.0, 1.0));
         let near = (at.len() / 5).max(1);
