@@ -28,7 +28,6 @@ __all__ = ["Frames", "read_deeplabcut", "read_frames", "read_sleap", "read_whisk
 
 _File = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
-_End = Literal["first", "last"]
 # A frame, its points (n, 2) in pixels, and their sigma (n) in pixels.
 _Shape = tuple[int, _Floats, _Floats]
 # A traced curve: its frame, its number within the frame, its points (n, 2) in pixels.
@@ -188,7 +187,7 @@ def read_whisk(
     *,
     scale: float,
     whisker: int | None = None,
-    base: _End | None = None,
+    base: Literal["first", "last"] | None = None,
     image: bool = True,
 ) -> Frames:
     """Frames, in m, of one whisker in files of WHISK; sigma is unknown.
@@ -246,7 +245,7 @@ def read_whisk(
 
 
 def read_whiskiwrap(
-    file: _File, *, scale: float, whisker: int | None = None, base: _End | None = None, image: bool = True
+    file: _File, *, scale: float, whisker: int | None = None, base: Literal["first", "last"] | None = None, image: bool = True
 ) -> Frames:
     """Frames, in m, of one whisker in an HDF5 file of WhiskiWrap; sigma is unknown.
 
@@ -533,7 +532,7 @@ def _one_each(
     file: _File,
     segments: list[_Segment],
     longest: bool,
-    base: _End | None,
+    base: Literal["first", "last"] | None,
     follicles: Mapping[tuple[int, int], _Floats],
     faults: list[str],
 ) -> list[_Shape]:
