@@ -1,13 +1,13 @@
 //! A film: the points of some frames with the rod through them and the forces on it, and forces and moments over the frames.
 
-use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
+use super::canvas::{Area, BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::element::Element;
 use super::line::thin_line;
 use super::palette::{FAINT, FIRST, INK, MUTED, TRANSITION};
 use super::plane::PlaneWindow;
 use super::trace::{self, Along, LINE, TracePart};
 use rod_files::FilmForces;
-use vibrissa::reconstruct::{FrameContact, FrameForces, FrameVerdict};
+use vibrissa::reconstruct::{FrameContact, FrameForces};
 use vibrissa::rod::{Elastica, Load, RodError};
 
 /// Most frames that are drawn.
@@ -16,12 +16,15 @@ const MOST: usize = 25;
 const POINTS: usize = 200;
 /// Least and largest height of the plane, height of the title, and of a plot over the frames, pixels.
 const HEIGHT: (f64, f64) = (300.0, 1200.0);
-const HEAD: u32 = 110;
+const HEAD: u32 = 144;
 const PLOT: u32 = 240;
 /// Length of the largest force that is drawn, pixels.
 const ARROW: f64 = 110.0;
 /// Radius of a point, pixels.
 const DOT: i32 = 2;
+
+/// Which frames have no line and no force.
+const WITHOUT: &str = "without frames whose verdict is family, not explained or fault";
 
 type Curve = Vec<(f64, f64)>;
 
@@ -30,42 +33,28 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     let every = found.frames.len().div_ceil(MOST).max(1);
     let drawn = || found.frames.iter().zip(&found.film.frames).step_by(every);
     let dots = || drawn().flat_map(|((_, frame), _)| frame.points.iter().map(|point| (1e3 * point.x, 1e3 * point.y)));
-    let told = || drawn().filter_map(|(_, told)| told.as_ref().ok()).filter(|told| is_shown(told));
+    let told =
+        || drawn().filter_map(|(_, told)| told.as_ref().ok()).filter(|told| told.verdict.has_contacts_of_its_own());
     let rods: Vec<Curve> = told().filter_map(|told| rod(found, told).ok()).collect();
     let all = || dots().chain(rods.iter().flatten().copied());
     if all().next().is_none() {
         return svg((PAGE, HEAD), |root| write(root, &found.name, (24, 36), HPos::Left, TITLE, INK));
     }
     let (x, y) = (span(all().map(|point| point.0), 0.08), span(all().map(|point| point.1), 0.08));
-    let (beside, below) = PlaneWindow::TRIMMINGS;
-    let plot = f64::from(PAGE - beside);
-    let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
-    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
+    let (window, height) = PlaneWindow::as_wide_as(PAGE, &x, &y, HEIGHT);
     let largest =
         told().flat_map(|told| &told.contacts).fold(f64::MIN_POSITIVE, |most, contact| most.max(contact.force));
-    svg((PAGE, HEAD + below + high.ceil() as u32), |root| {
+    svg((PAGE, HEAD + height), |root| {
         let (head, area) = root.split_vertically(HEAD);
-        let shown = if every > 1 { format!(", one of {every} frames") } else { String::new() };
-        write(
-            &head,
-            &format!("{}: the rod and the forces on it{shown}", found.name),
-            (24, 36),
-            HPos::Left,
-            TITLE,
-            INK,
-        )?;
+        let shown = if every > 1 { format!("; one frame of {every} is drawn") } else { String::new() };
         let (name, unit) = force_unit(found);
-        let unit = format!("{:.2} {name}", largest / unit);
-        write(
-            &head,
-            &format!(
-                "dots: points; lines: the rod; arrows: forces on the rod, the longest {unit}; without frames of the verdicts family and not explained"
-            ),
-            (24, 80),
-            HPos::Left,
-            BODY,
-            MUTED,
-        )?;
+        let arrows = if told().all(|told| told.contacts.is_empty()) {
+            "no force is found".to_owned()
+        } else {
+            format!("arrows: forces on the rod, the longest {:.2} {name}", largest / unit)
+        };
+        let notes = [format!("dots: points; lines: the rod; {arrows}"), format!("{WITHOUT}{shown}")];
+        title(&head, &format!("{}: the rod and the forces on it", found.name), &notes)?;
         let chart = window.chart(&area, (12, 8))?;
         chart.draw_series(rods.iter().map(|rod| {
             Element::line(thin_line(rod.iter().copied(), (window.scale, window.scale)), FAINT.stroke_width(2))
@@ -81,6 +70,15 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     })
 }
 
+/// Writes a title, and notes below it.
+fn title(head: &Area<'_>, title: &str, notes: &[String; 2]) -> Result<(), FigureError> {
+    write(head, title, (24, 36), HPos::Left, TITLE, INK)?;
+    for (note, y) in notes.iter().zip([80, 114]) {
+        write(head, note, (24, y), HPos::Left, BODY, MUTED)?;
+    }
+    Ok(())
+}
+
 /// The unit of forces in figures, by the largest one, and what it is in N.
 fn force_unit(found: &FilmForces) -> (&'static str, f64) {
     if !found.rod.is_stiffness_known {
@@ -89,11 +87,6 @@ fn force_unit(found: &FilmForces) -> (&'static str, f64) {
     let told = found.film.frames.iter().flatten();
     let largest = told.flat_map(|told| &told.contacts).fold(0.0_f64, |most, contact| most.max(contact.force));
     if largest < 1e-4 { ("µN", 1e-6) } else { ("mN", 1e-3) }
-}
-
-/// Whether a frame has a shape and forces of its own.
-fn is_shown(told: &FrameForces) -> bool {
-    !matches!(told.verdict, FrameVerdict::Family | FrameVerdict::NotExplained)
 }
 
 /// The rod of a frame, mm.
@@ -142,28 +135,17 @@ pub(crate) fn over_frames(found: &FilmForces) -> Result<String, FigureError> {
     let height = HEAD + PLOT * names.len() as u32 + trace::trimmings(true, true);
     svg((PAGE, height), |root| {
         let (head, rest) = root.split_vertically(HEAD);
-        write(
-            &head,
-            &format!("{}: the first contact, and the moment at the base", found.name),
-            (24, 36),
-            HPos::Left,
-            TITLE,
-            INK,
-        )?;
-        write(
-            &head,
-            "vertical bars: one standard deviation on either side; m_{0z}: of the clamp on the rod; without frames of the verdicts family and not explained",
-            (24, 80),
-            HPos::Left,
-            BODY,
-            MUTED,
-        )?;
+        let notes = [
+            "vertical bars: one standard deviation on either side; m_{0z}: of the clamp on the rod".to_owned(),
+            WITHOUT.to_owned(),
+        ];
+        title(&head, &format!("{}: the first contact, and the moment at the base", found.name), &notes)?;
         let traces = names.into_iter().zip(quantities).map(|(name, (quantity, unit))| {
             let values: Vec<Option<(f64, f64)>> = found
                 .film
                 .frames
                 .iter()
-                .map(|told| told.as_ref().ok().filter(|told| is_shown(told)).and_then(quantity))
+                .map(|told| told.as_ref().ok().filter(|told| told.verdict.has_contacts_of_its_own()).and_then(quantity))
                 .collect();
             (name, parts(&numbers, &values, unit))
         });

@@ -26,11 +26,8 @@ const KINDS: [(TraceKind, RGBColor, &str); 3] = [
 pub(crate) fn merged(contour: &ContourEstimate) -> Result<String, FigureError> {
     let points = || contour.traces.iter().flat_map(millimetres);
     let (x, y) = (span(points().map(|point| point.0), 0.06), span(points().map(|point| point.1), 0.1));
-    let (beside, below) = PlaneWindow::TRIMMINGS;
-    let plot = f64::from(WIDTH - beside);
-    let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
-    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
-    svg((WIDTH, HEAD + below + high.ceil() as u32), |root| {
+    let (window, height) = PlaneWindow::as_wide_as(WIDTH, &x, &y, HEIGHT);
+    svg((WIDTH, HEAD + height), |root| {
         let (head, area) = root.split_vertically(HEAD);
         write(&head, "contour of all recordings", (24, 36), HPos::Left, TITLE, INK)?;
         let drawn = KINDS.into_iter().filter(|kind| contour.of_kind(kind.0).next().is_some());

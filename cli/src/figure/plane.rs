@@ -32,6 +32,15 @@ impl PlaneWindow {
         Self { x: about(x, scale * width), y: about(y, scale * height), scale }
     }
 
+    /// Shows these ranges (mm) as wide as a figure of `width` pixels allows, with a plot of a height within `heights` (pixels): the window, and the
+    /// height of its area.
+    pub fn as_wide_as(width: u32, x: &Range<f64>, y: &Range<f64>, heights: (f64, f64)) -> (Self, u32) {
+        let (beside, below) = Self::TRIMMINGS;
+        let plot = f64::from(width - beside);
+        let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(heights.0, heights.1);
+        (Self::of(x, y, (plot, high), (0.0, 0.0)), below + high.ceil() as u32)
+    }
+
     /// Its axes, which fill `area`, with about so many numbers on x and y.
     pub fn chart<'a>(&self, area: &Area<'a>, numbers: (usize, usize)) -> Result<Chart<'a>, FigureError> {
         self.chart_called(area, numbers, ("x in mm", "y in mm"))

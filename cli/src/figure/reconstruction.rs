@@ -37,14 +37,11 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
 
     let all = || single(Label::A).chain(single(Label::B)).chain(first()).chain(second());
     let (x, y) = (span(all().map(|point| point.0), 0.06), span(all().map(|point| point.1), 0.1));
-    let (beside, below) = PlaneWindow::TRIMMINGS;
-    let plot = f64::from(WIDTH - beside);
-    let high = (plot * (y.end - y.start) / (x.end - x.start)).clamp(HEIGHT.0, HEIGHT.1);
-    let window = PlaneWindow::of(&x, &y, (plot, high), (0.0, 0.0));
+    let (window, height) = PlaneWindow::as_wide_as(WIDTH, &x, &y, HEIGHT);
     let in_view = |point: &(f64, f64)| window.x.contains(&point.0) && window.y.contains(&point.1);
     let seen: Vec<(f64, f64)> = naive.into_iter().filter(in_view).collect();
     let room = HEAD + found.fitted().map_or(0, |_| NOTE);
-    svg((WIDTH, room + below + high.ceil() as u32), |root| {
+    svg((WIDTH, room + height), |root| {
         let (head, area) = root.split_vertically(room);
         write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
         let errors = match &found.comparison {

@@ -1,8 +1,7 @@
 //! Measured numbers at the base from a table with any of the columns of a recording.
 
 use super::error::FilmError;
-use super::points::whole;
-use super::table::Numbers;
+use super::table::{Numbers, is_deviation};
 use vibrissa::reconstruct::{Axis, Channel, Measurand};
 
 const EXPECTED: &str = "frame, x, y for points on the rod, or measured numbers: any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, kappa@S (curvature at the arc \
@@ -39,7 +38,7 @@ pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<
     }
     let number = table.column("frame");
     let numbers: Vec<Option<i64>> =
-        (0..table.len()).map(|row| number.map_or(Some(row as i64), |column| whole(&mut table, row, column))).collect();
+        (0..table.len()).map(|row| number.map_or(Some(row as i64), |column| table.whole(row, column))).collect();
     let columns: Vec<Column> = named
         .into_iter()
         .map(|(column, quantity, sigma)| {
@@ -61,10 +60,6 @@ pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<
 
 /// What is expected of a standard deviation.
 const DEVIATION: &str = "expected a standard deviation, or nothing";
-
-fn is_deviation(sigma: f64) -> bool {
-    sigma > 0.0 && sigma.is_finite()
-}
 
 /// The measured numbers of each row of columns as a table has them, by name; NaN where there is none. Of a rod of `length` (m).
 ///

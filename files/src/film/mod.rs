@@ -1,7 +1,9 @@
 //! Films of a rod: points on it, frame by frame, and measured numbers at its base, from tables to files of forces.
 
+mod at_rest;
 mod channels;
 mod error;
+mod options;
 mod points;
 mod record;
 mod result;
@@ -10,4 +12,5 @@ mod table;
 
 pub use channels::channels_of_columns;
 pub use error::{AtRestError, FilmError};
-pub use result::{Ends, FilmForces, FilmOptions};
+pub use options::{Ends, FilmOptions};
+pub use result::FilmForces;

@@ -78,6 +78,8 @@ pub(super) struct FrameRecord {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     family: Vec<MemberRecord>,
     force_unit: &'static str,
+    #[serde(skip)]
+    has_contacts_of_its_own: bool,
 }
 
 #[derive(Clone, Serialize)]
@@ -195,6 +197,7 @@ impl FrameRecord {
                 .collect(),
             contacts: own,
             force_unit,
+            has_contacts_of_its_own: told.verdict.has_contacts_of_its_own(),
         }
     }
 
@@ -203,40 +206,49 @@ impl FrameRecord {
     }
 }
 
-/// A row of forces.csv.
-pub(super) fn row(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Vec<String> {
-    let record = FrameRecord::of(frame, told, rod);
-    let first = record.contacts.first().filter(|_| record.s.is_some()).cloned();
-    let cell = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
-    let of = |number: fn(&ContactRecord) -> Option<f64>| cell(first.as_ref().and_then(number));
-    let mut row = vec![frame.to_string(), record.verdict.clone(), record.contacts.len().to_string()];
-    row.extend([
-        of(|c| Some(c.s)),
-        of(|c| Some(c.x)),
-        of(|c| Some(c.y)),
-        of(|c| Some(c.force)),
-        of(|c| Some(c.fx)),
-        of(|c| Some(c.fy)),
-        of(|c| c.sigma_s),
-        of(|c| c.sigma_x),
-        of(|c| c.sigma_y),
-        of(|c| c.sigma_force),
-    ]);
-    let numbers = [
-        record.f0x,
-        record.f0y,
-        record.m0z,
-        record.sigma_f0x,
-        record.sigma_f0y,
-        record.sigma_m0z,
-        record.x0,
-        record.y0,
-        record.phi0,
-        record.chi2,
-    ];
-    row.extend(numbers.map(cell));
-    row.push(record.freedom.map_or_else(String::new, |freedom| freedom.to_string()));
-    row
+/// A cell of a table.
+fn cell(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |number| format!("{number:?}"))
+}
+
+impl ContactRecord {
+    /// Its numbers in the order of [`CONTACT_COLUMNS`].
+    fn cells(&self) -> [String; 12] {
+        let Self { s, x, y, force, fx, fy, sigma_s, sigma_x, sigma_y, sigma_force, sigma_fx, sigma_fy, .. } = self;
+        let known = [s, x, y, force, fx, fy].map(|number| Some(*number));
+        let sigmas = [sigma_s, sigma_x, sigma_y, sigma_force, sigma_fx, sigma_fy].map(|sigma| *sigma);
+        let mut all = known.into_iter().chain(sigmas).map(cell);
+        std::array::from_fn(|_| all.next().unwrap_or_default())
+    }
+}
+
+/// How many of the numbers of a contact are in forces.csv.
+const OF_FIRST: usize = 10;
+
+impl FrameRecord {
+    /// The row of forces.csv.
+    pub fn row(&self) -> Vec<String> {
+        let mut row = vec![self.frame.to_string(), self.verdict.clone(), self.contacts.len().to_string()];
+        match self.contacts.first().filter(|_| self.s.is_some()) {
+            Some(first) => row.extend(first.cells().into_iter().take(OF_FIRST)),
+            None => row.resize(row.len() + OF_FIRST, String::new()),
+        }
+        let Self { f0x, f0y, m0z, sigma_f0x, sigma_f0y, sigma_m0z, x0, y0, phi0, chi2, freedom, .. } = *self;
+        row.extend([f0x, f0y, m0z, sigma_f0x, sigma_f0y, sigma_m0z, x0, y0, phi0, chi2].map(cell));
+        row.push(freedom.map_or_else(String::new, |freedom| freedom.to_string()));
+        row
+    }
+
+    /// The rows of contacts.csv, from the base to the tip: none of a frame that has no contacts of its own.
+    pub fn contact_rows(&self) -> Vec<Vec<String>> {
+        let row = |(number, contact): (usize, &ContactRecord)| {
+            let mut row =
+                vec![self.frame.to_string(), self.verdict.clone(), number.to_string(), contact.tip.to_string()];
+            row.extend(contact.cells());
+            row
+        };
+        self.contacts.iter().enumerate().filter(|_| self.has_contacts_of_its_own).map(row).collect()
+    }
 }
 
 /// Columns of contacts.csv.
@@ -258,22 +270,6 @@ pub(super) const CONTACT_COLUMNS: [&str; 16] = [
     "sigma_fx",
     "sigma_fy",
 ];
-
-/// The rows of contacts.csv of a frame, from the base to the tip: none of one that has no place of its own.
-pub(super) fn contact_rows(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Vec<Vec<String>> {
-    let record = FrameRecord::of(frame, told, rod);
-    if matches!(told, Ok(told) if matches!(told.verdict, FrameVerdict::Family | FrameVerdict::NotExplained)) {
-        return Vec::new();
-    }
-    let cell = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
-    let row = |(number, c): (usize, &ContactRecord)| {
-        let mut row = vec![frame.to_string(), record.verdict.clone(), number.to_string(), c.tip.to_string()];
-        row.extend([c.s, c.x, c.y, c.force, c.fx, c.fy].map(|number| cell(Some(number))));
-        row.extend([c.sigma_s, c.sigma_x, c.sigma_y, c.sigma_force, c.sigma_fx, c.sigma_fy].map(cell));
-        row
-    };
-    record.contacts.iter().enumerate().map(row).collect()
-}
 
 /// The file rest.json.
 #[derive(Serialize)]

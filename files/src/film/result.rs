@@ -1,47 +1,17 @@
 //! Forces from a film.
 
+use super::at_rest::at_rest;
 use super::channels::channels;
 use super::error::{AtRestError, FilmError};
-use super::points::{empty, points};
-use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, contact_rows, row};
+use super::options::{Ends, FilmOptions};
+use super::points::points;
+use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, RestRecord};
 use super::table::Numbers;
 use crate::output::{json_line, pretty_json, write_csv};
 use crate::{FilmedRod, OutputError, Staged};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use vibrissa::reconstruct::{Film, ForceSettings, Frame, FrameVerdict, RestShape, forces, rest_shape};
-use vibrissa::rod::{AnyRod, NaturalCurvature, RodError};
-
-/// Which ends of the rod the points show.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Ends {
-    /// The first point is the base; the tip may not be seen.
-    #[default]
-    Base,
-    /// The last point is the tip; the base may not be seen.
-    Tip,
-    /// Both: then the apparent shortening of the rod is known.
-    Both,
-    /// Neither.
-    Neither,
-}
-
-/// How a film is read.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FilmOptions {
-    /// Metres per unit of the coordinates.
-    pub scale: f64,
-    /// Whether y counts down, as in images.
-    pub image: bool,
-    /// Which ends of the rod are seen.
-    pub ends: Ends,
-    /// A second table, of measured numbers by frame.
-    pub channels: Option<PathBuf>,
-    /// A film of the free rod.
-    pub rest: Option<PathBuf>,
-    /// Friction, noise and number of contacts.
-    pub settings: ForceSettings,
-}
+use std::path::Path;
+use vibrissa::reconstruct::{Channel, Film, ForceSettings, Frame, FrameVerdict, RestShape, forces};
 
 /// Forces on a rod from a film.
 #[derive(Clone, Debug)]
@@ -131,20 +101,18 @@ impl FilmForces {
     /// # Errors
     /// [`OutputError`].
     pub fn write(&self, staged: &Staged) -> Result<(), OutputError> {
-        let all = || self.frames.iter().zip(&self.film.frames);
-        staged.write(Path::new("forces.jsonl"), |file| {
-            all().try_for_each(|((number, _), told)| json_line(file, &FrameRecord::of(*number, told, &self.rod)))
-        })?;
-        staged.write(Path::new("forces.csv"), |file| {
-            write_csv(file, &COLUMNS, all().map(|((number, _), told)| row(*number, told, &self.rod)))
-        })?;
-        staged.write(Path::new("contacts.csv"), |file| {
-            let rows = all().flat_map(|((number, _), told)| contact_rows(*number, told, &self.rod));
-            write_csv(file, &CONTACT_COLUMNS, rows)
-        })?;
+        let all = self.frames.iter().zip(&self.film.frames);
+        let records: Vec<FrameRecord> =
+            all.map(|((number, _), told)| FrameRecord::of(*number, told, &self.rod)).collect();
+        staged
+            .write(Path::new("forces.jsonl"), |file| records.iter().try_for_each(|record| json_line(file, record)))?;
+        let rows = records.iter().map(FrameRecord::row);
+        staged.write(Path::new("forces.csv"), |file| write_csv(file, &COLUMNS, rows))?;
+        let rows = records.iter().flat_map(FrameRecord::contact_rows);
+        staged.write(Path::new("contacts.csv"), |file| write_csv(file, &CONTACT_COLUMNS, rows))?;
         let file = Path::new("rest.json");
         match &self.rest {
-            Some(rest) => staged.write(file, |file| pretty_json(file, &super::record::RestRecord::of(rest))),
+            Some(rest) => staged.write(file, |file| pretty_json(file, &RestRecord::of(rest))),
             None => staged.remove(file),
         }
     }
@@ -152,53 +120,16 @@ impl FilmForces {
     /// How many frames have a fault, and how many no shape explains.
     pub fn failures(&self) -> (usize, usize) {
         let faults = self.film.frames.iter().filter(|told| told.is_err()).count();
-        let unexplained = |told: &&Result<_, _>| {
-            matches!(told, Ok(vibrissa::reconstruct::FrameForces { verdict: FrameVerdict::NotExplained, .. }))
-        };
-        (faults, self.film.frames.iter().filter(unexplained).count())
+        let told = self.film.frames.iter().flatten();
+        (faults, told.filter(|told| told.verdict == FrameVerdict::NotExplained).count())
     }
 }
 
 /// Frames of points with the measured numbers of the same frame.
-fn with_channels(
-    frames: Vec<(i64, Frame)>,
-    rows: Vec<(i64, Vec<vibrissa::reconstruct::Channel>)>,
-    ends: Ends,
-) -> Vec<(i64, Frame)> {
+fn with_channels(frames: Vec<(i64, Frame)>, rows: Vec<(i64, Vec<Channel>)>, ends: Ends) -> Vec<(i64, Frame)> {
     let mut all: BTreeMap<i64, Frame> = frames.into_iter().collect();
     for (number, channels) in rows {
-        all.entry(number).or_insert_with(|| empty(ends)).channels.extend(channels);
+        all.entry(number).or_insert_with(|| ends.empty()).channels.extend(channels);
     }
     all.into_iter().collect()
-}
-
-/// The rod with the shape at rest that a film of the free rod shows, and the rods whose shape is off by one standard deviation.
-fn at_rest(
-    frames: &[Frame],
-    rod: FilmedRod,
-    settings: &ForceSettings,
-) -> Result<(FilmedRod, Option<RestShape>, Vec<AnyRod>), AtRestError> {
-    let rest = rest_shape(rod.rod.length(), frames, settings.sigma)?;
-    let bent = |coefficients: Vec<f64>| bent(&rod.rod, RestShape { coefficients, ..rest.clone() });
-    let others = rest.variations().into_iter().map(bent).collect::<Result<_, _>>()?;
-    let rod = FilmedRod { rod: bent(rest.coefficients.clone())?, ..rod };
-    Ok((rod, Some(rest), others))
-}
-
-/// The rod with this shape at rest.
-fn bent(rod: &AnyRod, shape: RestShape) -> Result<AnyRod, RodError> {
-    let curvature = match shape.coefficients[..] {
-        // a number keeps the closed form
-        [constant] => NaturalCurvature::from(constant),
-        _ => NaturalCurvature::from(move |s: f64| shape.curvature(s).0),
-    };
-    let bent = match rod.varying() {
-        Some(varying) => varying.clone().with_natural_curvature(curvature),
-        None => rod.at_clamp().with_natural_curvature(curvature),
-    };
-    let bent = AnyRod::from(bent?);
-    Ok(match rod.springs() {
-        Some(springs) => bent.with_springs(*springs),
-        None => bent,
-    })
 }

@@ -6,12 +6,19 @@ use std::path::{Path, PathBuf};
 /// Most faults that are told.
 const MOST_FAULTS: usize = 5;
 
+/// Up to here every whole number is a float.
+const MOST_WHOLE: f64 = 9e15;
+
+/// Whether a number can be a standard deviation.
+pub(super) fn is_deviation(sigma: f64) -> bool {
+    sigma > 0.0 && sigma.is_finite()
+}
+
 /// What separates the cells: of commas, semicolons and tabs what the line of names has most of.
-fn delimiter(file: &Path) -> std::io::Result<u8> {
-    let text = std::fs::read(file)?;
+fn delimiter(text: &[u8]) -> u8 {
     let names = text.split(|byte| *byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
     let count = |delimiter: u8| names.iter().filter(|byte| **byte == delimiter).count();
-    Ok([b',', b';', b'\t'].into_iter().rev().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b','))
+    [b',', b';', b'\t'].into_iter().rev().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b',')
 }
 
 /// Names and rows of a CSV file.
@@ -26,14 +33,13 @@ pub(super) struct Numbers {
 impl Numbers {
     pub fn read(file: &Path) -> Result<Self, FilmError> {
         let unreadable = |source| FilmError::Unreadable { file: file.to_path_buf(), source };
-        let delimiter = delimiter(file).map_err(|source| unreadable(source.into()))?;
+        let text = std::fs::read(file).map_err(|source| unreadable(source.into()))?;
         let mut reader = csv::ReaderBuilder::new()
-            .delimiter(delimiter)
+            .delimiter(delimiter(&text))
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
             .flexible(true)
-            .from_path(file)
-            .map_err(unreadable)?;
+            .from_reader(text.as_slice());
         let names = reader
             .headers()
             .map_err(unreadable)?
@@ -77,10 +83,6 @@ impl Numbers {
         })
     }
 
-    pub fn is_empty(&self, row: usize, column: usize) -> bool {
-        self.rows[row].1.get(column).unwrap_or_default().is_empty()
-    }
-
     /// The number in a cell; none in an empty one, and where it is no number, which is a fault.
     pub fn number(&mut self, row: usize, column: usize) -> Option<f64> {
         let cell = self.rows[row].1.get(column).unwrap_or_default();
@@ -92,6 +94,23 @@ impl Numbers {
             Err(_) => {
                 let fault = format!("{} is `{cell}`, expected a number", self.names[column]);
                 self.fault(row, &fault);
+                None
+            }
+        }
+    }
+
+    /// The number of a frame; none where it is none, which is a fault.
+    pub fn whole(&mut self, row: usize, column: usize) -> Option<i64> {
+        match self.number(row, column) {
+            Some(number) if number.fract() == 0.0 && number.abs() < MOST_WHOLE => Some(number as i64),
+            Some(number) => {
+                self.fault(row, &format!("frame is {number}, expected a whole number"));
+                None
+            }
+            None => {
+                if self.rows[row].1.get(column).unwrap_or_default().is_empty() {
+                    self.fault(row, "frame is empty, expected a whole number");
+                }
                 None
             }
         }

@@ -1,9 +1,8 @@
 //! One set of contacts, solved for.
 
 use super::observed::Observed;
-use super::problem::{FrameProblem, Left};
+use super::problem::{FrameProblem, Left, Start};
 use super::shape::{Place, Shape, trace};
-use super::start::Start;
 use crate::least_squares::{Damped, Status, iterate};
 use nalgebra::{DMatrix, DVector};
 use rod_core::RodModel;
@@ -121,7 +120,7 @@ impl Candidate {
         let mut gradient = DVector::zeros(self.u.len());
         gradient[across] = -share / self.u[across];
         gradient[across + 1] = 1.0 / self.u[across];
-        (share, gradient.dot(&(covariance * &gradient)).max(0.0).sqrt())
+        (share, deviation(covariance, &gradient))
     }
 
     /// The same contacts with a share that is given.
@@ -184,6 +183,11 @@ impl Candidate {
         let shape = trace(model, &contacts, u.as_slice(), &[], |_, _| ())?;
         Some(Self { contacts, u, shape, covariance: Some(covariance), ..self })
     }
+}
+
+/// Standard deviation of a number with this gradient by the unknowns.
+pub(super) fn deviation(covariance: &DMatrix<f64>, gradient: &DVector<f64>) -> f64 {
+    gradient.dot(&(covariance * gradient)).max(0.0).sqrt()
 }
 
 /// Mean and standard deviation of a normal variable of which it is known that it lies between -bound and bound.

@@ -1,17 +1,18 @@
 //! Which contacts a frame shows: none, one on the side or at the tip, or two.
 
-use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, solve};
+use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, deviation, solve};
 use super::observed::Observed;
+use super::settings::ForceSettings;
 use super::shape::Place;
-use super::start::{Sight, Start};
+use super::start::Sight;
 use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
 use nalgebra::DVector;
 use rod_core::RodModel;
 
 /// Quantile of the standard normal distribution for a contact to be told: one in a thousand frames without it shows it by chance. The same
 /// probability below which a shape does not explain its frame.
-const BEYOND_CHANCE: f64 = 3.0902;
-pub(super) const CHANCE: f64 = 1e-3;
+pub(super) const BEYOND_CHANCE: f64 = 3.0902;
+const CHANCE: f64 = 1e-3;
 /// Standard deviations that the force of each of two contacts has at least.
 const LOADED: f64 = 2.0;
 /// Where on a free rod a force is looked for that is not seen, L.
@@ -33,9 +34,18 @@ pub(super) struct Allowed {
 }
 
 impl Allowed {
+    pub fn of(settings: &ForceSettings) -> Self {
+        Self { contacts: settings.most_contacts, friction: settings.friction.max(0.0) }
+    }
+
+    /// How much the force along the rod is of that across it: unknown with friction.
+    fn rub(&self) -> Option<f64> {
+        (self.friction <= 0.0).then_some(0.0)
+    }
+
     /// A contact on the side.
     fn side(&self) -> Place {
-        if self.friction > 0.0 { Place::Side { s: None, rub: None } } else { Place::SIDE }
+        Place::Side { s: None, rub: self.rub() }
     }
 }
 
@@ -87,7 +97,7 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     singles.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     let Some(free) = free else { return settle(singles) };
     if !singles.first().is_some_and(|one| one.is_worth(&free)) {
-        let unseen = held_at(model, observed, MIDDLE, friction);
+        let unseen = held_at(model, observed, &sight, MIDDLE, allowed);
         return Some(Chosen { best: free, rivals: Vec::new(), unseen });
     }
     if singles[0].p_value() > SETTLES || allowed.contacts == 1 {
@@ -150,7 +160,7 @@ impl Candidate {
             let size = a.hypot(b);
             let rate = |k: usize, _| (a * contact.force.by[k][0] + b * contact.force.by[k][1]) / size;
             let gradient = DVector::from_fn(self.u.len(), rate);
-            size > LOADED * gradient.dot(&(covariance * &gradient)).max(0.0).sqrt()
+            size > LOADED * deviation(covariance, &gradient)
         })
     }
 
@@ -187,12 +197,18 @@ fn one<M: RodModel>(
 }
 
 /// The shape with its single contact at the arc length `s`.
-pub(super) fn held_at<M: RodModel>(model: &M, observed: &Observed, s: f64, friction: f64) -> Option<Candidate> {
-    let place = Place::Side { s: Some(s), rub: if friction > 0.0 { None } else { Some(0.0) } };
-    let starts: Vec<Start> = Sight::of(observed).one(model, observed, place);
+pub(super) fn held_at<M: RodModel>(
+    model: &M,
+    observed: &Observed,
+    sight: &Sight,
+    s: f64,
+    allowed: Allowed,
+) -> Option<Candidate> {
+    let place = Place::Side { s: Some(s), rub: allowed.rub() };
+    let starts = sight.one(model, observed, place);
     let solved = starts
         .iter()
         .take(MOST_STARTS)
-        .filter_map(|start| solve(model, observed, &[place], start, friction, MOST_STEPS));
+        .filter_map(|start| solve(model, observed, &[place], start, allowed.friction, MOST_STEPS));
     solved.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
 }

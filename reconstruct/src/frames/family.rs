@@ -1,7 +1,8 @@
 //! What fits where place and force of a contact are not told apart.
 
-use super::choose::held_at;
+use super::choose::{Allowed, held_at};
 use super::observed::Observed;
+use super::start::Sight;
 use super::verdict::FamilyMember;
 use rod_core::{RodModel, Units};
 
@@ -9,10 +10,16 @@ use rod_core::{RodModel, Units};
 const PLACES: usize = 20;
 
 /// The force at many places along the rod, each with the chi squared of the best shape whose contact is there.
-pub(super) fn family<M: RodModel>(model: &M, observed: &Observed, units: &Units, friction: f64) -> Vec<FamilyMember> {
+pub(super) fn family<M: RodModel>(
+    model: &M,
+    observed: &Observed,
+    units: &Units,
+    allowed: Allowed,
+) -> Vec<FamilyMember> {
+    let sight = Sight::of(observed);
     let places = (1..=PLACES).map(|k| k as f64 / PLACES as f64);
     let members = places.filter_map(|s| {
-        let held = held_at(model, observed, s, friction)?;
+        let held = held_at(model, observed, &sight, s, allowed)?;
         let contact = held.shape.contacts.first()?;
         let [a, b] = contact.force.ab;
         Some(FamilyMember {

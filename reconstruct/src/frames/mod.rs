@@ -3,24 +3,33 @@
 //! A [`Frame`] holds observations, each with its noise. Their model is one shape of the rod (`shape`): it is followed from its outermost contact,
 //! where the bending moment vanishes, back to the base, so that free end and balance of forces hold for any values of the unknowns and the
 //! least squares (`problem`) have no conditions. `start` guesses, `candidate` solves for one set of contacts, `choose` says how many contacts
-//! the frame shows, and `verdict` what it cannot tell. [`forces`] does all that for a film.
+//! the frame shows, and `judge` what it cannot tell. `check` refuses what is no frame, `noise` finds the noise of a film. [`forces`] does all
+//! that; [`rest_shape`] is the same for a rod that nothing touches, of unknown curvature.
 
 mod candidate;
+mod check;
 mod choose;
 mod family;
 mod fault;
 mod forces;
+mod judge;
 mod noise;
 mod observation;
 mod observed;
 mod problem;
 mod rest;
+mod rest_curve;
+mod result;
+mod scatter;
+mod settings;
 mod shape;
 mod start;
 mod verdict;
 
 pub use fault::FrameFault;
-pub use forces::{Film, ForceSettings, FrameContact, FrameForces, forces};
+pub use forces::forces;
 pub use observation::{Axis, Channel, Frame, Measurand, SeenPoint};
 pub use rest::{RestError, RestShape, rest_shape};
+pub use result::{Film, FrameContact, FrameForces};
+pub use settings::ForceSettings;
 pub use verdict::{FamilyMember, FrameVerdict};

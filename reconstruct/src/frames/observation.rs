@@ -75,6 +75,12 @@ impl Axis {
 }
 
 impl Frame {
+    /// The same points in reverse order, of the same ends.
+    pub(super) fn reversed(&self) -> Self {
+        let points = self.points.iter().rev().copied().collect();
+        Self { points, channels: self.channels.clone(), ..*self }
+    }
+
     /// A frame of points of which the first is the base of the rod.
     ///
     /// ```

@@ -12,16 +12,23 @@ const MOST_FORCE: f64 = 400.0;
 /// How far (L) beyond an end the rod may go on where that is not seen.
 const BEYOND: f64 = 0.2;
 /// Largest way (L) of a foot point in one step.
-const MOST_WAY: f64 = 0.1;
+pub(super) const MOST_WAY: f64 = 0.1;
+
+/// Unknowns and foot points where a solve begins.
+#[derive(Clone)]
+pub(super) struct Start {
+    pub u: DVector<f64>,
+    pub feet: Vec<f64>,
+}
 
 /// A frame, to be explained by a rod with these contacts.
 ///
 /// A point is on the rod at its foot point, the place that is nearest to it: an unknown of its own that enters no other residual, so that what is
 /// left of it is its distance across the rod. Foot points follow from one step to the next.
 pub(super) struct FrameProblem<'a, M> {
-    pub model: &'a M,
-    pub observed: &'a Observed,
-    pub contacts: &'a [Place],
+    model: &'a M,
+    observed: &'a Observed,
+    contacts: &'a [Place],
     /// The foot points, L: one for each dot.
     pub feet: Vec<f64>,
     /// Where the rod is looked at, and for which observation: dots first, then channels.

@@ -1,9 +1,13 @@
 //! The shape of a rod at rest, from frames in which nothing touches it.
 
+use super::check::check;
+use super::choose::BEYOND_CHANCE;
 use super::fault::FrameFault;
-use super::forces::{Film, add_square, check};
-use super::noise::{LEAST, first_guess};
+use super::noise::SETTLED;
 use super::observation::{Frame, SeenPoint};
+use super::problem::MOST_WAY;
+use super::rest_curve::Curve;
+use super::scatter::{LEAST, scatter};
 use crate::least_squares::{Damped, NormalMatrix, Problem, iterate};
 use crate::numeric::chi_squared::wilson_hilferty;
 use crate::numeric::legendre;
@@ -11,10 +15,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// Most Legendre polynomials of a curvature.
 const MOST_TERMS: usize = 8;
-/// Cells in which position is integrated: by Simpson's rule, errors of 1e-12 for curvatures of a few turns.
-const CELLS: usize = 256;
-/// Quantile for another term: one in a thousand straight rods gets one by chance.
-const BEYOND_CHANCE: f64 = 3.0902;
 /// How many times terms and noise are found in turn.
 const ROUNDS: usize = 3;
 const MOST_STEPS: usize = 60;
@@ -103,12 +103,12 @@ pub fn rest_shape(length: f64, frames: &[Frame], sigma: Option<f64>) -> Result<R
     for (index, frame) in frames.iter().enumerate().filter(|(_, frame)| is_usable(frame)) {
         check(length, frame, f64::INFINITY).map_err(|fault| RestError::Frame { index, fault })?;
     }
-    let mut noise = sigma.map_or_else(|| first_guess(usable.iter().copied(), length), |sigma| sigma / length);
+    let mut noise = sigma.map_or_else(|| scatter(usable.iter().copied(), length), |sigma| sigma / length);
     let mut best = None;
     for _ in 0..ROUNDS {
         let found = terms(length, &usable, noise).ok_or(RestError::NoShape)?;
         let ratio = (found.cost / found.freedom.max(1) as f64).sqrt();
-        let is_settled = sigma.is_some() || (ratio - 1.0).abs() < 0.02;
+        let is_settled = sigma.is_some() || (ratio - 1.0).abs() < SETTLED;
         best = Some(found);
         if is_settled {
             break;
@@ -271,76 +271,11 @@ struct Rest {
     freedom: usize,
 }
 
-/// The rod at rest, from its base at the origin along x, in cells: position, angle, and how they change with the coefficients.
-struct Curve {
-    nodes: Vec<[f64; 3]>,
-    /// Of each node (x, y) by each coefficient.
-    by: Vec<Vec<[f64; 2]>>,
-}
-
-/// Angle and its rates by the coefficients at an arc length: integrals of Legendre polynomials, of which P_j is the difference of two
-/// neighbours.
-fn angle(coefficients: &[f64], s: f64, rates: &mut [f64]) -> f64 {
-    let t = 2.0 * s - 1.0;
-    let mut p = vec![0.0; coefficients.len() + 1];
-    legendre::values(t, &mut p);
-    for (j, rate) in rates.iter_mut().enumerate() {
-        // int_-1^t P_j = (P_j+1 - P_j-1) / (2 j + 1), and t + 1 for j = 0; half of it by s
-        *rate = 0.5 * if j == 0 { t + 1.0 } else { (p[j + 1] - p[j - 1]) / (2 * j + 1) as f64 };
-    }
-    coefficients.iter().zip(rates.iter()).map(|(c, rate)| c * rate).sum()
-}
-
-impl Curve {
-    fn of(coefficients: &[f64]) -> Self {
-        let terms = coefficients.len();
-        let mut nodes = vec![[0.0; 3]];
-        let mut by = vec![vec![[0.0; 2]; terms]];
-        let h = 1.0 / CELLS as f64;
-        let mut rates = vec![0.0; terms];
-        for k in 0..CELLS {
-            let ([mut x, mut y, _], mut rate) = (nodes[k], by[k].clone());
-            let mut phi = 0.0;
-            for (at, weight) in [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)] {
-                phi = angle(coefficients, (k as f64 + at) * h, &mut rates);
-                let (sin, cos) = phi.sin_cos();
-                (x, y) = (x + h * weight * cos, y + h * weight * sin);
-                for (by, rate) in rate.iter_mut().zip(&rates) {
-                    *by = [by[0] - h * weight * sin * rate, by[1] + h * weight * cos * rate];
-                }
-            }
-            nodes.push([x, y, phi]);
-            by.push(rate);
-        }
-        Self { nodes, by }
-    }
-
-    /// Position, angle and rates at an arc length between nodes, by Simpson's rule from the node before.
-    fn at(&self, coefficients: &[f64], s: f64) -> ([f64; 3], Vec<[f64; 2]>, Vec<f64>) {
-        let k = ((s * CELLS as f64) as usize).min(CELLS - 1);
-        let from = k as f64 / CELLS as f64;
-        let h = s - from;
-        let ([mut x, mut y, _], mut by) = (self.nodes[k], self.by[k].clone());
-        let mut rates = vec![0.0; coefficients.len()];
-        let mut phi = 0.0;
-        for (at, weight) in [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)] {
-            phi = angle(coefficients, from + at * h, &mut rates);
-            let (sin, cos) = phi.sin_cos();
-            (x, y) = (x + h * weight * cos, y + h * weight * sin);
-            for (by, rate) in by.iter_mut().zip(&rates) {
-                *by = [by[0] - h * weight * sin * rate, by[1] + h * weight * cos * rate];
-            }
-        }
-        ([x, y, phi], by, rates)
-    }
-}
-
 impl Problem for Rest {
     type Equations = NormalMatrix;
 
     fn equations(&mut self, x: &DVector<f64>) -> NormalMatrix {
-        let coefficients = &x.as_slice()[..self.terms];
-        let curve = Curve::of(coefficients);
+        let curve = Curve::of(&x.as_slice()[..self.terms]);
         let mut normal = NormalMatrix::empty(x.len());
         self.freedom = 0;
         for (number, dots) in self.films.iter_mut().enumerate() {
@@ -351,20 +286,17 @@ impl Problem for Rest {
             for (k, point) in dots.at.iter().enumerate() {
                 let is_held = if dots.from_base { k == 0 } else { k == last };
                 let foot = dots.feet[k];
-                let ([px, py, phi], by, rates) = curve.at(coefficients, foot);
-                let [rx, ry] = turn([px, py]);
+                let spot = curve.at(foot);
+                let [rx, ry] = turn([spot.x, spot.y]);
                 let left = [x[first] + rx - point[0], x[first + 1] + ry - point[1]];
-                let (sin, cos) = (phi + x[first + 2]).sin_cos();
+                let (sin, cos) = (spot.phi + x[first + 2]).sin_cos();
                 let ahead = -(left[0] * cos + left[1] * sin);
                 let mut add = |along: [f64; 2], residual: f64, slope: f64| {
-                    let mut row: Vec<(usize, f64)> = by
-                        .iter()
-                        .enumerate()
-                        .map(|(j, by)| {
-                            let [a, b] = turn(*by);
-                            (j, along[0] * a + along[1] * b + slope * rates[j])
-                        })
-                        .collect();
+                    let rates = spot.by.iter().zip(&spot.turns).map(|(by, turns)| {
+                        let [a, b] = turn(*by);
+                        along[0] * a + along[1] * b + slope * turns
+                    });
+                    let mut row: Vec<(usize, f64)> = rates.enumerate().collect();
                     let spin = along[0] * -ry + along[1] * rx + slope;
                     row.extend([(first, along[0]), (first + 1, along[1]), (first + 2, spin)]);
                     normal.add(&row, residual, dots.sigma[k]);
@@ -376,58 +308,10 @@ impl Problem for Rest {
                 } else {
                     // the residual across the rod; the tangent turns with the unknowns
                     add([-sin, cos], cos * left[1] - sin * left[0], ahead);
-                    dots.feet[k] = (foot + ahead.clamp(-0.1, 0.1)).clamp(0.0, 1.0);
+                    dots.feet[k] = (foot + ahead.clamp(-MOST_WAY, MOST_WAY)).clamp(0.0, 1.0);
                 }
             }
         }
         normal
-    }
-}
-
-impl Film {
-    /// Adds to the covariances what the films of rods that are off by one standard deviation each, in independent directions, differ by.
-    pub fn add_errors_of_the_rod(&mut self, others: &[Self]) {
-        for (number, frame) in self.frames.iter_mut().enumerate() {
-            let Ok(frame) = frame else { continue };
-            for other in others {
-                let Some(Ok(other)) = other.frames.get(number) else { continue };
-                if other.contacts.len() != frame.contacts.len() {
-                    continue;
-                }
-                let of = |f: &super::FrameForces| {
-                    [f.base.x, f.base.y, f.base.phi, f.reactions.f0x, f.reactions.f0y, f.reactions.m0z]
-                };
-                let (one, two) = (of(frame), of(other));
-                add_square(&mut frame.covariance, std::array::from_fn(|i| two[i] - one[i]));
-                frame.contacts.iter_mut().zip(&other.contacts).for_each(|(one, two)| one.add_difference(two));
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rates_are_those_of_differences() {
-        let c = [2.0, -1.5, 0.7, 0.3];
-        let at = |c: &[f64], s: f64| Curve::of(c).at(c, s);
-        for s in [0.0, 0.31, 0.777, 1.0] {
-            let (_, by, rates) = at(&c, s);
-            for j in 0..c.len() {
-                let moved =
-                    |h: f64| at(&std::array::from_fn::<f64, 4, _>(|i| c[i] + if i == j { h } else { 0.0 }), s).0;
-                let (one, other) = (moved(1e-5), moved(-1e-5));
-                let difference = [0, 1, 2].map(|i| (one[i] - other[i]) / 2e-5);
-                for (found, exact) in difference.into_iter().zip([by[j][0], by[j][1], rates[j]]) {
-                    assert!((found - exact).abs() < 1e-9, "{s} {j}: {found} {exact}");
-                }
-            }
-        }
-        // an arc of curvature 2
-        let ([x, y, phi], ..) = at(&[2.0], 0.77);
-        assert!((x - 1.54_f64.sin() / 2.0).abs() < 1e-12 && (y - (1.0 - 1.54_f64.cos()) / 2.0).abs() < 1e-12);
-        assert!((phi - 1.54).abs() < 1e-14);
     }
 }

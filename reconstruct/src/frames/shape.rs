@@ -16,9 +16,6 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// Where a frictionless contact may be on the side.
-    pub const SIDE: Self = Self::Side { s: None, rub: Some(0.0) };
-
     pub fn unknowns(&self) -> usize {
         match self {
             Self::Tip => 2,
@@ -251,14 +248,15 @@ mod tests {
 
     #[test]
     fn derivatives_are_those_of_differences() {
+        const SIDE: Place = Place::Side { s: None, rub: Some(0.0) };
         let cone = Smooth::new(Cone { taper: 0.7 }).unwrap();
         let free = Place::Side { s: None, rub: None };
         for (contacts, u) in [
             (vec![], vec![0.1, 0.2, 0.3]),
-            (vec![Place::SIDE], vec![0.6, 0.2, 0.9, 0.7, 1.1]),
+            (vec![SIDE], vec![0.6, 0.2, 0.9, 0.7, 1.1]),
             (vec![free], vec![0.6, 0.2, 0.9, 0.7, 1.1, 0.2]),
             (vec![Place::Tip], vec![0.6, 0.2, 0.9, 0.4, -0.3]),
-            (vec![Place::Tip, Place::SIDE], vec![0.6, 0.2, 0.9, 0.4, -0.3, 0.5, 1.3]),
+            (vec![Place::Tip, SIDE], vec![0.6, 0.2, 0.9, 0.4, -0.3, 0.5, 1.3]),
             (vec![free, free], vec![0.6, 0.2, 0.9, 0.9, 0.3, 0.1, 0.5, -1.3, -0.3]),
         ] {
             check(&Uniform, &contacts, &u);

@@ -3,7 +3,7 @@
 use super::candidate::Candidate;
 use super::observation::{Axis, Measurand};
 use super::observed::Observed;
-use super::problem::FrameProblem;
+use super::problem::{FrameProblem, Start};
 use super::shape::{Place, trace, unknowns};
 use crate::least_squares::{Damped, iterate};
 use nalgebra::DVector;
@@ -28,17 +28,10 @@ const STEPS: usize = 6;
 /// Largest change of an angle in such a step, rad.
 const MOST_TURN: f64 = 0.6;
 
-/// Unknowns and foot points.
-#[derive(Clone)]
-pub(super) struct Start {
-    pub u: DVector<f64>,
-    pub feet: Vec<f64>,
-}
-
 /// What the observations say of the shape at first sight.
 pub(super) struct Sight {
     /// Arc lengths of the dots by the length of their chords.
-    pub feet: Vec<f64>,
+    feet: Vec<f64>,
     dots: Vec<[f64; 2]>,
     /// Position and direction of the base, where no dots tell.
     base: Cut,
@@ -219,7 +212,7 @@ fn with_contact(cut: Cut, place: Place, s: f64, force: f64, count: usize) -> DVe
 }
 
 /// By how much a small force across the straight rod at the arc length `s` turns it there, rad per E I / L^2.
-pub(super) fn turn_per_force<M: RodModel>(model: &M, s: f64) -> f64 {
+fn turn_per_force<M: RodModel>(model: &M, s: f64) -> f64 {
     let at = Cut { x: 0.0, y: 0.0, phi: 0.0, moment: 0.0 };
     model.carry_with_sensitivities(s, &at, 0.0, 0.0, -s).1.by_a[2].abs().max(f64::MIN_POSITIVE)
 }

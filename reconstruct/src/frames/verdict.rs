@@ -1,12 +1,6 @@
 //! What a frame cannot tell.
 
-use super::candidate::Candidate;
 use std::fmt;
-
-/// Standard deviation of the place of a contact (L) from which on it is not told.
-const VAGUE_PLACE: f64 = 0.1;
-/// Standard deviation of a force, as a share of it, from which on it is not told.
-const VAGUE_FORCE: f64 = 0.5;
 
 /// What a frame tells of the forces on the rod, from the information matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +19,13 @@ pub enum FrameVerdict {
     Several,
     /// No shape with the contacts that are allowed explains the frame.
     NotExplained,
+}
+
+impl FrameVerdict {
+    /// Whether a frame has contacts of its own: not one of a family, nor those of a shape that does not explain it.
+    pub fn has_contacts_of_its_own(self) -> bool {
+        !matches!(self, Self::Family | Self::NotExplained)
+    }
 }
 
 impl fmt::Display for FrameVerdict {
@@ -53,44 +54,4 @@ pub struct FamilyMember {
     pub force: f64,
     /// Chi squared of the frame.
     pub chi_squared: f64,
-}
-
-/// The verdict on the best candidate; `sigmas` are those of arc length (L) and of force (as a share) of each contact, and the others those of
-/// the contacts that explain the frame too.
-///
-/// `is_placed` says whether anything tells where along the rod the points are: a uniform rod looks the same everywhere.
-pub(super) fn verdict(
-    best: &Candidate,
-    is_placed: bool,
-    sigmas: impl Iterator<Item = (f64, f64)>,
-    of_rivals: impl Iterator<Item = (f64, f64)>,
-) -> FrameVerdict {
-    if !best.explains() {
-        return FrameVerdict::NotExplained;
-    }
-    if best.covariance.is_none() || (!is_placed && !best.shape.contacts.is_empty()) {
-        return FrameVerdict::Family;
-    }
-    if best.shape.contacts.is_empty() {
-        return FrameVerdict::Free;
-    }
-    // what is anywhere within three tenths of the length is anywhere
-    let is_anywhere = |place: f64| place.is_nan() || place > 3.0 * VAGUE_PLACE;
-    let (mut is_rough, mut is_family) = (false, false);
-    for (place, force) in sigmas {
-        // as many unknowns as numbers: nothing checks them
-        is_rough |= place > VAGUE_PLACE || force > VAGUE_FORCE || best.freedom <= 0;
-        is_family |= is_anywhere(place);
-    }
-    let mut has_rivals = false;
-    for (place, _) in of_rivals {
-        has_rivals = true;
-        is_family |= is_anywhere(place);
-    }
-    match (is_family, has_rivals, is_rough) {
-        (true, ..) => FrameVerdict::Family,
-        (_, true, _) => FrameVerdict::Several,
-        (.., true) => FrameVerdict::Rough,
-        _ => FrameVerdict::Told,
-    }
 }
