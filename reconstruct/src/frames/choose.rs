@@ -2,6 +2,7 @@
 
 use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, deviation, solve};
 use super::observed::Observed;
+use super::problem::Start;
 use super::settings::ForceSettings;
 use super::shape::Place;
 use super::start::Sight;
@@ -71,8 +72,18 @@ impl Candidate {
 
     /// Whether this one explains so much more than `simpler` that chance does not.
     fn is_worth(&self, simpler: &Self) -> bool {
+        self.worth(simpler) > 1.0
+    }
+
+    /// Whether it explains half as much more after a few steps: then the rest may come.
+    fn is_half_worth(&self, simpler: &Self) -> bool {
+        self.worth(simpler) > 0.5
+    }
+
+    /// How much more this one explains than `simpler`, in what chance does.
+    fn worth(&self, simpler: &Self) -> f64 {
         let more = (simpler.freedom - self.freedom).max(1) as usize;
-        simpler.chi_squared - self.chi_squared > wilson_hilferty(more, BEYOND_CHANCE)
+        (simpler.chi_squared - self.chi_squared) / wilson_hilferty(more, BEYOND_CHANCE)
     }
 }
 
@@ -105,10 +116,15 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     }
     let mut pairs: Vec<Candidate> = Vec::new();
     for (contacts, start) in sight.two(model, observed, allowed.side(), &singles).iter().take(MOST_STARTS) {
-        let Some(pair) = solve(model, observed, contacts, start, friction, MOST_STEPS) else { continue };
-        if pair.is_ordered() && pair.is_loaded() {
-            pairs.push(pair);
-        }
+        let solve_for = |start: &Start, steps| solve(model, observed, contacts, start, friction, steps);
+        let pair = if singles[0].explains() {
+            // a second contact that is not needed has no place, along which the steps go on for ever
+            let near = solve_for(start, FEW_STEPS).filter(|pair| pair.is_half_worth(&singles[0]));
+            near.and_then(|pair| solve_for(&pair.start(), MOST_STEPS))
+        } else {
+            solve_for(start, MOST_STEPS)
+        };
+        pairs.extend(pair.filter(|pair| pair.is_ordered() && pair.is_loaded()));
     }
     pairs.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     if pairs.first().is_some_and(|pair| pair.is_worth(&singles[0])) { settle(pairs) } else { settle(singles) }
