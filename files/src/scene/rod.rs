@@ -118,7 +118,10 @@ mod tests {
         }
         let thin = "[rod]\nlength = 0.1\ntip_diameter = 1e-4\n";
         let error = parse_filmed("rod.toml".as_ref(), thin, None).unwrap_err().to_string();
-        assert!(error.starts_with("rod.toml:3:16: rod.tip_diameter: "), "{error}");
+        assert!(
+            error.starts_with("rod.toml:3:16: rod.tip_diameter: tip_diameter is given without diameter"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -63,6 +63,12 @@ pub(super) fn filmed_rod(
     spec.length = length.unwrap_or(spec.length);
     let StiffnessSpec { bending_stiffness, diameter, youngs_modulus } = spec.stiffness;
     let is_known = bending_stiffness.is_some() || youngs_modulus.is_some() || !spec.sections.is_empty();
+    if let (None, Some(tip)) = (diameter, table.get_ref().tip_diameter.as_ref())
+        && !is_known
+    {
+        let message = "tip_diameter is given without diameter, expected both for a wire that tapers";
+        return Err(Fault::new(tip.span(), message));
+    }
     if !is_known {
         spec.stiffness = match diameter {
             Some(diameter) => StiffnessSpec::of_wire(diameter, 64.0 / (std::f64::consts::PI * diameter.powi(4))),
