@@ -3,13 +3,14 @@
 use super::observed::Observed;
 use super::problem::{FrameProblem, Left, Start};
 use super::shape::{Place, Shape, trace};
-use crate::least_squares::{Damped, Status, iterate};
+use crate::least_squares::{Damped, Monotone, Status, iterate};
 use nalgebra::{DMatrix, DVector};
 use rod_core::RodModel;
 
-/// Most steps of a solve, and those after which one is given up whose contacts are not needed to explain the frame; near to it, twice
-/// as many.
+/// Most steps of a solve, and those after which one is given up whose contacts are not needed to explain the frame: after the fewer ones
+/// if it explains less than half as much as it has to, after the others if it explains less than that.
 pub(super) const MOST_STEPS: usize = 60;
+pub(super) const SOME_STEPS: usize = 18;
 pub(super) const FEW_STEPS: usize = 6;
 /// Most rounds of steps: damped ones first, then lightly damped ones.
 const ROUNDS: usize = 5;
@@ -38,7 +39,6 @@ pub(super) struct Candidate {
 pub(super) fn solve<M: RodModel>(
     model: &M,
     observed: &Observed,
-    contacts: &[Place],
     start: &Start,
     friction: f64,
     most_steps: usize,
@@ -46,12 +46,11 @@ pub(super) fn solve<M: RodModel>(
     // exact channels make narrow valleys, which are entered from where they are wide
     let mut start = start.clone();
     for floor in FLOORS.into_iter().filter(|floor| *floor > observed.most_exact()) {
-        let blurred = without_bounds(model, &observed.blurred(floor), contacts, &start, most_steps)?;
-        start = Start { u: blurred.u, feet: blurred.feet };
+        start = without_bounds(model, &observed.blurred(floor), &start, most_steps)?.start();
     }
-    let mut candidate = without_bounds(model, observed, contacts, &start, most_steps)?;
+    let mut candidate = without_bounds(model, observed, &start, most_steps)?;
     let mut bounded = Vec::new();
-    for number in 0..contacts.len() {
+    for number in 0..start.contacts.len() {
         let Some(across) = candidate.rubbing(number) else { continue };
         let (share, sigma) = candidate.share(across);
         if share.abs() + NEAR * sigma <= friction {
@@ -64,14 +63,8 @@ pub(super) fn solve<M: RodModel>(
     if bounded.is_empty() { Some(candidate) } else { candidate.set_free(model, observed, &bounded) }
 }
 
-fn without_bounds<M: RodModel>(
-    model: &M,
-    observed: &Observed,
-    contacts: &[Place],
-    start: &Start,
-    most_steps: usize,
-) -> Option<Candidate> {
-    let mut problem = FrameProblem::new(model, observed, contacts, start.feet.clone());
+fn without_bounds<M: RodModel>(model: &M, observed: &Observed, start: &Start, most_steps: usize) -> Option<Candidate> {
+    let mut problem = FrameProblem::new(model, observed, &start.contacts, start.feet.clone());
     let mut u = start.u.clone();
     let mut cost = f64::INFINITY;
     // damped steps end in a valley that undamped ones may follow
@@ -86,22 +79,39 @@ fn without_bounds<M: RodModel>(
             break;
         }
     }
-    let Left { normal, shape, count } = problem.at(&u)?;
-    Some(Candidate {
-        contacts: contacts.to_vec(),
-        covariance: normal.covariance(),
-        chi_squared: normal.cost,
-        freedom: count as isize - u.len() as isize,
-        feet: problem.feet,
-        u,
-        shape,
-    })
+    let found = Candidate::at(&mut problem, &u)?;
+    if found.explains() || most_steps < MOST_STEPS {
+        return Some(found);
+    }
+    // along a narrow curved valley, that of contacts that are close to each other, steps that let the cost fall are tiny
+    let (at, _) = iterate(&mut problem, u, Monotone::with_sizes(DVector::repeat(start.u.len(), 1.0)), most_steps);
+    let (at, _) = iterate(&mut problem, at.x, Damped::lightly(), most_steps);
+    let beyond = Candidate::at(&mut problem, &at.x).filter(|beyond| beyond.chi_squared < found.chi_squared);
+    Some(beyond.unwrap_or(found))
 }
 
 impl Candidate {
+    fn at<M: RodModel>(problem: &mut FrameProblem<'_, M>, u: &DVector<f64>) -> Option<Self> {
+        let Left { normal, shape, count } = problem.at(u)?;
+        Some(Self {
+            contacts: problem.contacts.to_vec(),
+            covariance: normal.covariance(),
+            chi_squared: normal.cost,
+            freedom: count as isize - u.len() as isize,
+            feet: problem.feet.clone(),
+            u: u.clone(),
+            shape,
+        })
+    }
+
     /// A start from here.
     pub fn start(&self) -> Start {
-        Start { u: self.u.clone(), feet: self.feet.clone() }
+        self.start_with(self.contacts.clone(), self.u.clone())
+    }
+
+    /// A start with other contacts and unknowns.
+    pub fn start_with(&self, contacts: Vec<Place>, u: DVector<f64>) -> Start {
+        Start { contacts, u, feet: self.feet.clone(), chi_squared: self.chi_squared }
     }
 
     /// The number of the unknown that is the force of a contact across the rod, if that along it is unknown too: the next one.
@@ -132,7 +142,7 @@ impl Candidate {
             (None, Some(across)) => self.u.clone().remove_row(across + 1),
             _ => self.u.clone(),
         };
-        without_bounds(model, observed, &contacts, &Start { u, feet: self.feet.clone() }, MOST_STEPS)
+        without_bounds(model, observed, &self.start_with(contacts, u), MOST_STEPS)
     }
 
     /// The same shape with shares that were given as unknowns again, which are known by their standard deviations: what the other unknowns do while

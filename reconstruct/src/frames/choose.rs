@@ -1,21 +1,18 @@
 //! Which contacts a frame shows: none, one on the side or at the tip, or two.
 
-use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, deviation, solve};
+use super::candidate::{Candidate, FEW_STEPS, MOST_STEPS, SOME_STEPS, solve};
 use super::observed::Observed;
 use super::problem::Start;
 use super::settings::ForceSettings;
 use super::shape::Place;
-use super::start::Sight;
+use super::start::Starts;
 use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
-use nalgebra::DVector;
 use rod_core::RodModel;
 
 /// Quantile of the standard normal distribution for a contact to be told: one in a thousand frames without it shows it by chance. The same
 /// probability below which a shape does not explain its frame.
 pub(super) const BEYOND_CHANCE: f64 = 3.0902;
 const CHANCE: f64 = 1e-3;
-/// Standard deviations that the force of each of two contacts has at least.
-const LOADED: f64 = 2.0;
 /// Where on a free rod a force is looked for that is not seen, L.
 const MIDDLE: f64 = 0.5;
 /// Probability from which on a solution is taken without a look for a better one: there may be another minimum.
@@ -58,6 +55,12 @@ pub(super) struct Chosen {
     pub unseen: Option<Candidate>,
 }
 
+impl Chosen {
+    fn of(best: Candidate) -> Self {
+        Self { best, rivals: Vec::new(), unseen: None }
+    }
+}
+
 impl Candidate {
     /// The probability that chance leaves as much.
     pub fn p_value(&self) -> f64 {
@@ -75,11 +78,6 @@ impl Candidate {
         self.worth(simpler) > 1.0
     }
 
-    /// Whether it explains half as much more after a few steps: then the rest may come.
-    fn is_half_worth(&self, simpler: &Self) -> bool {
-        self.worth(simpler) > 0.5
-    }
-
     /// How much more this one explains than `simpler`, in what chance does.
     fn worth(&self, simpler: &Self) -> f64 {
         let more = (simpler.freedom - self.freedom).max(1) as usize;
@@ -89,45 +87,84 @@ impl Candidate {
 
 /// Solves for no contact, one, and two, and takes the fewest that explain the frame. None where the observations are too few for any shape.
 pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allowed) -> Option<Chosen> {
-    let sight = Sight::of(observed);
-    let friction = allowed.friction;
-    let free = solve(model, observed, &[], &sight.free(model), friction, MOST_STEPS);
+    let search = Search::of(model, observed, allowed);
+    let free = search.starts.free(model);
     if allowed.contacts == 0 {
-        return free.map(|best| Chosen { best, rivals: Vec::new(), unseen: None });
+        return settle(search.solve(&free, MOST_STEPS).into_iter().collect());
     }
-    let mut singles = one(model, observed, &sight, allowed.side(), friction, MOST_STEPS);
-    let known = singles.iter().filter(|one| one.explains()).map(|one| one.chi_squared).reduce(f64::min);
-    singles.extend(match known {
-        None => one(model, observed, &sight, Place::Tip, friction, MOST_STEPS),
-        Some(known) => {
-            let near = one(model, observed, &sight, Place::Tip, friction, FEW_STEPS);
-            let near = near.into_iter().filter(|tip| tip.chi_squared < NEAR * (known + tip.freedom as f64));
-            near.filter_map(|tip| solve(model, observed, &[Place::Tip], &tip.start(), friction, FEW_STEPS)).collect()
-        }
-    });
-    singles.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-    let Some(free) = free else { return settle(singles) };
-    if !singles.first().is_some_and(|one| one.is_worth(&free)) {
-        let unseen = held_at(model, observed, &sight, MIDDLE, allowed);
-        return Some(Chosen { best: free, rivals: Vec::new(), unseen });
+    let ones = [allowed.side(), Place::Tip].map(|place| search.starts.one(model, place)).concat();
+    let (free, ones): (Vec<Start>, Vec<Start>) =
+        search.starts.plausible([ones, vec![free]].concat()).into_iter().partition(|start| start.contacts.is_empty());
+    let free = free.first().and_then(|start| search.solve(start, MOST_STEPS));
+    let singles = sorted(search.all(&ones, None));
+    let is_free = |free: &Candidate| singles.first().is_none_or(|single| !single.is_worth(free));
+    if let Some(free) = free.filter(is_free) {
+        return Some(Chosen { unseen: search.held_at(MIDDLE), ..Chosen::of(free) });
     }
-    if singles[0].p_value() > SETTLES || allowed.contacts == 1 {
+    let single = singles.first()?;
+    if single.p_value() > SETTLES || allowed.contacts == 1 {
         return settle(singles);
     }
-    let mut pairs: Vec<Candidate> = Vec::new();
-    for (contacts, start) in sight.two(model, observed, allowed.side(), &singles).iter().take(MOST_STARTS) {
-        let solve_for = |start: &Start, steps| solve(model, observed, contacts, start, friction, steps);
-        let pair = if singles[0].explains() {
-            // a second contact that is not needed has no place, along which the steps go on for ever
-            let near = solve_for(start, FEW_STEPS).filter(|pair| pair.is_half_worth(&singles[0]));
-            near.and_then(|pair| solve_for(&pair.start(), MOST_STEPS))
-        } else {
-            solve_for(start, MOST_STEPS)
-        };
-        pairs.extend(pair.filter(|pair| pair.is_ordered() && pair.is_loaded()));
+    let starts = search.starts.plausible(search.starts.two(model, allowed.side(), &singles));
+    let pairs = search.all(&starts, Some(single).filter(|single| single.explains()));
+    let pairs = sorted(pairs.into_iter().filter(Candidate::is_ordered).collect());
+    if pairs.first().is_some_and(|pair| pair.is_worth(single)) { settle(pairs) } else { settle(singles) }
+}
+
+/// The search for shapes that explain a frame.
+pub(super) struct Search<'a, M> {
+    model: &'a M,
+    observed: &'a Observed,
+    allowed: Allowed,
+    starts: Starts<'a>,
+}
+
+impl<'a, M: RodModel> Search<'a, M> {
+    pub fn of(model: &'a M, observed: &'a Observed, allowed: Allowed) -> Self {
+        Self { model, observed, allowed, starts: Starts::of(model, observed) }
     }
-    pairs.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-    if pairs.first().is_some_and(|pair| pair.is_worth(&singles[0])) { settle(pairs) } else { settle(singles) }
+
+    fn solve(&self, start: &Start, most_steps: usize) -> Option<Candidate> {
+        solve(self.model, self.observed, start, self.allowed.friction, most_steps)
+    }
+
+    /// The different shapes from these starts, the best of which come first. As soon as one explains the frame, the others are given up after a few
+    /// steps that do not come near to it; with a shape of fewer contacts that explains it, `simpler`, those that are not worth their contact.
+    fn all(&self, starts: &[Start], simpler: Option<&Candidate>) -> Vec<Candidate> {
+        let mut found: Vec<Candidate> = Vec::new();
+        let most = if self.starts.is_blind() { usize::MAX } else { MOST_STARTS };
+        for start in starts.iter().take(most) {
+            let known = found.iter().filter(|one| one.explains()).map(|one| one.chi_squared).reduce(f64::min);
+            let goes_on = |near: &Candidate, worth: f64| {
+                known.is_none_or(|known| near.chi_squared < NEAR * (known + near.freedom as f64))
+                    && simpler.is_none_or(|simpler| near.worth(simpler) > worth)
+            };
+            let is_sought = known.is_none() && simpler.is_none();
+            let shape = if is_sought {
+                self.solve(start, MOST_STEPS)
+            } else {
+                // contacts that are not needed have no place, along which the steps go on for ever
+                let near = self.solve(start, FEW_STEPS).filter(|near| goes_on(near, 0.5));
+                let near =
+                    near.and_then(|near| self.solve(&near.start(), SOME_STEPS)).filter(|near| goes_on(near, 1.0));
+                near.and_then(|near| self.solve(&near.start(), MOST_STEPS))
+            };
+            found.extend(shape.filter(|shape| found.iter().all(|other| shape.differs(other))));
+        }
+        found
+    }
+
+    /// The shape with its single contact at the arc length `s`.
+    pub fn held_at(&self, s: f64) -> Option<Candidate> {
+        let starts = self.starts.one(self.model, Place::Side { s: Some(s), rub: self.allowed.rub() });
+        let solved = starts.iter().take(MOST_STARTS).filter_map(|start| self.solve(start, MOST_STEPS));
+        solved.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
+    }
+}
+
+fn sorted(mut shapes: Vec<Candidate>) -> Vec<Candidate> {
+    shapes.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    shapes
 }
 
 /// The best of candidates in the order of their chi squared, and those that differ from it and explain the frame as well.
@@ -144,7 +181,7 @@ fn settle(mut candidates: Vec<Candidate>) -> Option<Chosen> {
             rivals.push(other);
         }
     }
-    Some(Chosen { best, rivals, unseen: None })
+    Some(Chosen { rivals, ..Chosen::of(best) })
 }
 
 /// Distance of contacts (L), and share of a force, from which two shapes are told apart.
@@ -168,63 +205,8 @@ impl Candidate {
             })
     }
 
-    /// Whether each contact has a force that chance does not show.
-    fn is_loaded(&self) -> bool {
-        let Some(covariance) = &self.covariance else { return false };
-        self.shape.contacts.iter().all(|contact| {
-            let [a, b] = contact.force.ab;
-            let size = a.hypot(b);
-            let rate = |k: usize, _| (a * contact.force.by[k][0] + b * contact.force.by[k][1]) / size;
-            let gradient = DVector::from_fn(self.u.len(), rate);
-            size > LOADED * deviation(covariance, &gradient)
-        })
-    }
-
     /// Whether two contacts are at two places.
     fn is_ordered(&self) -> bool {
         self.shape.contacts.windows(2).all(|pair| pair[1].node.s < pair[0].node.s - DISTINCT)
     }
-}
-
-/// All different solutions with one contact at a kind of place, from several starts where the first does not explain the frame.
-fn one<M: RodModel>(
-    model: &M,
-    observed: &Observed,
-    sight: &Sight,
-    place: Place,
-    friction: f64,
-    most_steps: usize,
-) -> Vec<Candidate> {
-    let starts = sight.one(model, observed, place);
-    // without points on the rod nothing leads to one solution
-    let blind = observed.dots.len() < 3;
-    let mut found: Vec<Candidate> = Vec::new();
-    for start in starts.iter().take(if blind { usize::MAX } else { MOST_STARTS }) {
-        let Some(candidate) = solve(model, observed, &[place], start, friction, most_steps) else { continue };
-        let is_told = candidate.p_value() > SETTLES;
-        if found.iter().all(|other| candidate.differs(other)) {
-            found.push(candidate);
-        }
-        if is_told && !blind {
-            break;
-        }
-    }
-    found
-}
-
-/// The shape with its single contact at the arc length `s`.
-pub(super) fn held_at<M: RodModel>(
-    model: &M,
-    observed: &Observed,
-    sight: &Sight,
-    s: f64,
-    allowed: Allowed,
-) -> Option<Candidate> {
-    let place = Place::Side { s: Some(s), rub: allowed.rub() };
-    let starts = sight.one(model, observed, place);
-    let solved = starts
-        .iter()
-        .take(MOST_STARTS)
-        .filter_map(|start| solve(model, observed, &[place], start, allowed.friction, MOST_STEPS));
-    solved.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
 }

@@ -1,8 +1,7 @@
 //! What fits where place and force of a contact are not told apart.
 
-use super::choose::{Allowed, held_at};
+use super::choose::{Allowed, Search};
 use super::observed::Observed;
-use super::start::Sight;
 use super::verdict::FamilyMember;
 use rod_core::{RodModel, Units};
 
@@ -16,10 +15,10 @@ pub(super) fn family<M: RodModel>(
     units: &Units,
     allowed: Allowed,
 ) -> Vec<FamilyMember> {
-    let sight = Sight::of(observed);
+    let search = Search::of(model, observed, allowed);
     let places = (1..=PLACES).map(|k| k as f64 / PLACES as f64);
     let members = places.filter_map(|s| {
-        let held = held_at(model, observed, &sight, s, allowed)?;
+        let held = search.held_at(s)?;
         let contact = held.shape.contacts.first()?;
         let [a, b] = contact.force.ab;
         Some(FamilyMember {

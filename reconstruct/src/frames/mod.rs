@@ -13,6 +13,7 @@ mod family;
 mod fault;
 mod forces;
 mod judge;
+mod linear_rod;
 mod noise;
 mod observation;
 mod observed;
@@ -21,8 +22,10 @@ mod rest;
 mod rest_curve;
 mod result;
 mod scatter;
+mod seen;
 mod settings;
 mod shape;
+mod sight;
 mod start;
 mod verdict;
 

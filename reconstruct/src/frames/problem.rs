@@ -14,11 +14,17 @@ const BEYOND: f64 = 0.2;
 /// Largest way (L) of a foot point in one step.
 pub(super) const MOST_WAY: f64 = 0.1;
 
-/// Unknowns and foot points where a solve begins.
+/// Where a solve begins.
 #[derive(Clone)]
 pub(super) struct Start {
+    /// From the outermost inwards.
+    pub contacts: Vec<Place>,
+    /// The unknowns.
     pub u: DVector<f64>,
+    /// The foot points.
     pub feet: Vec<f64>,
+    /// Chi squared as far as it is known there.
+    pub chi_squared: f64,
 }
 
 /// A frame, to be explained by a rod with these contacts.
@@ -28,7 +34,7 @@ pub(super) struct Start {
 pub(super) struct FrameProblem<'a, M> {
     model: &'a M,
     observed: &'a Observed,
-    contacts: &'a [Place],
+    pub contacts: &'a [Place],
     /// The foot points, L: one for each dot.
     pub feet: Vec<f64>,
     /// Where the rod is looked at, and for which observation: dots first, then channels.
